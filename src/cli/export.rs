@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::load::load;
 use super::outputs::{Outputs, Results, results};
 use super::{number, output};
-use crate::report::case_json;
+use crate::report::{case_json, table_csv};
 use analytic::AssurSolver;
 use analytic::range::explained;
 use design::export::{cam, first_state, mjcf};
@@ -43,7 +43,7 @@ pub(super) fn export(args: &Args) -> Result<()> {
         (&scenario.case, args.dt.or(scenario.engine.step.get()).unwrap_or_else(|| usual_step(&scenario.case)));
     let text = |form| match form {
         Exports::Json => first_state(case, &AssurSolver).map(|start| case_json::text(&scenario.name, case, &start)),
-        Exports::Csv => cam::table(case),
+        Exports::Csv => table_csv::cams(case),
         Exports::Dxf => cam::drawing(case),
         Exports::Mjcf => mjcf::mjcf(case, &AssurSolver, &scenario.name, dt),
     };

@@ -76,8 +76,6 @@ pub(crate) fn text(scenario: &Scenario) -> String {
 fn transmission(case: &CaseParts, own: &Transmission) -> String {
     let [first, second, carrier] = own.links().map(|link| case.mechanism.links()[link].name.as_str());
     let (name, kind) = (own.name(), own.design.kind.name());
-    let mm = |length: f64| format!("{} mm", significant(length * 1e3, SHOWN));
-    let [pitch, other] = own.members.map(|member| mm(member.radius));
     let slides = own.slide().is_some();
     let Some(ratio) = own.ratio() else {
         let Some(found) = figures(case, own) else { return String::new() };
@@ -91,6 +89,7 @@ fn transmission(case: &CaseParts, own: &Transmission) -> String {
         let angle = in_deg(found.pressure_angle);
         return sentences::a_cam(&name, &kind, &first, &second, &carrier, &lift, &mm(found.base), &angle, &curvature);
     };
+    let [pitch, other] = own.members.map(|member| format!("{} mm", significant(member.radius * 1e3, SHOWN)));
     let (ratio, radii) = match slides {
         true => (format!("{} mm/rad", significant(ratio * 1e3, SHOWN)), sentences::pitch_radius(&pitch)),
         false => (significant(ratio, SHOWN), sentences::pitch_radii(&pitch, &other)),

@@ -4,6 +4,8 @@ use crate::sentences;
 use std::io::{Error, Result, Write};
 
 use analytic::reduced::RunUp;
+use design::export::cam;
+use linkage::case::Case;
 use linkage::trajectory::Trajectory;
 
 /// A table of texts as CSV, its header first.
@@ -18,6 +20,14 @@ pub(crate) fn csv<R: IntoIterator<Item = String>>(rows: impl IntoIterator<Item =
     rows.into_iter().try_for_each(|row| writer.write_record(row).map_err(failed))?;
     let bytes = writer.into_inner().map_err(|error| failed(error.into_error().into()))?;
     Ok(String::from_utf8(bytes).expect("names and numbers are text"))
+}
+
+/// The profiles of all cams of a case.
+///
+/// # Errors
+/// Those of [`cam::table`], and [`Io`](linkage::error::ErrorKind::Io) if the table cannot be written.
+pub(crate) fn cams(case: &Case) -> linkage::error::Result<String> {
+    csv(cam::table(case)?)
 }
 
 /// Writes time, crank angle, then all channels of a solution.

@@ -83,9 +83,9 @@ linkage::sentences! {
     a_load_of_type_that_acts(sort) = "a load of type \"{sort}\" that acts in one sense of rotation only";
     a_load_of_type_with_a_table(sort) = "a load of type \"{sort}\" with a table over the crank angle";
     LEAVE_IT_OUT_OF_THE_SCENARIO = "leave it out of the scenario, and add it to the model by hand";
+    a_cam(name) = "cam \"{name}\"";
     cannot_be_written_to_a_model(what) = "{what} cannot be written to a model for MuJoCo";
     // export/mjcf/model.rs
-    mjcf_knows_no_cam(name) = "cam \"{name}\" cannot be written to a model for MuJoCo";
     GIVE_A_STEP_SUCH_AS = "give a step such as 1e-3";
     the_time_step_is_but_must(step) = "the time step is {step} s, but must be positive";
     // export/mjcf/names.rs

@@ -183,6 +183,12 @@ impl Mechanism {
         self.joints.find(|joint| joint.name == name)
     }
 
+    /// The first joint between two links.
+    #[must_use]
+    pub fn joint_between(&self, one: LinkId, other: LinkId) -> Option<JointId> {
+        self.joints.find(|joint| joint.on(one).is_some() && joint.on(other).is_some())
+    }
+
     /// Guide and block of a sliding joint; `None` for a joint that does not slide.
     /// The ground is always the guide. A joint that is drawn as a cylinder has its first link as the guide.
     /// Of two moving links, the link with the larger size is the guide. If the sizes are equal, the joint's first link

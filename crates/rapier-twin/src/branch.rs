@@ -167,14 +167,11 @@ impl Watched {
             first += 1;
         }
         for transmission in group.trains.iter().map(|&id| &case.mechanism.transmissions()[id]) {
-            let contact = transmission.contact_in(case.mechanism.joints(), motions);
-            let (carrier, line) = (&motions[transmission.design.carrier], &contact.lines[0]);
-            let direction = carrier.arm(line.direction);
-            for ((link, foot), sign) in transmission.design.links.into_iter().zip(line.feet).zip([-1.0, 1.0]) {
+            for (link, force, place) in transmission.unit_actions(case.mechanism.joints(), motions) {
                 let Some(column) = group.links.iter().position(|&own| own == link) else { continue };
-                let turn = cross(carrier.point(foot) - motions[link].origin, direction) / size;
-                let entries = [direction.x, direction.y, turn].into_iter().enumerate();
-                entries.for_each(|(c, value)| constraints.add(first, 3 * column + c, sign * value));
+                let turn = cross(place - motions[link].origin, force) / size;
+                let entries = [force.x, force.y, turn].into_iter().enumerate();
+                entries.for_each(|(c, value)| constraints.add(first, 3 * column + c, value));
             }
             first += 1;
         }

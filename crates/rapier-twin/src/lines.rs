@@ -46,10 +46,8 @@ impl Lines {
         };
         for (transmission, &force) in mechanism.transmissions().iter().zip(&*state.transmitted) {
             transmission.each_action(mechanism.joints(), force, &state.motions, &mut put);
-            let contact = transmission.contact_in(mechanism.joints(), &state.motions);
-            let (carrier, line) = (&state.motions[transmission.design.carrier], &contact.lines[0]);
-            for ((link, foot), sign) in transmission.design.links.into_iter().zip(line.feet).zip([1.0, -1.0]) {
-                put(link, carrier.arm(line.direction) * (sign * force), carrier.point(foot));
+            for (link, unit, place) in transmission.unit_actions(mechanism.joints(), &state.motions) {
+                put(link, unit * -force, place);
             }
         }
         self.beside.motions.clone_from(&state.motions);

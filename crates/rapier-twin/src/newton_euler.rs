@@ -256,14 +256,12 @@ impl NewtonEuler {
         }
         let meshes = case.mechanism.transmissions().iter().zip(&self.members);
         for ((transmission, members), term) in meshes.zip(self.of_cut[self.cut.len()..].iter().map(|own| own.start)) {
-            let contact = transmission.contact_in(case.mechanism.joints(), &state.motions);
-            let (carrier, line) = (&state.motions[transmission.design.carrier], &contact.lines[0]);
-            let direction = carrier.arm(line.direction);
-            for (k, sign) in [-1.0, 1.0].into_iter().enumerate() {
-                let (Some(number), link) = (members[k], transmission.design.links[k]) else { continue };
+            let actions = transmission.unit_actions(case.mechanism.joints(), &state.motions);
+            for ((link, force, place), member) in actions.into_iter().zip(members) {
+                let Some(number) = member else { continue };
                 let centre = state.motions[link].point(case.mechanism.links()[link].mass_centre);
-                let given = [direction.x, direction.y, cross(carrier.point(line.feet[k]) - centre, direction)];
-                (0..3).for_each(|c| self.needs[number * width + term][c] -= sign * given[c]);
+                let given = [force.x, force.y, cross(place - centre, force)];
+                (0..3).for_each(|c| self.needs[number * width + term][c] -= given[c]);
             }
         }
     }

@@ -37,8 +37,8 @@ pub struct Draft {
     pub gravity: Vec2,
     /// Input at t = 0 (SI).
     pub crank: f64,
-    /// The start of each group of the structure at the start, in its order. If the file states no valid start, the start is the
-    /// default.
+    /// The start of each group of the structure at the start, in its order.
+    /// Without a valid start in the file, it is the default.
     pub starts: Vec<StartGroup>,
     /// The mistakes of the file, if there are any.
     pub mistakes: Option<Error>,

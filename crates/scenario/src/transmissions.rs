@@ -117,18 +117,23 @@ fn transmission(
         let message = sentences::the_start_joint_is_taken(&own.name, &other.name);
         return table.refuse("start_joint", message, sentences::NAME_ANOTHER_START_JOINT);
     }
-    if !std::ptr::eq(family, of_input(if own.slides() { Input::Slide } else { Input::Turn })) {
+    if !has_units_of(family, own) {
         let message = sentences::the_start_has_units_of(&family.noun, &own.name, &own.kind.name());
         return Err(table.wrong(ErrorKind::Input, "start", message).help(sentences::GIVE_AN_ANGLE_OR_A_SLIDE));
     }
-    let connects = |own: &Joint| own.on(members[1]).is_some() && own.on(carrier).is_some();
-    if let (Some(family), Some(own)) = (lift, mechanism.joints().iter().find(|own| connects(own)))
-        && !std::ptr::eq(family, of_input(if own.slides() { Input::Slide } else { Input::Turn }))
+    if let (Some(family), Some(joint)) = (lift, mechanism.joint_between(members[1], carrier))
+        && let own = &mechanism.joints()[joint]
+        && !has_units_of(family, own)
     {
         let message = sentences::the_lift_has_units_of(&family.noun, &own.name, &own.kind.name());
         return Err(table.wrong(ErrorKind::Input, "motion", message).help(sentences::GIVE_LIFTS_LIKE_THE_JOINT));
     }
     Ok(TransmissionDesign { name, kind, links: members, carrier, joint, start })
+}
+
+/// Whether a quantity has the units of a joint's coordinate.
+fn has_units_of(family: &UnitFamily, joint: &Joint) -> bool {
+    std::ptr::eq(family, of_input(if joint.slides() { Input::Slide } else { Input::Turn }))
 }
 
 /// The joint whose coordinate at t = 0 is given.
@@ -140,8 +145,7 @@ fn start_joint(
 ) -> Result<JointId> {
     let joints = mechanism.joints();
     let Some(name) = stated else {
-        let own = joints.find(|joint| joint.on(second).is_some() && joint.on(carrier).is_some());
-        return own.map_or_else(
+        return mechanism.joint_between(second, carrier).map_or_else(
             || {
                 let [second, carrier] = [second, carrier].map(|link| mechanism.links()[link].name.as_str());
                 let message = sentences::no_joint_connects_with_the_carrier(&second, &carrier);

@@ -1,4 +1,4 @@
-//! Profiles of cams as CSV and DXF.
+//! Profiles of cams as tables and as DXF.
 
 use std::fmt::Write;
 
@@ -27,23 +27,25 @@ fn profiles(case: &Case) -> Result<Vec<(&str, Vec<Vec2>)>> {
     Ok(found)
 }
 
-/// The profiles of all cams as CSV: the cam, its angle at the contact (deg), the point in the frame of the cam (m).
+/// The profiles of all cams as a table with its header: the cam, its angle at the contact (deg), the point in the frame
+/// of the cam (m).
 ///
 /// # Errors
 /// [`ErrorKind::Input`] if the mechanism has no cam.
-pub fn table(case: &Case) -> Result<String> {
-    let mut text = String::from("cam,angle_deg,x_m,y_m\n");
+pub fn table(case: &Case) -> Result<Vec<[String; 4]>> {
+    let mut rows = vec![["cam", "angle_deg", "x_m", "y_m"].map(String::from)];
     for (name, points) in profiles(case)? {
-        for (index, point) in points.iter().enumerate() {
+        rows.extend(points.iter().enumerate().map(|(index, point)| {
             let angle = 360.0 * index as f64 / POINTS as f64;
-            writeln!(text, "{name},{angle},{},{}", point.x, point.y).expect("a text takes all");
-        }
+            [name.into(), angle.to_string(), point.x.to_string(), point.y.to_string()]
+        }));
     }
-    Ok(text)
+    Ok(rows)
 }
 
 /// The profiles of all cams as DXF in mm: one closed polyline on one layer for each cam, in the frame of the cam.
-/// Format: AutoCAD release 12, which all programs read. The `dxf` crate writes the date, so that the bytes would differ.
+/// Format: AutoCAD release 12, which all programs read.
+/// The `dxf` crate writes the date, so its bytes would differ from run to run.
 ///
 /// # Errors
 /// [`ErrorKind::Input`] if the mechanism has no cam.

@@ -15,9 +15,6 @@ use super::sketch::RandomSource;
 /// Name of the wheel and of its axle.
 const WHEEL: &str = "wheel";
 
-const CURVES: [CamCurve; 4] =
-    [CamCurve::Cycloidal, CamCurve::Polynomial345, CamCurve::Polynomial4567, CamCurve::ModifiedSine];
-
 /// The mechanism of `case` with a wheel on one of its links, coupled to a link that turns about a joint of this link.
 /// The wheel has a mass off its axle. `None` if the structure does not allow it.
 pub fn geared(random: &mut RandomSource, case: &Case) -> Option<Case> {
@@ -32,7 +29,8 @@ pub fn geared(random: &mut RandomSource, case: &Case) -> Option<Case> {
     let away = random.angle();
     let local = joints[pin].on(carrier)? + unit(away) * distance;
     let kind = kind(random, distance);
-    // The arm of a follower, half the distance of the axles, is perpendicular to the way from the cam's axle to the roller.
+    // The arm of a follower is half the distance of the axles.
+    // It is perpendicular to the way from the cam's axle to the roller.
     let start = if let TransmissionKind::Cam { .. } = kind { away + PI + FRAC_PI_3 } else { start };
     let wheel = LinkId(case.mechanism.links().len());
     let mut links = case.mechanism.links().to_vec();
@@ -81,7 +79,7 @@ fn kind(random: &mut RandomSource, distance: f64) -> TransmissionKind {
         return TransmissionKind::Belt { radii, crossed: random.yes(), slack: random.number(0.0, 20.0) };
     }
     if random.index(3) == 0 {
-        let curve = |random: &mut RandomSource| CURVES[random.index(CURVES.len())];
+        let curve = |random: &mut RandomSource| CamCurve::ALL[random.index(CamCurve::ALL.len())];
         let lift = random.number(-0.3, 0.3);
         let segments = vec![
             CamSegment { to: random.number(1.5, 2.5), lift, curve: curve(random) },

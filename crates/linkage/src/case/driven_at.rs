@@ -5,7 +5,7 @@ use crate::drive::{Drive, DriveMotion, Drives, MotionLaw};
 use crate::error::Result;
 use crate::input::Input;
 use crate::mechanism::assembly::transmission_sine;
-use crate::mechanism::{AssemblyMode, DrivenJoint, Group, Joint, JointId, Mechanism, Structure};
+use crate::mechanism::{AssemblyMode, DrivenJoint, Group, JointId, Mechanism, Structure};
 
 impl Case {
     /// Structure of the mechanism if the first drive moves `joint` instead of its joint. Further drives stay.
@@ -54,8 +54,7 @@ impl Case {
     fn with_start_beside(&self, joint: JointId) -> Result<Mechanism> {
         let (mut designs, joints) = (self.mechanism.transmission_designs(), self.mechanism.joints());
         for design in designs.iter_mut().filter(|design| design.joint == joint) {
-            let beside = |own: &Joint| own.on(design.links[0]).is_some() && own.on(design.carrier).is_some();
-            let Some(found) = joints.find(beside) else { continue };
+            let Some(found) = self.mechanism.joint_between(design.links[0], design.carrier) else { continue };
             let input = if joints[found].slides() { Input::Slide } else { Input::Turn };
             design.start = joints[found].coordinate(joints[found].second.link, input, &self.start);
             design.joint = found;

@@ -275,6 +275,14 @@ impl Transmission {
         if spin == 0.0 { f64::INFINITY } else { cam.to_knot(self.coordinates_in(joints, motions)[0]) / spin.abs() }
     }
 
+    /// The actions of a unit force in the first line of action, in a pose: link, force (1), place (m).
+    #[must_use]
+    pub fn unit_actions(&self, joints: &PerJoint<Joint>, motions: &[Motion]) -> [(LinkId, Vec2, Vec2); 2] {
+        let (carrier, line) = (&motions[self.design.carrier], self.contact_in(joints, motions).lines[0]);
+        let force = carrier.arm(line.direction);
+        [(0, -force), (1, force)].map(|(k, force)| (self.members[k].link, force, carrier.point(line.feet[k])))
+    }
+
     /// The force (N) in each line of action if the transmission exerts `force` (N): positive in the first line, negative
     /// in the second, each with the tension of a slack strand.
     #[must_use]

@@ -53,7 +53,7 @@ impl State {
 
     /// Shaking force (N) and shaking moment about the origin (N m).
     /// Force and moment are the sums of the actions on the frame.
-    /// These actions come from joints with the ground, drives, transmissions to the ground, and springs and dampers fastened to the ground.
+    /// These actions come from joints, transmissions, springs and dampers on the ground, and from drives.
     #[must_use]
     pub fn shaking(&self, case: &Case) -> (Vec2, f64) {
         let (mut force, mut moment) = (Vec2::zeros(), 0.0);

@@ -54,7 +54,7 @@ pub(super) struct Observed {
     /// For every row, whether a side passes a change point in a singular pose; empty if the crank may not pass change
     /// points.
     pub(super) singular: Vec<bool>,
-    /// For every row, the time (s) to the nearest end of a piece of a cam's law; empty if there is no cam.
+    /// For every row, the time (s) to the nearest end of a piece of a cam's law; empty if there is no transmission.
     pub(super) to_knot: Vec<f64>,
 }
 
@@ -143,11 +143,11 @@ pub(super) fn observe(
     let mut unbalance = Unbalance::default();
     let mut passing: f64 = 1.0;
     let mut singular = if case.crank().passes() { vec![false; case.grid.len()] } else { Vec::new() };
-    let cams = || case.mechanism.transmissions().iter().filter(|own| own.cam.is_some());
-    let mut to_knot = vec![f64::INFINITY; if cams().next().is_some() { case.grid.len() } else { 0 }];
+    let transmissions = case.mechanism.transmissions();
+    let mut to_knot = vec![f64::INFINITY; if transmissions.is_empty() { 0 } else { case.grid.len() }];
     let mut visit = |row: usize, state: &State| {
         if let Some(nearest) = to_knot.get_mut(row) {
-            let times = cams().map(|own| own.time_to_knot(case.mechanism.joints(), &state.motions));
+            let times = transmissions.iter().map(|own| own.time_to_knot(case.mechanism.joints(), &state.motions));
             *nearest = times.fold(f64::INFINITY, f64::smaller);
         }
         let crank = case.input_in(&state.motions, &state.angles);

@@ -69,8 +69,8 @@ pub(super) struct Groups {
 impl Groups {
     /// Returns the constants of a case. The plan must already have placed the start pose of the case.
     /// Returns `None` if a group is neither an RRR dyad nor a higher group on pins.
-    /// Also returns `None` if there are transmissions, if a driving link is attached to another driving link, or if a load is not a moment of
-    /// resistance.
+    /// Also returns `None` if there are transmissions, or if a driving link is attached to another driving link.
+    /// It also returns `None` if a load is not a moment of resistance.
     /// The caller solves such cases pose by pose.
     pub(super) fn of(case: &Case, plan: &SolutionPlan, layout: Layout) -> Option<Self> {
         let groups = &case.structure.groups;

@@ -126,6 +126,7 @@ impl Higher {
             }
         }
     }
+
     /// Finds the forces of the transmissions and adds them to the forces on the nodes' links.
     /// The multiplier of a transmission is its force, although its row has only angles and slides.
     /// With the forces at their feet as known forces, the other multipliers are those of the joints.

@@ -1,8 +1,9 @@
-//! Refuses loads and drives that MJCF cannot express. The error names the load or drive.
+//! Refuses loads, drives and transmissions that MJCF cannot express. The error names the part.
 
 use crate::sentences;
 use linkage::drive::{Acts, Drive, Load, MotorLaw};
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::mechanism::Transmission;
 
 fn refused(what: String, help: &'static str) -> Error {
     Error::new(ErrorKind::Unsupported, sentences::cannot_be_written_to_a_model(&what)).help(help)
@@ -25,6 +26,17 @@ pub(super) fn check(load: &Load) -> Result<()> {
         || matches!(load, Load::Spring { .. } | Load::Damper { .. })
         || matches!(load, Load::TorsionSpring { .. } | Load::TorsionDamper { .. });
     if has_words { Ok(()) } else { Err(refused(sentences::a_load_of_type(&sort), ALONE)) }
+}
+
+/// Checks that a transmission can be written.
+///
+/// # Errors
+/// [`ErrorKind::Unsupported`] for a cam.
+pub(super) fn check_transmission(transmission: &Transmission) -> Result<()> {
+    match transmission.cam {
+        None => Ok(()),
+        Some(_) => Err(refused(sentences::a_cam(&transmission.name()), sentences::LEAVE_IT_OUT_OF_THE_SCENARIO)),
+    }
 }
 
 /// Checks that a drive can be written.

@@ -68,8 +68,8 @@ impl<'a> MjcfModel<'a> {
         for load in &case.loads {
             limits::check(load)?;
         }
-        if let Some(cam) = case.mechanism.transmissions().iter().find(|own| own.cam.is_some()) {
-            return Err(Error::new(ErrorKind::Unsupported, sentences::mjcf_knows_no_cam(&cam.name())));
+        for transmission in case.mechanism.transmissions() {
+            limits::check_transmission(transmission)?;
         }
         let driven = case.drives.joint_ids();
         let mut tree = SpanningTree::of(&case.mechanism);

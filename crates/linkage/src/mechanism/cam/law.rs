@@ -21,6 +21,10 @@ pub enum CamCurve {
 }
 
 impl CamCurve {
+    /// All curves.
+    pub const ALL: [CamCurve; 4] =
+        [CamCurve::Cycloidal, CamCurve::Polynomial345, CamCurve::Polynomial4567, CamCurve::ModifiedSine];
+
     /// Value and first two derivatives at `x`, from 0 to 1.
     #[must_use]
     pub fn at(self, x: f64) -> [f64; 3] {
@@ -135,12 +139,9 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
 
-    const CURVES: [CamCurve; 4] =
-        [CamCurve::Cycloidal, CamCurve::Polynomial345, CamCurve::Polynomial4567, CamCurve::ModifiedSine];
-
     #[test]
     fn curves_rise_from_rest_to_rest_and_match_their_derivatives() {
-        for curve in CURVES {
+        for curve in CamCurve::ALL {
             for (x, value) in [(0.0, 0.0), (1.0, 1.0)] {
                 let [own, first, second] = curve.at(x);
                 assert_relative_eq!(own, value, epsilon = 1e-14);
