@@ -43,7 +43,7 @@ CONTENTS = {
     "Proofs": ["docs/report", "docs/recording", "docs/compare", "docs/testing", "docs/mutate", "docs/findings", "docs/foreign", "docs/stories", "docs/skip"],
     "Design": ["docs/synthesis", "docs/draw", "docs/plans", "docs/clearance", "docs/variants60"],
     "Engines": ["docs/engines", "docs/rapier", "docs/mjcf", "docs/peers", "docs/bench", "docs/stress"],
-    "Numerics": [f"docs/numerics/{page}" for page in ("bounds", "settings", "forces", "change_points", "given", "twins", "diagnosis", "laboratory")],
+    "Numerics": [f"docs/numerics/{page}" for page in ("bounds", "settings", "forces", "change_points", "given", "friction", "twins", "diagnosis", "laboratory")],
     "Reference": ["docs/verification", "docs/notation", "ARCHITECTURE", "docs/extending", "CHANGELOG", "CONTRIBUTING", "SECURITY"],
 }
 

@@ -61,10 +61,6 @@ pub fn proof(proof: &Proof, tell: Tell, width: usize) -> String {
         paragraph(&engines::disputes(proof));
     }
     for engine in &proof.engines {
-        if let Some(error) = engine.own_forces.as_ref().and_then(|own| own.failure.as_ref()) {
-            let name = engine.info.name;
-            paragraph(&sentences::forces_as_itself_exerts_them(&name, &error.message()));
-        }
         if let Some(fault) = engine.force_fault() {
             paragraph(engines::sentence(fault));
         }

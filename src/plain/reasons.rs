@@ -7,9 +7,11 @@ use super::judged::{Grade, grade, unproven};
 use super::style::wrapped;
 use super::{Tell, diagnosis};
 use crate::sentences;
+use analytic::assur::effort_at_rest;
 use linkage::error::Advice;
+use linkage::input::Input;
 use prover::bounds::{Check, Verdict};
-use prover::numbers::input_in;
+use prover::numbers::{input_in, quantity};
 use prover::run::Proof;
 
 /// Reasons why something disagrees or is open, with the remedies.
@@ -48,7 +50,34 @@ pub fn expected(proof: &Proof, tell: Tell, text: &mut String) {
     say!(text, sentences::checks_disagree_as_expected_see(&count, &(told.join(",\n  "))));
 }
 
-/// Number of instants that are not judged, with the quantities concerned, and followers that leave their cams.
+/// Largest number of instants at rest that are solved for the interval of the driving force.
+const MOST_AT_REST: usize = 20;
+
+/// Joints with friction that rest, and the widest interval that their friction leaves to the first drive.
+fn at_rest(proof: &Proof, width: Option<usize>, text: &mut String) {
+    let (case, reference) = (&proof.scene.case, &proof.reference_trajectory);
+    if case.is_free() {
+        return;
+    }
+    for friction in case.frictions() {
+        let name = &case.mechanism.joints()[friction.joint].name;
+        let of = |suffix: &str| reference.named(&format!("joint.{name}.{suffix}"));
+        let Some(own) = of("friction_N_m").or_else(|| of("friction_N")) else { continue };
+        let rows: Vec<usize> = (0..own.len()).filter(|&row| own[row] == 0.0).collect();
+        let solved = rows.iter().step_by(rows.len().div_ceil(MOST_AT_REST).max(1));
+        let ranges = solved.filter_map(|&row| Some((row, effort_at_rest(case, row).ok()??)));
+        let widest = ranges.max_by(|(_, a), (_, b)| (a[1] - a[0]).total_cmp(&(b[1] - b[0])));
+        let Some((row, range)) = widest.filter(|(_, range)| range[1] > range[0]) else { continue };
+        let unit = if case.crank().input == Input::Slide { "N" } else { "N m" };
+        let [least, most] = range.map(|own| quantity(own, unit));
+        let at = input_in(reference.told(row), 1);
+        let told = sentences::the_joint_rests(name, &rows.len(), &own.len(), &at, &least, &most);
+        say!(text, "\n{}", wrapped(&told, width, 2));
+    }
+}
+
+/// Number of instants that are not judged, with the quantities concerned, joints that rest, and followers that leave
+/// their cams.
 pub fn notes(proof: &Proof, width: Option<usize>, text: &mut String) {
     for engine in &proof.engines {
         let left = || engine.channels.iter().filter(|channel| channel.left_out > 0);
@@ -62,6 +91,7 @@ pub fn notes(proof: &Proof, width: Option<usize>, text: &mut String) {
         );
         say!(text, "\n{}", wrapped(&told, width, 2));
     }
+    at_rest(proof, width, text);
     let (reference, mechanism) = (&proof.reference_trajectory, &proof.scene.case.mechanism);
     for cam in mechanism.transmissions().iter().filter(|own| own.cam.is_some()) {
         let Some(forces) = reference.named(&format!("transmission.{}.force_N", cam.name())) else { continue };

@@ -119,6 +119,7 @@ fn course(course: &Course) -> Value {
 fn load(case: &Case, load: &Load) -> Value {
     let (place, on) = match load.nature().on {
         On::Link(link) => ("link", json!(name(case, link))),
+        On::Joint(joint, _) => ("joint", json!(case.mechanism.joints()[joint].name)),
         On::Links(links) => ("links", json!(links.map(|link| name(case, link)))),
         On::Point(at) => ("at", side(case, at)),
         On::Points(ends) => ("ends", json!(ends.map(|end| side(case, end)))),

@@ -26,7 +26,6 @@ linkage::sentences! {
     // plain/errors.rs
     also_in_places(count, lines) = "\n   = note: the same mistake {count} more times, in lines {lines}";
     // plain/brief.rs
-    forces_as_itself_exerts_them(name, error) = "The forces that {name} itself exerts are not judged: {error}";
     step_ms(numbers) = "step {numbers} ms";
     of_numbers_are_open(open, all) = "{open} of {all} results could not be decided";
     NO_RUN_STANDS = "no engine run could be judged";
@@ -131,6 +130,7 @@ linkage::sentences! {
     forces_as_itself_exerts_them_2(info) = "the forces that {info} itself exerts";
     AS_THE_ENGINE_EXERTS_IT = " as the engine exerts it";
     // plain/reasons.rs
+    the_joint_rests(name, count, all, at, least, most) = "Joint {name} rests at {count} of {all} instants, and its friction is taken as zero there. At {at} it leaves the drive between {least} and {most}.";
     the_follower_leaves_the_cam(name, count, all, at) = "The follower leaves cam \"{name}\": the force between them is negative at {count} of {all} instants, first at {at}. A stronger spring or a groove must hold it.";
     up_to_of_instants_are_not_judged(most, proof, quantities, info) = "Up to {most} of {proof} instants are not judged in {quantities} ({info}): a drive or a loaded link reverses there, an acceleration or its rate jumps, or the motion begins.";
     checks_disagree_as_expected_see(count, told) = "\n{count} checks disagree as expected, see\n  {told}";
@@ -153,6 +153,8 @@ linkage::sentences! {
     agree_is_as_accepted_in_within(name, file, all) = "AGREE: {name} matches the figures accepted in {file}, {all} within their bounds.";
     have_no_finite_bound_and_no_figures(channels) = "{channels} have no figures, because their bounds are not finite.";
     // report/bearings.rs
+    work_of_the_drives(drive, lost) = "work of the drives over the grid {drive}, of which friction takes {lost}";
+    efficiency_over_the_grid(efficiency) = "efficiency over the grid {efficiency}";
     journals_lever_mm_bending_stress(lever_mm, stress_mpa) = "\njournals: lever {lever_mm} mm, bending stress {stress_mpa} MPa";
     largest_at(name, value, at) = "largest {name:16} {value} at {at}";
     // report/bench.rs

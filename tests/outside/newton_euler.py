@@ -8,7 +8,8 @@ time in seconds with its unit (0.35s). With --all there are numbers of points, s
 It reads the scenario file by itself (tomllib), with units of its own. It closes all joints by Newton's method, follows
 the motion from the start in small steps, differentiates the closed poses by differences in 40 digits, and solves the
 equations of Newton and Euler of all links at once. A drive prescribes the coordinate of its joint, one more equation, and
-its force or moment is one more unknown; transmissions.py has the equations of gears, racks, belts and cams. The binary (`linkproof solve`) only gives a first guess of the pose at the
+its force or moment is one more unknown; transmissions.py has the equations of gears, racks, belts and cams, friction.py
+the friction of joints. The binary (`linkproof solve`) only gives a first guess of the pose at the
 start; assembly modes are checked against docs/scenario.md. At a crank angle a free motion has its nominal speed; at a
 time it is integrated by free_motion.py, in double precision, with a step that is halved until nothing printed moves.
 """
@@ -23,6 +24,7 @@ import tomllib
 from mpmath import mp, mpf
 
 import free_motion
+import friction
 import transmissions
 
 mp.dps = 40
@@ -341,7 +343,7 @@ def actions(m, q, v, twists, crank, sense=lambda number, omega: mp.sign(omega)):
             pull = (size * d[0] / length, size * d[1] / length)
             yield load["links"][0], pull, a, mpf(0)
             yield load["links"][1], (-pull[0], -pull[1]), b, mpf(0)
-        else:
+        elif kind != "friction":
             first, second = load["links"]
             if kind == "torsion_spring":
                 twist = m.angle(q, second) - m.angle(q, first) + twists[number]
@@ -468,7 +470,7 @@ def main():
         v = [(near[-2][i] - 8 * near[-1][i] + 8 * near[1][i] - near[2][i]) / (12 * h) for i in range(len(q))]
         a = [(-near[-2][i] + 16 * near[-1][i] - 30 * q[i] + 16 * near[1][i] - near[2][i]) / (12 * h * h) for i in range(len(q))]
         loads = list(actions(m, q, v, twists, crank))
-        f = forces(m, q, v, a, loads)
+        loads, f = friction.settled(m, q, v, loads, quantity, lambda own: forces(m, q, v, a, own))
         where, key = (f"{instant[:-1]} s", f"time_s = {instant[:-1]}") if is_time else (f"{instant} deg", f"crank_deg = {instant}")
         if is_slide:
             where, key = f"{instant[:-2]} mm", f"crank_mm = {instant[:-2]}"
@@ -605,6 +607,9 @@ def print_oracle(m, where, key, source, q, v, a, f, loads, want):
         add("reactions", f"joint.{joint['name']}.fy_N", "force", f[3 * j + 1])
         if joint["type"] == "prismatic":
             add("reactions", f"joint.{joint['name']}.moment_N_m", "moment", f[3 * j + 2])
+    for joint, size, _ in friction.of(m, q, v, f, quantity):
+        suffix, kind = ("friction_N_m", "moment") if joint["type"] == "revolute" else ("friction_N", "force")
+        add("reactions", f"joint.{joint['name']}.{suffix}", kind, size)
     for t, own in enumerate(m.transmissions):
         add("reactions", f"transmission.{own.name}.force_N", "force", f[3 * len(m.joints) + len(m.drives) + t])
     if ALL:

@@ -2,6 +2,7 @@
 
 mod closed_form;
 mod engines;
+mod friction;
 mod jumps;
 mod random;
 mod reduced;

@@ -10,6 +10,7 @@ use crate::common::higher::{Among, FAMILIES, mechanism};
 use crate::common::random::{SORTS, chain, for_each_of, sample};
 use crate::common::sketch::RandomSource;
 use lab::specimens::driven::driven_elsewhere;
+use lab::specimens::frictional::frictional;
 use lab::specimens::geared::geared;
 use linkage::error::ErrorKind;
 use prover::run::{Options, prove};
@@ -79,7 +80,7 @@ fn never_disagree(sorts: &[[bool; 3]], count: usize) {
 }
 
 /// Mechanisms with the drive at any other joint: slides, and angles between moving links.
-/// Half of them have a wheel on gears or a belt; half of these keep their crank.
+/// Half of them have a wheel on gears or a belt; half of these keep their crank. Half of all have friction.
 #[test]
 fn random_mechanisms_driven_at_any_joint_never_disagree() {
     let mut random = RandomSource::from_seed(31);
@@ -93,6 +94,7 @@ fn random_mechanisms_driven_at_any_joint_never_disagree() {
             1 => geared(&mut random, &case).and_then(|case| driven_elsewhere(&mut random, &case)),
             _ => driven_elsewhere(&mut random, &case),
         };
+        let case = if random.yes() { case.and_then(|case| frictional(&mut random, &case)) } else { case };
         let Some(case) = case else { continue };
         let scenario = Scenario { case, ..specimen.scenario };
         let word = match prove(&scenario, &Options::default()) {

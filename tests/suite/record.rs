@@ -136,6 +136,8 @@ fn value(mechanism: &Mechanism, channel: &Channel, time: f64) -> f64 {
         }
         ChannelSubject::Drive => reactions(mechanism, &motions).1,
         ChannelSubject::Slider
+        | ChannelSubject::Journal
+        | ChannelSubject::Guide
         | ChannelSubject::Transmission
         | ChannelSubject::Motor
         | ChannelSubject::Thrust

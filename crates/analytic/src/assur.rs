@@ -10,9 +10,11 @@ mod gauges;
 pub mod groups;
 mod passing;
 mod pose_solver;
+mod standstill;
 pub(crate) mod transfer;
 mod turns;
 mod watch;
 mod whole_turns;
 
 pub use pose_solver::PoseSolver;
+pub use standstill::effort_at_rest;

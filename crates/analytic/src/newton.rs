@@ -3,6 +3,7 @@
 mod blocks;
 mod constraint;
 mod free;
+mod friction;
 mod passing;
 mod solver;
 mod steps;

@@ -2,6 +2,8 @@
 
 linkage::sentences! {
     // reduced/means.rs
+    THE_REDUCTION_KNOWS_NO_FRICTION = "quantities reduced to the crank are requested, but the friction of joints depends on their reactions, which the reduction cannot represent";
+    LET_THE_MOTION_BE_FREE = "let forces move the crank with `motion = \"free\"` in [drive], or leave the friction out";
     the_drive_moves_no_crank(noun) = "quantities reduced to the crank are requested, but the input of the drive is a {noun}";
     DRIVE_THE_MECHANISM_AT_A_CRANK = "drive a link that is hinged to the ground, or claim `drive.reduced_mass_kg` and `drive.reduced_force_N` as formulas";
     // range/tracking.rs
@@ -29,6 +31,12 @@ linkage::sentences! {
     // assur/transfer.rs
     LET_THE_GRID_END_BEFORE_THE_MOTION = "end the grid before the motion reaches this pose";
     the_group_is_singular_at_two(group, at) = "the group ({group}) is singular at {at}: two of its branches meet there";
+    // assur/forces/friction.rs
+    friction_locks_the_mechanism(at) = "{at}: friction locks the mechanism; no forces in the joints are in equilibrium with their friction";
+    friction_allows_several_states(at) = "{at}: friction leaves the forces undetermined; several states of the forces are in equilibrium";
+    LOWER_A_COEFFICIENT_OF_FRICTION = "lower a coefficient of friction or the radius of a journal, lengthen a guide, drive another joint, or end the grid before this pose";
+    // newton/friction.rs
+    FRICTION_HAS_NO_EQUILIBRIUM = "friction locks the mechanism; no forces in the joints are in equilibrium with their friction";
     // assur_solver.rs
     LET_THE_GRID_END_BEFORE_OR_GIVE = "end the grid before this instant, or give the motor more torque";
     THE_MOTION_ENDS = "the motion ends";
@@ -38,6 +46,7 @@ linkage::sentences! {
     GIVE_THE_MOTOR_MORE_TORQUE = "give the motor more torque or the mechanism more speed, or end the grid before this instant";
     link_at_rest_at(what, name, x) = "{what} link \"{name}\" at rest at t = {x:.6} s";
     ITS_RESISTANCE_HOLDS = "its resistance holds";
+    FRICTION_HOLDS = "friction holds";
     THE_LOSSES_OF_THE_REDUCER = "the losses of the reducer hold";
     // motion/free.rs
     A_LOAD_THAT_TURNS_ABOUT_JUST = "a load that reverses exactly there alternately holds and releases the link: start slightly beside this point";

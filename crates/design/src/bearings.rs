@@ -6,16 +6,20 @@ use linkage::math::KeepNan;
 use std::f64::consts::PI;
 
 use analytic::PoseSolver;
-use linkage::case::Case;
+use linkage::case::{Case, Friction};
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::extremum;
 use linkage::math::statistics::ends;
+use linkage::mechanism::JointId;
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
 /// Upper limit of the crank angle between two samples (rad).
 /// The limit suffices because a reaction has only a few maxima per turn.
 const SAMPLE_STEP: f64 = PI / 360.0;
+
+/// Work of the drives is more than that of friction only beyond this factor: the sums have rounding errors.
+const ROUNDING: f64 = 1.0 + 1e-9;
 
 /// Largest value of a quantity over a range of crank angles, with the crank angle where it occurs.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,6 +41,34 @@ pub struct Peaks {
     pub shaking_force: Peak,
     /// Magnitude of the balancing moment on the crank (N m).
     pub balancing_moment: Peak,
+    /// The joints with friction.
+    pub frictions: Vec<FrictionLoss>,
+    /// Work of the drives over the range (J); negative if the mechanism drives them.
+    pub drive_work: f64,
+}
+
+/// Friction of a joint over a range of crank angles.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FrictionLoss {
+    /// The joint.
+    pub joint: JointId,
+    /// Largest friction (N m, or N in a prismatic joint).
+    pub largest: f64,
+    /// Work that the friction takes over the range (J), not negative.
+    pub work: f64,
+    /// Largest product of the normal force and the sliding speed of the contact (W).
+    /// Divided by the bearing area it is the product of pressure and speed.
+    pub pressure_speed: f64,
+}
+
+impl Peaks {
+    /// Fraction of the drives' work that friction leaves over the range; `None` without friction, and if the drives do
+    /// less work than the friction takes.
+    #[must_use]
+    pub fn efficiency(&self) -> Option<f64> {
+        let lost: f64 = self.frictions.iter().map(|own| own.work).sum();
+        (lost > 0.0 && self.drive_work > ROUNDING * lost).then(|| 1.0 - lost / self.drive_work)
+    }
 }
 
 /// Smallest journal diameter (m) for the force `force` (N), the lever arm `lever` (m) and the bending stress `stress`
@@ -72,8 +104,26 @@ pub fn over_range(case: &Case) -> Result<Peaks> {
     quantities.push(Box::new(|state| state.shaking(case).0.norm()));
     quantities.push(Box::new(|state| state.torques[0].abs()));
     let mut samples = vec![Vec::with_capacity(cranks.len()); quantities.len()];
-    for &crank in &cranks {
+    let none =
+        |friction: Friction| FrictionLoss { joint: friction.joint, largest: 0.0, work: 0.0, pressure_speed: 0.0 };
+    let mut frictions: Vec<FrictionLoss> = case.frictions().map(none).collect();
+    let mut drive_work = 0.0;
+    for (number, &crank) in cranks.iter().enumerate() {
         let state = poses.solve_at(crank, Stage::BalancingMoment)?;
+        // Trapezium rule over the input, with the powers per rate of the input.
+        let ends = if number == 0 || number == parts { 0.5 } else { 1.0 };
+        let rate = case.state_in(&state.motions, &state.angles).rate;
+        let span = if rate == 0.0 { 0.0 } else { ends * (to - from) / parts as f64 / rate };
+        for (friction, own) in case.frictions().zip(&mut frictions) {
+            let (effort, speed) = (friction.effort(&state.motions, state.reactions()), friction.rate(&state.motions));
+            let normal = friction.normal(state.forces[own.joint], state.moments[own.joint]);
+            own.largest = own.largest.larger(effort.abs());
+            own.work += (effort * speed).abs() * span.abs();
+            own.pressure_speed = own.pressure_speed.larger(normal * speed.abs() * friction.contact());
+        }
+        let powers = case.drives.iter().zip(&state.torques);
+        let powers = powers.map(|(own, effort)| effort * case.drive_state(own, &state.motions, &state.angles).rate);
+        drive_work += powers.sum::<f64>() * span.abs();
         for (column, quantity) in samples.iter_mut().zip(&quantities) {
             column.push(quantity(state));
         }
@@ -87,6 +137,8 @@ pub fn over_range(case: &Case) -> Result<Peaks> {
         moments: joints.iter().map(|joint| joint.keeps_angle().then(&mut next)).collect(),
         shaking_force: next(),
         balancing_moment: next(),
+        frictions,
+        drive_work,
     })
 }
 

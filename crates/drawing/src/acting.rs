@@ -55,7 +55,7 @@ pub fn tensions(case: &Case, motions: &[Motion], angles: &[f64]) -> Vec<Tension>
                 Some(if span.norm() > 0.0 { span.normalize() } else { Vec2::zeros() })
             }
             On::Links(_) => None,
-            On::Link(_) | On::Point(_) => return None,
+            On::Link(_) | On::Point(_) | On::Joint(..) => return None,
         };
         let mut size = None;
         case.each_action(load, motions, angles, |action| {

@@ -61,7 +61,7 @@ pub fn of_load(mechanism: &Mechanism, number: usize, load: &Load) -> Option<Load
     match load.nature().on {
         On::Link(link) => Some(LoadSign { load: number, at: JointSide { link, local: place_of(mechanism, link) } }),
         On::Point(at) => Some(LoadSign { load: number, at }),
-        On::Points(_) | On::Links(_) => None,
+        On::Points(_) | On::Links(_) | On::Joint(..) => None,
     }
 }
 

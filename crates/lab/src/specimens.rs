@@ -6,6 +6,7 @@
 
 pub mod driven;
 pub mod dyads;
+pub mod frictional;
 pub mod geared;
 pub mod sketch;
 pub mod spec;

@@ -3,6 +3,7 @@
 mod builder;
 mod check;
 mod driven_at;
+mod friction;
 mod grid;
 mod only;
 mod parts;
@@ -18,10 +19,11 @@ use crate::drive::load::sense_of;
 use crate::drive::{Action, Drive, InputState, Load, LoadState, Motor, Senses, Wrench};
 use crate::input::{Input, InputValue};
 use crate::math::{KeepNan, Motion, Vec2};
-use crate::mechanism::{GROUND, JointSide, LinkId};
+use crate::mechanism::{GROUND, JointId, JointSide, LinkId};
 use crate::trajectory::{CHANNELS, Channel, ChannelSubject, OfLink, Reading, Stage};
 
 pub use builder::CaseBuilder;
+pub use friction::{Friction, JointReactions};
 pub use grid::Grid;
 pub use parts::{CaseParts, Wanted};
 pub use scene::{LeftOut, Scene};
@@ -256,22 +258,23 @@ impl Case {
     /// At a joint between moving links, and for a slide, the effort acts from the joint's first link on its second link.
     #[must_use]
     pub fn effort(&self, drive: &Drive, effort: f64, motions: &[Motion]) -> [Action; 2] {
-        let joint = &self.mechanism.joints()[drive.joint];
-        let ends = [joint.first.link, joint.second.link];
         match drive.input {
             Input::Angle => [Action::of_moment(GROUND, -effort), Action::of_moment(drive.link, effort)],
-            Input::Turn => [Action::of_moment(ends[0], -effort), Action::of_moment(ends[1], effort)],
-            Input::Slide => {
-                let axis = motions[ends[0]].arm(joint.axis_on(ends[0]).expect("the driven joint slides"));
-                let place = motions[ends[1]].point(joint.second.local);
-                [(ends[0], -effort), (ends[1], effort)].map(|(link, force)| Action {
-                    link,
-                    force: axis * force,
-                    place,
-                    moment: 0.0,
-                })
-            }
+            Input::Turn | Input::Slide => self.joint_effort(drive.joint, effort, motions),
         }
+    }
+
+    /// Actions of a moment (N m) in a revolute joint, or of a force (N) along the axis of a prismatic joint: on the
+    /// joint's first link, then on its second link. `effort` is that on the second link.
+    #[must_use]
+    pub fn joint_effort(&self, joint: JointId, effort: f64, motions: &[Motion]) -> [Action; 2] {
+        let joint = &self.mechanism.joints()[joint];
+        let ends = [(joint.first.link, -effort), (joint.second.link, effort)];
+        let Some(axis) = joint.axis_on(joint.first.link) else {
+            return ends.map(|(link, moment)| Action::of_moment(link, moment));
+        };
+        let (axis, place) = (motions[joint.first.link].arm(axis), motions[joint.second.link].point(joint.second.local));
+        ends.map(|(link, force)| Action { link, force: axis * force, place, moment: 0.0 })
     }
 
     /// Change of the input that corresponds to a rotation of a driving link by `turn` (rad). A slide changes by the
@@ -288,6 +291,13 @@ impl Case {
     #[must_use]
     pub fn is_free(&self) -> bool {
         self.drives.iter().any(Drive::is_free)
+    }
+
+    /// Whether the mechanism continues through change points: see [`Drive::passes`].
+    /// Reactions grow without bound near a change point, and friction with them, so a mechanism with friction stops.
+    #[must_use]
+    pub fn passes(&self) -> bool {
+        self.drives.further().is_empty() && self.crank().passes() && self.frictions().next().is_none()
     }
 
     /// Whether no motion is free, and every drive has a constant speed.
@@ -310,15 +320,40 @@ impl Case {
     }
 
     /// Calls `put` with the action of every load on every link, the ground included.
+    /// Friction follows from the reactions.
     /// `motions` and `angles` contain the motion and the angle (rad, unwrapped) of every link, as in
     /// [`State`](crate::solver::State).
     /// Loads depend on positions and velocities, not on accelerations.
     #[inline]
-    pub fn each_load(&self, motions: &[Motion], angles: &[f64], mut put: impl FnMut(Action)) {
+    pub fn each_load(
+        &self,
+        motions: &[Motion],
+        angles: &[f64],
+        reactions: JointReactions,
+        mut put: impl FnMut(Action),
+    ) {
         let setting = self.setting(motions, angles);
         for load in &self.loads {
             self.act_in(&setting, load, &mut put);
         }
+        for friction in self.frictions() {
+            friction.act(friction.effort(motions, reactions), motions).into_iter().for_each(&mut put);
+        }
+    }
+
+    /// Power of all loads (W), positive if the loads drive the mechanism.
+    /// The arguments are the same as in [`Case::each_load`].
+    #[must_use]
+    pub fn load_power(&self, motions: &[Motion], angles: &[f64], reactions: JointReactions) -> f64 {
+        let mut power = 0.0;
+        self.each_load(motions, angles, reactions, |action| power += action.power(&motions[action.link]));
+        power
+    }
+
+    /// Whether a load depends on a sense of motion.
+    #[must_use]
+    pub fn has_sense(&self) -> bool {
+        self.loads.iter().any(Load::has_sense)
     }
 
     /// Calls `put` with the action of load number `load` on each of the load's links.
@@ -335,7 +370,7 @@ impl Case {
                 put(Action::of_moment(link, load.moment_in(self.spin(setting.motions, link), setting.crank)));
             }
             Senses::Point(at) if self.moves(setting.motions, at) => load.act(setting, put),
-            Senses::Point(_) => {}
+            Senses::Point(_) | Senses::Joint(_) => {}
         }
     }
 
@@ -373,7 +408,7 @@ impl Case {
         LoadState { motions, angles, start: &self.start.0, crank }
     }
 
-    /// Writes to `out` the resultant of all loads on every link, the ground included.
+    /// Writes to `out` the resultant of all loads except friction on every link, the ground included.
     /// A resultant is a force (N) at the mass centre and a moment (N m) about the mass centre.
     /// `out` has one entry per link. The other arguments are the same as in [`Case::each_load`].
     #[inline]
@@ -417,11 +452,7 @@ impl Case {
         }
         let links = self.mechanism.links();
         let setting = self.setting(motions, angles);
-        let mut add = |action: Action| {
-            let centre = motions[action.link].point(links[action.link].mass_centre);
-            out[action.link].force += action.force;
-            out[action.link].moment += action.about(centre);
-        };
+        let mut add = |action: Action| out[action.link].add(&action, &motions[action.link], &links[action.link]);
         for (index, load) in self.loads.iter().enumerate() {
             match load.nature().senses {
                 Senses::Nothing => load.act(&setting, &mut add),
@@ -435,18 +466,9 @@ impl Case {
                     let force = load.force_in(way(index, velocity));
                     add(Action { link: at.link, force, place: motion.point(at.local), moment: 0.0 });
                 }
-                Senses::Link(_) => {}
+                Senses::Link(_) | Senses::Joint(_) => {}
             }
         }
-    }
-
-    /// Power of all loads (W), positive if the loads drive the mechanism.
-    /// The arguments are the same as in [`Case::each_load`].
-    #[must_use]
-    pub fn load_power(&self, motions: &[Motion], angles: &[f64]) -> f64 {
-        let mut power = 0.0;
-        self.each_load(motions, angles, |action| power += action.power(&motions[action.link]));
-        power
     }
 }
 

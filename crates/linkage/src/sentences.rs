@@ -18,6 +18,10 @@ crate::sentences! {
     link_has_no_place_in_the_start(link, pose) = "link \"{link}\" has no valid pose in the start pose: {pose}";
     the_ground_is_moved_in_the_start(poses) = "the ground is moved in the start pose: {poses}";
     the_start_pose_has_places(poses, links) = "the start pose has {poses} link poses, but there are {links} links";
+    it_acts_in_joint_but_there(joint, count) = "it acts in joint {joint}, but there are {count} joints";
+    its_links_are_not_those_of_joint(name) = "its links are not those of joint \"{name}\"";
+    joint_has_two_frictions(name) = "joint \"{name}\" has friction already";
+    friction_grows_without_bound(name) = "reactions grow without bound at a change point, and the friction of joint \"{name}\" with them: leave out `through = \"smooth\"` or the friction";
     a_number_is_not_finite_or_negative(load) = "a number is not finite, or negative where it must not be: {load}";
     it_acts_on_link_but_there(link, count) = "it acts on link {link}, but there are {count} links";
     joint_drives_link_not(name, turned, said) = "joint \"{name}\" drives link \"{turned}\", not \"{said}\"";

@@ -6,7 +6,9 @@ mod unit;
 
 use crate::sentences;
 pub use channel::{CHANNELS, Channel, ChannelKind, Stage};
-pub use reading::{ChannelSubject, OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, OfTransmission, Reading};
+pub use reading::{
+    ChannelSubject, OfDrive, OfFrame, OfFriction, OfJoint, OfLink, OfPoint, OfSlider, OfTransmission, Reading,
+};
 pub use unit::{Unit, shown_unit};
 
 use crate::error::{Error, ErrorKind, Result};

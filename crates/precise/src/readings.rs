@@ -8,7 +8,7 @@ use linkage::error::Result;
 use linkage::math::angle::wrapped;
 use linkage::mechanism::{GROUND, Joint, JointId, JointSide, LinkId};
 use linkage::trajectory::{
-    Channel, OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, OfTransmission, Reading, Trajectory,
+    Channel, OfDrive, OfFrame, OfFriction, OfJoint, OfLink, OfPoint, OfSlider, OfTransmission, Reading, Trajectory,
 };
 
 use super::Long;
@@ -93,6 +93,9 @@ impl<'a> Places<'a> {
                     OfSlider::Acceleration => acceleration.rounded(),
                     OfSlider::Moment => instant.moments[joint].rounded(),
                 }
+            }
+            Reading::Journal(OfFriction::Effort) | Reading::Guide(OfFriction::Effort) => {
+                unreachable!("loads are refused")
             }
             Reading::Transmission(OfTransmission::Force) => unreachable!("transmissions are refused"),
             Reading::Frame(reading) => {

@@ -1,7 +1,6 @@
 //! Rapier as an `Engine` and as a `Solver`.
 
-use super::lines::Lines;
-use super::newton_euler::NewtonEuler;
+use super::friction::InverseDynamics;
 use super::rapier::{Build, Precision, Rapier};
 use super::tree::SpanningTree;
 use super::{noise, run};
@@ -75,12 +74,8 @@ impl Engine for Rapier {
         if self.settings.route != Route::Differences || case.wanted.deepest() < Stage::Reactions {
             return None;
         }
-        let (mut equations, mut lines) = (NewtonEuler::new(case), Lines::of(case));
-        Some(Box::new(move |case, row, state| {
-            let t = case.grid.times[row];
-            equations.solve(case, state, t)?;
-            lines.as_mut().map_or(Ok(()), |lines| lines.change(case, state, t))
-        }))
+        let mut dynamics = InverseDynamics::of(case);
+        Some(Box::new(move |case, row, state| dynamics.sample(case, state, case.grid.times[row])))
     }
 
     fn overrun(&self) -> f64 {

@@ -2,6 +2,7 @@
 //! See docs/numerics/twins.md.
 
 use super::added::Added;
+use super::friction::Braking;
 use super::guard::Guard;
 use super::rapier::Precision;
 use super::window::Window;
@@ -12,7 +13,7 @@ use linkage::drive::{Drive, Load, MotorBranch, Wrench};
 use linkage::engine::Settings;
 use linkage::engine::bodies::check_inertias;
 use linkage::error::Result;
-use linkage::math::{KeepNan, Vec2};
+use linkage::math::{KeepNan, Motion, Vec2, unit};
 use linkage::mechanism::{GROUND, JointSide, LinkId};
 use linkage::solver::State;
 
@@ -48,6 +49,7 @@ pub(super) struct Acting {
     direct: f64,
     /// One for each world.
     added: Vec<Option<Added>>,
+    braking: Option<Braking>,
 }
 
 impl Acting {
@@ -71,12 +73,16 @@ impl Acting {
             branch: None,
             direct: 0.0,
             added: worlds.iter().map(|guard| Added::of(case, guard.world().tree())).collect(),
+            braking: Braking::of(case),
         })
     }
 
     /// Sets motor and loads of all worlds for the step between the times `ends` (s).
     /// The newest state of the window is the start of the step.
-    pub(super) fn act(&mut self, case: &Case, window: &Window, worlds: &mut [Guard], ends: [f64; 2]) {
+    ///
+    /// # Errors
+    /// Those of [`Braking::add`].
+    pub(super) fn act(&mut self, case: &Case, window: &Window, worlds: &mut [Guard], ends: [f64; 2]) -> Result<()> {
         for (before, motion) in self.before.iter_mut().zip(&self.state.motions) {
             *before = if window.newest() > 0 { motion.omega } else { f64::NAN };
         }
@@ -119,6 +125,9 @@ impl Acting {
             }
         };
         case.loads_along(motions, angles, sensed, way, &mut self.loads);
+        if let Some(braking) = &mut self.braking {
+            braking.add(case, window, &self.state, &mut self.loads, ends[0])?;
+        }
         let motor = self.motor(case);
         self.loads[GROUND] = Wrench::ZERO;
         for (guard, added) in worlds.iter_mut().zip(&mut self.added) {
@@ -132,6 +141,7 @@ impl Acting {
             }
             guard.drive_freely(ends, motor);
         }
+        Ok(())
     }
 
     /// Gives driving links their exact speeds at t = 0, and zero speed to links at rest.
@@ -164,6 +174,7 @@ impl Acting {
             .filter(|&link| case.can_turn(link))
             .chain(losses.then_some(case.crank().link));
         sensed.any(|link| self.state.motions[link].omega == 0.0)
+            || case.frictions().any(|friction| friction.rate(&self.state.motions) == 0.0)
     }
 
     /// Target speed and damping of a motor that has the law's moment and slope at the crank's speed.
@@ -224,9 +235,12 @@ pub(super) fn begin(case: &Case, acting: &mut Acting, worlds: &mut [Guard], sett
     settle(case, worlds, step)?;
     let window = Window::beginning(case, settings, &worlds[0]);
     guess(case, acting, &window, worlds, step)?;
-    acting.act(case, &window, worlds, [0.0, step]);
+    acting.act(case, &window, worlds, [0.0, step])?;
     if acting.must_try(case) {
         worlds[0].step(step)?;
+        if let Some(braking) = &mut acting.braking {
+            braking.setting_off = set_off(case, &worlds[0], step);
+        }
         let world = worlds[0].world();
         for (link, speed) in case.start.0.ids().zip(&mut acting.setting_off).skip(1) {
             *speed = (world.angle(link) - case.start.0[link].angle) / step;
@@ -246,15 +260,18 @@ pub(super) fn begin(case: &Case, acting: &mut Acting, worlds: &mut [Guard], sett
 /// The repetition is needed because the compensating loads depend on these accelerations. Every trial is undone.
 fn guess(case: &Case, acting: &mut Acting, window: &Window, worlds: &mut [Guard], step: f64) -> Result<()> {
     for _ in 0..MOST_TRIALS {
-        if acting.added.iter().all(Option::is_none) {
+        if acting.added.iter().all(Option::is_none) && acting.braking.is_none() {
             break;
         }
-        acting.act(case, window, worlds, [0.0, step]);
+        acting.act(case, window, worlds, [0.0, step])?;
         worlds[0].step(step)?;
         let own = &worlds[0];
         let mut change = 0.0f64;
         for added in acting.added.iter_mut().flatten() {
             change = change.larger(added.guess(case, |link| window.next_acceleration(own, LinkId(link))));
+        }
+        if let Some(braking) = &mut acting.braking {
+            change = change.larger(braking.guess(case, |link| window.next_acceleration(own, LinkId(link))));
         }
         undo(case, worlds, step)?;
         if change <= GUESSED {
@@ -262,6 +279,20 @@ fn guess(case: &Case, acting: &mut Acting, window: &Window, worlds: &mut [Guard]
         }
     }
     Ok(())
+}
+
+/// Mean rates of the joints with friction in a trial step from the start. Rates of rounding size are zero.
+fn set_off(case: &Case, guard: &Guard, step: f64) -> Vec<f64> {
+    let mut motions = vec![Motion::REST; case.mechanism.links().len()];
+    for (link, body) in case.mechanism.links().entries().skip(1) {
+        let (pose, angle) = (case.start.0[link], guard.frames()[link].angle());
+        let start = pose.point(body.mass_centre);
+        let rates = [start, (guard.centres()[link] - start) / step, Vec2::zeros()];
+        motions[link] = Motion::of_point(body.mass_centre, rates, unit(pose.angle), (angle - pose.angle) / step, 0.0);
+    }
+    let rates: Vec<f64> = case.frictions().map(|friction| friction.rate(&motions)).collect();
+    let fastest = rates.iter().fold(0.0f64, |most, rate| most.larger(rate.abs()));
+    rates.into_iter().map(|rate| if rate.abs() <= STANDSTILL * fastest { 0.0 } else { rate }).collect()
 }
 
 /// Undoes a trial step by several tiny steps.

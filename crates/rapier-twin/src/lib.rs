@@ -7,6 +7,7 @@ mod branch;
 mod double;
 mod engine;
 mod free;
+mod friction;
 mod ghost;
 mod guard;
 mod lines;

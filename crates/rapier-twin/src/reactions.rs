@@ -1,10 +1,10 @@
 //! Source of reactions and moments in a run.
 
+use super::friction::InverseDynamics;
 use super::guard::{Guard, guards};
 use super::lines::Lines;
 use super::masses::Loading;
 use super::native::Native;
-use super::newton_euler::NewtonEuler;
 use super::probe::{Probe, probe_turn};
 use super::rapier::{Build, Rapier};
 use super::tree::SpanningTree;
@@ -26,7 +26,7 @@ pub(super) struct Reactions<'a> {
 enum Source<'a> {
     /// None are wanted.
     Unwanted,
-    Differences(NewtonEuler),
+    Differences(Box<InverseDynamics>),
     Native(Native),
     Probe(Probe<'a>),
 }
@@ -55,7 +55,11 @@ impl<'a> Reactions<'a> {
             return Ok((Reactions { source: Source::Unwanted, lines: None }, moving()?));
         }
         let (source, worlds) = match engine.settings.route {
-            Route::Differences => (Source::Differences(NewtonEuler::new(case)), moving()?),
+            Route::Differences => (Source::Differences(Box::new(InverseDynamics::of(case))), moving()?),
+            Route::Native | Route::Probe if case.frictions().next().is_some() => {
+                let help = Advice::OtherRoute { routes: &["differences"] };
+                return Err(Error::new(ErrorKind::Unsupported, sentences::THE_ROUTE_KNOWS_NO_FRICTION).help(help));
+            }
             Route::Native => {
                 let worlds = reporting(engine)?;
                 (Source::Native(Native::new(case, &worlds, &engine.settings, from)), worlds)
@@ -93,7 +97,7 @@ impl<'a> Reactions<'a> {
     pub(super) fn solve(&mut self, case: &Case, window: &Window, state: &mut State, t: f64) -> Result<()> {
         match &mut self.source {
             Source::Unwanted => {}
-            Source::Differences(statics) => statics.solve(case, state, t)?,
+            Source::Differences(dynamics) => return dynamics.sample(case, state, t),
             Source::Native(native) => native.solve(case, state, t)?,
             Source::Probe(probe) => probe.solve(case, window, state, t)?,
         }

@@ -155,7 +155,7 @@ impl<'a> Run<'a> {
         let number = self.window.newest() + 1;
         let [from, to] = [number - 1, number].map(|number| number as f64 * self.settings.resolution);
         if let Some(acting) = &mut self.acting {
-            acting.act(self.case, &self.window, &mut self.worlds, [from, to]);
+            acting.act(self.case, &self.window, &mut self.worlds, [from, to])?;
         }
         for guard in &mut self.worlds {
             if !self.steady && self.acting.is_none() {

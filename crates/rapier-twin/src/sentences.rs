@@ -32,6 +32,10 @@ linkage::sentences! {
     the_engine_link_has_turned(name, degrees, place) = "the engine's link \"{name}\" has turned by {degrees:.1} deg in one step, {place}";
     // newton_euler.rs
     SHORTEN_THE_GRID_TO_THE_CRANK = "shorten the grid to the inputs before the dead point";
+    // friction.rs
+    friction_has_no_equilibrium(t) = "friction locks the mechanism at t = {t:.6} s; no forces in the joints are in equilibrium with their friction";
+    LOWER_A_COEFFICIENT_OF_FRICTION = "lower a coefficient of friction or the radius of a journal, or end the grid before this instant";
+    THE_ROUTE_KNOWS_NO_FRICTION = "joints have friction, which the reports of Rapier's joints do not contain";
     the_reactions_are_not_determined(t) = "the reactions are not determined at t = {t:.6} s (dead point)";
     // reactions.rs
     THE_MOTION_IS_FREE_BUT_A_PROBE = "the motion is free, but a probe needs prescribed speeds";

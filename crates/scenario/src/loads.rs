@@ -45,6 +45,13 @@ pub const SECTIONS: &[Section] = &[
             .means("unloaded length of the spring, not negative"),
         optional("free_angle", ValueKind::ANGLES, "required by the type").means("unloaded twist of the spring"),
         optional("damping", ValueKind::DAMPINGS_OR_SLOPES, "required by the type").means("damping, not negative"),
+        optional("joint", ValueKind::Text, "required by the type").means("the joint with friction"),
+        optional("coefficient", ValueKind::Number, "required by the type")
+            .means("coefficient of friction, not negative"),
+        optional("radius", ValueKind::LENGTHS.of(Sign::NotNegative), "required for a revolute joint")
+            .means("radius of the journal"),
+        optional("length", ValueKind::LENGTHS.of(Sign::NotNegative), "0: the moment of the guide causes no friction")
+            .means("length of the guide of a prismatic joint, half of it on each side of the point of the second link"),
         optional("table", ValueKind::Tables, "constant values")
             .means("load as a function of the crank angle: crank angles ascending, within one period"),
         optional("interpolation", ValueKind::Choice(|| names(INTERPOLATIONS)), "`\"linear\"`").means(
@@ -72,7 +79,11 @@ const SORTS: Words<fn(&mut TomlTable, &Mechanism) -> Result<Load>> = &[
     ("damper", damper),
     ("torsion_spring", torsion_spring),
     ("torsion_damper", torsion_damper),
+    ("friction", friction),
 ];
+
+/// Upper limit of a coefficient of friction. A larger number is a percentage or a mistake.
+const MOST_FRICTION: f64 = 10.0;
 
 /// Upper limit of the number of crank turns after which a table repeats.
 const MOST_TURNS: i64 = 1000;
@@ -80,6 +91,22 @@ const MOST_TURNS: i64 = 1000;
 /// Reads the loads. Loads with mistakes are left out.
 pub fn read(tables: Vec<TomlTable>, mechanism: &Mechanism, faults: &mut Faults) -> Vec<Load> {
     tables.into_iter().filter_map(|mut table| faults.read(&mut table, |table| load(table, mechanism))).collect()
+}
+
+fn friction(table: &mut TomlTable, mechanism: &Mechanism) -> Result<Load> {
+    let name = table.string("joint")?;
+    let Some(joint) = mechanism.joint_named(&name) else {
+        let names = mechanism.joints().iter().map(|joint| joint.name.as_str());
+        return table.refuse("joint", sentences::there_is_no_joint(&name), suggestion(&name, names, "\""));
+    };
+    let coefficient = table.number("coefficient")?;
+    if !(0.0..MOST_FRICTION).contains(&coefficient) {
+        let message = sentences::found_but_a_coefficient_lies(&coefficient, &MOST_FRICTION);
+        return table.refuse("coefficient", message, sentences::STEEL_ON_BRONZE);
+    }
+    let own = &mechanism.joints()[joint];
+    let length = if own.slides() { table.optional_si("length")?.unwrap_or(0.0) } else { table.si("radius")? };
+    Ok(Load::Friction { joint, links: [own.first.link, own.second.link], coefficient, length })
 }
 
 fn load(table: &mut TomlTable, mechanism: &Mechanism) -> Result<Load> {

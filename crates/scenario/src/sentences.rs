@@ -180,6 +180,8 @@ linkage::sentences! {
     ADD_A_SECTION_LINKS_NAME = "add a section `[links.NAME]` for each moving link";
     THERE_IS_NO_LINK_2 = "no link is given";
     // loads.rs
+    found_but_a_coefficient_lies(found, most) = "found {found}, but a coefficient of friction is not negative and below {most}";
+    STEEL_ON_BRONZE = "dry steel on steel has about 0.15, an oiled journal about 0.05";
     NAME_TWO_POINTS_THAT_MOVE = "name two points that move apart";
     a_joint_holds_the_two_points(first) = "a joint holds the two points \"{first}\" together";
     found_points_but_this_load(points) = "found {points} points, but this load acts between two";

@@ -147,7 +147,7 @@ fn drive_and_loads_change_the_energy() {
             };
             at.masses().map(of).sum()
         };
-        let loads = case.load_power(&at.here().motions, &at.here().angles);
+        let loads = case.load_power(&at.here().motions, &at.here().angles, at.here().reactions());
         let power = at.here().torques[0] * case.crank().at(0.0).rate + loads;
         at.around.is_slope("energy", at.mass * (REACH * at.fastest).powi(2), energy, power)
     });

@@ -9,8 +9,8 @@ use scenario::Scenario;
 
 use crate::common::{assert_within, states};
 
-const R: f64 = 0.1;
-const L: f64 = 0.35;
+pub const R: f64 = 0.1;
+pub const L: f64 = 0.35;
 const OMEGA: f64 = 3.0;
 
 /// Crank OA, rod AB, slider along x, without masses and gravity.

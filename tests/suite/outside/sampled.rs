@@ -116,6 +116,25 @@ impl Row<'_> {
                     let moment = stiffness * (twist - free_angle);
                     all.extend([couple(links[0], moment), couple(links[1], -moment)]);
                 }
+                Load::Friction { joint, links, coefficient, length } => {
+                    let joint = &self.case.mechanism.joints()[*joint];
+                    let name = format!("joint.{}", joint.name);
+                    let force = self.pair(&name, ["fx_N", "fy_N"]);
+                    let JointKind::Prismatic { axes: [axis, _] } = joint.kind else {
+                        let size = -sense(omega(links[1]) - omega(links[0])) * coefficient * length * force.norm();
+                        all.extend([couple(links[0], -size), couple(links[1], size)]);
+                        continue;
+                    };
+                    // Two contacts, at the ends of the guide.
+                    let moment = if *length > 0.0 { self.read(&format!("{name}.moment_N_m")) / length } else { 0.0 };
+                    let contacts = [force.norm() / 2.0 + moment, force.norm() / 2.0 - moment].map(f64::abs);
+                    let rate = sense(self.read(&format!("{name}.slide_speed_m_s")));
+                    let (sin, cos) = self.link(links[0]).turn[0].sin_cos();
+                    let along = Vec2::new(cos * axis.x - sin * axis.y, sin * axis.x + cos * axis.y);
+                    let own = along * (-rate * coefficient * (contacts[0] + contacts[1]));
+                    let place = self.point(joint.second)[0];
+                    all.extend([(links[0], place, -own, 0.0), (links[1], place, own, 0.0)]);
+                }
                 Load::TorsionDamper { links, damping } => {
                     let moment = damping * (omega(links[1]) - omega(links[0]));
                     all.extend([couple(links[0], moment), couple(links[1], -moment)]);

@@ -7,6 +7,7 @@
 
 mod body;
 mod driving;
+mod friction;
 mod higher;
 mod rrr;
 mod shaped;
@@ -15,9 +16,11 @@ mod sliding;
 use crate::assur::groups::{SolutionPlan, Step};
 use body::{Reactions, Settled};
 use driving::Driving;
+pub(crate) use friction::Dry;
 use higher::Higher;
 use linkage::case::Case;
 use linkage::drive::{Load, Wrench};
+use linkage::error::Result;
 use linkage::input::Input;
 use linkage::math::{Motion, Vec2};
 use linkage::mechanism::LinkId;
@@ -47,6 +50,8 @@ pub(super) struct Kinetostatics {
     /// One load per loaded link, if all loads are moments of resistance; otherwise `None`.
     /// Moments of resistance do not depend on the link's position.
     resistances: Option<Vec<(LinkId, Load)>>,
+    /// The joints with friction, if there are any, and the loads without friction.
+    dry: Option<Box<(Dry, Vec<Wrench>)>>,
     tally: WorkTally,
 }
 
@@ -73,14 +78,25 @@ impl Kinetostatics {
         }
         let loads = if case.loads.is_empty() { 0 } else { case.mechanism.links().len() };
         let resistances = case.loads.iter().map(Load::resistance).collect::<Option<Vec<_>>>().map(merged);
-        Kinetostatics { parts, drivers, loads: vec![Wrench::ZERO; loads], resistances, tally: WorkTally::default() }
+        let dry = Dry::of(case).map(|dry| Box::new((dry, vec![Wrench::ZERO; loads])));
+        Kinetostatics {
+            parts,
+            drivers,
+            loads: vec![Wrench::ZERO; loads],
+            resistances,
+            dry,
+            tally: WorkTally::default(),
+        }
     }
 
     /// Writes to `state` the reaction in every joint (first link on second; N, N m) and the balancing moments on the
     /// driving links (N m).
     /// The balancing moments follow from equilibrium about the pivots.
     /// The pose must be the last one that `plan` has solved. Loads may use the state's angles.
-    pub(super) fn solve(&mut self, case: &Case, plan: &SolutionPlan, state: &mut State) {
+    ///
+    /// # Errors
+    /// Those of [`Dry::settle`].
+    pub(super) fn solve(&mut self, case: &Case, plan: &SolutionPlan, state: &mut State) -> Result<()> {
         if let Some(resistances) = &self.resistances {
             // The loads on links without a moment of resistance stay zero.
             for (link, load) in resistances {
@@ -90,7 +106,37 @@ impl Kinetostatics {
         } else {
             case.loads_on(&state.motions, &state.angles, &mut self.loads);
         }
+        if let Some(mut dry) = self.dry.take() {
+            let found = self.rub(&mut dry, case, plan, state);
+            self.dry = Some(dry);
+            return found;
+        }
         self.balance(case, plan, state);
+        Ok(())
+    }
+
+    /// The joints with friction, if there are any.
+    pub(super) fn dry(&mut self) -> Option<&mut Dry> {
+        self.dry.as_mut().map(|dry| &mut dry.0)
+    }
+
+    /// Adds the friction to the loads, and solves.
+    #[cold]
+    fn rub(
+        &mut self,
+        (dry, loads): &mut (Dry, Vec<Wrench>),
+        case: &Case,
+        plan: &SolutionPlan,
+        state: &mut State,
+    ) -> Result<()> {
+        loads.copy_from_slice(&self.loads);
+        dry.sense(case, &state.motions);
+        dry.settle(case, state, &mut |efforts, state| {
+            self.loads.copy_from_slice(loads);
+            case.add_friction(efforts, &state.motions, &mut self.loads);
+            self.balance(case, plan, state);
+            Ok(())
+        })
     }
 
     /// Like [`Kinetostatics::solve`], with the given loads on all links.

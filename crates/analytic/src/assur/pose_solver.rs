@@ -3,7 +3,7 @@
 use crate::sentences;
 use std::slice;
 
-use super::forces::Kinetostatics;
+use super::forces::{Dry, Kinetostatics};
 use super::gauges::Gauges;
 use super::passing::{self, Passing, way_through};
 use super::turns::{CLOSED_FORM_STEP, FOLLOWED_STEP, Turns};
@@ -153,7 +153,7 @@ impl<'a> PoseSolver<'a> {
             if self.turns.is_some() && !self.case.loads.is_empty() {
                 self.with_angles();
             }
-            self.statics.solve(self.case, &self.plan, &mut self.state);
+            self.statics.solve(self.case, &self.plan, &mut self.state)?;
         }
         Ok(&self.state)
     }
@@ -328,6 +328,11 @@ impl<'a> PoseSolver<'a> {
         }
         let omega = if self.case.is_steady() { drive.at(drive.time_of(input)).rate } else { drive.top_speed() };
         self.solve(input, omega, 0.0, deepest)
+    }
+
+    /// The joints with friction, if there are any.
+    pub(super) fn dry(&mut self) -> Option<&mut Dry> {
+        self.statics.dry()
     }
 
     /// Coordinates of all driven joints at the last pose.

@@ -6,7 +6,7 @@
 //! a0 and alpha0 are the accelerations of the link if no free driving link accelerates.
 //! See docs/numerics/forces.md.
 
-use super::forces::Kinetostatics;
+use super::forces::{Dry, Kinetostatics};
 use super::passing::{self, Passing};
 use super::pose_solver::HALVINGS;
 use super::turns::{CLOSED_FORM_STEP, FOLLOWED_STEP, Turns};
@@ -18,7 +18,7 @@ use linkage::drive::Wrench;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::dense::Lu;
 use linkage::math::{KeepNan, Motion, Vec2};
-use linkage::mechanism::{self, GROUND, GroupId, LinkId};
+use linkage::mechanism::{self, GROUND, GroupId, JointId, LinkId};
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 use linkage::work;
@@ -51,6 +51,8 @@ pub(crate) struct TransferSide<'a> {
     sines: Vec<Option<f64>>,
     /// The argument `held` of the last call of `accelerate` in a window around a change point.
     held: Option<Held>,
+    /// The joints with friction, if there are any.
+    dry: Option<Dry>,
 }
 
 impl<'a> TransferSide<'a> {
@@ -81,9 +83,10 @@ impl<'a> TransferSide<'a> {
             right: vec![0.0; free.len()],
             free,
             loads: vec![Wrench::ZERO; case.mechanism.links().len()],
-            passing: (case.drives.further().is_empty() && case.crank().passes()).then(|| Passing::new(share)),
+            passing: case.passes().then(|| Passing::new(share)),
             sines: Vec::new(),
             held: None,
+            dry: Dry::of(case),
         };
         side.place().map_err(|reach| side.out_of_reach(reach))?;
         Ok(side)
@@ -198,38 +201,12 @@ impl<'a> TransferSide<'a> {
         }
     }
 
-    fn find_transfer(&mut self) {
-        let links = self.case.mechanism.links();
-        let mut unit = std::mem::take(&mut self.unit);
-        for k in 0..self.free.len() {
-            unit.fill(0.0);
-            unit[self.free[k]] = 1.0;
-            self.velocities(&unit);
-            for (link, body) in links.entries() {
-                let motion = &self.state.motions[link];
-                self.transfer[k * links.len() + link.index()] = (motion.point_velocity(body.mass_centre), motion.omega);
-            }
-        }
-        self.unit = unit;
-    }
-}
-
-impl Side for TransferSide<'_> {
-    fn accelerate(&mut self, inputs: &mut Inputs, held: &Held) -> Result<()> {
-        self.go_to(&inputs.angles)?;
-        self.find_transfer();
+    /// Solves for the accelerations of the free driving links and for those of all links, under the present loads.
+    fn embed(&mut self, inputs: &mut Inputs, held: &Held) -> Result<()> {
         for &index in &self.free {
             inputs.accelerations[index] = 0.0;
         }
-        self.velocities(&inputs.speeds);
         self.accelerations(&inputs.speeds, &inputs.accelerations);
-        if self.passing.as_ref().is_some_and(|passing| passing.inside().is_some()) {
-            self.held = Some(held.clone());
-        }
-        if !self.case.loads.is_empty() {
-            self.find_angles(&inputs.angles);
-            loads_held(self.case, &self.state.motions, &self.state.angles, held, &mut self.loads);
-        }
         let links = self.case.mechanism.links();
         self.matrix.clear();
         for i in 0..self.free.len() {
@@ -257,6 +234,51 @@ impl Side for TransferSide<'_> {
         Ok(())
     }
 
+    fn find_transfer(&mut self) {
+        let links = self.case.mechanism.links();
+        let mut unit = std::mem::take(&mut self.unit);
+        for k in 0..self.free.len() {
+            unit.fill(0.0);
+            unit[self.free[k]] = 1.0;
+            self.velocities(&unit);
+            for (link, body) in links.entries() {
+                let motion = &self.state.motions[link];
+                self.transfer[k * links.len() + link.index()] = (motion.point_velocity(body.mass_centre), motion.omega);
+            }
+        }
+        self.unit = unit;
+    }
+}
+
+impl Side for TransferSide<'_> {
+    fn accelerate(&mut self, inputs: &mut Inputs, held: &Held) -> Result<()> {
+        self.go_to(&inputs.angles)?;
+        self.find_transfer();
+        self.velocities(&inputs.speeds);
+        if self.passing.as_ref().is_some_and(|passing| passing.inside().is_some()) {
+            self.held = Some(held.clone());
+        }
+        if !self.case.loads.is_empty() {
+            self.find_angles(&inputs.angles);
+            loads_held(self.case, &self.state.motions, &self.state.angles, held, &mut self.loads);
+        }
+        let Some(mut dry) = self.dry.take() else { return self.embed(inputs, held) };
+        let (loads, mut state) = (self.loads.clone(), State::at_rest(self.case));
+        for (sense, friction) in dry.senses.iter_mut().zip(self.case.frictions()) {
+            *sense = held.senses[friction.load];
+        }
+        let found = dry.settle(self.case, &mut state, &mut |efforts, state| {
+            self.loads.copy_from_slice(&loads);
+            self.case.add_friction(efforts, &self.state.motions, &mut self.loads);
+            self.embed(inputs, held)?;
+            self.statics.solve_under(&self.loads, self.case, &self.plan, &mut self.state);
+            state.clone_from(&self.state);
+            Ok(())
+        });
+        self.dry = Some(dry);
+        found
+    }
+
     fn spin(&mut self, inputs: &Inputs, link: LinkId) -> Result<f64> {
         self.go_to(&inputs.angles)?;
         self.velocities(&inputs.speeds);
@@ -270,6 +292,15 @@ impl Side for TransferSide<'_> {
 
     fn acceleration(&self, at: mechanism::JointSide) -> Vec2 {
         self.state.motions[at.link].point_acceleration(at.local)
+    }
+
+    fn joint_ends(&self, joint: JointId) -> [LinkId; 2] {
+        let joint = &self.case.mechanism.joints()[joint];
+        [joint.first.link, joint.second.link]
+    }
+
+    fn joint_rates(&mut self, joint: JointId) -> [f64; 2] {
+        self.case.mechanism.joints()[joint].rates(&self.state.motions)
     }
 
     fn link_rates(&self, link: LinkId) -> [f64; 2] {

@@ -15,7 +15,7 @@ use linkage::drive::load::sense_of;
 use linkage::drive::{Load, MotorBranch, Senses};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{KeepNan, Vec2, cross, root};
-use linkage::mechanism::{JointSide, LinkId};
+use linkage::mechanism::{JointId, JointSide, LinkId};
 use linkage::solver::State;
 use linkage::work::{Count, WorkTally};
 
@@ -25,7 +25,7 @@ const FARTHEST: f64 = std::f64::consts::PI;
 /// A bound of a piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Bound {
-    /// The link or point that determines the sense of the load with this number reverses.
+    /// The link, point or joint that determines the sense of the load with this number reverses.
     Sense(usize),
     /// The motor leaves its branch towards higher speeds.
     TooFast,
@@ -67,7 +67,7 @@ type Sensed = (usize, Senses);
 fn sensed(case: &Case, load: &Load) -> Senses {
     match load.nature().senses {
         Senses::Link(link) if !case.can_turn(link) => Senses::Nothing,
-        senses @ (Senses::Nothing | Senses::Link(_) | Senses::Point(_)) => senses,
+        senses @ (Senses::Nothing | Senses::Link(_) | Senses::Point(_) | Senses::Joint(_)) => senses,
     }
 }
 
@@ -102,7 +102,7 @@ impl Held {
     fn sense(&self, (index, senses): Sensed) -> Vec2 {
         match senses {
             Senses::Nothing => Vec2::zeros(),
-            Senses::Link(_) => Vec2::new(self.senses[index], 0.0),
+            Senses::Link(_) | Senses::Joint(_) => Vec2::new(self.senses[index], 0.0),
             Senses::Point(_) => self.ways[index],
         }
     }
@@ -116,15 +116,17 @@ impl Work<'_> {
             Senses::Nothing => Ok(Vec2::zeros()),
             Senses::Link(link) => Ok(Vec2::new(self.side.spin(&self.inputs, link)?, 0.0)),
             Senses::Point(at) => self.side.velocity(&self.inputs, at),
+            Senses::Joint(joint) => Ok(Vec2::new(self.side.joint_rate(&self.inputs, joint)?, 0.0)),
         }
     }
 
     /// Derivative of the velocity of a link or point after the last call of [accelerate](side::Side::accelerate).
-    fn second(&self, (_, senses): Sensed) -> Vec2 {
+    fn second(&mut self, (_, senses): Sensed) -> Vec2 {
         match senses {
             Senses::Nothing => Vec2::zeros(),
             Senses::Link(link) => Vec2::new(self.side.link_rates(link)[1], 0.0),
             Senses::Point(at) => self.side.acceleration(at),
+            Senses::Joint(joint) => Vec2::new(self.side.joint_rates(joint)[1], 0.0),
         }
     }
 
@@ -133,7 +135,7 @@ impl Work<'_> {
         let rate = self.rate(own)?;
         match own.1 {
             Senses::Nothing => {}
-            Senses::Link(_) => self.held.senses[own.0] = rate.x.signum(),
+            Senses::Link(_) | Senses::Joint(_) => self.held.senses[own.0] = rate.x.signum(),
             Senses::Point(_) => self.held.ways[own.0] = sense_of(rate),
         }
         Ok(())
@@ -275,7 +277,9 @@ impl<'a, const N: usize> Pieces<'a, N> {
         let fastest = work.inputs.speeds.iter().fold(0.0f64, |most, speed| most.larger(speed.abs()));
         let mut stood = Vec::new();
         for &own in &self.sensed {
-            let size = if matches!(own.1, Senses::Point(_)) { self.case.mechanism.size() } else { 1.0 };
+            let slides = |joint: JointId| self.case.mechanism.joints()[joint].slides();
+            let is_length = matches!(own.1, Senses::Point(_)) || matches!(own.1, Senses::Joint(joint) if slides(joint));
+            let size = if is_length { self.case.mechanism.size() } else { 1.0 };
             if self.look(work, own)? <= AT_REST * fastest * size {
                 stood.push(own);
             } else {
@@ -292,7 +296,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
         self.put(&mut work.inputs, place.x, &place.y);
         let mut stood = Vec::new();
         for &own in &self.sensed {
-            let is_bound = own.0 == bound && matches!(own.1, Senses::Link(_));
+            let is_bound = own.0 == bound && !matches!(own.1, Senses::Point(_));
             if self.look(work, own)? <= AT_REST * self.fastest.borrow()[own.0] || is_bound {
                 stood.push(own);
             } else if matches!(own.1, Senses::Point(_)) {
@@ -336,7 +340,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
             let way = if way == Vec2::zeros() { before.sense((index, senses)) } else { way };
             match senses {
                 Senses::Nothing => {}
-                Senses::Link(_) => work.held.senses[index] = way.x,
+                Senses::Link(_) | Senses::Joint(_) => work.held.senses[index] = way.x,
                 Senses::Point(_) => work.held.ways[index] = way,
             }
         }
@@ -353,6 +357,10 @@ impl<'a, const N: usize> Pieces<'a, N> {
         match stood.iter().enumerate().find_map(is_held) {
             Some((_, Senses::Link(link) | Senses::Point(JointSide { link, .. }))) => {
                 Err(self.is_held(place, link, sentences::ITS_RESISTANCE_HOLDS))
+            }
+            Some((_, Senses::Joint(joint))) => {
+                let link = self.case.mechanism.joints()[joint].second.link;
+                Err(self.is_held(place, link, sentences::FRICTION_HOLDS))
             }
             Some((_, Senses::Nothing)) | None => Ok(()),
         }

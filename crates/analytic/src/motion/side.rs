@@ -8,7 +8,7 @@ use linkage::drive::{Load, Wrench};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::dense::Lu;
 use linkage::math::{Motion, Vec2};
-use linkage::mechanism::{JointSide as Place, LinkId};
+use linkage::mechanism::{GROUND, JointId, JointSide as Place, LinkId};
 use linkage::solver::State;
 
 /// The driving links at one instant, in the order of the drives: angles in the world (rad), angular velocities (rad/s)
@@ -28,7 +28,7 @@ pub(crate) struct Held {
     pub(crate) motor: f64,
     /// Moment of inertia that turns with the crank (kg m^2): rotor and reducer.
     pub(crate) added: f64,
-    /// For every load that depends on the sense of a link: this sense (+1, -1, 0 for standstill). Entries of other
+    /// For every load that depends on the sense of a link or joint: this sense (+1, -1, 0 for standstill). Entries of other
     /// loads are unused.
     pub(crate) senses: Vec<f64>,
     /// For every load against the motion of a point: direction of this motion at the beginning of the present step.
@@ -79,6 +79,20 @@ pub(crate) trait Side {
 
     /// Velocity (m/s) of a point of a link at the angles and speeds in `inputs`.
     fn velocity(&mut self, inputs: &Inputs, at: Place) -> Result<Vec2>;
+
+    /// Rate of a joint's coordinate (rad/s or m/s) at the angles and speeds in `inputs`.
+    fn joint_rate(&mut self, inputs: &Inputs, joint: JointId) -> Result<f64> {
+        let [first, second] = self.joint_ends(joint);
+        self.spin(inputs, if second == GROUND { first } else { second })?;
+        Ok(self.joint_rates(joint)[0])
+    }
+
+    /// First and second link of a joint.
+    fn joint_ends(&self, joint: JointId) -> [LinkId; 2];
+
+    /// Rate of a joint's coordinate (rad/s or m/s) and its second derivative after the last call of
+    /// [accelerate](Side::accelerate).
+    fn joint_rates(&mut self, joint: JointId) -> [f64; 2];
 
     /// Acceleration (m/s^2) of a point of a link after the last call of [accelerate](Side::accelerate).
     fn acceleration(&self, at: Place) -> Vec2;

@@ -34,6 +34,8 @@ pub(super) struct Blocks {
     /// For every row and every column: its block, and its position in this block.
     of_row: Vec<(usize, usize)>,
     of_column: Vec<(usize, usize)>,
+    /// All coefficients, row by row in the order of [`Blocks::add`]; unused unless the case has friction.
+    entries: Option<Vec<(usize, usize, f64)>>,
     solution: Vec<f64>,
 }
 
@@ -65,11 +67,13 @@ impl Blocks {
             let (matrix, zeros) = (Lu::new(size), vec![0.0; size]);
             Block { rows, columns, matrix, norms: zeros.clone(), beside: Vec::new(), right: zeros }
         });
-        Blocks { blocks: blocks.collect(), of_row, of_column, solution: vec![0.0; n] }
+        let entries = case.frictions().next().map(|_| Vec::new());
+        Blocks { blocks: blocks.collect(), of_row, of_column, entries, solution: vec![0.0; n] }
     }
 
     /// Sets all coefficients to zero.
     pub(super) fn clear(&mut self) {
+        self.entries.iter_mut().for_each(Vec::clear);
         for block in &mut self.blocks {
             block.matrix.clear();
             block.norms.fill(0.0);
@@ -80,6 +84,9 @@ impl Blocks {
     /// Adds `value` to the coefficient in `row`, `column`.
     #[inline]
     pub(super) fn add(&mut self, row: usize, column: usize, value: f64) {
+        if let Some(entries) = &mut self.entries {
+            entries.push((row, column, value));
+        }
         let (block, place) = self.of_row[row];
         let (beside, local) = self.of_column[column];
         let own = &mut self.blocks[block];
@@ -90,6 +97,11 @@ impl Blocks {
             debug_assert!(beside < block, "no block depends on a later one");
             own.beside.push((place, column, value));
         }
+    }
+
+    /// All coefficients: row, column and value; empty unless the case has friction.
+    pub(super) fn entries(&self) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
+        self.entries.iter().flatten().copied()
     }
 
     /// Factors all blocks. Returns false if one of them is singular to working precision, or not finite.

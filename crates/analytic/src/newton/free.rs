@@ -7,6 +7,7 @@
 //! The multipliers then are the reactions (Haug 1989, section 6.6, as in `solver`).
 //! See docs/numerics/forces.md.
 
+use super::friction::Freedom;
 use super::passing::Passing;
 use super::steps::TRACKING_STEP;
 use super::system::System;
@@ -16,8 +17,7 @@ use linkage::drive::Wrench;
 use linkage::error::Result;
 use linkage::math::dense::Lu;
 use linkage::math::{KeepNan, Vec2};
-use linkage::mechanism;
-use linkage::mechanism::LinkId;
+use linkage::mechanism::{self, GROUND, JointId, LinkId};
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
@@ -169,6 +169,13 @@ impl Side for Embedded<'_> {
         if self.passing.as_ref().is_some_and(|passing| passing.inside().is_some()) {
             self.held = Some(held.clone());
         }
+        if self.system.has_friction {
+            self.system.multipliers();
+            self.system.rub(Some(&Freedom { columns: &self.columns, free: &self.free, held }))?;
+            for &index in &self.free {
+                inputs.accelerations[index] = self.system.inputs[index].acceleration;
+            }
+        }
         Ok(())
     }
 
@@ -187,6 +194,18 @@ impl Side for Embedded<'_> {
         self.system.motion(at.link).0.point_acceleration(at.local)
     }
 
+    fn joint_ends(&self, joint: JointId) -> [LinkId; 2] {
+        let joint = &self.system.case.mechanism.joints()[joint];
+        [joint.first.link, joint.second.link]
+    }
+
+    fn joint_rates(&mut self, joint: JointId) -> [f64; 2] {
+        for link in self.joint_ends(joint).into_iter().filter(|link| *link != GROUND) {
+            self.system.motions[link] = self.system.motion(link).0;
+        }
+        self.system.case.mechanism.joints()[joint].rates(&self.system.motions)
+    }
+
     fn link_rates(&self, link: LinkId) -> [f64; 2] {
         let theta = 3 * (link.index() - 1) + 2;
         [self.system.rate[theta], self.system.second[theta]]
@@ -202,6 +221,8 @@ impl Side for Embedded<'_> {
                         loads_held(case, motions, angles, held, out);
                     })?;
                 }
+                // The multipliers with friction are known from the accelerations.
+                _ if self.system.has_friction => {}
                 (Some(_), None) | (None, _) => self.system.multipliers(),
             }
         }

@@ -50,6 +50,9 @@ impl System<'_> {
         if self.stage >= Stage::Reactions {
             self.find_loads(Case::loads_on);
             self.multipliers();
+            if self.has_friction {
+                self.rub(None)?;
+            }
         }
         Ok(())
     }
@@ -204,9 +207,7 @@ impl System<'_> {
         }
         self.tally.one(Count::Forces);
         self.jacobian.solve_transposed(&mut self.lambda);
-        if !self.case.mechanism.transmissions().is_empty() {
-            self.change_lines();
-        }
+        self.change_lines();
     }
 
     /// Refuses a pose beyond a singular pose: every block must keep the sign of its determinant.

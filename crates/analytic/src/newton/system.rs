@@ -30,6 +30,8 @@ pub(super) struct System<'a> {
     pub(super) beside: Vec<f64>,
     /// For every joint: see [`twist`].
     pub(super) twists: Vec<f64>,
+    /// Whether joints have friction.
+    pub(super) has_friction: bool,
     /// For every transmission: q2 - f(q1) in the start pose.
     pub(super) phases: PerTransmission<f64>,
     pub(super) jacobian: Blocks,
@@ -72,6 +74,7 @@ impl<'a> System<'a> {
             lambda: zeros(),
             beside: zeros(),
             phases: PerTransmission::default(),
+            has_friction: case.frictions().next().is_some(),
             twists: case.mechanism.joints().iter().map(|joint| twist(case, joint)).collect(),
             jacobian: Blocks::of(case),
             branch: Vec::new(),

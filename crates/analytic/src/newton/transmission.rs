@@ -107,8 +107,18 @@ impl System<'_> {
     /// Moves the forces of transmissions from their first lines of action to the lines that carry them, and adds the
     /// tension of slack strands.
     pub(super) fn change_lines(&mut self) {
-        self.beside.fill(0.0);
+        self.find_lines();
+        let rows = self.case.mechanism.equations();
+        self.lambda[..rows].iter_mut().zip(&self.beside).for_each(|(lambda, beside)| *lambda += beside);
+    }
+
+    /// Finds the changes of the multipliers by [`System::change_lines`].
+    pub(super) fn find_lines(&mut self) {
         let case = self.case;
+        if case.mechanism.transmissions().is_empty() {
+            return;
+        }
+        self.beside.fill(0.0);
         for (index, transmission) in case.mechanism.transmissions().entries() {
             let carrier = transmission.design.carrier;
             let force = self.lambda[case.mechanism.row_of_transmission(index)];
@@ -127,7 +137,5 @@ impl System<'_> {
             }
         }
         self.jacobian.solve_transposed(&mut self.beside);
-        let rows = case.mechanism.equations();
-        self.lambda[..rows].iter_mut().zip(&self.beside).for_each(|(lambda, beside)| *lambda += beside);
     }
 }

@@ -36,7 +36,8 @@ pub fn moment_of_resistance(case: &Case, state: &State) -> f64 {
     let power =
         |(body, motion): (&Link, &Motion)| case.gravity.dot(&motion.point_velocity(body.mass_centre)) * body.mass;
     let weights: f64 = case.mechanism.links().iter().zip(&state.motions).skip(1).map(power).sum();
-    -(weights + case.load_power(&state.motions, &state.angles)) / state.motions[case.crank().link].omega
+    -(weights + case.load_power(&state.motions, &state.angles, state.reactions()))
+        / state.motions[case.crank().link].omega
 }
 
 /// The period of the reduced quantities, and their kinks.
@@ -102,6 +103,10 @@ pub fn kinks(case: &Case) -> Result<Kinks> {
     if case.crank().input != Input::Angle {
         let message = sentences::the_drive_moves_no_crank(&case.crank().input.noun());
         return Err(Error::new(ErrorKind::Unsupported, message).help(sentences::DRIVE_THE_MECHANISM_AT_A_CRANK));
+    }
+    if case.frictions().next().is_some() {
+        let message = sentences::THE_REDUCTION_KNOWS_NO_FRICTION;
+        return Err(Error::new(ErrorKind::Unsupported, message).help(sentences::LET_THE_MOTION_BE_FREE));
     }
     if let Some(load) = case.loads.iter().find(|load| load.sensed_point().is_some()) {
         let message = sentences::reduced_quantities_are_asked_for_but_a_load(&load.sort());

@@ -17,7 +17,7 @@ pub fn shaking(case: &Case, state: &State) -> (Vec2, f64) {
         force += own;
         moment += cross(motion.point(link.mass_centre), own) - link.inertia * motion.alpha;
     }
-    case.each_load(&state.motions, &state.angles, |action| {
+    case.each_load(&state.motions, &state.angles, state.reactions(), |action| {
         force += action.force;
         moment += action.about(Vec2::zeros());
     });

@@ -14,7 +14,7 @@ pub fn of_known_forces(case: &Case, state: &State) -> f64 {
         force.dot(&motion.point_velocity(body.mass_centre)) - body.inertia * motion.alpha * motion.omega
     };
     let own: f64 = case.mechanism.links().iter().zip(&state.motions).skip(1).map(power).sum();
-    own + case.load_power(&state.motions, &state.angles)
+    own + case.load_power(&state.motions, &state.angles, state.reactions())
 }
 
 /// Balancing moment on the crank (N m), or driving force of the first drive (N), for which the powers of all forces sum to zero.

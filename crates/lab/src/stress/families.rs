@@ -2,6 +2,7 @@
 
 mod chain;
 mod four_bar;
+mod friction;
 mod gears;
 mod long;
 mod random;
@@ -18,6 +19,7 @@ pub static FAMILIES: &[StressFamily] = &[
     four_bar::SPEED,
     four_bar::SIZE,
     gears::GEAR_RATIO,
+    friction::FRICTION,
     settings::STEP,
     settings::SWEEPS,
     long::STEPS,

@@ -187,7 +187,9 @@ impl<'a> Needs<'a> {
     /// Whether the reduced case keeps a load.
     /// The reduced case keeps the load if it needs any forces and contains all links of the load.
     fn has_load(&self, load: &Load) -> bool {
-        self.carries.contains(&true) && load.links().iter().all(|&link| self.moves[link])
+        // Friction needs the reaction of its joint.
+        let is_known = load.sensed_joint().is_none_or(|joint| self.carries[self.owner(joint)]);
+        self.carries.contains(&true) && load.links().iter().all(|&link| self.moves[link]) && is_known
     }
 
     fn left_out(&self) -> LeftOut {
@@ -232,7 +234,7 @@ impl<'a> Needs<'a> {
             mechanism,
             structure,
             drives,
-            loads: loads.map(|load| load.on_links(|link| link_number[link])).collect(),
+            loads: loads.map(|load| load.renumbered(|link| link_number[link], |joint| joint_number[joint])).collect(),
             start: Pose(poses.collect()),
             modes,
             gravity: case.gravity,

@@ -59,11 +59,16 @@ impl Case {
             };
             (subject, name, Seat::Drive(index))
         });
+        let frictions = self.frictions().map(move |own| {
+            let joint = &joints[own.joint];
+            let subject = if joint.slides() { ChannelSubject::Guide } else { ChannelSubject::Journal };
+            (subject, joint.name.as_str(), Seat::Joint(own.joint))
+        });
         let joints = joints.entries().map(|(id, joint)| (ChannelSubject::Joint, joint.name.as_str(), Seat::Joint(id)));
         let transmissions = self.mechanism.transmissions().entries();
         let transmissions =
             transmissions.map(|(id, own)| (ChannelSubject::Transmission, own.name(), Seat::Transmission(id)));
-        links.chain(points).chain(joints).chain(sliders).chain(transmissions).chain(frame).chain(moved)
+        links.chain(points).chain(joints).chain(sliders).chain(frictions).chain(transmissions).chain(frame).chain(moved)
     }
 
     /// Joints whose reactions are requested, directly or as part of the force on the frame.

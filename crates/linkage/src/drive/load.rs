@@ -13,7 +13,7 @@ pub use state::{Action, LoadState, Wrench};
 
 use super::course::Course;
 use crate::math::{Motion, Vec2};
-use crate::mechanism::{JointSide, LinkId};
+use crate::mechanism::{JointId, JointSide, LinkId};
 
 /// A load on one link, or between two links.
 #[derive(Clone, Debug, PartialEq)]
@@ -93,10 +93,24 @@ pub enum Load {
         /// Damping (N m s/rad).
         damping: f64,
     },
+    /// Dry friction in a joint, against its sliding: see [`Friction`](crate::case::Friction).
+    /// The friction depends on the joint's reaction, so the solvers find both together.
+    Friction {
+        /// The joint.
+        joint: JointId,
+        /// First and second link of the joint.
+        links: [LinkId; 2],
+        /// Coefficient of friction. A negative number would drive the joint; scenario files refuse it.
+        coefficient: f64,
+        /// Radius of the journal of a revolute joint, or length of the guide of a prismatic joint (m), not negative.
+        /// The length 0 means that the moment of the guide causes no friction.
+        length: f64,
+    },
 }
 
 impl Load {
     /// Calls `put` with the action of the load on each of its links, the ground included.
+    /// Friction has no action here: see [`Friction::act`](crate::case::Friction::act).
     #[inline]
     pub fn act(&self, setting: &LoadState, put: &mut impl FnMut(Action)) {
         let motions = setting.motions;
@@ -141,6 +155,8 @@ impl Load {
             &Load::TorsionDamper { links, damping } => {
                 twist_back(links, damping * (motions[links[1]].omega - motions[links[0]].omega), put);
             }
+            // The action needs the joint's reaction.
+            Load::Friction { .. } => {}
         }
     }
 
@@ -173,6 +189,9 @@ impl Load {
             }
             &Load::TorsionDamper { links, damping: _ } => {
                 LoadNature { is_viscous: true, ..plain("torsion_damper", On::Links(links)) }
+            }
+            &Load::Friction { joint, links, coefficient: _, length: _ } => {
+                LoadNature { senses: Senses::Joint(joint), ..plain("friction", On::Joint(joint, links)) }
             }
         }
     }
@@ -217,6 +236,12 @@ impl Load {
             Load::TorsionDamper { links: [first, second], damping } => {
                 vec![LoadPart::Link(first), LoadPart::Link(second), amount("damping_N_m_s_rad", damping)]
             }
+            Load::Friction { joint: _, links: [first, second], coefficient, length } => vec![
+                LoadPart::Link(first),
+                LoadPart::Link(second),
+                amount("coefficient", coefficient),
+                LoadPart::Number { role: LoadRole::Extent, name: "length_m", value: length },
+            ],
         }
     }
 
@@ -226,7 +251,7 @@ impl Load {
     pub fn sensed_link(&self) -> Option<LinkId> {
         match self.nature().senses {
             Senses::Link(link) => Some(link),
-            Senses::Nothing | Senses::Point(_) => None,
+            Senses::Nothing | Senses::Point(_) | Senses::Joint(_) => None,
         }
     }
 
@@ -235,7 +260,22 @@ impl Load {
     pub fn sensed_point(&self) -> Option<JointSide> {
         match self.nature().senses {
             Senses::Point(at) => Some(at),
-            Senses::Nothing | Senses::Link(_) => None,
+            Senses::Nothing | Senses::Link(_) | Senses::Joint(_) => None,
+        }
+    }
+
+    /// Whether the load depends on a sense of motion.
+    #[must_use]
+    pub fn has_sense(&self) -> bool {
+        self.nature().senses != Senses::Nothing
+    }
+
+    /// Joint on whose sliding the load depends; `None` if there is no such joint.
+    #[must_use]
+    pub fn sensed_joint(&self) -> Option<JointId> {
+        match self.nature().senses {
+            Senses::Joint(joint) => Some(joint),
+            Senses::Nothing | Senses::Link(_) | Senses::Point(_) => None,
         }
     }
 
@@ -269,7 +309,8 @@ impl Load {
     }
 
     /// Jump of the load when the motion on whose sense it depends reverses at the crank angle `crank` (rad).
-    /// The jump is in N m, or in N for a force. The jump is not negative.
+    /// The jump is in N m, or in N for a force. For friction it is the jump per newton of the normal force.
+    /// The jump is not negative.
     /// The jump is zero for a load that depends on no sense of motion.
     /// The jump is also zero for a load that vanishes with the speed or at that crank angle.
     /// A load without a jump has at most a kink.
@@ -285,7 +326,13 @@ impl Load {
                 let [ahead, back] = [1.0, -1.0].map(|sense| self.force_in(Vec2::new(sense, 0.0)));
                 (ahead - back).norm()
             }
+            Senses::Joint(_) => self.friction().map_or(0.0, |coefficient| 2.0 * coefficient),
         }
+    }
+
+    /// Coefficient of a [friction](Load::Friction).
+    fn friction(&self) -> Option<f64> {
+        if let &Load::Friction { coefficient, .. } = self { Some(coefficient.abs()) } else { None }
     }
 
     /// For a [resistance](Load::Resistance): the loaded link and the size of the moment (N m).

@@ -46,7 +46,7 @@ impl Layout {
     fn of(case: &Case) -> Self {
         let deepest = case.wanted.deepest();
         let with_forces = deepest >= Stage::Reactions;
-        let has_sense = case.loads.iter().any(|load| load.sensed_link().is_some() || load.sensed_point().is_some());
+        let has_sense = case.has_sense();
         let joints = case.mechanism.joints();
         let slides = |&index: &JointId| joints[index].slides();
         Layout {

@@ -276,6 +276,15 @@ impl Joint {
         Some([slide, speed, second_derivative + slide * first.0.omega * first.0.omega])
     }
 
+    /// Rate of the joint's coordinate (rad/s or m/s), and its second derivative.
+    #[inline]
+    #[must_use]
+    pub fn rates(&self, motions: &[Motion]) -> [f64; 2] {
+        let [first, second] = [self.first, self.second].map(|side| &motions[side.link]);
+        self.slide(motions)
+            .map_or([second.omega - first.omega, second.alpha - first.alpha], |[_, rate, second]| [rate, second])
+    }
+
     /// The opening of the joint: a distance (m) and the sine of an angle.
     /// The distance is that between the joint's points on both links. In a prismatic pair, the distance is measured
     /// perpendicular to the axis.

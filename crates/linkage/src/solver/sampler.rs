@@ -10,7 +10,8 @@ use crate::math::{Motion, Vec2};
 use crate::mechanism::{JointId, JointSide, LinkId, TransmissionId};
 use crate::trajectory::channel::rows;
 use crate::trajectory::{
-    Channel, ChannelSubject, OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, OfTransmission, Stage, Trajectory,
+    Channel, ChannelSubject, OfDrive, OfFrame, OfFriction, OfJoint, OfLink, OfPoint, OfSlider, OfTransmission, Stage,
+    Trajectory,
 };
 
 /// Number of rows that are collected before they are written to their columns.
@@ -25,6 +26,8 @@ pub struct Sampler {
     points: Vec<(JointSide, Mask)>,
     joints: Vec<(JointId, Mask)>,
     sliders: Vec<(JointId, Mask)>,
+    /// Joints with friction.
+    frictions: Vec<(JointId, ChannelSubject, Mask)>,
     transmissions: Vec<(TransmissionId, Mask)>,
     frame: Mask,
     /// The drives that exert a moment. If the crank's drive is one of them, it comes first.
@@ -80,6 +83,7 @@ impl Sampler {
             points: Vec::new(),
             joints: Vec::new(),
             sliders: Vec::new(),
+            frictions: Vec::new(),
             transmissions: Vec::new(),
             frame: Mask::default(),
             drives: Vec::new(),
@@ -97,6 +101,9 @@ impl Sampler {
                 Seat::Link(link) => sampler.links.push((link, mask)),
                 Seat::Point(side) => sampler.points.push((side, mask)),
                 Seat::Joint(joint) if subject == ChannelSubject::Slider => sampler.sliders.push((joint, mask)),
+                Seat::Joint(joint) if matches!(subject, ChannelSubject::Journal | ChannelSubject::Guide) => {
+                    sampler.frictions.push((joint, subject, mask));
+                }
                 Seat::Joint(joint) => sampler.joints.push((joint, mask)),
                 Seat::Transmission(id) => sampler.transmissions.push((id, mask)),
                 Seat::Frame => sampler.frame = mask,
@@ -147,6 +154,19 @@ impl Sampler {
                 OfSlider::Moment => state.moments[index],
             });
         }
+        for &(joint, subject, mask) in &self.frictions {
+            let read = |of| match of {
+                OfFriction::Effort => {
+                    let own = case.frictions().find(|own| own.joint == joint);
+                    own.map_or(0.0, |own| own.effort(&state.motions, state.reactions()))
+                }
+            };
+            if subject == ChannelSubject::Guide {
+                out.put(&rows::GUIDE, mask, read);
+            } else {
+                out.put(&rows::JOURNAL, mask, read);
+            }
+        }
         for &(index, mask) in &self.transmissions {
             out.put(&rows::TRANSMISSION, mask, |of| match of {
                 OfTransmission::Force => state.transmitted[index],
@@ -173,6 +193,8 @@ impl Sampler {
                 | ChannelSubject::Point
                 | ChannelSubject::Joint
                 | ChannelSubject::Slider
+                | ChannelSubject::Journal
+                | ChannelSubject::Guide
                 | ChannelSubject::Transmission
                 | ChannelSubject::Frame
                 | ChannelSubject::Drive => out.put(&rows::DRIVE, mask, read),

@@ -1,6 +1,6 @@
 //! The state of a mechanism, in the form that all solvers use.
 
-use crate::case::Case;
+use crate::case::{Case, JointReactions};
 use crate::math::{KeepNan, Motion, Vec2, cross, unit};
 use crate::mechanism::{GROUND, Joint, PerJoint, PerLink, PerTransmission};
 
@@ -81,13 +81,19 @@ impl State {
                 }
             });
         }
-        case.each_load(&self.motions, &self.angles, |action| {
+        case.each_load(&self.motions, &self.angles, self.reactions(), |action| {
             if action.link == GROUND {
                 force += action.force;
                 moment += action.about(Vec2::zeros());
             }
         });
         (force, moment)
+    }
+
+    /// Forces (N) and moments (N m) of all joints.
+    #[must_use]
+    pub fn reactions(&self) -> JointReactions<'_> {
+        JointReactions { forces: &self.forces, moments: &self.moments }
     }
 
     /// Largest opening of a joint (m), and largest distance of a joint from the origin (m).

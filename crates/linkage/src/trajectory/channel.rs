@@ -4,7 +4,9 @@
 use crate::sentences;
 use std::fmt;
 
-use super::reading::{ChannelSubject, OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, OfTransmission, Reading};
+use super::reading::{
+    ChannelSubject, OfDrive, OfFrame, OfFriction, OfJoint, OfLink, OfPoint, OfSlider, OfTransmission, Reading,
+};
 use super::unit::Unit;
 
 /// The last stage that a solver must compute to obtain a channel. Each stage needs all stages before it.
@@ -77,6 +79,7 @@ const fn row(reading: Reading, suffix: &'static str, quantity: &'static str, uni
 /// The slide of a prismatic joint is the distance along its axis, from its point on the first link to its point on the
 /// second link.
 /// The moment of a prismatic joint acts from the first link on the second, about the joint's point on the second link.
+/// The friction of a joint acts on its second link. The reaction of the joint does not include it.
 /// The force of a transmission acts on its second member along its first line of action; a negative force acts along its
 /// second line.
 /// The force on the frame is the sum of the forces of the frame's joints and of the drive. The moment on the frame is
@@ -85,11 +88,13 @@ const fn row(reading: Reading, suffix: &'static str, quantity: &'static str, uni
 /// on its second link.
 /// The force of a drive acts along the axis of its prismatic joint from the first link on the second link.
 /// It is positive if it increases the slide. The reaction of the joint does not include it.
-pub static CHANNELS: [ChannelKind; 29] = TABLE;
+pub static CHANNELS: [ChannelKind; 31] = TABLE;
 
-const TABLE: [ChannelKind; 29] = {
+const TABLE: [ChannelKind; 31] = {
     use OfPoint::{AccelerationX, AccelerationY, VelocityX, VelocityY, X, Y};
-    use Reading::{Drive, Frame, FurtherThrust, Joint, Link, Motor, Point, Slider, Thrust, Transmission};
+    use Reading::{
+        Drive, Frame, FurtherThrust, Guide, Joint, Journal, Link, Motor, Point, Slider, Thrust, Transmission,
+    };
     use Stage::{Accelerations, BalancingMoment, Positions, Reactions, Velocities};
     use Unit::{Metre, MetrePerSecond, MetrePerSecondSquared, Newton, NewtonMetre};
     use Unit::{Radian, RadianPerSecond, RadianPerSecondSquared};
@@ -136,6 +141,8 @@ const TABLE: [ChannelKind; 29] = {
             Accelerations,
         ),
         row(Slider(OfSlider::Moment), "moment_N_m", "reaction moment", NewtonMetre, Reactions),
+        row(Journal(OfFriction::Effort), "friction_N_m", "friction moment", NewtonMetre, Reactions),
+        row(Guide(OfFriction::Effort), "friction_N", "friction force", Newton, Reactions),
         row(Transmission(OfTransmission::Force), "force_N", "force along the line of action", Newton, Reactions),
         row(Frame(OfFrame::ForceX), "fx_N", "shaking force", Newton, BalancingMoment),
         row(Frame(OfFrame::ForceY), "fy_N", "shaking force", Newton, BalancingMoment),
@@ -179,8 +186,8 @@ macro_rules! rows_of {
 /// Code that handles all rows of a subject therefore needs no look-up at run time.
 pub(crate) mod rows {
     use super::{
-        ChannelSubject, OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, OfTransmission, Reading, Stage, TABLE,
-        count,
+        ChannelSubject, OfDrive, OfFrame, OfFriction, OfJoint, OfLink, OfPoint, OfSlider, OfTransmission, Reading,
+        Stage, TABLE, count,
     };
 
     pub(crate) const LINK: [(OfLink, Stage); count(ChannelSubject::Link)] = rows_of!(Link, OfLink, OfLink::Angle);
@@ -189,6 +196,10 @@ pub(crate) mod rows {
         rows_of!(Joint, OfJoint, OfJoint::ForceX);
     pub(crate) const SLIDER: [(OfSlider, Stage); count(ChannelSubject::Slider)] =
         rows_of!(Slider, OfSlider, OfSlider::Slide);
+    pub(crate) const JOURNAL: [(OfFriction, Stage); count(ChannelSubject::Journal)] =
+        rows_of!(Journal, OfFriction, OfFriction::Effort);
+    pub(crate) const GUIDE: [(OfFriction, Stage); count(ChannelSubject::Guide)] =
+        rows_of!(Guide, OfFriction, OfFriction::Effort);
     pub(crate) const TRANSMISSION: [(OfTransmission, Stage); count(ChannelSubject::Transmission)] =
         rows_of!(Transmission, OfTransmission, OfTransmission::Force);
     pub(crate) const FRAME: [(OfFrame, Stage); count(ChannelSubject::Frame)] =

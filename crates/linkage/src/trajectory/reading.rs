@@ -11,6 +11,10 @@ pub enum ChannelSubject {
     Joint,
     /// A prismatic joint. The rows of this subject are additional: a prismatic joint also has the rows of every joint.
     Slider,
+    /// A revolute joint with friction.
+    Journal,
+    /// A prismatic joint with friction.
+    Guide,
     /// A transmission.
     Transmission,
     /// The frame. All joints with the ground and the drive act on it.
@@ -35,6 +39,8 @@ impl ChannelSubject {
             | ChannelSubject::Point
             | ChannelSubject::Joint
             | ChannelSubject::Slider
+            | ChannelSubject::Journal
+            | ChannelSubject::Guide
             | ChannelSubject::Transmission
             | ChannelSubject::Motor
             | ChannelSubject::FurtherThrust => false,
@@ -52,6 +58,8 @@ impl ChannelSubject {
             | ChannelSubject::Point
             | ChannelSubject::Joint
             | ChannelSubject::Slider
+            | ChannelSubject::Journal
+            | ChannelSubject::Guide
             | ChannelSubject::Transmission
             | ChannelSubject::Frame => false,
         }
@@ -63,7 +71,7 @@ impl ChannelSubject {
         match self {
             ChannelSubject::Link => "link",
             ChannelSubject::Point => "point",
-            ChannelSubject::Joint | ChannelSubject::Slider => "joint",
+            ChannelSubject::Joint | ChannelSubject::Slider | ChannelSubject::Journal | ChannelSubject::Guide => "joint",
             ChannelSubject::Transmission => "transmission",
             ChannelSubject::Frame => "frame",
             ChannelSubject::Drive | ChannelSubject::Motor | ChannelSubject::Thrust | ChannelSubject::FurtherThrust => {
@@ -86,6 +94,10 @@ pub enum Reading {
     Joint(OfJoint),
     /// An additional quantity of a prismatic joint.
     Slider(OfSlider),
+    /// The friction of a revolute joint.
+    Journal(OfFriction),
+    /// The friction of a prismatic joint.
+    Guide(OfFriction),
     /// A quantity of a transmission.
     Transmission(OfTransmission),
     /// A quantity of the frame.
@@ -109,6 +121,8 @@ impl Reading {
             Reading::Point(_) => ChannelSubject::Point,
             Reading::Joint(_) => ChannelSubject::Joint,
             Reading::Slider(_) => ChannelSubject::Slider,
+            Reading::Journal(_) => ChannelSubject::Journal,
+            Reading::Guide(_) => ChannelSubject::Guide,
             Reading::Transmission(_) => ChannelSubject::Transmission,
             Reading::Frame(_) => ChannelSubject::Frame,
             Reading::Drive(_) => ChannelSubject::Drive,
@@ -148,6 +162,8 @@ impl Reading {
             Reading::Link(OfLink::Alpha)
             | Reading::Slider(OfSlider::Acceleration | OfSlider::Moment)
             | Reading::Joint(_)
+            | Reading::Journal(_)
+            | Reading::Guide(_)
             | Reading::Transmission(_)
             | Reading::Frame(_)
             | Reading::Drive(_)
@@ -208,6 +224,14 @@ pub enum OfSlider {
     Acceleration,
     /// Moment of the first link on the second.
     Moment,
+}
+
+/// Quantity of a joint with friction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum OfFriction {
+    /// Friction on the second link: a moment in a revolute joint, a force along the axis in a prismatic joint. It is
+    /// positive if it increases the joint's coordinate.
+    Effort,
 }
 
 /// Quantity of a transmission.

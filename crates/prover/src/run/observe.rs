@@ -3,11 +3,11 @@
 use analytic::range::is_singular;
 use analytic::witness::{momentum, power};
 use linkage::case::Case;
-use linkage::drive::{Drive, Load};
+use linkage::drive::{Drive, Load, Senses as LoadSenses};
 use linkage::error::Error;
 use linkage::math::statistics::share;
 use linkage::math::{KeepNan, Motion, Vec2, largest_size};
-use linkage::mechanism::{JointSide, LinkId, LinkPose, Pose};
+use linkage::mechanism::{LinkPose, Pose};
 use linkage::solver::{Sampler, Solver, State};
 use linkage::trajectory::{Stage, Trajectory};
 
@@ -137,7 +137,7 @@ pub(super) fn observe(
     let mut torque = power.clone();
     let (arm, size, steady) = (case.drive_arm(), case.mechanism.size(), case.is_steady());
     let mut opening = if watch == Watch::Senses { Vec::new() } else { vec![0.0; case.grid.len()] };
-    let with_sense = case.loads.iter().filter(|load| load.sensed_link().is_some() || load.sensed_point().is_some());
+    let with_sense = case.loads.iter().filter(|load| load.has_sense());
     let mut senses = Senses::new(with_sense.count(), case.grid.len());
     let (mut reach, mut moment, mut fastest): (f64, f64, f64) = (0.0, 0.0, 0.0);
     let mut unbalance = Unbalance::default();
@@ -212,12 +212,15 @@ pub(super) fn observe(
 
 /// The velocity whose direction a load depends on (rad/s as the first component, or m/s); zero at standstill.
 fn sensed(case: &Case, state: &State, load: &Load) -> Option<Vec2> {
-    let of_link = |link: LinkId| Vec2::new(case.spin(&state.motions, link), 0.0);
-    let of_point = |at: JointSide| match case.moves(&state.motions, at) {
-        true => state.motions[at.link].point_velocity(at.local),
-        false => Vec2::zeros(),
-    };
-    load.sensed_link().map(of_link).or_else(|| load.sensed_point().map(of_point))
+    match load.nature().senses {
+        LoadSenses::Nothing => None,
+        LoadSenses::Link(link) => Some(Vec2::new(case.spin(&state.motions, link), 0.0)),
+        LoadSenses::Joint(joint) => Some(Vec2::new(case.joint_rate(&state.motions, joint), 0.0)),
+        LoadSenses::Point(at) => Some(match case.moves(&state.motions, at) {
+            true => state.motions[at.link].point_velocity(at.local),
+            false => Vec2::zeros(),
+        }),
+    }
 }
 
 /// Positions and directions of all links.
@@ -249,11 +252,20 @@ fn reduced_torque(case: &Case, state: &State) -> f64 {
 /// yet.
 fn open(case: &Case, state: &State, crank: f64) -> [f64; 2] {
     let mut open = [0.0; 2];
-    for load in case.loads.iter().filter(|load| sensed(case, state, load) == Some(Vec2::zeros())) {
+    let of_state = |load: &&Load| load.sensed_joint().is_none() && sensed(case, state, load) == Some(Vec2::zeros());
+    for load in case.loads.iter().filter(of_state) {
         let (jump, point) = (load.jump(crank), load.sensed_point());
         let lever = point.map(|at| state.motions[at.link].point(at.local).norm());
         open[0] += if point.is_some() { jump } else { 0.0 };
         open[1] += jump * lever.unwrap_or(1.0);
+    }
+    for friction in case.frictions().filter(|own| own.rate(&state.motions) == 0.0) {
+        let joint = &case.mechanism.joints()[friction.joint];
+        let size =
+            2.0 * friction.lever() * friction.normal(state.forces[friction.joint], state.moments[friction.joint]);
+        let place = state.motions[joint.second.link].point(joint.second.local).norm();
+        open[0] += if joint.slides() { size } else { 0.0 };
+        open[1] += size * if joint.slides() { place } else { 1.0 };
     }
     open
 }

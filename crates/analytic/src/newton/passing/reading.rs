@@ -16,7 +16,7 @@ impl Passing {
     /// The path from the settled start pose of a system, if its mechanism passes change points.
     pub(in crate::newton) fn of(system: &mut System) -> Option<Self> {
         let case = system.case;
-        (case.crank().passes() && case.drives.further().is_empty()).then(|| {
+        case.passes().then(|| {
             let own = system.inputs[0];
             let passing = Passing::from(system);
             system.inputs[0] = own;

@@ -7,7 +7,7 @@ use super::touch::parts;
 use linkage::case::Case;
 use linkage::drive::load::Acts;
 use linkage::drive::{Course, Drive, Load};
-use linkage::mechanism::LinkId;
+use linkage::mechanism::{Joint, LinkId};
 
 kinds! { Load, Case:
     "load-missing": "the first load is missing", |case, _| times(case, 0, 0.0);
@@ -79,6 +79,18 @@ kinds! { Load, Case:
         let &Load::TorsionSpring { links, stiffness, free_angle } = load else { return None };
         Some(Load::TorsionSpring { links, stiffness, free_angle: free_angle + TAU })
     });
+    "friction-missing": "the first friction is missing", |case, _| times(case, rubbed(case, |_| true)?, 0.0);
+    "friction-sign": "the first friction acts with the sliding", |case, _| times(case, rubbed(case, |_| true)?, -1.0);
+    "friction" (1e-2): "the first friction is too strong by a relative amount",
+        |case, size| times(case, rubbed(case, |_| true)?, 1.0 + size);
+    "friction-diameter": "the radius of the first journal is taken as its diameter", |case, _| {
+        times(case, rubbed(case, |joint| !joint.slides())?, 0.5)
+    };
+    "friction-of-moment": "the moment of the first guide causes no friction", |case, _| changed(case, &|load| {
+        let &Load::Friction { joint, links, coefficient, length } = load else { return None };
+        let has_moment = case.mechanism.joints()[joint].slides() && length > 0.0;
+        has_moment.then_some(Load::Friction { joint, links, coefficient, length: 0.0 })
+    });
     "damper-missing": "the first damper is missing", |case, _| times(case, damped(case)?, 0.0);
     "damper-sign": "the first damper has the wrong sign", |case, _| times(case, damped(case)?, -1.0);
     "damper" (1e-2): "the first damper is too strong by a relative amount", |case, size| times(case, damped(case)?, 1.0 + size);
@@ -112,6 +124,11 @@ fn is_spring(load: &Load) -> bool {
 
 fn sprung(case: &Case) -> Option<usize> {
     case.loads.iter().position(is_spring)
+}
+
+/// Index of the first friction in a joint that `is_meant` accepts.
+fn rubbed(case: &Case, is_meant: impl Fn(&Joint) -> bool) -> Option<usize> {
+    case.frictions().find(|own| is_meant(&case.mechanism.joints()[own.joint])).map(|own| own.load)
 }
 
 fn damped(case: &Case) -> Option<usize> {

@@ -3,7 +3,7 @@
 use super::{Acts, Load, LoadPart, LoadRole, On};
 use crate::drive::Course;
 use crate::math::Vec2;
-use crate::mechanism::{JointSide, LinkId};
+use crate::mechanism::{JointId, JointSide, LinkId};
 
 impl Load {
     /// Numbers of the links on which the load acts and on whose motion it depends: one or two links.
@@ -13,7 +13,7 @@ impl Load {
             On::Link(link) => vec![link],
             On::Point(at) => vec![at.link],
             On::Points(ends) => ends.map(|end| end.link).to_vec(),
-            On::Links(links) => links.to_vec(),
+            On::Links(links) | On::Joint(_, links) => links.to_vec(),
         }
     }
 
@@ -23,14 +23,17 @@ impl Load {
         match self.nature().on {
             On::Point(at) => vec![at],
             On::Points(ends) => ends.to_vec(),
-            On::Link(_) | On::Links(_) => Vec::new(),
+            On::Link(_) | On::Links(_) | On::Joint(..) => Vec::new(),
         }
     }
 
-    /// Returns this load on links with new numbers: `number` gives the new number of each of [`Load::links`].
+    /// Returns this load in a mechanism with new numbers of links and joints.
     #[must_use]
-    pub fn on_links(&self, number: impl Fn(LinkId) -> LinkId) -> Load {
+    pub fn renumbered(&self, number: impl Fn(LinkId) -> LinkId, of_joint: impl Fn(JointId) -> JointId) -> Load {
         let mut load = self.clone();
+        if let Load::Friction { joint, .. } = &mut load {
+            *joint = of_joint(*joint);
+        }
         for part in load.parts() {
             match part {
                 LoadPart::Link(link) | LoadPart::Point(JointSide { link, .. }) => *link = number(*link),
@@ -69,7 +72,9 @@ impl Load {
     pub fn is_sound(&self) -> bool {
         self.clone().parts().into_iter().all(|part| match part {
             LoadPart::Point(side) => side.local.iter().all(|value| value.is_finite()),
-            LoadPart::Number { role, name: _, value } => value.is_finite() && (role != LoadRole::Size || *value >= 0.0),
+            LoadPart::Number { role, name: _, value } => {
+                value.is_finite() && (!matches!(role, LoadRole::Size | LoadRole::Extent) || *value >= 0.0)
+            }
             LoadPart::Courses { name: _, values } => values.iter().all(Course::is_sound),
             LoadPart::Link(_) | LoadPart::Acts(_) | LoadPart::Follows(_) => true,
         })
@@ -98,7 +103,7 @@ impl Load {
                 LoadPart::Number { role: LoadRole::Size, .. } if factor < 0.0 => return None,
                 LoadPart::Number { role: LoadRole::Size | LoadRole::Amount, name: _, value } => *value *= factor,
                 LoadPart::Courses { name: _, values } => values.iter_mut().for_each(|own| *own = own.times(factor)),
-                LoadPart::Number { role: LoadRole::Rest { .. }, .. } => {}
+                LoadPart::Number { role: LoadRole::Rest { .. } | LoadRole::Extent, .. } => {}
                 LoadPart::Link(_) | LoadPart::Point(_) | LoadPart::Acts(_) | LoadPart::Follows(_) => {}
             }
         }

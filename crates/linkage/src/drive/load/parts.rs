@@ -1,7 +1,7 @@
 //! Properties that all kinds of load have in common.
 
 use crate::drive::Course;
-use crate::mechanism::{JointSide, LinkId};
+use crate::mechanism::{JointId, JointSide, LinkId};
 
 /// The sense of rotation of the link for which a moment acts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,6 +25,8 @@ pub enum Senses {
     Link(LinkId),
     /// The load depends on the direction of motion of a point.
     Point(JointSide),
+    /// The load depends on the sense in which a joint turns or slides.
+    Joint(JointId),
 }
 
 /// Point or link on which a load acts.
@@ -38,6 +40,8 @@ pub enum On {
     Points([JointSide; 2]),
     /// A moment between two links. The moment on the second link is opposite to that on the first.
     Links([LinkId; 2]),
+    /// The friction of a joint between two links.
+    Joint(JointId, [LinkId; 2]),
 }
 
 /// Name, point or link of action, and dependencies of a load: see [`Load::nature`](super::Load::nature).
@@ -64,6 +68,8 @@ pub enum LoadRole {
     Amount,
     /// The load is proportional to the number, which must not be negative.
     Size,
+    /// The number is a length of the joint (m), which must not be negative.
+    Extent,
     /// The number is the free length (m) or free angle (rad), at which the load vanishes.
     Rest {
         /// `m` or `rad`.

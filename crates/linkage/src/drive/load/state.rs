@@ -1,7 +1,7 @@
 //! Input and output of loads: the state on which they depend and their action on links.
 
 use crate::math::{Motion, Vec2, angle, cross};
-use crate::mechanism::{LinkId, LinkPose};
+use crate::mechanism::{Link, LinkId, LinkPose};
 
 /// The state on which loads depend. Slices have one entry per link.
 #[derive(Clone, Copy, Debug)]
@@ -72,4 +72,11 @@ pub struct Wrench {
 impl Wrench {
     /// No load.
     pub const ZERO: Wrench = Wrench { force: Vec2::new(0.0, 0.0), moment: 0.0 };
+
+    /// Adds an action on the link with this motion.
+    #[inline]
+    pub fn add(&mut self, action: &Action, motion: &Motion, link: &Link) {
+        self.force += action.force;
+        self.moment += action.about(motion.point(link.mass_centre));
+    }
 }

@@ -1,0 +1,293 @@
+//! Friction in the joints: the normal forces, and the reactions that they belong to.
+//!
+//! The reactions R are linear in the normal forces p of the joints with friction: R = R0 + C p.
+//! Each normal force is a norm of its joint's reaction, so that p = |R0 + C p|.
+//! The equation is solved by iteration. If the iteration converges slowly, Newton's method continues.
+//! With L_ij = |C_ij|, the iteration is a contraction if the spectral radius of L is below 1, and the solution is then
+//! the only one (Banach). Otherwise the equation is solved from several starts: without a solution the friction locks the
+//! mechanism, and with two solutions the forces are undetermined.
+//! By Collatz and Wielandt, the spectral radius is at most the largest ratio (L v)_i / v_i, for any v > 0.
+
+use crate::sentences;
+use linkage::case::{Case, Friction};
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::dense::Lu;
+use linkage::math::{KeepNan, Motion, Vec2};
+use linkage::solver::State;
+
+/// Reaction of a joint: force (N) and moment (N m).
+type Reaction = (Vec2, f64);
+
+/// Largest number of linearisations. One is enough unless a transmission changes its line of action.
+const ROUNDS: usize = 20;
+/// Relative change of the normal forces below which they are settled: rounding errors of the reactions are larger.
+const SETTLED: f64 = 1e-14;
+/// A change that has stopped falling is rounding error if it is below this fraction of the normal forces.
+const ROUNDING: f64 = 1e-10;
+/// Largest number of iterations, and of Newton's steps.
+const MOST: usize = 60;
+/// The iteration continues while each change is below this fraction of the change before.
+const QUICK: f64 = 0.3;
+/// Number of applications of L to a start vector.
+const POWERS: usize = 8;
+/// Relative difference of two different solutions.
+const DIFFERENT: f64 = 1e-6;
+/// Sizes of the starts, over the largest normal force without friction.
+const STARTS: [f64; 7] = [0.0, 0.1, 1.0, 3.0, 10.0, 100.0, 1e4];
+
+/// Reason why there is no unique solution.
+#[derive(Debug)]
+enum Stuck {
+    Locked,
+    Several,
+}
+
+/// The normal forces of all joints with friction, prepared for many poses.
+#[derive(Clone, Debug)]
+pub(crate) struct Dry {
+    /// Sense of the sliding of every joint: +1, -1, or 0 at standstill.
+    pub(crate) senses: Vec<f64>,
+    /// Sense in which the friction of a joint at standstill acts: 0 unless its interval is sought.
+    pub(crate) at_rest: Vec<f64>,
+    normals: Vec<f64>,
+    /// Normal forces at which the reactions are linearised.
+    at: Vec<f64>,
+    next: Vec<f64>,
+    efforts: Vec<f64>,
+    base: Vec<Reaction>,
+    /// Changes of the reactions per newton of each normal force, one after the other.
+    columns: Vec<Reaction>,
+    matrix: Lu,
+}
+
+impl Dry {
+    /// The joints of a case; `None` if no joint has friction.
+    pub(crate) fn of(case: &Case) -> Option<Self> {
+        let n = case.frictions().count();
+        let zeros = || vec![0.0; n];
+        (n > 0).then(|| Dry {
+            senses: zeros(),
+            at_rest: zeros(),
+            normals: zeros(),
+            at: zeros(),
+            next: zeros(),
+            efforts: zeros(),
+            base: vec![(Vec2::zeros(), 0.0); n],
+            columns: vec![(Vec2::zeros(), 0.0); n * n],
+            matrix: Lu::new(n),
+        })
+    }
+
+    /// Takes the senses from a motion.
+    pub(crate) fn sense(&mut self, case: &Case, motions: &[Motion]) {
+        for ((sense, at_rest), friction) in self.senses.iter_mut().zip(&self.at_rest).zip(case.frictions()) {
+            let rate = friction.rate(motions);
+            *sense = if rate == 0.0 { *at_rest } else { rate.signum() };
+        }
+    }
+
+    /// Finds the reactions with friction. `react` writes to the state the reactions for given frictions on the second
+    /// links (N m or N). It must be linear in them, but for the lines of action of transmissions.
+    ///
+    /// # Errors
+    /// Those of `react`; [`ErrorKind::Numeric`] if the friction locks the mechanism, or if several states of the forces
+    /// are in equilibrium.
+    pub(crate) fn settle(
+        &mut self,
+        case: &Case,
+        state: &mut State,
+        react: &mut dyn FnMut(&[f64], &mut State) -> Result<()>,
+    ) -> Result<()> {
+        let mut last = f64::INFINITY;
+        self.at.fill(0.0);
+        for round in 0..ROUNDS {
+            self.react(case, 0.0, 0, state, react)?;
+            for (k, friction) in case.frictions().enumerate() {
+                self.base[k] = reaction(&friction, state);
+                self.normals[k] = friction.normal(self.base[k].0, self.base[k].1);
+            }
+            let largest = self.normals.iter().chain(&self.at).fold(0.0f64, |most, own| most.larger(*own));
+            let change = self.normals.iter().zip(&self.at).fold(0.0f64, |most, (a, b)| most.larger((a - b).abs()));
+            let is_rounding = change <= ROUNDING * largest && !(change < 0.5 * last);
+            if round > 0 && (change <= SETTLED * largest || is_rounding) {
+                return Ok(());
+            }
+            last = change;
+            let unit = if largest > 0.0 { largest } else { 1.0 };
+            for i in 0..self.normals.len() {
+                self.react(case, unit, i, state, react)?;
+                for (j, friction) in case.frictions().enumerate() {
+                    let ((force, moment), base) = (reaction(&friction, state), self.base[j]);
+                    self.columns[i * self.normals.len() + j] = ((force - base.0) / unit, (moment - base.1) / unit);
+                }
+            }
+            self.solve(case, unit).map_err(|why| stuck(case, state, &why))?;
+            std::mem::swap(&mut self.at, &mut self.normals);
+        }
+        // A transmission changes its line of action again and again.
+        Err(stuck(case, state, &Stuck::Locked))
+    }
+
+    /// Finds the reactions for the normal forces `at`, with `more` added to the normal force number `index`.
+    fn react(
+        &mut self,
+        case: &Case,
+        more: f64,
+        index: usize,
+        state: &mut State,
+        react: &mut dyn FnMut(&[f64], &mut State) -> Result<()>,
+    ) -> Result<()> {
+        for (k, friction) in case.frictions().enumerate() {
+            let normal = self.at[k] + if k == index { more } else { 0.0 };
+            self.efforts[k] = -self.senses[k] * friction.lever() * normal;
+        }
+        react(&self.efforts, state)
+    }
+
+    /// Reaction number `j` for the normal forces `normals`, linearised.
+    fn linear(&self, normals: &[f64], j: usize) -> Reaction {
+        let (mut force, mut moment) = self.base[j];
+        for (i, (normal, at)) in normals.iter().zip(&self.at).enumerate() {
+            let column = self.columns[i * normals.len() + j];
+            force += column.0 * (normal - at);
+            moment += column.1 * (normal - at);
+        }
+        (force, moment)
+    }
+
+    /// Solves for the normal forces. `unit` is the largest of them without friction.
+    fn solve(&mut self, case: &Case, unit: f64) -> std::result::Result<(), Stuck> {
+        if self.contracts(case) {
+            let mut start = std::mem::take(&mut self.normals);
+            let is_found = self.iterate(case, &mut start) || self.newton(case, &mut start);
+            self.normals = start;
+            return if is_found { Ok(()) } else { Err(Stuck::Locked) };
+        }
+        let mut found: Option<Vec<f64>> = None;
+        let n = self.normals.len();
+        for size in STARTS {
+            for only in 0..=n {
+                let mut start: Vec<f64> =
+                    (0..n).map(|k| if only == n || only == k { size * unit } else { 0.1 * size * unit }).collect();
+                if !self.newton(case, &mut start) {
+                    continue;
+                }
+                let differs = |own: &f64, other: &f64| (own - other).abs() > DIFFERENT * (own.abs() + other.abs());
+                match &found {
+                    Some(known) if known.iter().zip(&start).any(|(own, other)| differs(own, other)) => {
+                        return Err(Stuck::Several);
+                    }
+                    Some(_) => {}
+                    None => found = Some(start),
+                }
+            }
+        }
+        self.normals = found.ok_or(Stuck::Locked)?;
+        Ok(())
+    }
+
+    /// Whether the iteration is a contraction.
+    fn contracts(&mut self, case: &Case) -> bool {
+        let n = self.normals.len();
+        let (mut v, mut before) = (std::mem::take(&mut self.next), std::mem::take(&mut self.efforts));
+        v.fill(1.0);
+        let mut ratio = f64::INFINITY;
+        for _ in 0..POWERS {
+            let (mut most, mut sum) = (0.0f64, 0.0);
+            before.copy_from_slice(&v);
+            for (j, friction) in case.frictions().enumerate() {
+                let of = |i: usize| {
+                    let (force, moment) = self.columns[i * n + j];
+                    friction.normal(force, moment) * before[i]
+                };
+                let own: f64 = (0..n).map(of).sum();
+                most = most.larger(own / before[j]);
+                // The sum of the powers stays positive.
+                v[j] = before[j] + own;
+                sum += v[j];
+            }
+            ratio = ratio.smaller(most);
+            v.iter_mut().for_each(|own| *own *= n as f64 / sum);
+        }
+        (self.next, self.efforts) = (v, before);
+        ratio < 1.0
+    }
+
+    /// Iterates from `start` while the changes fall quickly. Returns whether the iteration has converged.
+    fn iterate(&mut self, case: &Case, start: &mut [f64]) -> bool {
+        let mut last = f64::INFINITY;
+        for _ in 0..MOST {
+            let (mut change, mut largest) = (0.0f64, 0.0f64);
+            for (j, friction) in case.frictions().enumerate() {
+                let (force, moment) = self.linear(start, j);
+                self.next[j] = friction.normal(force, moment);
+                change = change.larger((self.next[j] - start[j]).abs());
+                largest = largest.larger(self.next[j]);
+            }
+            start.copy_from_slice(&self.next);
+            if change <= f64::EPSILON * largest {
+                return true;
+            }
+            if !(change <= QUICK * last) {
+                return false;
+            }
+            last = change;
+        }
+        false
+    }
+
+    /// Newton's method for p - |R0 + C p| = 0 from `start`. Returns whether it has converged to a solution.
+    fn newton(&mut self, case: &Case, start: &mut [f64]) -> bool {
+        let (n, mut last) = (start.len(), f64::INFINITY);
+        for _ in 0..MOST {
+            self.matrix.clear();
+            let mut largest = 0.0f64;
+            for (j, friction) in case.frictions().enumerate() {
+                let (force, moment) = self.linear(start, j);
+                let normal = friction.normal(force, moment);
+                self.next[j] = start[j] - normal;
+                largest = largest.larger(normal).larger(start[j].abs());
+                self.matrix.add(j, j, 1.0);
+                for i in 0..n {
+                    let column = self.columns[i * n + j];
+                    self.matrix.add(j, i, -slope(&friction, (force, moment), column));
+                }
+            }
+            if !self.matrix.factor() {
+                return false;
+            }
+            self.matrix.solve(&mut self.next);
+            let change = self.next.iter().fold(0.0f64, |most, own| most.larger(own.abs()));
+            start.iter_mut().zip(&self.next).for_each(|(own, step)| *own -= step);
+            let is_rounding = change <= ROUNDING * largest && !(change < 0.5 * last);
+            if change <= 4.0 * f64::EPSILON * largest || is_rounding {
+                return start.iter().all(|own| *own >= -ROUNDING * largest);
+            }
+            last = change;
+        }
+        false
+    }
+}
+
+/// Reaction of a joint with friction.
+fn reaction(friction: &Friction, state: &State) -> Reaction {
+    (state.forces[friction.joint], state.moments[friction.joint])
+}
+
+/// Derivative of [`Friction::normal`] at a reaction, in the direction of a change of the reaction.
+fn slope(friction: &Friction, (force, moment): Reaction, change: Reaction) -> f64 {
+    let (size, guide) = (force.norm(), friction.guide());
+    if guide > 0.0 && 2.0 * moment.abs() / guide > size {
+        return 2.0 * moment.signum() * change.1 / guide;
+    }
+    if size > 0.0 { force.dot(&change.0) / size } else { change.0.norm() }
+}
+
+fn stuck(case: &Case, state: &State, why: &Stuck) -> Error {
+    let at = case.told(case.input_in(&state.motions, &state.angles));
+    let message = match why {
+        Stuck::Locked => sentences::friction_locks_the_mechanism(&at),
+        Stuck::Several => sentences::friction_allows_several_states(&at),
+    };
+    Error::new(ErrorKind::Numeric, message).at_input(at).help(sentences::LOWER_A_COEFFICIENT_OF_FRICTION)
+}

@@ -1,0 +1,33 @@
+//! The interval of the driving force that friction leaves open where joints rest.
+
+use super::PoseSolver;
+use linkage::case::Case;
+use linkage::error::Result;
+use linkage::math::KeepNan;
+use linkage::trajectory::Stage;
+
+/// Largest number of joints at rest whose friction is varied: all combinations of their senses are solved.
+const MOST_RESTING: usize = 8;
+
+/// Smallest and largest moment or force of the first drive at an instant (row of the grid) at which joints with friction
+/// rest: the friction of each of them acts in either sense or not at all.
+/// `None` if no such joint rests.
+///
+/// # Errors
+/// Those of [`PoseSolver::solve_row`].
+pub fn effort_at_rest(case: &Case, row: usize) -> Result<Option<[f64; 2]>> {
+    let mut poses = PoseSolver::new(case)?;
+    let state = poses.solve_row(row, Stage::BalancingMoment)?;
+    let resting = case.frictions().enumerate().filter(|(_, friction)| friction.rate(&state.motions) == 0.0);
+    let resting: Vec<usize> = resting.map(|(k, _)| k).take(MOST_RESTING).collect();
+    let mut range = [state.torques[0]; 2];
+    for senses in 0..1u32 << resting.len() {
+        if let Some(dry) = poses.dry() {
+            let sense = |bit: usize| if senses >> bit & 1 == 0 { -1.0 } else { 1.0 };
+            resting.iter().enumerate().for_each(|(bit, &k)| dry.at_rest[k] = sense(bit));
+        }
+        let effort = poses.solve_row(row, Stage::BalancingMoment)?.torques[0];
+        range = [range[0].smaller(effort), range[1].larger(effort)];
+    }
+    Ok((!resting.is_empty()).then_some(range))
+}

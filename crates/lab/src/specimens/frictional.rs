@@ -1,0 +1,32 @@
+//! Random mechanisms with friction in their joints.
+
+use linkage::case::Case;
+use linkage::drive::Load;
+
+use super::sketch::RandomSource;
+
+/// Largest coefficient of friction, and largest radius of a journal over the mechanism's size.
+/// Larger numbers lock many mechanisms.
+const COEFFICIENT: f64 = 0.15;
+const RADIUS: f64 = 0.03;
+/// Range of the length of a guide over the mechanism's size.
+const GUIDE: [f64; 2] = [0.2, 0.6];
+
+/// The mechanism of `case` with friction in half of its joints. `None` if the case must not have friction.
+pub fn frictional(random: &mut RandomSource, case: &Case) -> Option<Case> {
+    let size = case.mechanism.size();
+    let mut loads = case.loads.clone();
+    for (joint, own) in case.mechanism.joints().entries() {
+        if random.yes() {
+            continue;
+        }
+        let length = match own.slides() {
+            false => size * random.number(0.0, RADIUS),
+            true if random.yes() => 0.0,
+            true => size * random.number(GUIDE[0], GUIDE[1]),
+        };
+        let coefficient = random.number(0.01, COEFFICIENT);
+        loads.push(Load::Friction { joint, links: [own.first.link, own.second.link], coefficient, length });
+    }
+    case.with(|parts| parts.loads = loads).ok()
+}

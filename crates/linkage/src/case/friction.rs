@@ -1,0 +1,125 @@
+//! Dry friction in the joints.
+//!
+//! Friction acts against the sliding of a joint. Its size is the coefficient of friction times the normal forces of the
+//! contacts.
+//! A journal of the radius r has one contact with the force R of the joint: the moment is mu r |R|.
+//! A guide of the length l carries the force N and the moment M with two contacts at its ends, N/2 + M/l and N/2 - M/l.
+//! The sum of their sizes is the larger of |N| and 2 |M| / l.
+//! See docs/numerics/friction.md.
+//! J. L. Meriam, L. G. Kraige, Engineering Mechanics: Statics, 7th ed., Wiley 2012, sections 6/3 and 6/6, with the
+//! coefficient of friction for the radius of the friction circle; the two contacts are derived here from equilibrium.
+
+use super::{Case, STANDSTILL, fastest};
+use crate::drive::{Action, Load, Wrench};
+use crate::math::{KeepNan, Motion, Vec2};
+use crate::mechanism::{Joint, JointId};
+
+/// The friction of a joint.
+#[derive(Clone, Copy, Debug)]
+pub struct Friction<'a> {
+    case: &'a Case,
+    /// Index of the load.
+    pub load: usize,
+    /// The joint.
+    pub joint: JointId,
+    coefficient: f64,
+    /// Radius of the journal, or length of the guide (m).
+    length: f64,
+}
+
+impl Case {
+    /// The friction of every joint that has one, in the order of the loads.
+    pub fn frictions(&self) -> impl Iterator<Item = Friction<'_>> {
+        self.loads.iter().enumerate().filter_map(|(load, own)| {
+            let &Load::Friction { joint, links: _, coefficient, length } = own else { return None };
+            Some(Friction { case: self, load, joint, coefficient, length })
+        })
+    }
+
+    /// Rate of a joint's coordinate (rad/s or m/s).
+    /// The result is zero if the rate may be only a rounding error of the mechanism's speeds.
+    #[must_use]
+    pub fn joint_rate(&self, motions: &[Motion], joint: JointId) -> f64 {
+        let joint = &self.mechanism.joints()[joint];
+        let (rate, unit) = (joint.rates(motions)[0], if joint.slides() { self.mechanism.size() } else { 1.0 });
+        // The comparison is false for NaN.
+        if rate.abs() > STANDSTILL * fastest(motions) * unit { rate } else { 0.0 }
+    }
+}
+
+impl Case {
+    /// Adds frictions to the loads on all links. `efforts` are those of [`Case::frictions`] on the second links (N m or N).
+    pub fn add_friction(&self, efforts: &[f64], motions: &[Motion], out: &mut [Wrench]) {
+        for (friction, &effort) in self.frictions().zip(efforts) {
+            for action in friction.act(effort, motions) {
+                out[action.link].add(&action, &motions[action.link], &self.mechanism.links()[action.link]);
+            }
+        }
+    }
+}
+
+/// JointReactions of all joints: forces (N), and moments about the joints' points on their second links (N m).
+#[derive(Clone, Copy, Debug)]
+pub struct JointReactions<'a> {
+    /// One force per joint.
+    pub forces: &'a [Vec2],
+    /// One moment per joint.
+    pub moments: &'a [f64],
+}
+
+impl Friction<'_> {
+    fn of_joint(&self) -> &Joint {
+        &self.case.mechanism.joints()[self.joint]
+    }
+
+    /// Sum of the contacts' normal forces (N) for a reaction: force (N), and moment about the joint's point on the second
+    /// link (N m). The sum is a norm of the reaction.
+    #[must_use]
+    pub fn normal(&self, force: Vec2, moment: f64) -> f64 {
+        match self.of_joint().slides() && self.length > 0.0 {
+            true => force.norm().larger(2.0 * moment.abs() / self.length),
+            false => force.norm(),
+        }
+    }
+
+    /// Friction per newton of [`normal`](Friction::normal): a moment (m) in a revolute joint, a force (1) in a prismatic
+    /// joint.
+    #[must_use]
+    pub fn lever(&self) -> f64 {
+        if self.of_joint().slides() { self.coefficient } else { self.coefficient * self.length }
+    }
+
+    /// Speed of the contact per rate of the joint's coordinate: the radius of the journal (m), or 1.
+    #[must_use]
+    pub fn contact(&self) -> f64 {
+        if self.of_joint().slides() { 1.0 } else { self.length }
+    }
+
+    /// Length of the guide (m): zero for a revolute joint, and if the guide's moment causes no friction.
+    #[must_use]
+    pub fn guide(&self) -> f64 {
+        if self.of_joint().slides() { self.length } else { 0.0 }
+    }
+
+    /// [`Case::joint_rate`] of the joint.
+    #[must_use]
+    pub fn rate(&self, motions: &[Motion]) -> f64 {
+        self.case.joint_rate(motions, self.joint)
+    }
+
+    /// Friction on the second link (N m or N) for these reactions, positive if it increases the joint's coordinate.
+    /// It is zero at standstill.
+    #[must_use]
+    pub fn effort(&self, motions: &[Motion], reactions: JointReactions) -> f64 {
+        let (rate, joint) = (self.rate(motions), self.joint.index());
+        let normal = self.normal(reactions.forces[joint], reactions.moments[joint]);
+        if rate == 0.0 { 0.0 } else { -rate.signum() * self.lever() * normal }
+    }
+
+    /// Actions of the friction on the joint's first link, then on its second link.
+    /// `effort` is the friction on the second link (N m or N), positive if it increases the joint's coordinate.
+    #[must_use]
+    pub fn act(&self, effort: f64, motions: &[Motion]) -> [Action; 2] {
+        self.case.joint_effort(self.joint, effort, motions)
+    }
+}
