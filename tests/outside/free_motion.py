@@ -58,12 +58,16 @@ class Motion:
             axes = [float(quantity(joint, key, mpf(0))) for key in ("axis", "second_axis")] if slide else None
             self.joints.append((ends, axes, float(2 * mp.pi * m.turns.get(joint["name"], 0))))
         self.driven = [self.joints[m.joints.index(m.joint(drive))] for drive in m.drives]
-        self.sense = {}
+        self.sense, self.rubbed = {}, []
         for number, load in enumerate(m.loads):
             assert "table" not in load or load.get("interpolation", "linear") == "smooth", "a linear table has knots"
             assert load["type"] != "resisting_force" and load.get("acts", "always") == "always", load
             if load["type"] == "resistance":
-                self.sense[number] = 3 * (m.links.index(load["link"]) - 1) + 2
+                self.sense[number] = lambda q, v, k=3 * (m.links.index(load["link"]) - 1) + 2: v[k]
+            elif load["type"] == "friction":
+                index = next(j for j, own in enumerate(m.joints) if own["name"] == load["joint"])
+                self.sense[number] = lambda q, v, index=index: self.sliding(q, v, index)[0]
+                self.rubbed.append((number, index, load["coefficient"], float(quantity(load, "radius", quantity(load, "length", mpf(0))))))
         self.motor_least = np.inf
 
     def rows(self, q, v):
@@ -104,6 +108,45 @@ class Motion:
                 bias += [dot(across, second) - 2 * omega * dot(along, rate) - omega**2 * dot(across, gap), 0.0]
             jacobian.append(row)
         return np.array(value), np.vstack(jacobian), np.array(bias)
+
+    def sliding(self, q, v, index):
+        """Rate of a joint's coordinate, its axis, and the place of the second link; the last two for a slide."""
+        (i, a, j, b), axes, _ = self.joints[index]
+        spin = lambda link: (q[3 * link + 2], v[3 * link + 2]) if link >= 0 else (0.0, 0.0)
+        (angle, omega), (other, turning) = spin(i), spin(j)
+        if axes is None:
+            return turning - omega, None, None
+        along, arm = np.exp(1j * (angle + axes[0])), b * np.exp(1j * other)
+        at = arm + (complex(*q[3 * j:3 * j + 2]) if j >= 0 else 0)
+        speed = 1j * turning * arm + (complex(*v[3 * j:3 * j + 2]) if j >= 0 else 0)
+        if i >= 0:
+            origin = complex(*q[3 * i:3 * i + 2])
+            speed -= complex(*v[3 * i:3 * i + 2]) + 1j * omega * (at - origin)
+        return (along.conjugate() * speed).real, along, at
+
+    def friction(self, q, v, multipliers):
+        """Forces of all frictions on the links, for the multipliers of the joints: a force across, and a moment or a force."""
+        force = np.zeros(self.n)
+        for number, index, coefficient, length in self.rubbed:
+            one, other = multipliers[2 * index:2 * index + 2]
+            (i, _, j, _), axes, _ = self.joints[index]
+            _, along, at = self.sliding(q, v, index)
+            if axes is None:
+                size = coefficient * length * np.hypot(one, other)
+            elif length:
+                size = coefficient * (abs(one / 2 + other / length) + abs(one / 2 - other / length))
+            else:
+                size = coefficient * abs(one)
+            for link, sign in ((j, -self.signs[number]), (i, self.signs[number])):
+                if link < 0:
+                    continue
+                k = 3 * link
+                if axes is None:
+                    force[k + 2] += sign * size
+                else:
+                    own, arm = sign * size * along, at - complex(*q[k:k + 2])
+                    force[k:k + 3] += [own.real, own.imag, arm.real * own.imag - arm.imag * own.real]
+        return force
 
     def inputs(self, q, v):
         """What the drives measure, its derivatives by all coordinates, and its second derivative where no link accelerates."""
@@ -203,7 +246,12 @@ class Motion:
         jacobian, bias = np.vstack([jacobian, extra[held]]), np.concatenate([bias, (own - wanted)[held]])
         c = len(bias)
         # Multipliers are forces of the size of the loads: rows of both halves are of one size in SI for these machines.
-        a = np.linalg.solve(np.block([[mass, jacobian.T], [jacobian, np.zeros((c, c))]]), np.concatenate([force, -bias]))
+        full = np.block([[mass, jacobian.T], [jacobian, np.zeros((c, c))]])
+        a = np.linalg.solve(full, np.concatenate([force, -bias]))
+        for _ in range(100 if self.rubbed else 0):
+            before, a = a, np.linalg.solve(full, np.concatenate([force + self.friction(q, v, a[self.n:]), -bias]))
+            if np.max(np.abs(a - before)) <= 1e-14 * np.max(np.abs(a)):
+                break
         return q, v, a[:self.n]
 
     def slope(self, t, y):
@@ -235,10 +283,17 @@ class Motion:
         _, v = self.pose(t, y, q)
         self.signs = {}
         if self.sense:
-            # From rest the motor moves the links in its own sense.
-            ahead = np.array(list(y[:len(self.free)]) + [float(self.quantity(self.m.drives[d], "speed")) for d in self.free])
-            _, first = self.pose(t, ahead, q)
-            self.signs = {number: float(np.sign(first[k])) for number, k in self.sense.items()}
+            if any(speeds):
+                first = v
+            elif "motor" in self.m.file:
+                # From rest the motor moves the links in its own sense.
+                ahead = np.array(list(y[:len(self.free)]) + [float(self.quantity(self.m.drives[d], "speed")) for d in self.free])
+                _, first = self.pose(t, ahead, q)
+            else:
+                # From rest everything moves as it is accelerated without resistances.
+                self.signs = {number: 0.0 for number in self.sense}
+                _, _, first = self.solved(t, y, q)
+            self.signs = {number: float(np.sign(own(q, first))) for number, own in self.sense.items()}
         steps = max(1, int(np.ceil(end * self.rate)))
         left = [end / steps] * steps
         while left:
@@ -246,8 +301,8 @@ class Motion:
             h = left.pop()
             def turned(h):
                 moved = self.step(t, y, h)
-                _, v = self.pose(t + h, moved, self.near + h * self.rates)
-                return moved, {number: v[k] * self.signs[number] for number, k in self.sense.items()}
+                near, v = self.pose(t + h, moved, self.near + h * self.rates)
+                return moved, {number: own(near, v) * self.signs[number] for number, own in self.sense.items()}
             moved, senses = turned(h)
             back = [number for number, own in senses.items() if own < 0 and h > 1e-14]
             if back:

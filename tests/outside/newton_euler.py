@@ -30,7 +30,7 @@ import transmissions
 mp.dps = 40
 UNITS = {
     "m": 1, "mm": mpf(1) / 1000, "rad": 1, "deg": mp.pi / 180, "rad_s": 1, "rpm": mp.pi / 30, "s": 1, "ms": mpf(1) / 1000,
-    "m_s": 1, "mm_s": mpf(1) / 1000, "kg": 1, "g": mpf(1) / 1000, "kg_m2": 1, "m_s2": 1, "N": 1, "kN": 1000, "N_m": 1, "N_mm": 1000, "N_s_m": 1, "N_m_rad": 1, "N_m_s": 1,
+    "m_s": 1, "mm_s": mpf(1) / 1000, "kg": 1, "g": mpf(1) / 1000, "kg_m2": 1, "m_s2": 1, "N": 1, "kN": 1000, "N_m": 1, "N_mm": 1000, "N_s_m": 1, "Pa": 1, "bar": 100000, "N_m_rad": 1, "N_m_s": 1,
 }
 
 
@@ -343,6 +343,25 @@ def actions(m, q, v, twists, crank, sense=lambda number, omega: mp.sign(omega)):
             pull = (size * d[0] / length, size * d[1] / length)
             yield load["links"][0], pull, a, mpf(0)
             yield load["links"][1], (-pull[0], -pull[1]), b, mpf(0)
+        elif kind.startswith("slide_"):
+            joint = next(own for own in m.joints if own["name"] == load["joint"])
+            (first, local), (second, other) = m.sides(joint)
+            along = m.angle(q, first) + quantity(joint, "axis")
+            axis, at, base = (mp.cos(along), mp.sin(along)), m.at(q, second, other), m.at(q, first, local)
+            slide = axis[0] * (at[0] - base[0]) + axis[1] * (at[1] - base[1])
+            rate = friction.rate(m, q, v, joint, quantity)
+            acts = load.get("acts", "always")
+            if kind == "slide_force":
+                area = mp.pi * quantity(load, "bore") ** 2 / 4 if "pressure" in str(load) else None
+                size = course(load, "pressure", crank) * area if area else course(load, "thrust", crank)
+                size = size if acts == "always" or (rate > 0) == (acts == "extending") else mpf(0)
+            elif kind == "slide_spring":
+                stretch = slide - quantity(load, "free_slide")
+                size = -quantity(load, "stiffness") * stretch if acts == "always" or (stretch > 0) == (acts == "beyond") else mpf(0)
+            else:
+                size = -quantity(load, "damping") * rate
+            for link, sign in ((second, 1), (first, -1)):
+                yield link, (sign * size * axis[0], sign * size * axis[1]), at, mpf(0)
         elif kind != "friction":
             first, second = load["links"]
             if kind == "torsion_spring":
@@ -496,7 +515,7 @@ def print_timed(m, start, twists, instant, want):
     q, v, a = ([mpf(float(x)) for x in own] for own in (q, v, a))
     crank = m.coordinate(q, 0) - quantity(m.drives[0], "zero", mpf(0))
     loads = list(actions(m, q, v, twists, crank, lambda number, _: signs[number]))
-    f = forces(m, q, v, a, loads)
+    loads, f = friction.settled(m, q, v, loads, quantity, lambda own: forces(m, q, v, a, own), signs)
     # What drives a free joint is known: its forces, taken in other coordinates, must come to that.
     largest = max(abs(value) for value in f)
     for d, drive in enumerate(m.drives):

@@ -19,7 +19,7 @@ use crate::drive::load::sense_of;
 use crate::drive::{Action, Drive, InputState, Load, LoadState, Motor, Senses, Wrench};
 use crate::input::{Input, InputValue};
 use crate::math::{KeepNan, Motion, Vec2};
-use crate::mechanism::{GROUND, JointId, JointSide, LinkId};
+use crate::mechanism::{GROUND, JointSide, LinkId};
 use crate::trajectory::{CHANNELS, Channel, ChannelSubject, OfLink, Reading, Stage};
 
 pub use builder::CaseBuilder;
@@ -260,21 +260,8 @@ impl Case {
     pub fn effort(&self, drive: &Drive, effort: f64, motions: &[Motion]) -> [Action; 2] {
         match drive.input {
             Input::Angle => [Action::of_moment(GROUND, -effort), Action::of_moment(drive.link, effort)],
-            Input::Turn | Input::Slide => self.joint_effort(drive.joint, effort, motions),
+            Input::Turn | Input::Slide => Action::pair(&self.mechanism.joints()[drive.joint], effort, motions),
         }
-    }
-
-    /// Actions of a moment (N m) in a revolute joint, or of a force (N) along the axis of a prismatic joint: on the
-    /// joint's first link, then on its second link. `effort` is that on the second link.
-    #[must_use]
-    pub fn joint_effort(&self, joint: JointId, effort: f64, motions: &[Motion]) -> [Action; 2] {
-        let joint = &self.mechanism.joints()[joint];
-        let ends = [(joint.first.link, -effort), (joint.second.link, effort)];
-        let Some(axis) = joint.axis_on(joint.first.link) else {
-            return ends.map(|(link, moment)| Action::of_moment(link, moment));
-        };
-        let (axis, place) = (motions[joint.first.link].arm(axis), motions[joint.second.link].point(joint.second.local));
-        ends.map(|(link, force)| Action { link, force: axis * force, place, moment: 0.0 })
     }
 
     /// Change of the input that corresponds to a rotation of a driving link by `turn` (rad). A slide changes by the
@@ -370,7 +357,11 @@ impl Case {
                 put(Action::of_moment(link, load.moment_in(self.spin(setting.motions, link), setting.crank)));
             }
             Senses::Point(at) if self.moves(setting.motions, at) => load.act(setting, put),
-            Senses::Point(_) | Senses::Joint(_) => {}
+            Senses::Joint(joint) => {
+                let effort = load.moment_in(self.joint_rate(setting.motions, joint), setting.crank);
+                Action::pair(&setting.joints[joint], effort, setting.motions).into_iter().for_each(put);
+            }
+            Senses::Point(_) => {}
         }
     }
 
@@ -405,7 +396,7 @@ impl Case {
     #[inline]
     fn setting<'a>(&'a self, motions: &'a [Motion], angles: &'a [f64]) -> LoadState<'a> {
         let crank = self.input_in(motions, angles);
-        LoadState { motions, angles, start: &self.start.0, crank }
+        LoadState { motions, angles, joints: self.mechanism.joints(), start: &self.start.0, crank }
     }
 
     /// Writes to `out` the resultant of all loads except friction on every link, the ground included.
@@ -413,20 +404,31 @@ impl Case {
     /// `out` has one entry per link. The other arguments are the same as in [`Case::each_load`].
     #[inline]
     pub fn loads_on(&self, motions: &[Motion], angles: &[f64], out: &mut [Wrench]) {
-        self.loads_with(motions, angles, |_, load, link, crank| load.moment_in(self.spin(motions, link), crank), out);
+        self.loads_with(motions, angles, |_, load, crank| load.moment_in(self.load_rate(load, motions), crank), out);
+    }
+
+    /// The rate on whose sign a load depends: of a link's rotation (rad/s) or of a joint's sliding (m/s). It is zero for
+    /// other loads, and if it may be only a rounding error.
+    #[must_use]
+    pub fn load_rate(&self, load: &Load, motions: &[Motion]) -> f64 {
+        match load.nature().senses {
+            Senses::Link(link) => self.spin(motions, link),
+            Senses::Joint(joint) => self.joint_rate(motions, joint),
+            Senses::Nothing | Senses::Point(_) => 0.0,
+        }
     }
 
     /// Does the same as [`Case::loads_on`], except that the caller computes the loads that depend on a link's sense of
-    /// rotation.
-    /// `sensed` returns the moment (N m) of such a load.
-    /// `sensed` receives the number of the load, the load, the link and the crank angle (rad).
+    /// rotation, or on a joint's sense of sliding.
+    /// `sensed` returns the moment (N m) or force (N) of such a load.
+    /// `sensed` receives the number of the load, the load and the crank angle (rad).
     /// `sensed` is not called for links that cannot turn, because these loads do not act on them.
     #[inline]
     pub fn loads_with(
         &self,
         motions: &[Motion],
         angles: &[f64],
-        sensed: impl Fn(usize, &Load, LinkId, f64) -> f64,
+        sensed: impl Fn(usize, &Load, f64) -> f64,
         out: &mut [Wrench],
     ) {
         self.loads_along(motions, angles, sensed, |_, velocity| sense_of(velocity), out);
@@ -442,7 +444,7 @@ impl Case {
         &self,
         motions: &[Motion],
         angles: &[f64],
-        sensed: impl Fn(usize, &Load, LinkId, f64) -> f64,
+        sensed: impl Fn(usize, &Load, f64) -> f64,
         way: impl Fn(usize, Vec2) -> Vec2,
         out: &mut [Wrench],
     ) {
@@ -457,7 +459,7 @@ impl Case {
             match load.nature().senses {
                 Senses::Nothing => load.act(&setting, &mut add),
                 Senses::Link(link) if self.can_turn(link) => {
-                    add(Action::of_moment(link, sensed(index, load, link, setting.crank)));
+                    add(Action::of_moment(link, sensed(index, load, setting.crank)));
                 }
                 Senses::Point(at) => {
                     let motion = &motions[at.link];
@@ -466,7 +468,11 @@ impl Case {
                     let force = load.force_in(way(index, velocity));
                     add(Action { link: at.link, force, place: motion.point(at.local), moment: 0.0 });
                 }
-                Senses::Link(_) | Senses::Joint(_) => {}
+                Senses::Joint(joint) => {
+                    let effort = sensed(index, load, setting.crank);
+                    Action::pair(&setting.joints[joint], effort, motions).into_iter().for_each(&mut add);
+                }
+                Senses::Link(_) => {}
             }
         }
     }

@@ -100,7 +100,8 @@ impl Acting {
         let (before, setting_off) = (&self.before, &self.setting_off);
         // A link may reverse within the step.
         // The load of such a link is the mean of the loads before and after the reversal, weighted by their durations.
-        let sensed = |_: usize, load: &Load, link: LinkId, crank: f64| {
+        let sensed = |_: usize, load: &Load, crank: f64| {
+            let Some(link) = load.sensed_link() else { return load.moment_in(case.load_rate(load, motions), crank) };
             let now = motions[link].omega;
             if now == 0.0 {
                 return load.moment_in(setting_off[link], crank);

@@ -8,11 +8,24 @@ use super::words::{Words, names, suggestion};
 use crate::sentences;
 use linkage::drive::{Acts, Course, Load};
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::mechanism::{GROUND, JointSide, LinkId, Mechanism};
-use std::f64::consts::TAU;
+use linkage::mechanism::{GROUND, JointId, JointSide, LinkId, Mechanism};
+use std::f64::consts::{PI, TAU};
 
 const ACTS: Words<Acts> =
     &[("always", Acts::Always), ("counter-clockwise", Acts::CounterClockwise), ("clockwise", Acts::Clockwise)];
+
+/// Words for the sense of a slide in which a force acts.
+const SLIDING: Words<Acts> =
+    &[("always", Acts::Always), ("extending", Acts::CounterClockwise), ("retracting", Acts::Clockwise)];
+
+/// Words for the side of the free slide on which a spring acts.
+const SIDES: Words<Acts> = &[("always", Acts::Always), ("beyond", Acts::CounterClockwise), ("below", Acts::Clockwise)];
+
+/// All words of the key `acts`.
+fn all_acts() -> Vec<&'static str> {
+    let rest = [SLIDING, SIDES].into_iter().flat_map(|words| names(&words[1..]));
+    names(ACTS).into_iter().chain(rest).collect()
+}
 
 /// Words for the axes of a force, and whether these axes turn with the link.
 const FRAMES: Words<bool> = &[("world", false), ("link", true)];
@@ -31,8 +44,10 @@ pub const SECTIONS: &[Section] = &[
         optional("points", ValueKind::Texts, "required by the type").means("one point of each of these two links"),
         optional("moment", ValueKind::MOMENTS, "required by the type, or a table")
             .means("moment, counter-clockwise positive; for a resistance its magnitude, not negative"),
-        optional("acts", ValueKind::Choice(|| names(ACTS)), "`\"always\"`")
-            .means("for a moment: the sense of rotation of the link in which the moment acts"),
+        optional("acts", ValueKind::Choice(all_acts), "`\"always\"`").means(
+            "for a moment: the sense of rotation of the link in which the moment acts; for a force on a slide: the sense \
+             of the sliding; for a spring on a slide: the side of its free slide",
+        ),
         optional("x", ValueKind::FORCES, "required by the type, or a table").means("force along x"),
         optional("y", ValueKind::FORCES, "required by the type, or a table").means("force along y"),
         optional("frame", ValueKind::Choice(|| names(FRAMES)), "`\"world\"`")
@@ -45,7 +60,12 @@ pub const SECTIONS: &[Section] = &[
             .means("unloaded length of the spring, not negative"),
         optional("free_angle", ValueKind::ANGLES, "required by the type").means("unloaded twist of the spring"),
         optional("damping", ValueKind::DAMPINGS_OR_SLOPES, "required by the type").means("damping, not negative"),
-        optional("joint", ValueKind::Text, "required by the type").means("the joint with friction"),
+        optional("joint", ValueKind::Text, "required by the type").means("the joint with friction, or the loaded prismatic joint"),
+        optional("thrust", ValueKind::FORCES, "required by the type, or a table, or a pressure")
+            .means("force along the axis of a prismatic joint on its second link, positive if it increases the slide"),
+        optional("pressure", ValueKind::PRESSURES, "required with `bore`, or a table").means("pressure on a piston"),
+        optional("bore", ValueKind::LENGTHS.of(Sign::Positive), "no piston").means("diameter of the piston under the pressure"),
+        optional("free_slide", ValueKind::LENGTHS, "required by the type").means("unloaded slide of the spring"),
         optional("coefficient", ValueKind::Number, "required by the type")
             .means("coefficient of friction, not negative"),
         optional("radius", ValueKind::LENGTHS.of(Sign::NotNegative), "required for a revolute joint")
@@ -64,6 +84,8 @@ pub const SECTIONS: &[Section] = &[
     Section::at("loads.table").with(&[
         needed("crank", ValueKind::ANGLES).means("crank angle"),
         optional("moment", ValueKind::MOMENTS, "required for a moment").means("moment at that angle"),
+        optional("thrust", ValueKind::FORCES, "required for a force on a slide").means("force along the axis at that angle"),
+        optional("pressure", ValueKind::PRESSURES, "required with `bore`").means("pressure at that angle"),
         optional("x", ValueKind::FORCES, "required for a force").means("force along x at that angle"),
         optional("y", ValueKind::FORCES, "required for a force").means("force along y at that angle"),
     ]),
@@ -79,6 +101,9 @@ const SORTS: Words<fn(&mut TomlTable, &Mechanism) -> Result<Load>> = &[
     ("damper", damper),
     ("torsion_spring", torsion_spring),
     ("torsion_damper", torsion_damper),
+    ("slide_force", slide_force),
+    ("slide_spring", slide_spring),
+    ("slide_damper", slide_damper),
     ("friction", friction),
 ];
 
@@ -93,12 +118,53 @@ pub fn read(tables: Vec<TomlTable>, mechanism: &Mechanism, faults: &mut Faults) 
     tables.into_iter().filter_map(|mut table| faults.read(&mut table, |table| load(table, mechanism))).collect()
 }
 
-fn friction(table: &mut TomlTable, mechanism: &Mechanism) -> Result<Load> {
+/// `joint`: a joint, and its links.
+fn joint(table: &mut TomlTable, mechanism: &Mechanism) -> Result<(JointId, [LinkId; 2])> {
     let name = table.string("joint")?;
     let Some(joint) = mechanism.joint_named(&name) else {
         let names = mechanism.joints().iter().map(|joint| joint.name.as_str());
         return table.refuse("joint", sentences::there_is_no_joint(&name), suggestion(&name, names, "\""));
     };
+    let own = &mechanism.joints()[joint];
+    Ok((joint, [own.first.link, own.second.link]))
+}
+
+/// `joint`: a prismatic joint, and its links.
+fn slide(table: &mut TomlTable, mechanism: &Mechanism) -> Result<(JointId, [LinkId; 2])> {
+    let found = joint(table, mechanism)?;
+    let own = &mechanism.joints()[found.0];
+    match own.slides() {
+        true => Ok(found),
+        false => table.refuse("joint", sentences::joint_does_not_slide(&own.name), sentences::NAME_A_PRISMATIC_JOINT),
+    }
+}
+
+fn slide_force(table: &mut TomlTable, mechanism: &Mechanism) -> Result<Load> {
+    let (joint, links) = slide(table, mechanism)?;
+    let acts = table.optional_choice("acts", sentences::DOES_NOT_SAY_WHEN_THE_MOMENT, SLIDING)?;
+    let [force] = match table.optional_si("bore")? {
+        None => courses(table, ["thrust"])?,
+        Some(bore) => courses(table, ["pressure"])?.map(|pressure| pressure.times(PI * bore * bore / 4.0)),
+    };
+    Ok(Load::SlideForce { joint, links, force, acts: acts.unwrap_or(Acts::Always) })
+}
+
+fn slide_spring(table: &mut TomlTable, mechanism: &Mechanism) -> Result<Load> {
+    let (joint, links) = slide(table, mechanism)?;
+    let stiffness = table.quantity("stiffness", &STIFFNESS, Sign::NotNegative)?;
+    let free_slide = table.si("free_slide")?;
+    let acts = table.optional_choice("acts", sentences::DOES_NOT_SAY_WHEN_THE_MOMENT, SIDES)?;
+    Ok(Load::SlideSpring { joint, links, stiffness, free_slide, acts: acts.unwrap_or(Acts::Always) })
+}
+
+fn slide_damper(table: &mut TomlTable, mechanism: &Mechanism) -> Result<Load> {
+    let (joint, links) = slide(table, mechanism)?;
+    let damping = table.quantity("damping", &DAMPING, Sign::NotNegative)?;
+    Ok(Load::SlideDamper { joint, links, damping })
+}
+
+fn friction(table: &mut TomlTable, mechanism: &Mechanism) -> Result<Load> {
+    let (joint, links) = joint(table, mechanism)?;
     let coefficient = table.number("coefficient")?;
     if !(0.0..MOST_FRICTION).contains(&coefficient) {
         let message = sentences::found_but_a_coefficient_lies(&coefficient, &MOST_FRICTION);
@@ -106,7 +172,7 @@ fn friction(table: &mut TomlTable, mechanism: &Mechanism) -> Result<Load> {
     }
     let own = &mechanism.joints()[joint];
     let length = if own.slides() { table.optional_si("length")?.unwrap_or(0.0) } else { table.si("radius")? };
-    Ok(Load::Friction { joint, links: [own.first.link, own.second.link], coefficient, length })
+    Ok(Load::Friction { joint, links, coefficient, length })
 }
 
 fn load(table: &mut TomlTable, mechanism: &Mechanism) -> Result<Load> {

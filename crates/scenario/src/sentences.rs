@@ -180,6 +180,8 @@ linkage::sentences! {
     ADD_A_SECTION_LINKS_NAME = "add a section `[links.NAME]` for each moving link";
     THERE_IS_NO_LINK_2 = "no link is given";
     // loads.rs
+    joint_does_not_slide(name) = "joint \"{name}\" does not slide";
+    NAME_A_PRISMATIC_JOINT = "name a prismatic joint";
     found_but_a_coefficient_lies(found, most) = "found {found}, but a coefficient of friction is not negative and below {most}";
     STEEL_ON_BRONZE = "dry steel on steel has about 0.15, an oiled journal about 0.05";
     NAME_TWO_POINTS_THAT_MOVE = "name two points that move apart";
@@ -208,7 +210,7 @@ linkage::sentences! {
     NAME_A_POINT_THAT_MOVES = "name a point that moves";
     THE_POINT_DOES_NOT_MOVE_IT_IS_HINGED = "the point does not move: it is hinged to the ground";
     IS_NO_FRAME_OF_A_FORCE = "is not a frame of a force";
-    DOES_NOT_SAY_WHEN_THE_MOMENT = "does not state when the moment acts";
+    DOES_NOT_SAY_WHEN_THE_MOMENT = "does not state when the load acts";
     IS_NO_TYPE_OF_LOAD = "is not a type of load";
     // malformed.rs
     first_in_line(message, line) = "{message}, first in line {line}";

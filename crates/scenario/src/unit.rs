@@ -113,6 +113,9 @@ pub static MOMENT_PER_SPEED: UnitFamily =
 /// Forces.
 pub static FORCE: UnitFamily =
     UnitFamily::of("a force", &[si("N"), unit("kN", 1e3, 1.0)], 1e20).also(&[unit("lbf", 4.448_221_615_260_5, 1.0)]);
+/// Pressures.
+pub static PRESSURE: UnitFamily =
+    UnitFamily::of("a pressure", &[si("Pa"), unit("bar", 1e5, 1.0)], 1e20).also(&[unit("MPa", 1e6, 1.0)]);
 /// Forces per length.
 pub static STIFFNESS: UnitFamily = UnitFamily::of("a stiffness", &[si("N_m"), unit("N_mm", 1e3, 1.0)], 1e20);
 /// Forces per velocity.
@@ -172,7 +175,7 @@ pub fn unsupported(suffix: &str) -> Option<(&'static str, &'static str)> {
 }
 
 /// All families.
-pub static ALL: [&UnitFamily; 16] = [
+pub static ALL: [&UnitFamily; 17] = [
     &LENGTH,
     &ANGLE,
     &ANGULAR_SPEED,
@@ -184,6 +187,7 @@ pub static ALL: [&UnitFamily; 16] = [
     &MOMENT,
     &MOMENT_PER_SPEED,
     &FORCE,
+    &PRESSURE,
     &STIFFNESS,
     &DAMPING,
     &TORSIONAL_STIFFNESS,

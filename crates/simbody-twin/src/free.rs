@@ -11,7 +11,6 @@ use linkage::case::Case;
 use linkage::drive::Wrench;
 use linkage::engine::bodies::check_inertias;
 use linkage::error::Result;
-use linkage::mechanism::LinkId;
 use linkage::solver::State;
 
 /// Starts the run of a free motion at t = 0.
@@ -62,7 +61,8 @@ fn acting(case: &Case, linkage: &Linkage, setting_off: Rc<RefCell<Vec<f64>>>) ->
         linkage.motion(bodies, &mut state);
         let State { motions, angles, .. } = &state;
         let senses = setting_off.borrow();
-        let sensed = |_: usize, load: &linkage::drive::Load, link: LinkId, crank: f64| {
+        let sensed = |_: usize, load: &linkage::drive::Load, crank: f64| {
+            let Some(link) = load.sensed_link() else { return load.moment_in(case.load_rate(load, motions), crank) };
             let omega = motions[link].omega;
             load.moment_in(if omega == 0.0 { senses[link] } else { omega }, crank)
         };

@@ -6,8 +6,9 @@ use super::{Bad, GOOD, INPUT, assert_refused};
 fn sorts_links_points_and_tables() {
     let force = "type = \"force\"\nlink = \"rocker\"\npoint = \"B\"\n";
     let moment = "type = \"moment\"\nlink = \"rocker\"\n";
+    let friction = "type = \"friction\"\njoint = \"O\"\n";
     let spring = "type = \"spring\"\nlinks = [\"ground\", \"rocker\"]\npoints = [\"O\", \"B\"]\n";
-    let cases: [(String, &'static str, &'static str, &[&str]); 20] = [
+    let cases: [(String, &'static str, &'static str, &[&str]); 24] = [
         (format!("{force}x_N = 1\n"), "[[loads]]\ntype = \"force\"", "loads[2]", &["`y_N` or `y_kN` is missing"]),
         (format!("{force}x_N = 1\ny = 1\n"), "y = 1", "loads[2].y", &["has no unit"]),
         (
@@ -34,12 +35,7 @@ fn sorts_links_points_and_tables() {
             "loads[2].point",
             &["does not move", "hinged"],
         ),
-        (
-            format!("{moment}moment_N_m = 1\nacts = \"forwards\"\n"),
-            "acts =",
-            "loads[2].acts",
-            &["when the moment acts"],
-        ),
+        (format!("{moment}moment_N_m = 1\nacts = \"forwards\"\n"), "acts =", "loads[2].acts", &["when the load acts"]),
         (format!("{moment}moment_N_m = 1\nturns = 2\n"), "turns = 2", "loads[2].turns", &["belongs to a table"]),
         (
             format!("{moment}moment_N_m = 1\ninterpolation = \"linear\"\n"),
@@ -107,6 +103,25 @@ fn sorts_links_points_and_tables() {
             "points = [\"X\"",
             "loads[2].points",
             &["link \"ground\" has no point \"X\""],
+        ),
+        (
+            format!("{friction}coefficient = -0.1\nradius_mm = 9\n"),
+            "coefficient",
+            "loads[2].coefficient",
+            &["found -0.1"],
+        ),
+        (format!("{friction}coefficient = 0.1\n"), "[[loads]]\ntype = \"friction\"", "loads[2]", &["`radius_m` or"]),
+        (
+            friction.replace("\"O\"", "\"Z\"") + "coefficient = 0.1\nradius_mm = 9\n",
+            "joint = \"Z\"",
+            "loads[2].joint",
+            &["no joint \"Z\"", "\"O\""],
+        ),
+        (
+            "type = \"slide_force\"\njoint = \"A\"\nthrust_N = 1\n".into(),
+            "joint = \"A\"",
+            "loads[2].joint",
+            &["does not slide", "prismatic"],
         ),
     ];
     for (text, at, key, words) in cases {

@@ -72,8 +72,13 @@ fn torsional_springs_and_dampers_have_their_moments() {
     for (index, load) in case.loads.iter().enumerate() {
         let (Load::TorsionSpring { links, .. } | Load::TorsionDamper { links, .. }) = load else { continue };
         let mut moment = 0.0;
-        let setting =
-            linkage::drive::LoadState { motions: &state.motions, angles: &angles, start: &case.start.0, crank: 0.0 };
+        let setting = linkage::drive::LoadState {
+            motions: &state.motions,
+            angles: &angles,
+            joints: case.mechanism.joints(),
+            start: &case.start.0,
+            crank: 0.0,
+        };
         load.act(&setting, &mut |action| moment = if action.link == links[1] { action.moment } else { moment });
         let name = format!("load.{}", index + 1);
         // A load on one hinge acts on the joint; a load on several hinges needs a tendon.

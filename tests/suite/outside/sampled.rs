@@ -116,6 +116,29 @@ impl Row<'_> {
                     let moment = stiffness * (twist - free_angle);
                     all.extend([couple(links[0], moment), couple(links[1], -moment)]);
                 }
+                Load::SlideForce { joint, .. } | Load::SlideSpring { joint, .. } | Load::SlideDamper { joint, .. } => {
+                    let joint = &self.case.mechanism.joints()[*joint];
+                    let [slide, speed] = ["slide_m", "slide_speed_m_s"]
+                        .map(|suffix| self.read(&format!("joint.{}.{suffix}", joint.name)));
+                    let is_on = |acts: &Acts, of: f64| match acts {
+                        Acts::Always => true,
+                        Acts::CounterClockwise => of > 0.0,
+                        Acts::Clockwise => of < 0.0,
+                    };
+                    let size = match load {
+                        Load::SlideForce { force, acts, .. } if is_on(acts, speed) => force.at(crank),
+                        Load::SlideSpring { stiffness, free_slide, acts, .. } if is_on(acts, slide - free_slide) => {
+                            -stiffness * (slide - free_slide)
+                        }
+                        Load::SlideDamper { damping, .. } => -damping * speed,
+                        _ => 0.0,
+                    };
+                    let JointKind::Prismatic { axes: [axis, _] } = joint.kind else { panic!("the joint slides") };
+                    let (sin, cos) = self.link(joint.first.link).turn[0].sin_cos();
+                    let own = Vec2::new(cos * axis.x - sin * axis.y, sin * axis.x + cos * axis.y) * size;
+                    let place = self.point(joint.second)[0];
+                    all.extend([(joint.first.link, place, -own, 0.0), (joint.second.link, place, own, 0.0)]);
+                }
                 Load::Friction { joint, links, coefficient, length } => {
                     let joint = &self.case.mechanism.joints()[*joint];
                     let name = format!("joint.{}", joint.name);

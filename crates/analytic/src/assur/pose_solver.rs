@@ -173,8 +173,7 @@ impl<'a> PoseSolver<'a> {
     }
 
     /// Computes rates and reactions near a change point.
-    /// `senses`, if given, contains the angular velocities of the links, for loads that depend on a link's sense of
-    /// rotation.
+    /// `senses`, if given, contains the rate of every load that depends on a sense of motion.
     fn pass(&mut self, rates: [f64; 2], deepest: Stage, senses: Option<&[f64]>) -> Result<()> {
         if deepest >= Stage::Reactions && self.turns.is_some() && !self.case.loads.is_empty() {
             self.with_angles();
@@ -189,10 +188,10 @@ impl<'a> PoseSolver<'a> {
         // All neighbouring poses use the senses of this pose.
         let own: Vec<f64> = match senses {
             Some(senses) => senses.to_vec(),
-            None => self.state.motions.ids().map(|link| case.spin(&self.state.motions, link)).collect(),
+            None => self.load_rates(),
         };
         let mut loads = |motions: &[Motion], angles: &[f64], out: &mut [Wrench]| {
-            let sensed = |_: usize, load: &Load, link: LinkId, crank: f64| load.moment_in(own[link], crank);
+            let sensed = |index: usize, load: &Load, crank: f64| load.moment_in(own[index], crank);
             case.loads_with(motions, angles, sensed, out);
         };
         let found = window.reactions(place, rates, None, (case, &mut self.statics), &mut loads, &mut self.state);
@@ -207,7 +206,7 @@ impl<'a> PoseSolver<'a> {
         let mut begun: Vec<f64> = Vec::new();
         for ahead in [sense * NUDGE, 0.0] {
             if self.solve(crank + ahead, sense, 0.0, Stage::Velocities).is_ok() {
-                begun = self.state.motions.iter().map(|motion| motion.omega).collect();
+                begun = self.load_rates();
                 break;
             }
         }
@@ -218,12 +217,17 @@ impl<'a> PoseSolver<'a> {
         }
         if deepest >= Stage::Reactions && !self.case.loads.is_empty() && !begun.is_empty() {
             self.with_angles();
-            let sensed = |_: usize, load: &Load, link: LinkId, crank: f64| load.moment_in(begun[link], crank);
-            let mut loads = vec![Wrench::ZERO; begun.len()];
+            let sensed = |index: usize, load: &Load, crank: f64| load.moment_in(begun[index], crank);
+            let mut loads = vec![Wrench::ZERO; self.case.mechanism.links().len()];
             self.case.loads_with(&self.state.motions, &self.state.angles, sensed, &mut loads);
             self.statics.solve_under(&loads, self.case, &self.plan, &mut self.state);
         }
         Ok(self.with_angles())
+    }
+
+    /// [`Case::load_rate`] of every load at the last pose.
+    fn load_rates(&self) -> Vec<f64> {
+        self.case.loads.iter().map(|load| self.case.load_rate(load, &self.state.motions)).collect()
     }
 
     /// Moves the mechanism from its present pose to the crank angle `target`, in small steps.

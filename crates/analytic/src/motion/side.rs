@@ -50,7 +50,7 @@ impl Held {
 
 /// Like [`Case::loads_on`], but loads that depend on a sense use the held sense.
 pub(crate) fn loads_held(case: &Case, motions: &[Motion], angles: &[f64], held: &Held, out: &mut [Wrench]) {
-    let moment = |index: usize, load: &Load, _, crank: f64| load.moment_in(held.senses[index], crank);
+    let moment = |index: usize, load: &Load, crank: f64| load.moment_in(held.senses[index], crank);
     case.loads_along(motions, angles, moment, |index, velocity| held.way(index, velocity), out);
 }
 

@@ -108,7 +108,9 @@ pub fn kinks(case: &Case) -> Result<Kinks> {
         let message = sentences::THE_REDUCTION_KNOWS_NO_FRICTION;
         return Err(Error::new(ErrorKind::Unsupported, message).help(sentences::LET_THE_MOTION_BE_FREE));
     }
-    if let Some(load) = case.loads.iter().find(|load| load.sensed_point().is_some()) {
+    if let Some(load) =
+        case.loads.iter().find(|load| load.sensed_point().is_some() || load.joint().is_some() && load.has_sense())
+    {
         let message = sentences::reduced_quantities_are_asked_for_but_a_load(&load.sort());
         return Err(Error::new(ErrorKind::Unsupported, message).help(sentences::GIVE_IT_AS_A_TABLE_OF_FORCES));
     }

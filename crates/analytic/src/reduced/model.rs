@@ -252,7 +252,8 @@ impl<'a> ReducedModel<'a> {
     fn of_pose(&self, state: &State, crank: f64) -> Reduced {
         let mut found = self.of_masses(&state.motions);
         let (motions, angles) = (&*state.motions, &*state.angles);
-        let setting = LoadState { motions, angles, start: &self.case.start.0, crank };
+        let setting =
+            LoadState { motions, angles, joints: self.case.mechanism.joints(), start: &self.case.start.0, crank };
         for load in &self.steady {
             load.act(&setting, &mut |action| found.applied += action.power(&motions[action.link]));
         }

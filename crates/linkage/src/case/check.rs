@@ -194,14 +194,17 @@ fn loads(parts: &CaseParts) -> Result<()> {
         if !load.is_sound() {
             return fault(sentences::a_number_is_not_finite_or_negative(&format_args!("{load:?}")));
         }
-        let Some(joint) = load.sensed_joint() else { continue };
+        let Some(joint) = load.joint() else { continue };
         let Some(own) = parts.mechanism.joints().get(joint) else {
             return fault(sentences::it_acts_in_joint_but_there(&joint, &parts.mechanism.joints().len()));
         };
         if links != [own.first.link, own.second.link] {
             return fault(sentences::its_links_are_not_those_of_joint(&own.name));
         }
-        if parts.loads[..index].iter().any(|other| other.sensed_joint() == Some(joint)) {
+        if !load.is_friction() {
+            continue;
+        }
+        if parts.loads[..index].iter().any(|other| other.is_friction() && other.joint() == Some(joint)) {
             return fault(sentences::joint_has_two_frictions(&own.name));
         }
         if parts.drives.crank().through {

@@ -120,6 +120,6 @@ impl Friction<'_> {
     /// `effort` is the friction on the second link (N m or N), positive if it increases the joint's coordinate.
     #[must_use]
     pub fn act(&self, effort: f64, motions: &[Motion]) -> [Action; 2] {
-        self.case.joint_effort(self.joint, effort, motions)
+        Action::pair(self.of_joint(), effort, motions)
     }
 }

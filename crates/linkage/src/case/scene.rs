@@ -188,7 +188,7 @@ impl<'a> Needs<'a> {
     /// The reduced case keeps the load if it needs any forces and contains all links of the load.
     fn has_load(&self, load: &Load) -> bool {
         // Friction needs the reaction of its joint.
-        let is_known = load.sensed_joint().is_none_or(|joint| self.carries[self.owner(joint)]);
+        let is_known = !load.is_friction() || load.joint().is_none_or(|joint| self.carries[self.owner(joint)]);
         self.carries.contains(&true) && load.links().iter().all(|&link| self.moves[link]) && is_known
     }
 

@@ -93,6 +93,41 @@ pub enum Load {
         /// Damping (N m s/rad).
         damping: f64,
     },
+    /// Force along the axis of a prismatic joint on its second link, positive if it increases the slide. The opposite acts
+    /// on the first link. The force may be limited to one sense of the sliding.
+    SlideForce {
+        /// The joint.
+        joint: JointId,
+        /// First and second link of the joint.
+        links: [LinkId; 2],
+        /// The force (N).
+        force: Course,
+        /// Sense of the sliding for which the force acts: counter-clockwise stands for an increasing slide.
+        acts: Acts,
+    },
+    /// Spring along the axis of a prismatic joint: the force -stiffness (slide - free slide) on the second link.
+    /// A stop acts only on one side of the free slide.
+    SlideSpring {
+        /// The joint.
+        joint: JointId,
+        /// First and second link of the joint.
+        links: [LinkId; 2],
+        /// Stiffness (N/m).
+        stiffness: f64,
+        /// Unloaded slide (m).
+        free_slide: f64,
+        /// Side of the free slide on which the spring acts: counter-clockwise stands for larger slides.
+        acts: Acts,
+    },
+    /// Damper along the axis of a prismatic joint: the force -damping times the rate of the slide on the second link.
+    SlideDamper {
+        /// The joint.
+        joint: JointId,
+        /// First and second link of the joint.
+        links: [LinkId; 2],
+        /// Damping (N s/m).
+        damping: f64,
+    },
     /// Dry friction in a joint, against its sliding: see [`Friction`](crate::case::Friction).
     /// The friction depends on the joint's reaction, so the solvers find both together.
     Friction {
@@ -155,6 +190,21 @@ impl Load {
             &Load::TorsionDamper { links, damping } => {
                 twist_back(links, damping * (motions[links[1]].omega - motions[links[0]].omega), put);
             }
+            Load::SlideForce { joint, .. } => {
+                let joint = &setting.joints[*joint];
+                let effort = self.moment_in(joint.rates(motions)[0], setting.crank);
+                Action::pair(joint, effort, motions).into_iter().for_each(put);
+            }
+            &Load::SlideSpring { joint, stiffness, free_slide, acts, .. } => {
+                let joint = &setting.joints[joint];
+                let stretch = joint.slide(motions).map_or(0.0, |[slide, ..]| slide - free_slide);
+                let effort = if acts.has(stretch) { -stiffness * stretch } else { 0.0 };
+                Action::pair(joint, effort, motions).into_iter().for_each(put);
+            }
+            &Load::SlideDamper { joint, damping, .. } => {
+                let joint = &setting.joints[joint];
+                Action::pair(joint, -damping * joint.rates(motions)[0], motions).into_iter().for_each(put);
+            }
             // The action needs the joint's reaction.
             Load::Friction { .. } => {}
         }
@@ -189,6 +239,15 @@ impl Load {
             }
             &Load::TorsionDamper { links, damping: _ } => {
                 LoadNature { is_viscous: true, ..plain("torsion_damper", On::Links(links)) }
+            }
+            Load::SlideForce { joint, links, force, acts } => {
+                let senses = if *acts == Acts::Always { Senses::Nothing } else { Senses::Joint(*joint) };
+                let courses = std::slice::from_ref(force);
+                LoadNature { senses, courses, ..plain("slide_force", On::Joint(*joint, *links)) }
+            }
+            &Load::SlideSpring { joint, links, .. } => plain("slide_spring", On::Joint(joint, links)),
+            &Load::SlideDamper { joint, links, damping: _ } => {
+                LoadNature { is_viscous: true, ..plain("slide_damper", On::Joint(joint, links)) }
             }
             &Load::Friction { joint, links, coefficient: _, length: _ } => {
                 LoadNature { senses: Senses::Joint(joint), ..plain("friction", On::Joint(joint, links)) }
@@ -236,6 +295,21 @@ impl Load {
             Load::TorsionDamper { links: [first, second], damping } => {
                 vec![LoadPart::Link(first), LoadPart::Link(second), amount("damping_N_m_s_rad", damping)]
             }
+            Load::SlideForce { joint: _, links: [first, second], force, acts } => {
+                let values = std::slice::from_mut(force);
+                let courses = LoadPart::Courses { name: "force_N", values };
+                vec![LoadPart::Link(first), LoadPart::Link(second), courses, LoadPart::Acts(acts)]
+            }
+            Load::SlideSpring { joint: _, links: [first, second], stiffness, free_slide, acts } => vec![
+                LoadPart::Link(first),
+                LoadPart::Link(second),
+                amount("stiffness_N_m", stiffness),
+                LoadPart::Number { role: LoadRole::Rest { unit: "m" }, name: "free_slide_m", value: free_slide },
+                LoadPart::Acts(acts),
+            ],
+            Load::SlideDamper { joint: _, links: [first, second], damping } => {
+                vec![LoadPart::Link(first), LoadPart::Link(second), amount("damping_N_s_m", damping)]
+            }
             Load::Friction { joint: _, links: [first, second], coefficient, length } => vec![
                 LoadPart::Link(first),
                 LoadPart::Link(second),
@@ -270,18 +344,21 @@ impl Load {
         self.nature().senses != Senses::Nothing
     }
 
-    /// Joint on whose sliding the load depends; `None` if there is no such joint.
+    /// The joint of a load of a joint.
     #[must_use]
-    pub fn sensed_joint(&self) -> Option<JointId> {
-        match self.nature().senses {
-            Senses::Joint(joint) => Some(joint),
-            Senses::Nothing | Senses::Link(_) | Senses::Point(_) => None,
-        }
+    pub fn joint(&self) -> Option<JointId> {
+        if let On::Joint(joint, _) = self.nature().on { Some(joint) } else { None }
     }
 
-    /// Moment (N m) of a load with a [sensed link](Load::sensed_link).
-    /// `omega` gives the link's sense of rotation, `crank` the crank angle (rad).
-    /// The moment is zero at standstill. The moment is also zero for a load without a sensed link.
+    /// Whether the load is a [`Load::Friction`].
+    #[must_use]
+    pub fn is_friction(&self) -> bool {
+        self.friction().is_some()
+    }
+
+    /// Moment (N m) of a load with a [sensed link](Load::sensed_link), or force (N) of a [`Load::SlideForce`].
+    /// `omega` gives the link's sense of rotation or the sense of the sliding, `crank` the crank angle (rad).
+    /// A moment is zero at standstill, and for a load without a sensed link.
     #[inline]
     #[must_use]
     pub fn moment_in(&self, omega: f64, crank: f64) -> f64 {
@@ -290,13 +367,11 @@ impl Load {
             let back = if turns_back { *moment } else { 0.0 };
             return if turns_forward { -moment } else { back };
         }
+        if let Load::SlideForce { force, acts, .. } = self {
+            return if acts.has(omega) { force.at(crank) } else { 0.0 };
+        }
         let Load::Moment { moment, acts, .. } = self else { return 0.0 };
-        let is_on = match acts {
-            Acts::Always => false,
-            Acts::CounterClockwise => turns_forward,
-            Acts::Clockwise => turns_back,
-        };
-        if is_on { moment.at(crank) } else { 0.0 }
+        if *acts != Acts::Always && acts.has(omega) { moment.at(crank) } else { 0.0 }
     }
 
     /// Force (N) of a load with a [sensed point](Load::sensed_point).
@@ -326,7 +401,10 @@ impl Load {
                 let [ahead, back] = [1.0, -1.0].map(|sense| self.force_in(Vec2::new(sense, 0.0)));
                 (ahead - back).norm()
             }
-            Senses::Joint(_) => self.friction().map_or(0.0, |coefficient| 2.0 * coefficient),
+            Senses::Joint(_) => {
+                let [ahead, back] = [1.0, -1.0].map(|sense| self.moment_in(sense, crank));
+                self.friction().map_or((ahead - back).abs(), |coefficient| 2.0 * coefficient)
+            }
         }
     }
 

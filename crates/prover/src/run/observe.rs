@@ -252,7 +252,7 @@ fn reduced_torque(case: &Case, state: &State) -> f64 {
 /// yet.
 fn open(case: &Case, state: &State, crank: f64) -> [f64; 2] {
     let mut open = [0.0; 2];
-    let of_state = |load: &&Load| load.sensed_joint().is_none() && sensed(case, state, load) == Some(Vec2::zeros());
+    let of_state = |load: &&Load| load.joint().is_none() && sensed(case, state, load) == Some(Vec2::zeros());
     for load in case.loads.iter().filter(of_state) {
         let (jump, point) = (load.jump(crank), load.sensed_point());
         let lever = point.map(|at| state.motions[at.link].point(at.local).norm());

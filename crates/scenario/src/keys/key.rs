@@ -2,7 +2,7 @@
 
 use crate::unit::{
     ACCELERATION, ANGLE, ANGULAR_SPEED, DAMPING, FORCE, INERTIA, INPUT_RATES, INPUTS, INPUTS_OR_TIMES, LENGTH, MASS,
-    MOMENT, MOMENT_PER_SPEED, STIFFNESS, TIME, TORSIONAL_STIFFNESS, UnitFamily,
+    MOMENT, MOMENT_PER_SPEED, PRESSURE, STIFFNESS, TIME, TORSIONAL_STIFFNESS, UnitFamily,
 };
 
 /// A table of a scenario file.
@@ -114,6 +114,7 @@ impl ValueKind {
     pub(crate) const INPUTS_OR_TIMES: ValueKind = ValueKind::Quantity(&INPUTS_OR_TIMES, Sign::Any);
     pub(crate) const DAMPINGS_OR_SLOPES: ValueKind = ValueKind::Quantity(&[&DAMPING, &MOMENT_PER_SPEED], Sign::Any);
     pub(crate) const FORCES: ValueKind = ValueKind::Quantity(&[&FORCE], Sign::Any);
+    pub(crate) const PRESSURES: ValueKind = ValueKind::Quantity(&[&PRESSURE], Sign::Any);
     pub(crate) const INERTIAS: ValueKind = ValueKind::Quantity(&[&INERTIA], Sign::Any);
     pub(crate) const LENGTHS: ValueKind = ValueKind::Quantity(&[&LENGTH], Sign::Any);
     pub(crate) const LENGTHS_OR_ANGLES: ValueKind = ValueKind::Quantity(&[&LENGTH, &ANGLE], Sign::Any);

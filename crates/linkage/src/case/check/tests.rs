@@ -163,6 +163,12 @@ fn the_structure_of_another_mechanism_is_refused() {
 #[test]
 fn loads_need_existing_links_and_valid_numbers() {
     let at = |link: LinkId| JointSide { link, local: Vec2::zeros() };
+    let friction = |joint: usize, links: [usize; 2], length: f64| Load::Friction {
+        joint: JointId(joint),
+        links: links.map(LinkId),
+        coefficient: 0.1,
+        length,
+    };
     let wrong = [
         (Load::Resistance { link: LinkId(4), moment: 1.0 }, "link 4"),
         (Load::ResistingForce { at: at(LinkId(7)), force: 1.0 }, "link 7"),
@@ -170,6 +176,9 @@ fn loads_need_existing_links_and_valid_numbers() {
         (Load::TorsionDamper { links: [LinkId(9), LinkId(0)], damping: 1.0 }, "link 9"),
         (Load::Resistance { link: LinkId(1), moment: -1.0 }, "not finite"),
         (Load::TorsionSpring { links: [LinkId(0), LinkId(1)], stiffness: f64::NAN, free_angle: 0.0 }, "not finite"),
+        (friction(7, [0, 1], 0.01), "4 joints"),
+        (friction(1, [0, 1], 0.01), "not those of joint"),
+        (friction(0, [0, 1], -0.01), "negative"),
     ];
     for (load, word) in wrong {
         let sort = load.sort();
@@ -177,6 +186,13 @@ fn loads_need_existing_links_and_valid_numbers() {
             parts.loads = vec![Load::Resistance { link: LinkId(1), moment: 0.0 }, load];
         });
     }
+    says(Input, "loads", &["load 1", "has friction already"], |parts| {
+        parts.loads = vec![friction(0, [0, 1], 0.01), friction(0, [0, 1], 0.02)];
+    });
+    says(Input, "loads", &["load 0", "leave out `through"], |parts| {
+        parts.loads = vec![friction(0, [0, 1], 0.01)];
+        parts.drives.crank_mut().through = true;
+    });
     says(Input, "gravity", &["NaN"], |parts| parts.gravity.y = f64::NAN);
 }
 

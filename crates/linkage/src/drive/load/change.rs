@@ -31,7 +31,11 @@ impl Load {
     #[must_use]
     pub fn renumbered(&self, number: impl Fn(LinkId) -> LinkId, of_joint: impl Fn(JointId) -> JointId) -> Load {
         let mut load = self.clone();
-        if let Load::Friction { joint, .. } = &mut load {
+        if let Load::Friction { joint, .. }
+        | Load::SlideForce { joint, .. }
+        | Load::SlideSpring { joint, .. }
+        | Load::SlideDamper { joint, .. } = &mut load
+        {
             *joint = of_joint(*joint);
         }
         for part in load.parts() {

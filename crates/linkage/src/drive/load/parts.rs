@@ -14,6 +14,19 @@ pub enum Acts {
     Clockwise,
 }
 
+impl Acts {
+    /// Whether the load acts for this rate, or at this distance from the free slide. Zero has no sense.
+    #[inline]
+    #[must_use]
+    pub fn has(self, rate: f64) -> bool {
+        match self {
+            Acts::Always => true,
+            Acts::CounterClockwise => rate > 0.0,
+            Acts::Clockwise => rate < 0.0,
+        }
+    }
+}
+
 /// The motion whose sense a load depends on.
 /// The law of the load changes when this motion reverses, so integration stops at the instant of reversal.
 /// The load need not jump at this instant: see [`Load::jump`](super::Load::jump).
@@ -40,7 +53,7 @@ pub enum On {
     Points([JointSide; 2]),
     /// A moment between two links. The moment on the second link is opposite to that on the first.
     Links([LinkId; 2]),
-    /// The friction of a joint between two links.
+    /// A force along the axis of a joint between two links, or the friction of this joint.
     Joint(JointId, [LinkId; 2]),
 }
 

@@ -1,7 +1,7 @@
 //! Input and output of loads: the state on which they depend and their action on links.
 
 use crate::math::{Motion, Vec2, angle, cross};
-use crate::mechanism::{Link, LinkId, LinkPose};
+use crate::mechanism::{Joint, Link, LinkId, LinkPose, PerJoint};
 
 /// The state on which loads depend. Slices have one entry per link.
 #[derive(Clone, Copy, Debug)]
@@ -10,6 +10,8 @@ pub struct LoadState<'a> {
     pub motions: &'a [Motion],
     /// Angles of all links (rad), unwrapped. Only torsion springs use the angles.
     pub angles: &'a [f64],
+    /// All joints. Only loads of joints use them.
+    pub joints: &'a PerJoint<Joint>,
     /// Poses at t = 0.
     pub start: &'a [LinkPose],
     /// Crank angle (rad, in the scenario's convention). Only tables use the crank angle.
@@ -43,6 +45,18 @@ impl Action {
     #[must_use]
     pub fn of_moment(link: LinkId, moment: f64) -> Self {
         Action { link, force: Vec2::zeros(), place: Vec2::zeros(), moment }
+    }
+
+    /// Actions of a moment (N m) in a revolute joint, or of a force (N) along the axis of a prismatic joint: on the joint's
+    /// first link, then on its second link. `effort` is that on the second link.
+    #[must_use]
+    pub fn pair(joint: &Joint, effort: f64, motions: &[Motion]) -> [Action; 2] {
+        let ends = [(joint.first.link, -effort), (joint.second.link, effort)];
+        let Some(axis) = joint.axis_on(joint.first.link) else {
+            return ends.map(|(link, moment)| Action::of_moment(link, moment));
+        };
+        let (axis, place) = (motions[joint.first.link].arm(axis), motions[joint.second.link].point(joint.second.local));
+        ends.map(|(link, force)| Action { link, force: axis * force, place, moment: 0.0 })
     }
 
     /// Total moment of the action about a world point (N m), from its force and its moment. Counter-clockwise positive.

@@ -1,7 +1,7 @@
 use std::f64::consts::PI;
 
 use super::*;
-use crate::mechanism::{LinkId, LinkPose};
+use crate::mechanism::{LinkId, LinkPose, PerJoint};
 
 /// Motions of the ground and of one link.
 /// The link's origin is at (3, 0) m and moves with (0, 2) m/s.
@@ -22,7 +22,9 @@ fn act(load: &Load, motions: &[Motion], angles: &[f64], crank: f64) -> Vec<Actio
         |motion: &Motion| LinkPose { origin: motion.origin, angle: motion.direction.y.atan2(motion.direction.x) };
     let start: Vec<LinkPose> = motions.iter().map(pose).collect();
     let mut found = Vec::new();
-    load.act(&LoadState { motions, angles, start: &start, crank }, &mut |action| found.push(action));
+    load.act(&LoadState { motions, angles, joints: &PerJoint::default(), start: &start, crank }, &mut |action| {
+        found.push(action)
+    });
     found
 }
 
@@ -119,7 +121,13 @@ fn a_torsion_spring_counts_turns_from_the_start() {
         assert!((ground.moment - 2.0 * (angle - 0.5)).abs() < 1e-13 && link.moment == -ground.moment, "{turns}");
     }
     let start = [LinkPose::GROUND, LinkPose { origin: Vec2::zeros(), angle: 2.0 + 2.0 * PI }];
-    let setting = LoadState { motions: &still, angles: &[0.0, 2.5 + 2.0 * PI], start: &start, crank: 0.0 };
+    let setting = LoadState {
+        motions: &still,
+        angles: &[0.0, 2.5 + 2.0 * PI],
+        joints: &PerJoint::default(),
+        start: &start,
+        crank: 0.0,
+    };
     assert!(
         (setting.twist([LinkId(0), LinkId(1)]) - 2.5).abs() < 1e-15 * 8.0
             && (setting.twist([LinkId(1), LinkId(0)]) + 2.5).abs() < 1e-15 * 8.0
