@@ -32,6 +32,13 @@ const CHANGES: [(&str, &str, &str); 10] = [
          table = [{ crank_deg = 0, moment_N_m = 1 }, { crank_deg = 90, moment_N_m = 2 }]\n\n[[loads]]\n",
     ),
     (
+        "slider_crank_friction",
+        "[start]",
+        "[[loads]]\ntype = \"slide_force\"\njoint = \"guide\"\nbore_mm = 9\ntable = [{ crank_deg = 0, pressure_bar = 1 }]\n\
+         [[loads]]\ntype = \"slide_force\"\njoint = \"guide\"\ntable = [{ crank_deg = 0, thrust_N = 1 }]\n\
+         [[loads]]\ntype = \"slide_spring\"\njoint = \"guide\"\nstiffness_N_m = 1\nfree_slide_mm = 0\n[start]",
+    ),
+    (
         "crank_rocker",
         "[grid]",
         "[tolerances]\nengine_rel = 1e-2\n\
