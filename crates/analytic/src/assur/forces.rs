@@ -50,6 +50,8 @@ pub(super) struct Kinetostatics {
     /// One load per loaded link, if all loads are moments of resistance; otherwise `None`.
     /// Moments of resistance do not depend on the link's position.
     resistances: Option<Vec<(LinkId, Load)>>,
+    /// Whether a drive moves another joint than a crank's.
+    drives_joints: bool,
     /// The joints with friction, if there are any, and the loads without friction.
     dry: Option<Box<(Dry, Vec<Wrench>)>>,
     tally: WorkTally,
@@ -84,6 +86,7 @@ impl Kinetostatics {
             drivers,
             loads: vec![Wrench::ZERO; loads],
             resistances,
+            drives_joints: case.drives.iter().any(|drive| drive.input != Input::Angle),
             dry,
             tally: WorkTally::default(),
         }
@@ -106,10 +109,8 @@ impl Kinetostatics {
         } else {
             case.loads_on(&state.motions, &state.angles, &mut self.loads);
         }
-        if let Some(mut dry) = self.dry.take() {
-            let found = self.rub(&mut dry, case, plan, state);
-            self.dry = Some(dry);
-            return found;
+        if self.dry.is_some() {
+            return self.rub(case, plan, state);
         }
         self.balance(case, plan, state);
         Ok(())
@@ -122,21 +123,19 @@ impl Kinetostatics {
 
     /// Adds the friction to the loads, and solves.
     #[cold]
-    fn rub(
-        &mut self,
-        (dry, loads): &mut (Dry, Vec<Wrench>),
-        case: &Case,
-        plan: &SolutionPlan,
-        state: &mut State,
-    ) -> Result<()> {
+    fn rub(&mut self, case: &Case, plan: &SolutionPlan, state: &mut State) -> Result<()> {
+        let Some(mut own) = self.dry.take() else { return Ok(()) };
+        let (dry, loads) = &mut *own;
         loads.copy_from_slice(&self.loads);
         dry.sense(case, &state.motions);
-        dry.settle(case, state, &mut |efforts, state| {
+        let found = dry.settle(case, state, &mut |efforts, state| {
             self.loads.copy_from_slice(loads);
             case.add_friction(efforts, &state.motions, &mut self.loads);
             self.balance(case, plan, state);
             Ok(())
-        })
+        });
+        self.dry = Some(own);
+        found
     }
 
     /// Like [`Kinetostatics::solve`], with the given loads on all links.
@@ -165,7 +164,9 @@ impl Kinetostatics {
             }
         }
         self.drivers.iter().for_each(|driver| driver.solve(case, motions, reactions));
-        self.part_efforts(case, motions, reactions);
+        if self.drives_joints {
+            self.part_efforts(case, motions, reactions);
+        }
     }
 
     /// Takes the driving forces and moments out of the reactions of the driven joints.

@@ -169,6 +169,19 @@ impl Body {
             }
             moment += about;
         }
+        if !self.coupled.is_empty() {
+            let (own, about) = self.transmitted(case, motions, reactions, pole);
+            force += own;
+            moment += about;
+        }
+        (force, moment)
+    }
+
+    /// Force of the known transmissions on the link (N) and its moment about the world point `pole` (N m).
+    #[cold]
+    #[inline(never)]
+    fn transmitted(&self, case: &Case, motions: &[Motion], reactions: &Reactions, pole: Vec2) -> (Vec2, f64) {
+        let (mut force, mut moment) = (Vec2::zeros(), 0.0);
         for &id in &self.coupled {
             let (transmission, transmitted) = (&case.mechanism.transmissions()[id], reactions.transmitted[id]);
             transmission.each_action(case.mechanism.joints(), transmitted, motions, |link, own, place| {
