@@ -8,7 +8,7 @@ use crate::reader::asked;
 use crate::{Scenario, files_in};
 
 /// Changes of a scenario that make readers request keys that no scenario of the repository has.
-const CHANGES: [(&str, &str, &str); 10] = [
+const CHANGES: [(&str, &str, &str); 11] = [
     (
         "crank_rocker",
         "speed_rpm = 130",
