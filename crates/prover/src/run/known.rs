@@ -12,8 +12,8 @@ use crate::bounds::{largest_difference, magnitudes_by};
 use analytic::range::conditions;
 use linkage::case::Case;
 use linkage::error::Result;
-use linkage::math::KeepNan;
 use linkage::math::statistics::share;
+use linkage::math::{KeepNan, largest_size};
 use linkage::mechanism::GroupId;
 use linkage::solver::{Solver, State};
 use linkage::trajectory::{Channel, Stage, Trajectory, Unit};
@@ -172,6 +172,14 @@ impl Known {
         // Without coordinates among the channels, a velocity that vanishes has no other size.
         let sizes = built(case);
         let sized = magnitudes.into_iter().zip(own.channels());
+        // The angular acceleration of a wheel is a sum of terms of the size omega^2. They cancel at a constant ratio.
+        let turning = |channel: &Channel| -> f64 {
+            let is_geared =
+                !case.mechanism.transmissions().is_empty() && channel.kind.unit == Unit::RadianPerSecondSquared;
+            let rates = own.iter().filter(|(rate, _)| rate.kind.unit == Unit::RadianPerSecond && rate.of == channel.of);
+            if is_geared { rates.map(|(_, values)| largest_size(values).powi(2)).fold(0.0, f64::larger) } else { 0.0 }
+        };
+        let sized = sized.map(|(size, channel)| (size.larger(turning(channel)), channel));
         let magnitudes: Vec<f64> = sized.map(|(size, channel)| sizes.unless(size, channel.kind.unit)).collect();
         let turned = match case.is_free() {
             true => Vec::new(),
