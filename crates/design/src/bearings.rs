@@ -121,9 +121,7 @@ pub fn over_range(case: &Case) -> Result<Peaks> {
             own.work += (effort * speed).abs() * span.abs();
             own.pressure_speed = own.pressure_speed.larger(normal * speed.abs() * friction.contact());
         }
-        let powers = case.drives.iter().zip(&state.torques);
-        let powers = powers.map(|(own, effort)| effort * case.drive_state(own, &state.motions, &state.angles).rate);
-        drive_work += powers.sum::<f64>() * span.abs();
+        drive_work += state.drive_power(case) * span.abs();
         for (column, quantity) in samples.iter_mut().zip(&quantities) {
             column.push(quantity(state));
         }

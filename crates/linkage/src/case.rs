@@ -284,7 +284,7 @@ impl Case {
     /// Reactions grow without bound near a change point, and friction with them, so a mechanism with friction stops.
     #[must_use]
     pub fn passes(&self) -> bool {
-        self.drives.further().is_empty() && self.crank().passes() && self.frictions().next().is_none()
+        self.drives.further().is_empty() && self.crank().passes() && !self.has_friction()
     }
 
     /// Whether no motion is free, and every drive has a constant speed.

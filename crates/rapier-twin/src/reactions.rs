@@ -56,7 +56,7 @@ impl<'a> Reactions<'a> {
         }
         let (source, worlds) = match engine.settings.route {
             Route::Differences => (Source::Differences(Box::new(InverseDynamics::of(case))), moving()?),
-            Route::Native | Route::Probe if case.frictions().next().is_some() => {
+            Route::Native | Route::Probe if case.has_friction() => {
                 let help = Advice::OtherRoute { routes: &["differences"] };
                 return Err(Error::new(ErrorKind::Unsupported, sentences::THE_ROUTE_KNOWS_NO_FRICTION).help(help));
             }

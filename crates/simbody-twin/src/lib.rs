@@ -60,7 +60,7 @@ impl Simbody {
             let message = sentences::a_drive_with_the_law_is_not_handed(&drive.law_name());
             return Err(Error::new(ErrorKind::Unsupported, message).help(Advice::OtherEngine));
         }
-        if case.frictions().next().is_some() {
+        if case.has_friction() {
             return Err(Error::new(ErrorKind::Unsupported, sentences::FRICTION_IS_NOT_HANDED));
         }
         if let Some(transmission) = case.mechanism.transmissions().first() {

@@ -67,7 +67,7 @@ impl Blocks {
             let (matrix, zeros) = (Lu::new(size), vec![0.0; size]);
             Block { rows, columns, matrix, norms: zeros.clone(), beside: Vec::new(), right: zeros }
         });
-        let entries = case.frictions().next().map(|_| Vec::new());
+        let entries = case.has_friction().then(Vec::new);
         Blocks { blocks: blocks.collect(), of_row, of_column, entries, solution: vec![0.0; n] }
     }
 

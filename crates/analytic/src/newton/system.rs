@@ -74,7 +74,7 @@ impl<'a> System<'a> {
             lambda: zeros(),
             beside: zeros(),
             phases: PerTransmission::default(),
-            has_friction: case.frictions().next().is_some(),
+            has_friction: case.has_friction(),
             twists: case.mechanism.joints().iter().map(|joint| twist(case, joint)).collect(),
             jacobian: Blocks::of(case),
             branch: Vec::new(),

@@ -104,7 +104,7 @@ pub fn kinks(case: &Case) -> Result<Kinks> {
         let message = sentences::the_drive_moves_no_crank(&case.crank().input.noun());
         return Err(Error::new(ErrorKind::Unsupported, message).help(sentences::DRIVE_THE_MECHANISM_AT_A_CRANK));
     }
-    if case.frictions().next().is_some() {
+    if case.has_friction() {
         let message = sentences::THE_REDUCTION_KNOWS_NO_FRICTION;
         return Err(Error::new(ErrorKind::Unsupported, message).help(sentences::LET_THE_MOTION_BE_FREE));
     }

@@ -36,6 +36,12 @@ impl Case {
         })
     }
 
+    /// Whether joints have friction.
+    #[must_use]
+    pub fn has_friction(&self) -> bool {
+        self.loads.iter().any(Load::is_friction)
+    }
+
     /// Rate of a joint's coordinate (rad/s or m/s).
     /// The result is zero if the rate may be only a rounding error of the mechanism's speeds.
     #[must_use]

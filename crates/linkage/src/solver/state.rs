@@ -96,6 +96,13 @@ impl State {
         JointReactions { forces: &self.forces, moments: &self.moments }
     }
 
+    /// Power of all drives on their links (W).
+    #[must_use]
+    pub fn drive_power(&self, case: &Case) -> f64 {
+        let efforts = case.drives.iter().zip(&self.torques);
+        efforts.map(|(drive, effort)| effort * case.drive_state(drive, &self.motions, &self.angles).rate).sum()
+    }
+
     /// Largest opening of a joint (m), and largest distance of a joint from the origin (m).
     /// In a prismatic joint the opening is measured perpendicular to the guide.
     /// The angle between the joint's two axes (rad), multiplied by `size` (m), also counts as an opening.

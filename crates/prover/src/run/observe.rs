@@ -163,7 +163,7 @@ pub(super) fn observe(
             // divided by the top speed after the run.
             (power[row], torque[row]) = match steady {
                 true => (power::balancing_moment(case, state), reduced_torque(case, state)),
-                false => (-power::of_known_forces(case, state), power_of_drives(case, state)),
+                false => (-power::of_known_forces(case, state), state.drive_power(case)),
             };
             fastest = case
                 .drives
@@ -228,15 +228,6 @@ pub(super) fn pose_of(state: &State) -> Pose {
     let frame =
         |motion: &Motion| LinkPose { origin: motion.origin, angle: motion.direction.y.atan2(motion.direction.x) };
     Pose(state.motions.iter().map(frame).collect())
-}
-
-/// Power of all drives on their links (W).
-fn power_of_drives(case: &Case, state: &State) -> f64 {
-    case.drives
-        .iter()
-        .zip(&state.torques)
-        .map(|(drive, effort)| effort * case.drive_state(drive, &state.motions, &state.angles).rate)
-        .sum()
 }
 
 /// Balancing moments of all drives (N m), reduced to the crank by their powers.
