@@ -83,8 +83,8 @@ fn law_of(law: &MotionLaw) -> Value {
         MotionLaw::ConstantSpeed(omega) => json!({ "law": law.name(), "speed_rad_s": omega }),
         MotionLaw::Ramp { speed, time } => json!({ "law": law.name(), "speed_rad_s": speed, "time_s": time }),
         MotionLaw::Cycloidal { rise, time } => json!({ "law": law.name(), "rise_rad": rise, "time_s": time }),
-        // The law of a table has only its name, because the spline has no short form.
-        MotionLaw::Table(_) => json!({ "law": law.name() }),
+        // A curve has only its name, because a spline has no short form.
+        MotionLaw::Curve(_) => json!({ "law": law.name() }),
     }
 }
 

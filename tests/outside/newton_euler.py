@@ -14,6 +14,7 @@ start; assembly modes are checked against docs/scenario.md. At a crank angle a f
 time it is integrated by free_motion.py, in double precision, with a step that is halved until nothing printed moves.
 """
 
+import re
 import csv
 import io
 import math
@@ -42,6 +43,13 @@ def quantity(table, stem, default=None):
     return default
 
 
+def value(formula, **variables):
+    """A formula, with Python's arithmetic of 40 digits."""
+    names = {name: getattr(mp, name) for name in ("sin", "cos", "tan", "sqrt", "exp", "pi")}
+    digits = re.sub(r"(?<![\w.])\d+(\.\d*)?(e-?\d+)?", lambda own: f"mpf('{own[0]}')", formula)
+    return eval(digits.replace("^", "**"), {"mpf": mpf, **names, **variables})
+
+
 def place(table, known):
     if "from" in table:
         x, y = known[table["from"]]
@@ -68,7 +76,7 @@ class Mechanism:
         gravity = file.get("gravity", {})
         self.gravity = (quantity(gravity, "x", mpf(0)), quantity(gravity, "y", mpf(0)))
         self.loads = file.get("loads", [])
-        self.transmissions = [transmissions.of(self, own, quantity) for own in file.get("transmissions", [])]
+        self.transmissions = [transmissions.of(self, own, quantity, value, spline) for own in file.get("transmissions", [])]
         self.turns = {}
         self.twists = {}
         self.start = self.start_of(0)
@@ -125,6 +133,8 @@ class Mechanism:
         drive = self.drives[index]
         if index == 0 and self.kind(drive) == "angle":
             return quantity(self.file["start"], "crank")
+        if drive.get("law") == "formula":
+            return value(drive["formula"], t=mpf(0))
         return quantity(drive, "start")
 
     def law(self, index, t):
@@ -142,6 +152,11 @@ class Mechanism:
             own = "slide" if self.kind(drive) == "slide" else "angle"
             points = [(quantity(row, "time"), quantity(row, own)) for row in drive["points"]]
             return zero + clamped(points, t)
+        if law == "harmonic":
+            phase, turn = quantity(drive, "phase", mpf(0)), 2 * mp.pi * t / quantity(drive, "period")
+            return zero + start + quantity(drive, "amplitude") * (mp.sin(phase + turn) - mp.sin(phase))
+        if law == "formula":
+            return zero + value(drive["formula"], t=t)
         assert law == "cycloidal", law
         share = t / quantity(drive, "time")
         return zero + start + (quantity(drive, "to") - start) * (share - mp.sin(2 * mp.pi * share) / (2 * mp.pi))

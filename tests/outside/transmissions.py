@@ -145,6 +145,10 @@ class Cam(Transmission):
         self.begun = self.rolled(q)
 
     def lift(self, turn):
+        if "formula" in self.table:
+            return self.value(self.table["formula"], phi=turn)
+        if "lifts" in self.table:
+            return self.spline([(self.quantity(row, "angle"), self.quantity(row, "lift")) for row in self.table["lifts"]], 2 * mp.pi, turn)
         turn = turn - 2 * mp.pi * mp.floor(turn / (2 * mp.pi))
         begun, low = mpf(0), mpf(0)
         for piece in self.table["motion"]:
@@ -209,5 +213,7 @@ def curve(law, x):
     return (2 + mp.pi * x - 9 * mp.sin((4 * mp.pi * x + mp.pi) / 3) / 4) / (4 + mp.pi)
 
 
-def of(m, table, quantity):
-    return (Cam if table["type"] == "cam" else Transmission)(m, table, quantity)
+def of(m, table, quantity, value, spline):
+    own = (Cam if table["type"] == "cam" else Transmission)(m, table, quantity)
+    own.value, own.spline = value, spline
+    return own

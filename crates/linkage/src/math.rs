@@ -2,6 +2,7 @@
 //! interpolation, splines, zeros and extremes.
 
 pub mod angle;
+pub mod curve;
 pub mod dense;
 pub mod extremum;
 pub mod harmonic;
@@ -13,6 +14,7 @@ pub mod quadrature;
 pub mod root;
 pub mod statistics;
 
+pub use curve::{Curve, FormulaCurve, Smooth};
 pub use keep_nan::{KeepNan, largest_size};
 pub use motion::Motion;
 pub use piecewise::Piecewise;

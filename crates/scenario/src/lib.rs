@@ -6,6 +6,7 @@ pub mod accepted;
 mod asked;
 mod claim;
 pub mod clearance;
+mod curve;
 mod draft;
 pub mod edit;
 pub mod engine;

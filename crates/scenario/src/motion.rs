@@ -4,6 +4,7 @@ use crate::sentences;
 use std::sync::Arc;
 
 use super::asked::StartRequest;
+use super::curve::{self, Variable};
 use super::keys::key::{Section, ValueKind, needed, optional};
 use super::motor;
 use super::reader::{Faults, Sign, TomlTable};
@@ -12,7 +13,7 @@ use super::words::{Words, names, suggestion};
 use linkage::drive::{Drive, DriveMotion, Drives, MotionLaw};
 use linkage::error::Result;
 use linkage::input::{Input, InputValue};
-use linkage::math::{Piecewise, Vec2};
+use linkage::math::{Curve, Piecewise, Vec2};
 use linkage::mechanism::{LinkId, Mechanism};
 
 /// Descriptions of the keys that this module reads.
@@ -35,17 +36,23 @@ pub const SECTIONS: &[Section] = &[
             "a change point is an error; a free motion passes it",
         )
         .means("the mechanism passes change points on the branch with continuous velocities; see below"),
-        optional("start", ValueKind::INPUTS, "required, except for a crank as the first drive")
+        optional("start", ValueKind::INPUTS, "required, except for a crank as the first drive, a table and a formula")
             .means("input at t = 0. The angle of the first crank is `crank` in `[start]`"),
         optional(
             "speed",
             ValueKind::INPUT_RATES.of(Sign::NotZero),
-            "required, except for the laws `\"cycloidal\"` and `\"table\"`",
+            "required for the laws `\"constant\"` and `\"ramp\"`",
         )
         .means("rate of the input, not zero; an angular velocity is counter-clockwise positive"),
         optional("time", ValueKind::TIMES.of(Sign::Positive), "required for these laws")
-            .means("duration of a ramp, or of a cycloidal law"),
+            .means("duration of a ramp, of a cycloidal law, or of a formula"),
         optional("to", ValueKind::INPUTS, "required for this law").means("last input of a cycloidal law"),
+        optional("amplitude", ValueKind::INPUTS.of(Sign::NotZero), "required for the law `\"harmonic\"`")
+            .means("amplitude of the oscillation amplitude * sin(2 pi t / period + phase) of the input about a mean value"),
+        optional("period", ValueKind::TIMES.of(Sign::Positive), "required for this law").means("period of the oscillation"),
+        optional("phase", ValueKind::ANGLES, "0").means("phase at t = 0; the oscillation begins at rest with -90 deg"),
+        optional("formula", ValueKind::Text, "required for the law `\"formula\"`")
+            .means("the input in rad or m as a formula of the time `t` in s, with two continuous derivatives"),
         optional("points", ValueKind::Tables, "required for the law `\"table\"`")
             .means("points of a table, two or more: times ascending from 0; the first point is the start"),
     ]),
@@ -153,16 +160,21 @@ fn drive(
     };
     let stated = match first {
         // If the angle is missing, the error is in `[start]`.
-        Some((crank, _)) if input == Input::Angle => crank.unwrap_or_default(),
-        Some(_) | None => table.quantity("start", of_input(input), Sign::Any)?,
+        Some((crank, _)) if input == Input::Angle => Some(crank.unwrap_or_default()),
+        Some(_) | None if table.has("points") || table.has("formula") => {
+            table.optional_quantity("start", of_input(input), Sign::Any)?
+        }
+        Some(_) | None => Some(table.quantity("start", of_input(input), Sign::Any)?),
     };
-    let asked = first.and_then(|(_, asked)| asked.start(input));
-    let law = law(table, input.at(asked.unwrap_or(stated)));
+    let asked = first.and_then(|(_, asked)| asked.start(input)).or(stated);
+    let law =
+        law(table, input.at(asked.unwrap_or_default())).and_then(|(law, begin)| begun(table, input, law, begin, asked));
     if law.is_err() && whole && known.is_none() {
         let missing = unknown(table);
         table.part(missing.map(|_| ()));
     }
-    let law = law?;
+    let (law, start) = law?;
+    let stated = stated.unwrap_or(start);
     let zero = table.optional_quantity("zero", of_input(input), Sign::Any)?.unwrap_or(0.0);
     let motion = motion(table, law, input)?;
     let through = through(table)?;
@@ -218,20 +230,52 @@ fn through(table: &mut TomlTable) -> Result<bool> {
     }
 }
 
-/// Laws of motion, each with its reader. The reader gets the input at t = 0.
-const LAWS: Words<fn(&mut TomlTable, InputValue) -> Result<MotionLaw>> =
-    &[("constant", constant), ("ramp", ramp), ("cycloidal", cycloidal), ("table", points)];
+/// A law, and the input with which it begins, if the law states it.
+type Begun = (MotionLaw, Option<f64>);
 
-fn law(table: &mut TomlTable, start: InputValue) -> Result<MotionLaw> {
-    if table.has("law") || table.has("points") || table.has_si("to") || table.has_si("time") {
+/// Laws of motion, each with its reader. The reader gets the input at t = 0.
+const LAWS: Words<fn(&mut TomlTable, InputValue) -> Result<Begun>> = &[
+    ("constant", constant),
+    ("ramp", ramp),
+    ("cycloidal", cycloidal),
+    ("harmonic", harmonic),
+    ("formula", formula),
+    ("table", points),
+];
+
+/// Keys that only laws other than the constant one have.
+const KEYS_OF_LAWS: [&str; 3] = ["law", "points", "formula"];
+
+fn law(table: &mut TomlTable, start: InputValue) -> Result<Begun> {
+    let quantities = ["to", "time", "amplitude", "period"];
+    if KEYS_OF_LAWS.iter().any(|key| table.has(key)) || quantities.iter().any(|key| table.has_si(key)) {
         return table.choice("law", sentences::IS_NO_LAW_OF_MOTION, LAWS)?(table, start);
     }
     table.optional_string("law")?;
     constant(table, start)
 }
 
-fn constant(table: &mut TomlTable, start: InputValue) -> Result<MotionLaw> {
-    Ok(MotionLaw::ConstantSpeed(speed(table, start)?))
+/// The law with its start, which must be `start` if both are stated.
+fn begun(
+    table: &mut TomlTable,
+    input: Input,
+    law: MotionLaw,
+    begin: Option<f64>,
+    start: Option<f64>,
+) -> Result<(MotionLaw, f64)> {
+    match (begin, start) {
+        (Some(begin), Some(start)) if !((begin - start).abs() <= 1e-12 * start.abs().max(1.0)) => {
+            let message =
+                sentences::the_law_does_not_begin(&input.shown(begin), &input.shown(start), &input.shown_in().0);
+            let key = if table.has("formula") { "formula" } else { "points" };
+            table.refuse(key, message, sentences::LET_LAW_AND_START_BE_EQUAL)
+        }
+        (begin, start) => Ok((law, start.or(begin).unwrap_or_default())),
+    }
+}
+
+fn constant(table: &mut TomlTable, start: InputValue) -> Result<Begun> {
+    Ok((MotionLaw::ConstantSpeed(speed(table, start)?), None))
 }
 
 /// Speed of a law: the rate of the input (rad/s or m/s).
@@ -239,25 +283,36 @@ fn speed(table: &mut TomlTable, start: InputValue) -> Result<f64> {
     table.quantity("speed", of_input_rate(start.input), Sign::NotZero)
 }
 
-fn ramp(table: &mut TomlTable, start: InputValue) -> Result<MotionLaw> {
+fn ramp(table: &mut TomlTable, start: InputValue) -> Result<Begun> {
     let speed = speed(table, start)?;
-    Ok(MotionLaw::Ramp { speed, time: table.si("time")? })
+    Ok((MotionLaw::Ramp { speed, time: table.si("time")? }, None))
 }
 
-fn cycloidal(table: &mut TomlTable, start: InputValue) -> Result<MotionLaw> {
+fn harmonic(table: &mut TomlTable, start: InputValue) -> Result<Begun> {
+    let amplitude = table.quantity("amplitude", of_input(start.input), Sign::NotZero)?;
+    let (period, phase) = (table.si("period")?, table.optional_si("phase")?.unwrap_or(0.0));
+    Ok((MotionLaw::Curve(Arc::new(Curve::Harmonic { amplitude, period, phase })), None))
+}
+
+fn formula(table: &mut TomlTable, _: InputValue) -> Result<Begun> {
+    let time = table.si("time")?;
+    let (curve, begin) = curve::formula(table, Variable::Time, time)?;
+    Ok((MotionLaw::Curve(Arc::new(curve)), Some(begin)))
+}
+
+fn cycloidal(table: &mut TomlTable, start: InputValue) -> Result<Begun> {
     let rise = table.quantity("to", of_input(start.input), Sign::Any)? - start.value;
     let time = table.si("time")?;
     if rise == 0.0 {
         let message = sentences::THE_CRANK_IS_TO_STAY_WHERE;
         return table.refuse("to", message, sentences::GIVE_A_CRANK_ANGLE_OTHER);
     }
-    Ok(MotionLaw::Cycloidal { rise, time })
+    Ok((MotionLaw::Cycloidal { rise, time }, None))
 }
 
 /// A law of motion from a table. The motion starts from rest at t = 0 and ends at rest at the last point.
-fn points(table: &mut TomlTable, start: InputValue) -> Result<MotionLaw> {
-    let InputValue { input, value: start } = start;
-    let [key, example] = match input {
+fn points(table: &mut TomlTable, start: InputValue) -> Result<Begun> {
+    let [key, example] = match start.input {
         Input::Slide => ["slide", "write `points = [{ time_s = 0, slide_mm = 0 }, { time_s = 0.5, slide_mm = 90 }]`"],
         Input::Angle | Input::Turn => {
             ["angle", "write `points = [{ time_s = 0, angle_deg = 0 }, { time_s = 0.5, angle_deg = 90 }]`"]
@@ -270,27 +325,29 @@ fn points(table: &mut TomlTable, start: InputValue) -> Result<MotionLaw> {
     for mut point in table.tables("points")? {
         let read = point.read(|point| {
             let time = point.si("time")?;
-            let gone = point.si(key)? - start;
+            let value = point.si(key)?;
             point.finish()?;
-            Ok((time, gone))
+            Ok((time, value))
         });
-        let (time, gone) = read?;
+        let (time, value) = read?;
         match points.last() {
-            None if time != 0.0 || gone.abs() > 1e-12 => {
-                let message = sentences::the_table_does_not_begin(&input.shown(start), &input.shown_in().0);
-                return Err(point.fault(message).help(sentences::WRITE_THE_START_AS_THE_FIRST));
+            None if time != 0.0 => {
+                return Err(point.fault(sentences::THE_TABLE_BEGINS_LATER).help(sentences::LET_LAW_AND_START_BE_EQUAL));
             }
             Some((last, _)) if !(time > *last) => {
                 let message = sentences::the_times_do_not_ascend_comes(&time, &last);
                 return Err(point.fault(message).help(sentences::WRITE_THE_POINTS_IN_ASCENDING_ORDER));
             }
-            _ => points.push((time, gone)),
+            _ => points.push((time, value)),
         }
     }
+    let begin = points.first().map_or(0.0, |(_, value)| *value);
+    points.iter_mut().for_each(|(_, value)| *value -= begin);
     if points.len() < 2 || points.iter().all(|&(_, gone)| gone == 0.0) {
         return table.refuse("points", sentences::A_TABLE_OF_ANGLES_NEEDS_TWO, example);
     }
-    Ok(MotionLaw::Table(Arc::new(Piecewise::clamped_spline(&points, [0.0; 2]))))
+    let spline = Piecewise::clamped_spline(&points, [0.0; 2]);
+    Ok((MotionLaw::Curve(Arc::new(Curve::Table(spline))), Some(begin)))
 }
 
 /// Acceleration of gravity (m/s^2).

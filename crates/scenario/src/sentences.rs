@@ -225,6 +225,14 @@ linkage::sentences! {
     the_mapping_cannot_be_read(path, error) = "the mapping {path} cannot be read: {error}";
     WRITE_IT_SUCH_AS_PHI3_PI = "write, for example, phi3*180/pi=link.rocker.angle_deg";
     A_MAPPING_IS_AN_ARITHMETIC = "a mapping is an expression of columns, `=`, and a channel";
+    // curve.rs
+    A_LAW_USES_T = "a law of motion uses the time `t` in seconds; an angle is in rad, a slide in m";
+    A_LIFT_USES_PHI = "a lift uses the angle of the cam, `phi` in rad; the lift is in m, or in rad for a follower that swings";
+    is_no_variable_here(name) = "`{name}` has no meaning in this formula";
+    has_a_kink(name) = "`{name}` has a kink, at which velocities jump";
+    GIVE_A_FORMULA_WITH_TWO_DERIVATIVES = "give a formula with two continuous derivatives";
+    the_formula_is_undefined_at(variable, x, unit) = "the formula or one of its first two derivatives is undefined at {variable} = {x} {unit}";
+    THE_FORMULA_IS_CONSTANT = "the formula is constant";
     // masses.rs
     CHECK_THE_UNIT_LEAVE_OUT = "check the unit; leave out masses that no requested quantity needs";
     link_has_a_moment_of_inertia(link, own, own_2) = "link \"{link}\": its moment of inertia plus its mass times the square of the largest link's length is {own} kg·m²; this is {own_2} times that of everything else";
@@ -236,8 +244,9 @@ linkage::sentences! {
     A_TABLE_OF_ANGLES_NEEDS_TWO = "a table needs at least two points with different values";
     WRITE_THE_POINTS_IN_ASCENDING_ORDER = "write the points in ascending order of time, each time once";
     the_times_do_not_ascend_comes(time, last) = "the times do not ascend: {time} s comes after {last} s";
-    WRITE_THE_START_AS_THE_FIRST = "write the start as the first point";
-    the_table_does_not_begin(input, input_2) = "the table does not begin with the start of the input, {input} {input_2} at 0 s";
+    LET_LAW_AND_START_BE_EQUAL = "a table begins at 0 s with the start, a formula has that value for t = 0";
+    the_law_does_not_begin(begin, input, input_2) = "the law begins with {begin} {input_2}, but the start is {input} {input_2}";
+    THE_TABLE_BEGINS_LATER = "the first point of the table is not at 0 s";
     GIVE_A_CRANK_ANGLE_OTHER = "give a value other than that of the start";
     THE_CRANK_IS_TO_STAY_WHERE = "the input would not change";
     IS_NO_LAW_OF_MOTION = "is not a law of motion";
@@ -453,6 +462,11 @@ linkage::sentences! {
     ASCEND_TO_360 = "let the angles ascend, the last piece end at 360 deg with lift 0";
     LIFTS_IN_TWO_UNITS = "the lifts are lengths as well as angles";
     THE_FOLLOWER_DOES_NOT_MOVE = "the follower has no lift";
+    THE_CAM_HAS_TWO_LAWS = "the lift of the cam is given twice";
+    the_angle_of_the_lift(angle) = "the lift at {angle} deg follows one at a larger angle, or belongs to another turn";
+    ASCEND_BELOW_360 = "let the angles ascend from 0 and stay below 360 deg; the table repeats with every turn";
+    GIVE_LIFTS = "give lifts: `lifts = [{ angle_deg = 0, lift_mm = 0 }, { angle_deg = 120, lift_mm = 20 }, { angle_deg = 240, lift_mm = 5 }]`";
+    THE_FORMULA_DOES_NOT_REPEAT = "the lift, or one of its first two derivatives, is different at `phi` = 0 and 2 pi";
     GIVE_A_LIFT = "give a lift: `{ to_deg = 120, lift_mm = 20 }`";
     the_law_of_the_cam_ends_at(angle) = "the last piece ends at {angle} deg, or with a lift";
     // transmissions.rs

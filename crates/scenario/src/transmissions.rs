@@ -57,13 +57,19 @@ pub const SECTIONS: &[Section] = &[
     optional("point", ValueKind::Text, "required for a cam")
         .means("cam: point of the follower: the roller's centre, the knife's edge, or a point of the flat face"),
     optional("roller", ValueKind::LENGTHS.of(Sign::NotNegative), "required for a roller").means("cam: radius of the roller"),
-    optional("motion", ValueKind::Tables, "required for a cam")
+    optional("motion", ValueKind::Tables, "required for a cam without `lifts` or `formula`")
         .means("cam: lift over the angle of the cam against the carrier, piece by piece; it begins with lift 0 at angle 0"),
+    optional("lifts", ValueKind::Tables, "none")
+        .means("cam, instead of `motion`: a table of lifts in one turn, joined by a periodic cubic spline"),
+    optional("formula", ValueKind::Text, "none").means(
+        "cam, instead of `motion`: the lift in m, or in rad if the follower swings, as a formula of the cam's angle \
+         `phi` in rad, from 0 to 2 pi, periodic with two continuous derivatives",
+    ),
     optional("start_joint", ValueKind::Text, "the joint of the second link with the carrier")
         .means("the joint that `start` refers to: one for each transmission, not driven"),
     needed("start", ValueKind::INPUTS)
         .means("coordinate of that joint at t = 0: angle of its second link minus that of its first link, or slide"),
-    ]), cam::SECTION,
+    ]), cam::SECTION, cam::LIFTS,
 ];
 
 /// The mechanism with the transmissions of the file.

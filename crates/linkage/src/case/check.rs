@@ -129,7 +129,7 @@ fn motion_is_sound(motion: &DriveMotion) -> bool {
                 MotionLaw::ConstantSpeed(speed) => moves(speed),
                 MotionLaw::Ramp { speed, time } => moves(speed) && moves(time) && time > 0.0,
                 MotionLaw::Cycloidal { rise, time } => moves(rise) && moves(time) && time > 0.0,
-                MotionLaw::Table(ref table) => table.knots().iter().all(|knot| knot.is_finite()),
+                MotionLaw::Curve(ref curve) => curve.is_finite(),
             };
             (moved && moves(law.top_speed()), motor)
         }

@@ -298,17 +298,15 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::math::Piecewise;
+    use crate::math::{Curve, Piecewise};
 
     fn drive(law: MotionLaw) -> Drive {
         Drive::prescribed(JointId(0), LinkId(1), 3.0, 0.5, law)
     }
 
     fn table() -> MotionLaw {
-        MotionLaw::Table(Arc::new(Piecewise::clamped_spline(
-            &[(0.0, 0.0), (0.1, 0.4), (0.25, 0.2), (0.4, 1.0)],
-            [0.0; 2],
-        )))
+        let points = [(0.0, 0.0), (0.1, 0.4), (0.25, 0.2), (0.4, 1.0)];
+        MotionLaw::Curve(Arc::new(Curve::Table(Piecewise::clamped_spline(&points, [0.0; 2]))))
     }
 
     #[test]

@@ -4,7 +4,7 @@ use std::convert::Infallible;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use crate::math::{Piecewise, root};
+use crate::math::{Curve, root};
 
 /// An input with its rate and acceleration.
 /// The units are rad, rad/s, rad/s^2 for an angle; m, m/s, m/s^2 for a length.
@@ -43,9 +43,8 @@ pub enum MotionLaw {
         /// Duration (s), positive.
         time: f64,
     },
-    /// Angle from the start (rad) as a function of time (s), with two continuous derivatives.
-    /// The function is defined from its first knot, which is 0, to its last knot.
-    Table(Arc<Piecewise>),
+    /// Angle from the start (rad) as a function of time (s), from t = 0: a table, a harmonic or a formula.
+    Curve(Arc<Curve>),
 }
 
 impl MotionLaw {
@@ -55,7 +54,7 @@ impl MotionLaw {
         match self {
             MotionLaw::ConstantSpeed(_) | MotionLaw::Ramp { .. } => None,
             MotionLaw::Cycloidal { time, .. } => Some(*time),
-            MotionLaw::Table(table) => table.knots().last().copied(),
+            MotionLaw::Curve(curve) => curve.end(),
         }
     }
 
@@ -65,7 +64,7 @@ impl MotionLaw {
     pub fn constant(&self) -> Option<f64> {
         match *self {
             MotionLaw::ConstantSpeed(omega) => Some(omega),
-            MotionLaw::Ramp { .. } | MotionLaw::Cycloidal { .. } | MotionLaw::Table(_) => None,
+            MotionLaw::Ramp { .. } | MotionLaw::Cycloidal { .. } | MotionLaw::Curve(_) => None,
         }
     }
 
@@ -74,7 +73,7 @@ impl MotionLaw {
     pub fn jump(&self) -> Option<f64> {
         match *self {
             MotionLaw::Ramp { time, .. } => Some(time),
-            MotionLaw::ConstantSpeed(_) | MotionLaw::Cycloidal { .. } | MotionLaw::Table(_) => None,
+            MotionLaw::ConstantSpeed(_) | MotionLaw::Cycloidal { .. } | MotionLaw::Curve(_) => None,
         }
     }
 
@@ -85,7 +84,7 @@ impl MotionLaw {
             MotionLaw::ConstantSpeed(_) => "constant",
             MotionLaw::Ramp { .. } => "ramp",
             MotionLaw::Cycloidal { .. } => "cycloidal",
-            MotionLaw::Table(_) => "table",
+            MotionLaw::Curve(curve) => curve.name(),
         }
     }
 
@@ -112,8 +111,8 @@ impl MotionLaw {
                     acceleration: mean / time * TAU * sin,
                 }
             }
-            MotionLaw::Table(ref table) => {
-                let [gone, rate, acceleration] = table.at(t);
+            MotionLaw::Curve(ref curve) => {
+                let [gone, rate, acceleration] = curve.at(t);
                 InputState { value: start + gone, rate, acceleration }
             }
         }
@@ -126,15 +125,12 @@ impl MotionLaw {
         match self {
             MotionLaw::ConstantSpeed(speed) | MotionLaw::Ramp { speed, .. } => *speed,
             MotionLaw::Cycloidal { rise, time } => 2.0 * rise / time,
-            MotionLaw::Table(table) => {
-                let [least, most] = table.slopes();
-                if -least > most { least } else { most }
-            }
+            MotionLaw::Curve(curve) => curve.steepest(),
         }
     }
 
     /// First time (s) at which the driving link has turned by the angle `gone` (rad).
-    /// NaN if the law never reaches the angle, or if a table reaches it more than once. The start is reached at t = 0.
+    /// NaN if the law never reaches the angle, or if a curve reaches it more than once; of a harmonic, in one period. The start is reached at t = 0.
     #[inline]
     #[must_use]
     pub fn time_of(&self, gone: f64) -> f64 {
@@ -146,7 +142,7 @@ impl MotionLaw {
                 late => late + time / 2.0,
             },
             MotionLaw::Cycloidal { rise, time } => time * cycloid(gone / rise),
-            MotionLaw::Table(ref table) => only_time(table, gone),
+            MotionLaw::Curve(ref curve) => only_time(curve, gone),
         }
     }
 }
@@ -154,17 +150,18 @@ impl MotionLaw {
 /// Number of parts into which each interval of a table is divided, to find where the table reaches a value.
 const PARTS: usize = 32;
 
-/// The only time (s) at which a table reaches `gone`, by sign changes and bisection; NaN if there is no such time.
-fn only_time(table: &Piecewise, gone: f64) -> f64 {
+/// The only time (s) at which a curve reaches `gone`, by sign changes and bisection; NaN if there is no such time.
+fn only_time(curve: &Curve, gone: f64) -> f64 {
     if gone == 0.0 {
         return 0.0;
     }
-    // A difference at the level of rounding errors counts as zero, so that the last value of the table is reached.
+    // A difference at the level of rounding errors counts as zero, so that the last value of the curve is reached.
     let off =
-        |t: f64| Some(table.at(t)[0] - gone).filter(|off| off.abs() > 4.0 * f64::EPSILON * gone.abs()).unwrap_or(0.0);
-    let parts = table.knots().windows(2).flat_map(|pair| {
-        let at = |k: usize| pair[0] + (pair[1] - pair[0]) * k as f64 / PARTS as f64;
-        (0..PARTS).map(move |k| [at(k), if k + 1 == PARTS { pair[1] } else { at(k + 1) }])
+        |t: f64| Some(curve.at(t)[0] - gone).filter(|off| off.abs() > 4.0 * f64::EPSILON * gone.abs()).unwrap_or(0.0);
+    let (places, count) = (curve.places(), if matches!(curve, Curve::Table(_)) { PARTS } else { 1 });
+    let parts = places.windows(2).flat_map(|pair| {
+        let at = |k: usize| pair[0] + (pair[1] - pair[0]) * k as f64 / count as f64;
+        (0..count).map(move |k| [at(k), if k + 1 == count { pair[1] } else { at(k + 1) }])
     });
     let mut times = parts.filter_map(|[low, high]| {
         let is_before = off(low) < 0.0;

@@ -368,7 +368,7 @@ pub fn at_speed(law: &MotionLaw, speed: f64) -> MotionLaw {
         MotionLaw::ConstantSpeed(_) => MotionLaw::ConstantSpeed(speed),
         MotionLaw::Ramp { time, .. } => MotionLaw::Ramp { speed, time: *time },
         MotionLaw::Cycloidal { rise, time } => MotionLaw::Cycloidal { rise: factor * rise, time: *time },
-        MotionLaw::Table(table) => MotionLaw::Table(table.times(factor).into()),
+        MotionLaw::Curve(curve) => MotionLaw::Curve(curve.times(factor).into()),
     }
 }
 

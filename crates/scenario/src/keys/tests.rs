@@ -8,13 +8,17 @@ use crate::reader::asked;
 use crate::{Scenario, files_in};
 
 /// Changes of a scenario that make readers request keys that no scenario of the repository has.
-const CHANGES: [(&str, &str, &str); 11] = [
+const CHANGES: [(&str, &str, &str); 16] = [
     (
         "crank_rocker",
         "speed_rpm = 130",
         "law = \"table\"\npoints = [{ time_s = 0, angle_deg = 0 }, { time_s = 1, angle_deg = 90 }]",
     ),
     ("crank_rocker", "law = \"linear\"\ntorque_at_rest_N_m = 22.51", "law = \"constant\"\ntorque_N_m = 5"),
+    ("crank_rocker", "speed_rpm = 130", "law = \"harmonic\"\namplitude_deg = 9\nperiod_s = 1\nphase_deg = 0"),
+    ("crank_rocker", "speed_rpm = 130", "law = \"formula\"\nformula = \"3*t\"\ntime_s = 1"),
+    ("cam_follower", "motion = [", "formula = \"0.01*sin(phi)\"\nx = ["),
+    ("cam_follower", "motion = [", "lifts = [{ angle_deg = 0, lift_mm = 0 }, { angle_deg = 9, lift_mm = 1 }]\nx = ["),
     (
         "crank_rocker",
         "law = \"linear\"\ntorque_at_rest_N_m = 22.51",
@@ -48,6 +52,7 @@ const CHANGES: [(&str, &str, &str); 11] = [
          corners = [{ x_mm = 0, y_mm = -90 }, { x_mm = 9, y_mm = -80 }, { x_mm = 0, y_mm = -70 }]\n[grid]",
     ),
     ("ov7_base", "file = ", "digits = 3\nfile = "),
+    ("boom_lift", "law = \"cycloidal\"", "law = \"harmonic\"\namplitude_mm = 9\nperiod_s = 1"),
     ("boom_lift", "from_s = 0\nto_s = 4\nstep_s = 0.05\n", "from_mm = 1\nto_mm = 2\nstep_mm = 1\n"),
     (
         "boom_lift",

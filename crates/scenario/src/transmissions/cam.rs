@@ -1,12 +1,13 @@
 //! `[[transmissions.motion]]` and the other keys of cams.
 
+use super::super::curve::{self, Variable};
 use super::super::keys::key::{Section, ValueKind, needed, optional};
 use super::super::reader::{Sign, TomlTable};
 use super::super::unit::UnitFamily;
 use super::super::words::{Words, names, suggestion};
 use crate::sentences;
 use linkage::error::{ErrorKind, Result};
-use linkage::math::Vec2;
+use linkage::math::{Curve, Piecewise, Vec2};
 use linkage::mechanism::{CamContact, CamCurve, CamLaw, CamSegment, Link, TransmissionKind};
 use std::f64::consts::TAU;
 
@@ -42,6 +43,12 @@ pub const SECTION: Section = Section::at("transmissions.motion").with(&[
     optional("law", ValueKind::Choice(|| names(CURVES)), "`\"cycloidal\"`").means("curve of a rise or return"),
 ]);
 
+/// Description of a table of lifts.
+pub const LIFTS: Section = Section::at("transmissions.lifts").with(&[
+    needed("angle", ValueKind::ANGLES.of(Sign::NotNegative)).means("angle of the cam: ascending, below 360 deg"),
+    needed("lift", ValueKind::INPUTS).means("lift of the follower at that angle"),
+]);
+
 /// Reads the keys of a cam with this follower. Also returns the units of the lifts.
 pub fn read(table: &mut TomlTable, link: &Link) -> Result<(TransmissionKind, Option<&'static UnitFamily>)> {
     let follower = table.choice("follower", sentences::IS_NO_FOLLOWER, FOLLOWERS)?;
@@ -66,10 +73,79 @@ fn contact(table: &mut TomlTable, follower: Follower, point: Vec2, radius: Optio
     }
 }
 
-fn law(table: &mut TomlTable) -> Result<(CamLaw, Option<&'static UnitFamily>)> {
-    if !table.has("motion") {
-        return Err(table.lacks(&["motion"], sentences::GIVE_THE_MOTION_OF_THE_FOLLOWER));
+/// A law of a cam, and the units of its lifts, if it states units.
+type Law = (CamLaw, Option<&'static UnitFamily>);
+
+/// The ways to state the law of a cam, each with its reader.
+const LAWS: [(&str, fn(&mut TomlTable) -> Result<Law>); 3] =
+    [("motion", pieces), ("lifts", lifts), ("formula", formula)];
+
+fn law(table: &mut TomlTable) -> Result<Law> {
+    let mut stated = LAWS.into_iter().filter(|(key, _)| table.has(key));
+    let (Some((_, read)), second) = (stated.next(), stated.next()) else {
+        return Err(table.lacks(&["motion", "lifts", "formula"], sentences::GIVE_THE_MOTION_OF_THE_FOLLOWER));
+    };
+    match second {
+        Some((key, _)) => table.refuse(key, sentences::THE_CAM_HAS_TWO_LAWS, sentences::TAKE_THE_KEY_OUT),
+        None => read(table),
     }
+}
+
+/// A periodic spline through lifts.
+fn lifts(table: &mut TomlTable) -> Result<Law> {
+    let (mut points, mut unit): (Vec<(f64, f64)>, Option<&'static UnitFamily>) = (Vec::new(), None);
+    for mut point in table.tables("lifts")? {
+        let read = point.read(|point| {
+            let (angle, lift) = (point.si("angle")?, point.optional_si_of("lift")?);
+            point.finish()?;
+            Ok((angle, lift))
+        });
+        let (angle, lift) = read?;
+        let Some(lift) = lift_in(&mut point, lift, &mut unit)? else {
+            return Err(
+                point.lacks(&["lift_m", "lift_mm", "lift_rad", "lift_deg"], sentences::GIVE_LIFTS_LIKE_THE_JOINT)
+            );
+        };
+        let last = points.last().map_or(-1.0, |(last, _)| *last);
+        if !(angle > last + EQUAL && angle < TAU - EQUAL) {
+            let message = sentences::the_angle_of_the_lift(&angle.to_degrees());
+            return Err(point.fault(message).help(sentences::ASCEND_BELOW_360));
+        }
+        points.push((angle, lift));
+    }
+    let curve = Curve::Table(Piecewise::periodic_spline(&points, TAU));
+    match curve.range() > 0.0 {
+        true => Ok((CamLaw::Curve(curve), unit)),
+        false => table.refuse("lifts", sentences::THE_FOLLOWER_DOES_NOT_MOVE, sentences::GIVE_LIFTS),
+    }
+}
+
+/// A lift whose units agree with those of the lifts before it.
+fn lift_in(
+    table: &mut TomlTable,
+    lift: Option<(&'static UnitFamily, f64)>,
+    unit: &mut Option<&'static UnitFamily>,
+) -> Result<Option<f64>> {
+    let Some((family, lift)) = lift else { return Ok(None) };
+    if unit.replace(family).is_some_and(|other| !std::ptr::eq(other, family)) {
+        return Err(table.wrong(ErrorKind::Input, "lift", sentences::LIFTS_IN_TWO_UNITS));
+    }
+    Ok(Some(lift))
+}
+
+/// A formula of the angle, which repeats after a turn.
+fn formula(table: &mut TomlTable) -> Result<Law> {
+    let (curve, _) = curve::formula(table, Variable::Angle, TAU)?;
+    let (begin, end, range) = (curve.at(0.0), curve.at(TAU), curve.range());
+    if !begin.iter().zip(&end).all(|(begin, end)| (begin - end).abs() <= EQUAL * range) {
+        let help = sentences::GIVE_A_FORMULA_WITH_TWO_DERIVATIVES;
+        return table.refuse("formula", sentences::THE_FORMULA_DOES_NOT_REPEAT, help);
+    }
+    Ok((CamLaw::Curve(curve), None))
+}
+
+/// Pieces of a law.
+fn pieces(table: &mut TomlTable) -> Result<Law> {
     let (mut segments, mut unit): (Vec<CamSegment>, Option<&'static UnitFamily>) = (Vec::new(), None);
     for mut piece in table.tables("motion")? {
         let read = piece.read(|piece| {
@@ -84,14 +160,10 @@ fn law(table: &mut TomlTable) -> Result<(CamLaw, Option<&'static UnitFamily>)> {
             let message = sentences::the_cam_angles_do_not_ascend(&to.to_degrees(), &last.to_degrees());
             return Err(piece.fault(message).help(sentences::ASCEND_TO_360));
         }
-        if let Some((family, _)) = lift
-            && unit.replace(family).is_some_and(|other| !std::ptr::eq(other, family))
-        {
-            return Err(piece.wrong(ErrorKind::Input, "lift", sentences::LIFTS_IN_TWO_UNITS));
-        }
+        let lift = lift_in(&mut piece, lift, &mut unit)?;
         // The last angle is a whole turn, whatever its rounding.
         let to = if (to - TAU).abs() <= EQUAL { TAU } else { to };
-        segments.push(CamSegment { to, lift: lift.map_or(before, |(_, lift)| lift), curve });
+        segments.push(CamSegment { to, lift: lift.unwrap_or(before), curve });
     }
     let ends_at = segments.last().map_or(0.0, |own| own.to.to_degrees());
     match (segments.iter().all(|own| own.lift == 0.0), CamLaw::of(segments)) {

@@ -5,7 +5,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::math::KeepNan;
+use crate::math::{Curve, KeepNan};
 
 /// Curve of a rise or return.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -82,54 +82,74 @@ pub struct CamSegment {
     pub curve: CamCurve,
 }
 
-/// The lift of a follower over one turn of its cam. The law repeats in every turn; it begins and ends with lift 0.
+/// The motion of a follower over the angle of its cam, repeated with every turn.
 #[derive(Clone, Debug, PartialEq)]
-pub struct CamLaw(Vec<CamSegment>);
+pub enum CamLaw {
+    /// Pieces from lift 0 at angle 0 to lift 0 at a whole turn; see [`CamLaw::of`].
+    Segments(Vec<CamSegment>),
+    /// A periodic spline, or a formula up to a whole turn.
+    Curve(Curve),
+}
 
 impl CamLaw {
-    /// The law of these pieces; `None` unless their ends ascend to a full turn and the last lift is 0.
+    /// The law of these pieces; `None` unless their ends ascend from 0 to a whole turn and the last lift is 0.
     #[must_use]
     pub fn of(segments: Vec<CamSegment>) -> Option<Self> {
         let ends = std::iter::once(0.0).chain(segments.iter().map(|own| own.to));
         let ascends = ends.zip(&segments).all(|(from, own)| own.to > from && own.lift.is_finite());
         let last = segments.last()?;
-        (ascends && (last.to - TAU).abs() < 1e-9 && last.lift == 0.0).then_some(CamLaw(segments))
+        (ascends && (last.to - TAU).abs() < 1e-9 && last.lift == 0.0).then_some(CamLaw::Segments(segments))
     }
 
     /// Lift at an angle of the cam (rad), and its first two derivatives by the angle.
     #[must_use]
     pub fn at(&self, angle: f64) -> [f64; 3] {
         let angle = angle.rem_euclid(TAU);
-        let index = self.0.partition_point(|own| own.to < angle).min(self.0.len() - 1);
+        let segments = match self {
+            CamLaw::Segments(segments) => segments,
+            CamLaw::Curve(curve) => return curve.at(angle),
+        };
+        let index = segments.partition_point(|own| own.to < angle).min(segments.len() - 1);
         let (from, begun) = match index.checked_sub(1) {
-            Some(before) => (self.0[before].to, self.0[before].lift),
+            Some(before) => (segments[before].to, segments[before].lift),
             None => (0.0, 0.0),
         };
-        let CamSegment { to, lift, curve } = self.0[index];
+        let CamSegment { to, lift, curve } = segments[index];
         let (width, rise) = (to - from, lift - begun);
         let [value, first, second] = curve.at((angle - from) / width);
         [begun + rise * value, rise * first / width, rise * second / (width * width)]
     }
-}
 
-impl CamLaw {
     /// The law with all lifts multiplied by `factor`.
     #[must_use]
     pub fn times(&self, factor: f64) -> Self {
-        CamLaw(self.0.iter().map(|own| CamSegment { lift: own.lift * factor, ..*own }).collect())
+        match self {
+            CamLaw::Segments(segments) => {
+                CamLaw::Segments(segments.iter().map(|own| CamSegment { lift: own.lift * factor, ..*own }).collect())
+            }
+            CamLaw::Curve(curve) => CamLaw::Curve(curve.times(factor)),
+        }
     }
 
     /// Distance of an angle of the cam from the nearest end of a piece (rad). There the third derivative jumps.
     #[must_use]
     pub fn to_knot(&self, angle: f64) -> f64 {
         let away = |end: f64| ((angle - end + PI).rem_euclid(TAU) - PI).abs();
-        self.0.iter().map(|own| away(own.to)).fold(PI, f64::smaller)
+        match self {
+            CamLaw::Segments(segments) => segments.iter().map(|own| away(own.to)).fold(PI, f64::smaller),
+            CamLaw::Curve(Curve::Table(table)) => table.knots().iter().map(|&knot| away(knot)).fold(PI, f64::smaller),
+            CamLaw::Curve(Curve::Harmonic { .. } | Curve::Formula(_)) => PI,
+        }
     }
 
     /// Largest minus least lift (m or rad).
     #[must_use]
     pub fn range(&self) -> f64 {
-        let lifts = || self.0.iter().map(|own| own.lift);
+        let segments = match self {
+            CamLaw::Segments(segments) => segments,
+            CamLaw::Curve(curve) => return curve.range(),
+        };
+        let lifts = || segments.iter().map(|own| own.lift);
         lifts().fold(f64::NEG_INFINITY, f64::larger) - lifts().fold(f64::INFINITY, f64::smaller)
     }
 }

@@ -1,0 +1,171 @@
+//! Functions of one variable with two continuous derivatives: motion laws over time, lifts over the angle of a cam.
+
+use std::convert::Infallible;
+use std::f64::consts::TAU;
+use std::fmt::Debug;
+use std::sync::Arc;
+
+use super::{KeepNan, Piecewise, extremum};
+
+/// A function that its owner evaluates.
+pub trait Smooth: Debug + Send + Sync {
+    /// Value and first two derivatives.
+    fn at(&self, x: f64) -> [f64; 3];
+
+    /// The statement of the function: functions with equal statements are equal.
+    fn stated(&self) -> &str;
+}
+
+/// A function with two continuous derivatives.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Curve {
+    /// A spline through points.
+    Table(Piecewise),
+    /// amplitude (sin(2 pi x / period + phase) - sin(phase)): it begins with 0 and never ends.
+    Harmonic {
+        /// Amplitude, not zero.
+        amplitude: f64,
+        /// Period, positive.
+        period: f64,
+        /// Phase at x = 0 (rad).
+        phase: f64,
+    },
+    /// A formula, from x = 0.
+    Formula(FormulaCurve),
+}
+
+/// factor (f(x) - shift), for a function that its owner evaluates.
+#[derive(Clone, Debug)]
+pub struct FormulaCurve {
+    /// The function f.
+    pub of: Arc<dyn Smooth>,
+    /// The shift.
+    pub shift: f64,
+    /// The factor.
+    pub factor: f64,
+    /// Last x.
+    pub end: f64,
+}
+
+impl PartialEq for FormulaCurve {
+    fn eq(&self, other: &Self) -> bool {
+        let numbers = |own: &Self| [own.shift, own.factor, own.end];
+        self.of.stated() == other.of.stated() && numbers(self) == numbers(other)
+    }
+}
+
+/// Number of parts into which the range of a formula, or the period of a harmonic, is divided for searches.
+const PARTS: u32 = 1024;
+
+impl Curve {
+    /// Value and first two derivatives at `x`.
+    #[inline]
+    #[must_use]
+    pub fn at(&self, x: f64) -> [f64; 3] {
+        match self {
+            Curve::Table(table) => table.at(x),
+            &Curve::Harmonic { amplitude, period, phase } => {
+                let (rate, (sine, cosine)) = (TAU / period, (TAU * x / period + phase).sin_cos());
+                [amplitude * (sine - phase.sin()), amplitude * rate * cosine, -amplitude * rate * rate * sine]
+            }
+            Curve::Formula(own) => {
+                let [value, first, second] = own.of.at(x);
+                [own.factor * (value - own.shift), own.factor * first, own.factor * second]
+            }
+        }
+    }
+
+    /// Name of the curve's kind.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Curve::Table(_) => "table",
+            Curve::Harmonic { .. } => "harmonic",
+            Curve::Formula(_) => "formula",
+        }
+    }
+
+    /// The x at which the curve ends; `None` if it never ends.
+    #[must_use]
+    pub fn end(&self) -> Option<f64> {
+        match self {
+            Curve::Table(table) => table.knots().last().copied(),
+            Curve::Harmonic { .. } => None,
+            Curve::Formula(own) => Some(own.end),
+        }
+    }
+
+    /// The same function multiplied by `factor`.
+    #[must_use]
+    pub fn times(&self, factor: f64) -> Self {
+        match self {
+            Curve::Table(table) => Curve::Table(table.times(factor)),
+            &Curve::Harmonic { amplitude, period, phase } => {
+                Curve::Harmonic { amplitude: factor * amplitude, period, phase }
+            }
+            Curve::Formula(own) => Curve::Formula(FormulaCurve { factor: factor * own.factor, ..own.clone() }),
+        }
+    }
+
+    /// Ascending places between which a search finds all extremes and values: the knots of a table, equal parts
+    /// otherwise.
+    #[must_use]
+    pub fn places(&self) -> Vec<f64> {
+        let parts = |end: f64| (0..=PARTS).map(|part| end * f64::from(part) / f64::from(PARTS)).collect();
+        match self {
+            Curve::Table(table) => table.knots().to_vec(),
+            Curve::Harmonic { period, .. } => parts(*period),
+            Curve::Formula(own) => parts(own.end),
+        }
+    }
+
+    /// The derivative with the largest size, with its sign.
+    #[must_use]
+    pub fn steepest(&self) -> f64 {
+        let [least, most] = match self {
+            Curve::Table(table) => table.slopes(),
+            Curve::Harmonic { .. } | Curve::Formula(_) => [-1.0, 1.0].map(|sign| {
+                let places = self.places();
+                let samples: Vec<f64> = places.iter().map(|&x| sign * self.at(x)[1]).collect();
+                let Ok((_, most)) =
+                    extremum::greatest(&places, &samples, &mut |x| Ok::<_, Infallible>(sign * self.at(x)[1]));
+                sign * most
+            }),
+        };
+        if -least > most { least } else { most }
+    }
+
+    /// Difference between the largest and the smallest value at the places of a search.
+    #[must_use]
+    pub fn range(&self) -> f64 {
+        let values = || self.places().into_iter().map(|x| self.at(x)[0]);
+        values().fold(f64::NEG_INFINITY, f64::larger) - values().fold(f64::INFINITY, f64::smaller)
+    }
+
+    /// Whether values and derivatives are finite at all places of a search.
+    #[must_use]
+    pub fn is_finite(&self) -> bool {
+        self.places().into_iter().all(|x| self.at(x).into_iter().all(f64::is_finite))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn a_harmonic_begins_with_zero_and_matches_its_derivatives() {
+        let curve = Curve::Harmonic { amplitude: 2.0, period: 3.0, phase: 0.4 };
+        assert_eq!(curve.at(0.0)[0], 0.0);
+        assert_relative_eq!(curve.steepest().abs(), 2.0 * TAU / 3.0, epsilon = 1e-12);
+        assert_relative_eq!(curve.times(-0.5).range(), 2.0, epsilon = 1e-5);
+        for x in [0.0, 0.3, 1.1, 2.9, 7.0] {
+            let h = 1e-6;
+            let [[before, rate, _], [after, later, _]] = [curve.at(x - h), curve.at(x + h)];
+            let [_, first, second] = curve.at(x);
+            assert_relative_eq!((after - before) / (2.0 * h), first, epsilon = 1e-8);
+            assert_relative_eq!((later - rate) / (2.0 * h), second, epsilon = 1e-7);
+        }
+    }
+}

@@ -1,0 +1,102 @@
+//! Formulas as functions: motion laws over time, lifts over the angle of a cam.
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use super::formula::Formulas;
+use super::reader::TomlTable;
+use crate::sentences;
+use formula::{FormulaFault, FormulaTree, Function, NodeShape, Program, Rounded};
+use linkage::error::{ErrorKind, Result};
+use linkage::math::{Curve, FormulaCurve, Smooth};
+
+/// The variable of a formula.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Variable {
+    /// The time t (s).
+    Time,
+    /// The angle phi of a cam (rad).
+    Angle,
+}
+
+/// A formula of one variable, with its derivatives.
+#[derive(Debug)]
+struct Stated {
+    text: String,
+    variable: Variable,
+    /// Value and first two derivatives. The program stores its intermediate values.
+    program: Mutex<Program>,
+}
+
+impl Smooth for Stated {
+    fn at(&self, x: f64) -> [f64; 3] {
+        let mut program = self.program.lock().unwrap_or_else(PoisonError::into_inner);
+        let found = program.run(&inputs(self.variable, x));
+        [0, 1, 2].map(|k| found[k].value)
+    }
+
+    fn stated(&self) -> &str {
+        &self.text
+    }
+}
+
+/// Inputs of [`Formulas`]: the angle and the time.
+fn inputs(variable: Variable, x: f64) -> [Rounded; 2] {
+    let (own, other) = (Rounded::exact(x), Rounded::UNDEFINED);
+    if variable == Variable::Time { [other, own] } else { [own, other] }
+}
+
+/// Reads the key `formula`: a formula of `variable` from 0 to `end`, in rad or m, which may use the parameters.
+/// The curve begins with 0; also returns the value of the formula there.
+pub fn formula(table: &mut TomlTable, variable: Variable, end: f64) -> Result<(Curve, f64)> {
+    let text = table.string("formula")?;
+    let parameters = table.source().parameters.list();
+    let mut formulas = Formulas::over(parameters.to_vec());
+    let program = match formulas.add("law", &text).map(|own| (own.id, own.tree.clone())) {
+        Ok((id, tree)) => checked(&tree, variable).map(|()| {
+            let input = usize::from(variable == Variable::Time);
+            let rate = formulas.graph.derivative(id, input);
+            let acceleration = formulas.graph.derivative(rate, input);
+            Program::of(&formulas.graph, &[id, rate, acceleration])
+        }),
+        Err(fault) => Err(fault),
+    };
+    let mut program = program.map_err(|fault| table.fault_in("formula", &fault))?;
+    let shift = program.run(&inputs(variable, 0.0))[0].value;
+    // Files that state the same formula with other parameters state other functions.
+    let numbers: Vec<String> = parameters.iter().map(|own| format!("{} = {:e}", own.key, own.given)).collect();
+    let stated = Stated { text: format!("{text} | {}", numbers.join(", ")), variable, program: Mutex::new(program) };
+    let curve = Curve::Formula(FormulaCurve { of: Arc::new(stated), shift, factor: 1.0, end });
+    if let Some(x) = curve.places().into_iter().find(|&x| !curve.at(x).into_iter().all(f64::is_finite)) {
+        let message = match variable {
+            Variable::Time => sentences::the_formula_is_undefined_at(&"t", &x, &"s"),
+            Variable::Angle => sentences::the_formula_is_undefined_at(&"phi", &x, &"rad"),
+        };
+        return table.refuse("formula", message, sentences::GIVE_A_FORMULA_WITH_TWO_DERIVATIVES);
+    }
+    if !(curve.range() > 0.0) {
+        return Err(table.wrong(ErrorKind::Input, "formula", sentences::THE_FORMULA_IS_CONSTANT));
+    }
+    Ok((curve, shift))
+}
+
+/// Checks that a formula has the right variable and no kink.
+fn checked(tree: &FormulaTree, variable: Variable) -> std::result::Result<(), FormulaFault> {
+    let wrong = if variable == Variable::Time { "phi" } else { "t" };
+    if let Some((name, at)) = tree.names().into_iter().find(|(name, _)| *name == wrong) {
+        let help = if variable == Variable::Time { sentences::A_LAW_USES_T } else { sentences::A_LIFT_USES_PHI };
+        return Err(FormulaFault { message: sentences::is_no_variable_here(&name), at, help: help.into() });
+    }
+    if let Some((name, at)) = kink(tree) {
+        let help = sentences::GIVE_A_FORMULA_WITH_TWO_DERIVATIVES.into();
+        return Err(FormulaFault { message: sentences::has_a_kink(&name), at, help });
+    }
+    Ok(())
+}
+
+/// The first function with a kink or jump.
+fn kink(tree: &FormulaTree) -> Option<(&'static str, std::ops::Range<usize>)> {
+    if let NodeShape::Call(own @ (Function::Abs | Function::Sign), _) = &tree.shape {
+        return Some((own.name(), tree.at.clone()));
+    }
+    tree.parts().iter().find_map(kink)
+}
