@@ -18,6 +18,7 @@ pub(crate) mod drive;
 pub(crate) mod drive_graphs;
 pub(crate) mod drivers;
 pub mod explain;
+pub(crate) mod fixed;
 pub(crate) mod html;
 pub(crate) mod inspect;
 pub mod json;

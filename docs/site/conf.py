@@ -39,7 +39,7 @@ myst_enable_extensions = ["html_image"]
 suppress_warnings = ["misc.highlighting_failure"]
 
 CONTENTS = {
-    "Start": ["docs/tutorial", "docs/guide", "docs/gallery", "docs/scenario", "docs/formulas"],
+    "Start": ["docs/tutorial", "docs/machines", "docs/guide", "docs/gallery", "docs/scenario", "docs/formulas"],
     "Proofs": ["docs/report", "docs/recording", "docs/compare", "docs/testing", "docs/mutate", "docs/findings", "docs/foreign", "docs/stories", "docs/skip"],
     "Design": ["docs/synthesis", "docs/draw", "docs/plans", "docs/clearance", "docs/variants60"],
     "Engines": ["docs/engines", "docs/rapier", "docs/mjcf", "docs/peers", "docs/bench", "docs/stress"],

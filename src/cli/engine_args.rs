@@ -184,7 +184,7 @@ pub(super) fn engine_names() -> impl Iterator<Item = &'static str> {
     EngineName::ALL.into_iter().map(EngineName::name)
 }
 
-/// An analytic side by name.
+/// Parses the name of an analytic side.
 pub(super) fn side() -> impl TypedValueParser<Value = Reference> {
     word(Reference::ALL.map(Reference::name), Reference::named)
 }

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use super::outputs::{Outputs, results};
 use super::{load, number};
 use crate::report::drivers::Drivers;
+use crate::report::fixed::FixedStructure;
 use crate::report::{inspect as report, modes, range};
 use crate::sentences;
 use analytic::range::explained;
@@ -52,9 +53,13 @@ pub(super) fn inspect(args: &Args) -> Result<()> {
     let asked = StartRequest { modes: args.mode.clone(), ..StartRequest::default() };
     // If the file leaves the configuration open, a list of all configurations is most useful, so `to_list` accepts such
     // a file.
-    let (scenario, undecided) = match args.modes {
-        true => load::to_list(&args.file, &asked)?,
-        false => (load::as_asked(&args.file, &asked)?, Vec::new()),
+    let found = match args.modes {
+        true => load::to_list(&args.file, &asked),
+        false => load::as_asked(&args.file, &asked).map(|scenario| (scenario, Vec::new())),
+    };
+    let (scenario, undecided) = match found {
+        Ok(found) => found,
+        Err(error) => return without_drive(args, &asked, error),
     };
     let scenario = scenario.nominal();
     let case = &scenario.case;
@@ -81,6 +86,23 @@ pub(super) fn inspect(args: &Args) -> Result<()> {
         (None, None, None) => report::text(&scenario),
     };
     args.outputs.deliver(|_| Ok(report::json(&scenario, modes, &undecided, range.as_ref(), drivers.as_ref())), text)
+}
+
+/// Shows a file without a drive, if its links form a structure; otherwise returns `error`.
+fn without_drive(args: &Args, asked: &StartRequest, error: Error) -> Result<()> {
+    let Ok(draft) = load::draft(&args.file, asked) else { return Err(error) };
+    if !draft.is_fixed() {
+        return Err(error);
+    }
+    let moving =
+        [("--range", args.range), ("--driver", args.driver.is_some()), ("--at-crank-deg", args.at_crank_deg.is_some())];
+    if let Some((option, _)) = moving.into_iter().find(|(_, is_given)| *is_given) {
+        let error = Error::new(ErrorKind::Input, sentences::THE_STRUCTURE_DOES_NOT_MOVE).key(option);
+        return Err(error.help(sentences::TAKE_IT_OUT_OR_ADD_A_DRIVE));
+    }
+    let fixed = FixedStructure::of(&draft)?;
+    let further = if args.modes { "" } else { sentences::MODES_LISTS_THEM };
+    args.outputs.deliver(|_| Ok(fixed.json()), |_| fixed.text(args.modes) + further)
 }
 
 /// The structures for the driven joint called `name`, or for all joints without a further drive.

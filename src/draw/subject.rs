@@ -38,6 +38,8 @@ pub(crate) struct Drawn {
     crank: f64,
     /// What the input measures.
     input: Input,
+    /// Whether the file has no drive and nothing moves.
+    is_fixed: bool,
     mechanism: Mechanism,
     drives: Vec<Drive>,
     loads: Vec<linkage::drive::Load>,
@@ -68,8 +70,10 @@ impl Drawn {
     /// The readable part of a mechanism whose file is not a valid scenario, because of an error.
     pub(crate) fn of_draft(draft: Draft, wish: &PictureOptions, error: Error) -> Result<Drawn> {
         let crank = wish.crank.unwrap_or(draft.crank);
+        // For links that cannot move, a missing drive is no error.
+        let error = Some(error).filter(|_| !draft.is_fixed());
         let drawn = match wish.each_mode && draft.structure.is_ok() {
-            true => Drawn::each_mode(draft, crank, Some(error))?,
+            true => Drawn::each_mode(draft, crank, error)?,
             false => Drawn::partial(draft, crank, error),
         };
         Ok(drawn.with_unknown_traces(wish))
@@ -83,7 +87,7 @@ impl Drawn {
 
     /// The name, and the value of the input in words.
     pub(super) fn headline(&self) -> String {
-        format!("{}, {}", self.name, self.input.marked(self.crank))
+        if self.is_fixed { self.name.clone() } else { format!("{}, {}", self.name, self.input.marked(self.crank)) }
     }
 
     /// The cells of all frames; `room` is the size of the area (mm).
@@ -108,7 +112,7 @@ impl Drawn {
     }
 
     fn new(draft: Draft, crank: f64, shots: Vec<Shot>) -> Drawn {
-        let (has_mistakes, input) = (draft.mistakes.is_some(), draft.input());
+        let (has_mistakes, input, is_fixed) = (draft.mistakes.is_some(), draft.input(), draft.is_fixed());
         let drives = if draft.is_driven_by_guess { Vec::new() } else { draft.drives };
         let Draft { name, title, mechanism, loads, gravity, .. } = draft;
         let mut travels = Travels::none(&mechanism);
@@ -120,6 +124,7 @@ impl Drawn {
             title,
             crank,
             input,
+            is_fixed,
             mechanism,
             drives,
             loads,
@@ -148,7 +153,7 @@ impl Drawn {
             Err(error) => {
                 let error = analytic::range::explained(case, error);
                 let travels = turned(case, solver).1;
-                return Ok(Drawn { travels, ..Drawn::partial(draft_of(&scenario), crank, error) });
+                return Ok(Drawn { travels, ..Drawn::partial(draft_of(&scenario), crank, Some(error)) });
             }
         };
         let (states, travels) = own.map_or_else(|| turned(case, solver), |states| with_travels(case, states));
@@ -177,7 +182,7 @@ impl Drawn {
     }
 
     /// A mechanism, placed as far as possible at a crank angle (rad), with the error that stops it.
-    fn partial(draft: Draft, crank: f64, error: Error) -> Drawn {
+    fn partial(draft: Draft, crank: f64, error: Option<Error>) -> Drawn {
         let angles = angles(&draft.drives, crank);
         let laid = match &draft.structure {
             Ok(structure) => lay(&draft.mechanism, structure, &angles, &draft.starts),
@@ -205,7 +210,7 @@ impl Drawn {
             (gaps, _) => Some(Note::Said(format!("{}: {}", draft.name, gaps.join(", ")))),
         };
         let shots = vec![Shot { laid, acting: Vec::new() }];
-        Drawn { fault: Some(error), note, ..Drawn::new(draft, crank, shots) }
+        Drawn { fault: error, note, ..Drawn::new(draft, crank, shots) }
     }
 
     /// All configurations at a crank angle (rad).

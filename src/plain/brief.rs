@@ -25,7 +25,9 @@ pub fn verdict_line(proof: &Proof) -> String {
         proof.engines.iter().filter(|engine| engine.failure.is_some()).map(|engine| engine.info.name).collect();
     let [.., wrong, open] = counts(verdicts(proof).into_iter().map(|(_, verdict)| verdict));
     let what = match grade(&proof.verdict) {
-        Grade::Agree => sentences::channels_and_checks(&channels, &checks),
+        Grade::Agree => {
+            sentences::channels_and_checks(&channels, &if channels == 1 { "quantity" } else { "quantities" }, &checks)
+        }
         Grade::Disagree => sentences::of_numbers_differ(&wrong, &all),
         Grade::Open if !failed.is_empty() => format!("{} failed", failed.join(", ")),
         Grade::Open if proof.engines.iter().all(|engine| engine.channels.is_empty()) => sentences::NO_RUN_STANDS.into(),

@@ -53,7 +53,11 @@ fn others(others: &[&Error]) -> String {
     let lines = distinct(lines);
     match lines.as_slice() {
         [] => String::new(),
-        lines => sentences::also_in_places(&others.len(), &some(lines, MOST_LINES)),
+        lines => {
+            let times = if others.len() == 1 { "time" } else { "times" };
+            let place = if lines.len() == 1 { "line" } else { "lines" };
+            sentences::also_in_places(&others.len(), &times, &place, &some(lines, MOST_LINES))
+        }
     }
 }
 

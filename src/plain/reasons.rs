@@ -53,7 +53,7 @@ pub fn expected(proof: &Proof, tell: Tell, text: &mut String) {
 /// Largest number of instants at rest that are solved for the interval of the driving force.
 const MOST_AT_REST: usize = 20;
 
-/// Joints with friction that rest, and the widest interval that their friction leaves to the first drive.
+/// Reports joints with friction that rest, and the widest interval of the first drive's moment or force there.
 fn at_rest(proof: &Proof, width: Option<usize>, text: &mut String) {
     let (case, reference) = (&proof.scene.case, &proof.reference_trajectory);
     if case.is_free() {
@@ -76,8 +76,8 @@ fn at_rest(proof: &Proof, width: Option<usize>, text: &mut String) {
     }
 }
 
-/// Number of instants that are not judged, with the quantities concerned, joints that rest, and followers that leave
-/// their cams.
+/// Reports instants that are not judged with the quantities concerned, joints that rest, and followers that leave their
+/// cams.
 pub fn notes(proof: &Proof, width: Option<usize>, text: &mut String) {
     for engine in &proof.engines {
         let left = || engine.channels.iter().filter(|channel| channel.left_out > 0);

@@ -42,8 +42,17 @@ pub(crate) fn text(journals: Journals, scenario: &Scenario, peaks: &Peaks, width
     let header = format!("joint | largest\nreaction> | {at}> | smallest\njournal> | largest\nmoment> | {at}>");
     let table = trimmed(fitted(&header, width).add_rows(rows));
     let mut text = format!("{}: {}\n\n{table}\n\n", scenario.name, scenario.title);
-    let (effort, unit) = effort(input);
-    for (name, peak, unit) in [("shaking force", peaks.shaking_force, "N"), (effort, peaks.balancing_moment, unit)] {
+    let (of_first, unit) = effort(input);
+    let mut rows =
+        vec![("shaking force".into(), peaks.shaking_force, "N"), (of_first.into(), peaks.balancing_moment, unit)];
+    for (drive, &peak) in scenario.case.drives.further().iter().zip(&peaks.further_drives) {
+        let (effort, unit) = effort(drive.input);
+        rows.push((format!("{effort} of {}", scenario.case.mechanism.joints()[drive.joint].name), peak, unit));
+    }
+    for (transmission, &peak) in scenario.case.mechanism.transmissions().iter().zip(&peaks.transmissions) {
+        rows.push((format!("force of {}", transmission.name()), peak, "N"));
+    }
+    for (name, peak, unit) in rows {
         let at = numbers::input_in(input.at(peak.crank), 4);
         say!(text, sentences::largest_at(&name, &numbers::quantity(peak.value, unit), &at));
     }
@@ -100,10 +109,20 @@ pub(crate) fn json(journals: Journals, scenario: &Scenario, peaks: &Peaks) -> St
             "smallest_journal_m": joint.is_pin().then(|| diameter(journals, peaks.reactions[index])),
         })
     });
+    let joints_of = scenario.case.mechanism.joints();
+    let further = scenario.case.drives.further().iter().zip(&peaks.further_drives);
+    let transmissions = scenario.case.mechanism.transmissions().iter().zip(&peaks.transmissions);
     pretty(&json!({
         "schema": 1, "scenario": scenario.name, "lever_m": journals.lever_mm * 1e-3,
         "stress_Pa": journals.stress_mpa * 1e6, "joints": joints, "shaking_force": whole(peaks.shaking_force, "N"),
-        effort: whole(peaks.balancing_moment, &unit), "drive_work_J": peaks.drive_work, "efficiency": peaks.efficiency(),
+        effort: whole(peaks.balancing_moment, &unit),
+        "further_drives": list(further, |(drive, &peak)| {
+            let (name, unit) = self::effort(drive.input);
+            let [name, unit] = [name, unit].map(|name| name.replace(' ', "_"));
+            json!({"joint": joints_of[drive.joint].name, name: whole(peak, &unit)})
+        }),
+        "transmissions": list(transmissions, |(own, &peak)| json!({"name": own.name(), "force": whole(peak, "N")})),
+        "drive_work_J": peaks.drive_work, "efficiency": peaks.efficiency(),
         "friction": list(&peaks.frictions, |own| json!({
             "joint": scenario.case.mechanism.joints()[own.joint].name, "work_J": own.work, "pressure_speed_W": own.pressure_speed,
             (if scenario.case.mechanism.joints()[own.joint].slides() { "largest_N" } else { "largest_N_m" }): own.largest,

@@ -1,4 +1,4 @@
-//! The change of the driving link: structure of the mechanism for other driven joints.
+//! Structures of a mechanism for other driven joints.
 
 use crate::sentences;
 use linkage::case::Case;
@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 
 use super::pretty::list;
 
-/// The structures for a list of driven joints. A structure that does not exist has its reason.
+/// The structures for a list of driven joints, or the errors that explain why they do not exist.
 pub(crate) struct Drivers(Vec<(String, Result<Structure>)>);
 
 impl Drivers {

@@ -52,7 +52,7 @@ pub(crate) struct Beside<'a> {
     pub(crate) reduced: Result<Graphs, String>,
 }
 
-/// The page of a proof; `tell` words the advice.
+/// The page of a proof. `tell` puts the advice into words.
 pub(crate) fn page(proof: &Proof, beside: &Beside, tell: Tell) -> String {
     let Beside { given, settings, reduced } = beside;
     let case = &proof.scene.case;

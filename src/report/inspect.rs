@@ -60,7 +60,9 @@ pub(crate) fn text(scenario: &Scenario) -> String {
         say!(text, "{}", transmission(case, own));
     }
     let (input, start) = (case.crank().input, case.crank().start);
-    say!(text, sentences::groups_at_the_start(&input.word(), &input_in(input.at(start), 3)));
+    if !structure.groups.is_empty() {
+        say!(text, sentences::groups_at_the_start(&input.word(), &input_in(input.at(start), 3)));
+    }
     for ((index, group), &mode) in structure.groups.entries().zip(&case.modes) {
         let transmission = transmission_sine(mechanism, group, &case.start)
             .map_or_else(String::new, |sine| sentences::transmission_angle_deg(&sine.abs().asin().to_degrees()));
@@ -97,7 +99,7 @@ fn transmission(case: &CaseParts, own: &Transmission) -> String {
     sentences::a_transmission(&name, &kind, &first, &second, &carrier, &ratio, &radii)
 }
 
-/// Figures of a cam that stands in the start pose.
+/// Figures of a cam; `None` for other transmissions.
 fn figures(case: &CaseParts, own: &Transmission) -> Option<CamFigures> {
     let cam = own.cam.as_ref()?;
     Some(cam.figures(own.coordinates_in(case.mechanism.joints(), &case.start.motions())))

@@ -5,6 +5,9 @@ linkage::sentences! {
     linkproof_accept_writes_it(file) = "`linkproof accept {file}` writes it";
     nothing_was_accepted_of_there(file, place) = "{file} has no accepted figures: {place} does not exist";
     // cli/inspect.rs
+    THE_STRUCTURE_DOES_NOT_MOVE = "the file has no drive, so nothing moves";
+    MODES_LISTS_THEM = "`--modes` lists them, `linkproof draw --each-mode` draws them\n";
+    TAKE_IT_OUT_OR_ADD_A_DRIVE = "leave the option out, or add a `[drive]`";
     there_is_no_joint_called(name) = "there is no joint \"{name}\"";
     give_one_of_the_joints(names) = "give one of {names}, or `all`";
     // cli/advice.rs

@@ -24,13 +24,13 @@ linkage::sentences! {
     is_to_be_ignored_but_no_scenario(own) = "\"{own}\" is to be ignored, but no scenario has this name";
     THERE_IS_NO_SCENARIO_TOML = "there is no scenario (*.toml) in this folder";
     // plain/errors.rs
-    also_in_places(count, lines) = "\n   = note: the same mistake {count} more times, in lines {lines}";
+    also_in_places(count, times, place, lines) = "\n   = note: the same mistake {count} more {times}, in {place} {lines}";
     // plain/brief.rs
     step_ms(numbers) = "step {numbers} ms";
     of_numbers_are_open(open, all) = "{open} of {all} results could not be decided";
     NO_RUN_STANDS = "no engine run could be judged";
     of_numbers_differ(wrong, all) = "{wrong} of {all} results disagree";
-    channels_and_checks(channels, checks) = "{channels} quantities agree, {checks} checks passed";
+    channels_and_checks(channels, quantities, checks) = "{channels} {quantities} agree, {checks} checks passed";
     // plain/cells.rs
     and_more_2(named, more) = "{named} and {more} more";
     // plain/diagnosis.rs
@@ -284,7 +284,7 @@ linkage::sentences! {
     class_order_mode(links, class, order, pairs, mode) = "{links}: class {class}, order {order}, {pairs}, mode {mode}";
     BASIS_OF_THE_BOUND = "basis of the bound";
     // report/drivers.rs
-    STRUCTURE_FOR_OTHER_DRIVEN_JOINTS = "structure if the first drive moves another joint\n";
+    STRUCTURE_FOR_OTHER_DRIVEN_JOINTS = "structure for each joint, if the first drive moves it\n";
     driven_at(joint, class, formula) = "  {joint:14} class {class}: {formula}";
     not_driven_at(joint, why) = "  {joint:14} not possible: {why}";
     // report/inspect.rs
@@ -294,6 +294,11 @@ linkage::sentences! {
     transmission_angle_deg(sine) = ", transmission angle {sine:.2} deg";
     groups_at_the_start(word, fixed_in) = "\ngroups at the start ({word} {fixed_in})";
     kg_kg(mass, inertia, at) = "m = {mass} kg, J = {inertia} kg·m², {at}";
+    NO_CONFIGURATION_CLOSES = "no configuration of the structure closes";
+    OR_MORE = " or more";
+    a_fixed_structure(links, joints, formula) = "a structure without a drive: mobility 0, {links} moving links, {joints} joints\nformula    {formula}";
+    class_and_order(names, class, order, pairs) = "  {names}: class {class}, order {order}, {pairs}";
+    configurations_of_the_structure(count, more) = "{count}{more} real configurations";
     mobility_and_given(links, joints, transmissions, mobility, given) = "mobility   W = 3*{links} - 2*{joints}{transmissions} = {mobility}, given coordinates {given}";
     a_transmission(name, kind, first, second, carrier, ratio, radii) = "  {name:14} {kind}, {first} - {second} on {carrier}, ratio {ratio}, {radii}";
     pitch_radii(first, second) = "pitch radii {first} and {second}";

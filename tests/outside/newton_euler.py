@@ -152,6 +152,8 @@ class Mechanism:
             own = "slide" if self.kind(drive) == "slide" else "angle"
             points = [(quantity(row, "time"), quantity(row, own)) for row in drive["points"]]
             return zero + clamped(points, t)
+        if law == "hold":
+            return zero + start
         if law == "harmonic":
             phase, turn = quantity(drive, "phase", mpf(0)), 2 * mp.pi * t / quantity(drive, "period")
             return zero + start + quantity(drive, "amplitude") * (mp.sin(phase + turn) - mp.sin(phase))
@@ -314,7 +316,7 @@ def course(load, stem, crank):
         return spline(points, period, crank)
     n = len(points)
     for i, (x, y) in enumerate(points):
-        width = (points[(i + 1) % n][0] - x) % period or period
+        width = points[i + 1][0] - x if i + 1 < n else points[0][0] + period - x
         s = (crank - x) % period
         if s < width:
             return y + (points[(i + 1) % n][1] - y) * s / width
@@ -381,7 +383,8 @@ def actions(m, q, v, twists, crank, sense=lambda number, omega: mp.sign(omega)):
             first, second = load["links"]
             if kind == "torsion_spring":
                 twist = m.angle(q, second) - m.angle(q, first) + twists[number]
-                moment = quantity(load, "stiffness") * (twist - quantity(load, "free_angle"))
+                over, acts = twist - quantity(load, "free_angle"), load.get("acts", "always")
+                moment = quantity(load, "stiffness") * over if acts == "always" or (over > 0) == (acts == "beyond") else mpf(0)
             else:
                 moment = quantity(load, "damping") * (omega(second) - omega(first))
             yield first, zero, zero, moment

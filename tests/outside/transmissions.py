@@ -35,7 +35,7 @@ class Transmission:
                             return dict(m.sides(other))[self.carrier]
             raise ValueError(f"{link} has no axle on {self.carrier}")
         self.a = axle(self.first)
-        if self.kind == "rack":
+        if self.kind in ("rack", "screw"):
             self.guide = next(joint for joint in m.joints if joint["type"] == "prismatic" and set(joint["links"]) == {self.second, self.carrier})
         else:
             self.b = axle(self.second)
@@ -61,6 +61,9 @@ class Transmission:
     def foot(self, q):
         """The pitch point of a rack: where the normal through the axle meets the line of the guide."""
         (ex, ey), (x, y) = self.axis(q), self.m.at(q, self.carrier, self.a)
+        if self.kind == "screw":
+            radius = self.quantity(self.table, "lead") / (2 * mp.pi)
+            return x + radius * ey, y - radius * ex
         gx, gy = self.m.at(q, *self.m.sides(self.guide)[0])
         way = (x - gx) * ex + (y - gy) * ey
         return gx + way * ex, gy + way * ey
@@ -68,7 +71,7 @@ class Transmission:
     def rolled(self, q):
         """Arc on the second pitch circle or line that has not rolled off on the first."""
         turn = self.relative(q, self.first)
-        if self.kind == "rack":
+        if self.kind in ("rack", "screw"):
             (ex, ey), (x, y), (px, py) = self.axis(q), self.m.at(q, self.carrier, self.a), self.foot(q)
             (fx, fy), (sx, sy) = (self.m.at(q, *side) for side in self.m.sides(self.guide))
             slide = (sx - fx) * ex + (sy - fy) * ey
@@ -117,9 +120,9 @@ class Transmission:
         if self.kind == "belt":
             at, (x, y) = self.pull(q, self.sense)
             return self.both((self.sense * x, self.sense * y), at)
-        angle = self.quantity(self.table, "pressure_angle", mp.pi / 9)
+        angle = mpf(0) if self.kind == "screw" else self.quantity(self.table, "pressure_angle", mp.pi / 9)
         a = self.m.at(q, self.carrier, self.a)
-        if self.kind == "rack":
+        if self.kind in ("rack", "screw"):
             at, (tx, ty) = self.foot(q), self.axis(q)
             away = unit(at[0] - a[0], at[1] - a[1])
         else:

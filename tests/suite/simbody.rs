@@ -217,7 +217,12 @@ fn loads_of_all_sorts_agree() {
     let rod = case.mechanism.link_named("rod").unwrap();
     let more = [
         linkage::drive::Load::ResistingForce { at, force: 200.0 },
-        linkage::drive::Load::TorsionSpring { links: [LinkId(0), rod], stiffness: 30.0, free_angle: 0.4 },
+        linkage::drive::Load::TorsionSpring {
+            links: [LinkId(0), rod],
+            stiffness: 30.0,
+            free_angle: 0.4,
+            acts: linkage::drive::Acts::Always,
+        },
         linkage::drive::Load::Resistance { link: rod, moment: 7.0 },
     ];
     let case = case.with(|parts| parts.loads.extend(more)).unwrap();

@@ -1,13 +1,11 @@
-//! docs/tutorial.md, followed word for word.
-//! Its commands run in an empty directory; their output must equal the text below them on the page.
+//! docs/tutorial.md and docs/machines.md, followed word for word.
+//! The commands of a page run in an empty directory; their output must equal the text below them on the page.
 
 use std::path::Path;
 use std::{env, fs};
 
 use assert_cmd::Command;
 use tempfile::TempDir;
-
-const PAGE: &str = "docs/tutorial.md";
 
 /// A block of the page.
 struct Block<'a> {
@@ -22,7 +20,7 @@ fn blocks(page: &str) -> Vec<Block<'_>> {
     let mut rest = page;
     while let Some((before, block)) = rest.split_once("```") {
         let (language, block) = block.split_once('\n').unwrap();
-        let (body, after) = block.split_once("```\n").unwrap_or_else(|| panic!("{PAGE}: a block has no end"));
+        let (body, after) = block.split_once("```\n").unwrap_or_else(|| panic!("this block has no end:\n{block}"));
         found.push(Block { language, before, body });
         rest = after;
     }
@@ -39,7 +37,8 @@ fn run(line: &str, place: &Path) -> String {
 }
 
 /// The page with the current outputs of its commands.
-/// The text before a block names the file that takes the block, as in `<!-- at the end of four_bar.toml -->`.
+/// The text before a block of TOML names its file: `<!-- the file arm.toml -->` for a new file,
+/// `<!-- at the end of four_bar.toml -->` for one that the block is added to.
 fn followed(page: &str, place: &Path) -> (String, usize) {
     let mut text = page.to_string();
     let (mut printed, mut count) = (String::new(), 0);
@@ -56,13 +55,16 @@ fn followed(page: &str, place: &Path) -> (String, usize) {
                 text = text.replacen(&format!("```text\n{}```", block.body), &format!("```text\n{printed}```"), 1)
             }
             "toml" => {
-                let named = block.before.rsplit("<!-- at the end of ").next().and_then(|rest| rest.split_once(" -->"));
-                let file =
-                    place.join(named.unwrap_or_else(|| panic!("{PAGE}: which file is this for?\n{}", block.body)).0);
-                let old = fs::read_to_string(&file).unwrap();
-                fs::write(file, format!("{old}\n{}", block.body)).unwrap();
+                let named = |sign: &str| block.before.rsplit_once(sign)?.1.split_once(" -->");
+                let added = named("<!-- at the end of ");
+                let (name, _) = added
+                    .or_else(|| named("<!-- the file "))
+                    .unwrap_or_else(|| panic!("which file is this for?\n{}", block.body));
+                let file = place.join(name);
+                let old = added.map(|_| fs::read_to_string(&file).unwrap() + "\n").unwrap_or_default();
+                fs::write(file, old + block.body).unwrap();
             }
-            other => panic!("{PAGE}: a block of {other:?}"),
+            other => panic!("a block of {other:?}"),
         }
     }
     (text, count)
@@ -111,25 +113,35 @@ fn pictures(page: &str) -> impl Iterator<Item = &str> {
     page.split("](tutorial/").skip(1).map(|rest| rest.split_once(')').unwrap().0)
 }
 
-/// `INSTA_UPDATE=always` writes outputs and pictures anew, as it does with snapshots.
 #[test]
 fn the_tutorial_runs_as_written() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(PAGE);
+    assert_runs_as_written("tutorial.md");
+}
+
+#[test]
+fn the_tutorial_of_machines_runs_as_written() {
+    assert_runs_as_written("machines.md");
+}
+
+/// `INSTA_UPDATE=always` writes outputs and pictures anew, as it does with snapshots.
+fn assert_runs_as_written(page: &str) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs").join(page);
+    let kept = path.with_file_name("tutorial");
     let page = fs::read_to_string(&path).unwrap();
     let place = TempDir::new().unwrap();
     let (text, count) = followed(&page, place.path());
     assert!(count >= 8, "only {count} commands");
     if env::var_os("INSTA_UPDATE").is_some_and(|value| value == "always") {
         fs::write(&path, text).unwrap();
-        fs::create_dir_all(path.with_extension("")).unwrap();
+        fs::create_dir_all(&kept).unwrap();
         for name in pictures(&page) {
-            fs::copy(place.path().join(name), path.with_extension("").join(name)).unwrap();
+            fs::copy(place.path().join(name), kept.join(name)).unwrap();
         }
         return;
     }
     for name in pictures(&page) {
-        let kept = fs::read(path.with_extension("").join(name)).unwrap();
-        assert!(kept == fs::read(place.path().join(name)).unwrap(), "{name} is drawn otherwise now");
+        let is_same = fs::read(kept.join(name)).unwrap() == fs::read(place.path().join(name)).unwrap();
+        assert!(is_same, "{name} is drawn otherwise now");
     }
     assert_eq!(text.lines().count(), page.lines().count(), "INSTA_UPDATE=always ... --test suite tutorial");
     let differing = text.lines().zip(page.lines()).find(|(new, old)| !are_alike(new, old));

@@ -3,11 +3,11 @@
 linkage::sentences! {
     // reduced/means.rs
     THE_REDUCTION_KNOWS_NO_FRICTION = "quantities reduced to the crank are requested, but the friction of joints depends on their reactions, which the reduction cannot represent";
-    LET_THE_MOTION_BE_FREE = "let forces move the crank with `motion = \"free\"` in [drive], or leave the friction out";
+    LET_THE_MOTION_BE_FREE = "use `motion = \"free\"` in [drive], so that forces move the crank, or leave out the friction";
     the_drive_moves_no_crank(noun) = "quantities reduced to the crank are requested, but the input of the drive is a {noun}";
     DRIVE_THE_MECHANISM_AT_A_CRANK = "drive a link that is hinged to the ground, or claim `drive.reduced_mass_kg` and `drive.reduced_force_N` as formulas";
     // range/tracking.rs
-    the_slide_has_no_limit(at) = "the mechanism can be followed up to {at}, and no limit is in sight";
+    the_slide_has_no_limit(at) = "the mechanism can be followed up to {at} without reaching a limit";
     THE_MECHANISM_MOVES_OVER = "the grid of the file may lie anywhere on this side";
     ONE_OF_SEVERAL_DRIVES_CHANGES = "the range of motion is a curve only if all drives have constant speeds, and one of several drives changes its speed";
     GIVE_THE_DRIVES_CONSTANT_SPEEDS = "give all drives constant speeds";
@@ -36,7 +36,7 @@ linkage::sentences! {
     friction_allows_several_states(at) = "{at}: friction leaves the forces undetermined; several states of the forces are in equilibrium";
     LOWER_A_COEFFICIENT_OF_FRICTION = "lower a coefficient of friction or the radius of a journal, lengthen a guide, drive another joint, or end the grid before this pose";
     // newton/friction.rs
-    FRICTION_HAS_NO_EQUILIBRIUM = "friction locks the mechanism; no forces in the joints are in equilibrium with their friction";
+    FRICTION_HAS_NO_EQUILIBRIUM = "friction locks the mechanism: no reactions satisfy equilibrium with friction";
     // assur_solver.rs
     LET_THE_GRID_END_BEFORE_OR_GIVE = "end the grid before this instant, or give the motor more torque";
     THE_MOTION_ENDS = "the motion ends";

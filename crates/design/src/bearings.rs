@@ -18,7 +18,8 @@ use linkage::trajectory::Stage;
 /// The limit suffices because a reaction has only a few maxima per turn.
 const SAMPLE_STEP: f64 = PI / 360.0;
 
-/// Work of the drives is more than that of friction only beyond this factor: the sums have rounding errors.
+/// An efficiency exists only if the work of the drives exceeds this multiple of the work of friction.
+/// The factor allows for rounding errors of both sums.
 const ROUNDING: f64 = 1.0 + 1e-9;
 
 /// Largest value of a quantity over a range of crank angles, with the crank angle where it occurs.
@@ -39,8 +40,12 @@ pub struct Peaks {
     pub moments: Vec<Option<Peak>>,
     /// Magnitude of the shaking force (N).
     pub shaking_force: Peak,
-    /// Magnitude of the balancing moment on the crank (N m).
+    /// Magnitude of the balancing moment on the crank (N m), or of the driving force of a slide (N).
     pub balancing_moment: Peak,
+    /// The same for every further drive.
+    pub further_drives: Vec<Peak>,
+    /// Magnitude of the force of each transmission along its line of action (N).
+    pub transmissions: Vec<Peak>,
     /// The joints with friction.
     pub frictions: Vec<FrictionLoss>,
     /// Work of the drives over the range (J); negative if the mechanism drives them.
@@ -62,8 +67,8 @@ pub struct FrictionLoss {
 }
 
 impl Peaks {
-    /// Fraction of the drives' work that friction leaves over the range; `None` without friction, and if the drives do
-    /// less work than the friction takes.
+    /// Efficiency over the range: the fraction of the drives' work that is not lost by friction.
+    /// `None` without friction, and if the drives do less work than friction takes.
     #[must_use]
     pub fn efficiency(&self) -> Option<f64> {
         let lost: f64 = self.frictions.iter().map(|own| own.work).sum();
@@ -102,7 +107,12 @@ pub fn over_range(case: &Case) -> Result<Peaks> {
         quantities.push(Box::new(move |state| state.moments[joint].abs()));
     }
     quantities.push(Box::new(|state| state.shaking(case).0.norm()));
-    quantities.push(Box::new(|state| state.torques[0].abs()));
+    for drive in 0..case.drives.len() {
+        quantities.push(Box::new(move |state| state.torques[drive].abs()));
+    }
+    for transmission in case.mechanism.transmissions().ids() {
+        quantities.push(Box::new(move |state| state.transmitted[transmission].abs()));
+    }
     let mut samples = vec![Vec::with_capacity(cranks.len()); quantities.len()];
     let none =
         |friction: Friction| FrictionLoss { joint: friction.joint, largest: 0.0, work: 0.0, pressure_speed: 0.0 };
@@ -110,7 +120,7 @@ pub fn over_range(case: &Case) -> Result<Peaks> {
     let mut drive_work = 0.0;
     for (number, &crank) in cranks.iter().enumerate() {
         let state = poses.solve_at(crank, Stage::BalancingMoment)?;
-        // Trapezium rule over the input, with the powers per rate of the input.
+        // Work by the trapezium rule: power divided by the rate of the input, integrated over the input.
         let ends = if number == 0 || number == parts { 0.5 } else { 1.0 };
         let rate = case.state_in(&state.motions, &state.angles).rate;
         let span = if rate == 0.0 { 0.0 } else { ends * (to - from) / parts as f64 / rate };
@@ -135,6 +145,8 @@ pub fn over_range(case: &Case) -> Result<Peaks> {
         moments: joints.iter().map(|joint| joint.keeps_angle().then(&mut next)).collect(),
         shaking_force: next(),
         balancing_moment: next(),
+        further_drives: case.drives.further().iter().map(|_| next()).collect(),
+        transmissions: case.mechanism.transmissions().iter().map(|_| next()).collect(),
         frictions,
         drive_work,
     })

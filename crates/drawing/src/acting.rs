@@ -18,7 +18,7 @@ pub struct Acting {
     pub moment: f64,
 }
 
-/// Forces and moments of all loads except springs and dampers.
+/// Forces and moments of all loads except friction, and springs and dampers between points or links.
 /// `motions` and `angles` (rad, including full turns) are those of all links.
 #[must_use]
 pub fn acting(case: &Case, sketch: &super::Sketch, motions: &[Motion], angles: &[f64]) -> Vec<Acting> {
@@ -26,8 +26,11 @@ pub fn acting(case: &Case, sketch: &super::Sketch, motions: &[Motion], angles: &
         let at = motions[sign.at.link].point(sign.at.local);
         let mut found = Acting { load: sign.load, at, force: Vec2::zeros(), moment: 0.0 };
         case.each_action(sign.load, motions, angles, |action| {
-            found.force += action.force;
-            found.moment += action.moment;
+            // A load along a slide acts on both links of the joint.
+            if action.link == sign.at.link {
+                found.force += action.force;
+                found.moment += action.moment;
+            }
         });
         found
     };

@@ -31,7 +31,7 @@ pub struct Laid {
     pub faults: Vec<Error>,
     /// Assembly mode of each group that is placed.
     pub modes: Vec<GroupPlacement>,
-    /// Poses of the links that are not placed, with the shapes of bodies that given joints determine.
+    /// Poses of the links that are not placed. Links on driven joints have the right pose relative to each other.
     shape: Option<Pose>,
 }
 
@@ -136,8 +136,8 @@ pub fn lay(mechanism: &Mechanism, structure: &Structure, angles: &[f64], starts:
                 done = tried;
             }
             Err(error) => {
-                // If the group can be closed, its only fault is an unspecified mode, so no circles are listed.
                 // If the group cannot be closed, the circles on which its inner pin would lie are listed.
+                // Otherwise only its mode is not specified.
                 if configurations(mechanism, group, &laid.pose()).is_err() {
                     laid.reaches.extend(reaches(mechanism, group, &laid));
                 }
@@ -240,7 +240,7 @@ fn reaches(mechanism: &Mechanism, group: &Group, laid: &Laid) -> Vec<(Vec2, f64)
         let centre = laid.places[base.link].pose()?.point(base.local);
         joint.is_pin().then_some((centre, (pin - own).norm()))
     };
-    // The lengths of bodies of changing shape are not those of their links.
+    // In a body of several links, the distance of the pins is not the length of a link.
     if !group.is_rigid() {
         return Vec::new();
     }

@@ -31,7 +31,8 @@ const DRUM: f64 = 5.4;
 pub struct LoadSign {
     /// Index of the load in the loads of its case.
     pub load: usize,
-    /// Point at which the arrow is drawn: for a force the point on which it acts, for a moment a pin of the link.
+    /// Point at which the arrow is drawn: for a force the point on which it acts, for a moment a pin of the link,
+    /// for a load along a slide the joint's point on the moving link that slides.
     pub at: JointSide,
 }
 
@@ -61,6 +62,10 @@ pub fn of_load(mechanism: &Mechanism, number: usize, load: &Load) -> Option<Load
     match load.nature().on {
         On::Link(link) => Some(LoadSign { load: number, at: JointSide { link, local: place_of(mechanism, link) } }),
         On::Point(at) => Some(LoadSign { load: number, at }),
+        On::Joint(joint, _) if !load.is_friction() => {
+            let joint = &mechanism.joints()[joint];
+            Some(LoadSign { load: number, at: if joint.second.link == GROUND { joint.first } else { joint.second } })
+        }
         On::Points(_) | On::Links(_) | On::Joint(..) => None,
     }
 }

@@ -28,7 +28,7 @@ fn of(mechanism: &Mechanism, travels: &Travels, index: TransmissionId, own: &Tra
     }
     match &own.design.kind {
         TransmissionKind::Gears { .. } => {}
-        TransmissionKind::Rack { .. } => marks.extend(rack(mechanism, travels, own)),
+        TransmissionKind::Rack { .. } | TransmissionKind::Screw { .. } => marks.extend(rack(mechanism, travels, own)),
         TransmissionKind::Belt { .. } => {
             let strands = own.contact([0.0; 2]).lines.map(|line| Mark::line(MarkRole::Strand, line.feet));
             marks.extend(strands.into_iter().map(|strand| (own.design.carrier, strand)));

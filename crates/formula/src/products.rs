@@ -101,7 +101,7 @@ fn put(quantities: &[(f64, Dimension)], next: usize, chosen: &mut Vec<(u8, i8)>,
     }
 }
 
-/// Information (bits) in a number that is known to a relative accuracy. A sixtieth has 3 bits, 1.4715 has 13 bits.
+/// Information (bits) in a number that is known to a relative accuracy. For example, 1/60 has 3 bits and 1.4715 has 13.
 /// A round number, a simple fraction, or a simple fraction of pi has few bits. Any other number has as many bits as the
 /// accuracy.
 /// A number with few bits is easily matched by chance.

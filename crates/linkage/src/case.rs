@@ -281,7 +281,7 @@ impl Case {
     }
 
     /// Whether the mechanism continues through change points: see [`Drive::passes`].
-    /// Reactions grow without bound near a change point, and friction with them, so a mechanism with friction stops.
+    /// Near a change point, reactions and friction grow without bound, so a mechanism with friction does not continue.
     #[must_use]
     pub fn passes(&self) -> bool {
         self.drives.further().is_empty() && self.crank().passes() && !self.has_friction()
@@ -431,7 +431,7 @@ impl Case {
         sensed: impl Fn(usize, &Load, f64) -> f64,
         out: &mut [Wrench],
     ) {
-        self.loads_along(motions, angles, sensed, |_, velocity| sense_of(velocity), out);
+        self.loads_along(motions, angles, ANY_CRANK, sensed, |_, velocity| sense_of(velocity), out);
     }
 
     /// Does the same as [`Case::loads_with`], except that the caller also determines the direction of motion of loaded
@@ -439,11 +439,13 @@ impl Case {
     /// `way` returns this direction (unit vector, or zero) for each load that depends on the direction.
     /// `way` receives the number of the load and the point's velocity (m/s).
     /// If the velocity is only rounding error, `way` receives zero.
+    /// Tables are read at the crank angle limited to `piece` (rad), so that loads do not jump within a piece.
     #[inline]
     pub fn loads_along(
         &self,
         motions: &[Motion],
         angles: &[f64],
+        piece: [f64; 2],
         sensed: impl Fn(usize, &Load, f64) -> f64,
         way: impl Fn(usize, Vec2) -> Vec2,
         out: &mut [Wrench],
@@ -453,7 +455,8 @@ impl Case {
             return;
         }
         let links = self.mechanism.links();
-        let setting = self.setting(motions, angles);
+        let mut setting = self.setting(motions, angles);
+        setting.crank = setting.crank.larger(piece[0]).smaller(piece[1]);
         let mut add = |action: Action| out[action.link].add(&action, &motions[action.link], &links[action.link]);
         for (index, load) in self.loads.iter().enumerate() {
             match load.nature().senses {
@@ -477,6 +480,9 @@ impl Case {
         }
     }
 }
+
+/// A piece that does not limit the crank angle (rad).
+pub const ANY_CRANK: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
 /// Largest absolute angular velocity of the links (rad/s).
 fn fastest(motions: &[Motion]) -> f64 {

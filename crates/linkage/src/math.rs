@@ -50,6 +50,12 @@ pub fn unit(angle: f64) -> Vec2 {
     Vec2::new(cos, sin)
 }
 
+/// A number below `x`. The difference is a little more than the rounding error of |x| + 1.
+#[must_use]
+pub fn just_below(x: f64) -> f64 {
+    if x.is_finite() { x - 16.0 * f64::EPSILON * (x.abs() + 1.0) } else { x }
+}
+
 /// Lower left and upper right corner of the smallest box that contains the points.
 /// If there are no points, the lower left corner is at plus infinity and the upper right corner at minus infinity.
 #[must_use]

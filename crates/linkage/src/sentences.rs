@@ -21,7 +21,7 @@ crate::sentences! {
     it_acts_in_joint_but_there(joint, count) = "it acts in joint {joint}, but there are {count} joints";
     its_links_are_not_those_of_joint(name) = "its links are not those of joint \"{name}\"";
     joint_has_two_frictions(name) = "joint \"{name}\" has friction already";
-    friction_grows_without_bound(name) = "reactions grow without bound at a change point, and the friction of joint \"{name}\" with them: leave out `through = \"smooth\"` or the friction";
+    friction_grows_without_bound(name) = "at a change point, reactions and the friction of joint \"{name}\" grow without bound: leave out `through = \"smooth\"` or the friction";
     a_number_is_not_finite_or_negative(load) = "a number is not finite, or negative where it must not be: {load}";
     it_acts_on_link_but_there(link, count) = "it acts on link {link}, but there are {count} links";
     joint_drives_link_not(name, turned, said) = "joint \"{name}\" drives link \"{turned}\", not \"{said}\"";
@@ -151,7 +151,7 @@ crate::sentences! {
     the_mobility_is_but_the_number(n, p, mobility, drives) = "the mobility is W = 3*{n} - 2*{p} = {mobility}, but the number of drives is {drives}";
     the_mobility_with_transmissions_is(n, p, t, mobility, drives) = "the mobility is W = 3*{n} - 2*{p} - {t} = {mobility}, with {t} transmissions, but the number of drives is {drives}";
     the_start_joint_of_a_transmission_changes(group) = "the joints that give the start of the transmissions change the group {group}, which has no transmission";
-    the_start_joint_is_driven(name, joint) = "the start of transmission \"{name}\" is that of joint \"{joint}\", which is driven";
+    the_start_joint_is_driven(name, joint) = "the start joint \"{joint}\" of transmission \"{name}\" is driven";
     GIVE_A_JOINT_OF_THE_TRANSMISSION = "name another joint of a member or of the carrier with `start_joint`";
     the_start_of_the_transmissions(message) = "with the joints that give the start of the transmissions: {message}";
     THE_MECHANISM_IS_OVER_CONSTRAINED = "the mechanism is over-constrained: remove the surplus joints or drives";
@@ -188,7 +188,7 @@ crate::sentences! {
     JOIN_THE_FOLLOWER = "join follower and carrier by a prismatic joint, or take a roller";
     JOIN_THE_RACK = "join rack and carrier by a prismatic joint";
     THE_RACK_DOES_NOT_SLIDE = "no prismatic joint connects the rack, the second link, with the carrier";
-    JOIN_THE_MEMBER_TO_THE_CARRIER = "join the wheel to the carrier by a revolute joint, or to a third link at a joint of the carrier with that link";
+    JOIN_THE_MEMBER_TO_THE_CARRIER = "join the wheel to the carrier by a revolute joint, or to a third link that is joined to the carrier at the same point";
     the_member_has_no_axle(link, carrier) = "link \"{link}\" has no axle on the carrier \"{carrier}\"";
     NAME_TWO_MEMBERS = "name two different members and, with `carrier`, the link that carries their axles";
     A_TRANSMISSION_NEEDS_THREE_LINKS = "the two members and the carrier are not three different links";

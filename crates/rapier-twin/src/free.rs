@@ -7,7 +7,7 @@ use super::guard::Guard;
 use super::rapier::Precision;
 use super::window::Window;
 use crate::sentences;
-use linkage::case::Case;
+use linkage::case::{ANY_CRANK, Case};
 use linkage::drive::load::sense_of;
 use linkage::drive::{Drive, Load, MotorBranch, Wrench};
 use linkage::engine::Settings;
@@ -125,7 +125,7 @@ impl Acting {
                 false => own,
             }
         };
-        case.loads_along(motions, angles, sensed, way, &mut self.loads);
+        case.loads_along(motions, angles, ANY_CRANK, sensed, way, &mut self.loads);
         if let Some(braking) = &mut self.braking {
             braking.add(case, window, &self.state, &mut self.loads, ends[0])?;
         }

@@ -1,10 +1,10 @@
 //! Friction in the joints of the engine's mechanism.
 //!
 //! A prescribed motion does not depend on friction, so friction only enters the reactions of a sample.
-//! In a free motion, friction acts as a load in every step. It follows from the reactions to the accelerations of the
-//! step before, so its error is of first order, like that of the whole step.
-//! Reactions and friction are found together by Newton's method for the normal forces, with derivatives by differences.
-//! If the method does not converge, the friction is increased in parts.
+//! In a free motion, friction acts as a load in every step. It is computed from the accelerations of the previous step,
+//! so its error is of first order, like that of the whole step.
+//! Reactions and friction are found together by Newton's method for the normal forces, with numerical derivatives.
+//! If the method does not converge, the friction is increased in steps.
 
 use super::lines::Lines;
 use super::newton_euler::NewtonEuler;
@@ -20,29 +20,33 @@ use linkage::solver::State;
 
 /// Largest number of Newton's steps.
 const MOST: usize = 40;
-/// Relative change of the normal forces below which they are settled.
+/// The normal forces are settled if their residuals are below this fraction of the largest one.
 const SETTLED: f64 = 1e-14;
-/// A difference that has stopped falling is rounding error if it is below this fraction of the normal forces.
+/// A residual below this fraction of the largest normal force is rounding error if the residuals no longer decrease.
 const ROUNDING: f64 = 1e-11;
-/// Change of a normal force for the derivatives, over the largest of them.
+/// Change of a normal force for the numerical derivatives, as a fraction of the largest normal force.
 const PROBE: f64 = 1e-4;
-/// Smallest part in which the friction is increased.
+/// Smallest step in which the friction is increased, as a fraction of the friction.
 const LEAST: f64 = 1e-3;
 
-/// Reactions of a known motion with friction and with the lines of action of transmissions.
+/// Reactions of a known motion, with friction, and with the forces of transmissions in the lines that carry them.
 #[derive(Debug)]
 pub(super) struct InverseDynamics {
     equations: NewtonEuler,
     lines: Option<Lines>,
+    /// Normal forces from which the friction is computed.
     normals: Vec<f64>,
-    /// Normal forces of the present reactions, of those beside them, and before the present share of the friction.
+    /// Normal forces of the present reactions.
     now: Vec<f64>,
+    /// Normal forces of the reactions after a change of one entry of `normals`.
     beside: Vec<f64>,
+    /// The entries of `normals` before the present increase of the friction.
     before: Vec<f64>,
     matrix: Lu,
     efforts: Vec<f64>,
-    /// Loads without friction, and with it.
+    /// Loads without friction.
     given: Vec<Wrench>,
+    /// Loads with friction.
     loads: Vec<Wrench>,
 }
 
@@ -65,8 +69,9 @@ impl InverseDynamics {
         }
     }
 
-    /// Fills in the reactions of a state whose motion is known, under the given loads and the friction. Returns the
-    /// friction of every joint on its second link (N m or N). `sense` gives the sense of the sliding, between -1 and 1.
+    /// Fills in the reactions of a state whose motion is known, under the given loads and the friction.
+    /// Returns the friction of every joint on its second link (N m or N).
+    /// `sense` returns the sense of the sliding of a joint: 1, -1, or a mean if the sense changes within a step.
     ///
     /// # Errors
     /// Those of [`NewtonEuler::solve`]; [`ErrorKind::Numeric`] if the friction locks the mechanism.
@@ -164,7 +169,7 @@ fn read(case: &Case, state: &State, normals: &mut [f64]) {
 pub(super) struct Braking {
     dynamics: InverseDynamics,
     state: State,
-    /// Accelerations of mass centres and angles in the last step, or in the last trial: x, y, angle.
+    /// Accelerations of every link in the last step or trial step: x and y of the mass centre, angle.
     accelerations: Vec<[f64; 3]>,
     /// Rates of the joints with friction one step earlier; NaN before the first step.
     before: Vec<f64>,
@@ -187,8 +192,8 @@ impl Braking {
         })
     }
 
-    /// Adds the friction to the loads on all links. `state` is the start of the step that follows.
-    /// It begins at the time `t` (s).
+    /// Adds the friction to the loads on all links. `state` is the state at the start of the next step, at the time `t`
+    /// (s).
     ///
     /// # Errors
     /// Those of [`InverseDynamics::solve`].
@@ -219,7 +224,7 @@ impl Braking {
             *motion = Motion::of_point(centre, place, motion.direction, motion.omega, *alpha);
         }
         let (before, now, setting_off) = (&self.before, &self.now, &self.setting_off);
-        // A joint may reverse within the step. Its friction is the mean, weighted by the durations of both senses.
+        // If a joint reverses within the step, its friction is the mean of both senses, weighted by their durations.
         let sense = |k: usize| {
             if now[k] == 0.0 {
                 return if setting_off[k] == 0.0 { 0.0 } else { setting_off[k].signum() };
@@ -234,7 +239,8 @@ impl Braking {
         Ok(())
     }
 
-    /// Stores the accelerations of a trial step from the start. Returns their largest change over the largest of them.
+    /// Stores the accelerations of a trial step from the start of the motion.
+    /// Returns their largest change divided by the largest of them.
     pub(super) fn guess(&mut self, case: &Case, mut of: impl FnMut(usize) -> [f64; 3]) -> f64 {
         let size = case.mechanism.size();
         let length = |own: [f64; 3]| Vec2::new(own[0], own[1]).norm().larger(own[2].abs() * size);

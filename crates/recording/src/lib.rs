@@ -14,8 +14,7 @@
 //! | `/log` | `foxglove.Log` | verdicts and warnings |
 //!
 //! A message declares only the fields that are computed.
-//! If fields of a subject are missing, the message's name contains the numbers of its fields, such as
-//! `linkproof.Point_1_2`.
+//! If a message lacks fields, its name contains the numbers of the fields that it has, such as `linkproof.Point_1_2`.
 //!
 //! Log times are nanoseconds from the first instant of the recording.
 //! A simulated second takes [`Show::slow`] seconds of log time; the grid has the simulated times themselves.

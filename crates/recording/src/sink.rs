@@ -8,7 +8,7 @@ pub trait Sink {
     /// Registers a topic with this name and kind of message, and returns its number.
     fn topic(&mut self, name: &str, kind: &MessageKind) -> McapResult<u16>;
 
-    /// Accepts one message at a time (ns).
+    /// Accepts a message with its log time `time` (ns).
     fn put(&mut self, topic: u16, sequence: u32, time: u64, data: &[u8]) -> McapResult<()>;
 }
 

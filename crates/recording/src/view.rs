@@ -53,7 +53,7 @@ pub struct Line {
     pub field: String,
     /// What it is called.
     pub label: String,
-    /// Index of the side, the reference being 0; `None` for errors.
+    /// Index of the side; 0 is the reference. `None` for errors.
     pub side: Option<usize>,
 }
 

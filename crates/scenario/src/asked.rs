@@ -36,6 +36,8 @@ pub struct StartRequest {
     pub set: Vec<(String, f64)>,
     /// Limit on the memory for the numbers of the file's tables (bytes); `None` for the default limit of a proof.
     pub memory: Option<f64>,
+    /// Whether drive, start and grid may be missing in the file.
+    pub without_drive: bool,
     /// Whether parameters that are missing in the file are added. If not, they are refused.
     pub adds_parameters: bool,
 }

@@ -11,7 +11,7 @@ use linkage::math::{Curve, FormulaCurve, Smooth};
 
 /// The variable of a formula.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Variable {
+pub enum CurveVariable {
     /// The time t (s).
     Time,
     /// The angle phi of a cam (rad).
@@ -22,8 +22,8 @@ pub enum Variable {
 #[derive(Debug)]
 struct Stated {
     text: String,
-    variable: Variable,
-    /// Value and first two derivatives. The program stores its intermediate values.
+    variable: CurveVariable,
+    /// Computes the value and the first two derivatives. It is locked because it stores intermediate values.
     program: Mutex<Program>,
 }
 
@@ -39,21 +39,21 @@ impl Smooth for Stated {
     }
 }
 
-/// Inputs of [`Formulas`]: the angle and the time.
-fn inputs(variable: Variable, x: f64) -> [Rounded; 2] {
+/// Inputs of [`Formulas`]: the angle, then the time. The formula must not use the other one.
+fn inputs(variable: CurveVariable, x: f64) -> [Rounded; 2] {
     let (own, other) = (Rounded::exact(x), Rounded::UNDEFINED);
-    if variable == Variable::Time { [other, own] } else { [own, other] }
+    if variable == CurveVariable::Time { [other, own] } else { [own, other] }
 }
 
-/// Reads the key `formula`: a formula of `variable` from 0 to `end`, in rad or m, which may use the parameters.
-/// The curve begins with 0; also returns the value of the formula there.
-pub fn formula(table: &mut TomlTable, variable: Variable, end: f64) -> Result<(Curve, f64)> {
+/// Reads the key `formula`: a formula of `variable` from 0 to `end`, which gives rad or m and may use the parameters.
+/// Returns the curve, which is the formula minus its value at 0, and this value.
+pub fn formula(table: &mut TomlTable, variable: CurveVariable, end: f64) -> Result<(Curve, f64)> {
     let text = table.string("formula")?;
     let parameters = table.source().parameters.list();
     let mut formulas = Formulas::over(parameters.to_vec());
     let program = match formulas.add("law", &text).map(|own| (own.id, own.tree.clone())) {
         Ok((id, tree)) => checked(&tree, variable).map(|()| {
-            let input = usize::from(variable == Variable::Time);
+            let input = usize::from(variable == CurveVariable::Time);
             let rate = formulas.graph.derivative(id, input);
             let acceleration = formulas.graph.derivative(rate, input);
             Program::of(&formulas.graph, &[id, rate, acceleration])
@@ -62,14 +62,14 @@ pub fn formula(table: &mut TomlTable, variable: Variable, end: f64) -> Result<(C
     };
     let mut program = program.map_err(|fault| table.fault_in("formula", &fault))?;
     let shift = program.run(&inputs(variable, 0.0))[0].value;
-    // Files that state the same formula with other parameters state other functions.
+    // With other parameters, the same text is another function, so the parameters belong to the compared text.
     let numbers: Vec<String> = parameters.iter().map(|own| format!("{} = {:e}", own.key, own.given)).collect();
     let stated = Stated { text: format!("{text} | {}", numbers.join(", ")), variable, program: Mutex::new(program) };
     let curve = Curve::Formula(FormulaCurve { of: Arc::new(stated), shift, factor: 1.0, end });
     if let Some(x) = curve.places().into_iter().find(|&x| !curve.at(x).into_iter().all(f64::is_finite)) {
         let message = match variable {
-            Variable::Time => sentences::the_formula_is_undefined_at(&"t", &x, &"s"),
-            Variable::Angle => sentences::the_formula_is_undefined_at(&"phi", &x, &"rad"),
+            CurveVariable::Time => sentences::the_formula_is_undefined_at(&"t", &x, &"s"),
+            CurveVariable::Angle => sentences::the_formula_is_undefined_at(&"phi", &x, &"rad"),
         };
         return table.refuse("formula", message, sentences::GIVE_A_FORMULA_WITH_TWO_DERIVATIVES);
     }
@@ -80,10 +80,10 @@ pub fn formula(table: &mut TomlTable, variable: Variable, end: f64) -> Result<(C
 }
 
 /// Checks that a formula has the right variable and no kink.
-fn checked(tree: &FormulaTree, variable: Variable) -> std::result::Result<(), FormulaFault> {
-    let wrong = if variable == Variable::Time { "phi" } else { "t" };
+fn checked(tree: &FormulaTree, variable: CurveVariable) -> std::result::Result<(), FormulaFault> {
+    let wrong = if variable == CurveVariable::Time { "phi" } else { "t" };
     if let Some((name, at)) = tree.names().into_iter().find(|(name, _)| *name == wrong) {
-        let help = if variable == Variable::Time { sentences::A_LAW_USES_T } else { sentences::A_LIFT_USES_PHI };
+        let help = if variable == CurveVariable::Time { sentences::A_LAW_USES_T } else { sentences::A_LIFT_USES_PHI };
         return Err(FormulaFault { message: sentences::is_no_variable_here(&name), at, help: help.into() });
     }
     if let Some((name, at)) = kink(tree) {

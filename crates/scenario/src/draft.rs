@@ -64,11 +64,23 @@ impl Draft {
         let table = TomlTable::root(&plain, &tree).optional_table("parameters").unwrap_or_default();
         let (parameters, fault) = parameter_table::read(table, &asked.set, asked.adds_parameters)?;
         let source = plain.with(parameters, keys::rows);
-        let found = TomlTable::root(&source, &tree).read_on(|root| read(root, asked));
-        let (draft, mistakes) = found.map_err(|error| source.located(tree.get_ref(), error))?;
+        let read = |asked: &StartRequest| {
+            let found = TomlTable::root(&source, &tree).read_on(|root| read(root, asked));
+            found.map_err(|error| source.located(tree.get_ref(), error))
+        };
+        let (mut draft, mut mistakes) = read(asked)?;
+        if draft.drives.is_empty() && draft.structure.is_ok() {
+            (draft, mistakes) = read(&StartRequest { without_drive: true, ..asked.clone() })?;
+        }
         // If a parameter has a mistake, only this mistake is reported, because it may be the cause of all other
         // mistakes.
         Ok(Draft { mistakes: fault.or(mistakes), ..draft })
+    }
+
+    /// Whether the file has no drive and its links cannot move.
+    #[must_use]
+    pub fn is_fixed(&self) -> bool {
+        self.drives.is_empty() && self.structure.is_ok() && self.mistakes.is_none()
     }
 
     /// What the input measures.

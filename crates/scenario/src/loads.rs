@@ -46,7 +46,7 @@ pub const SECTIONS: &[Section] = &[
             .means("moment, counter-clockwise positive; for a resistance its magnitude, not negative"),
         optional("acts", ValueKind::Choice(all_acts), "`\"always\"`").means(
             "for a moment: the sense of rotation of the link in which the moment acts; for a force on a slide: the sense \
-             of the sliding; for a spring on a slide: the side of its free slide",
+             of the sliding; for a torsion spring or a spring on a slide: the side of its free angle or free slide",
         ),
         optional("x", ValueKind::FORCES, "required by the type, or a table").means("force along x"),
         optional("y", ValueKind::FORCES, "required by the type, or a table").means("force along y"),
@@ -73,7 +73,8 @@ pub const SECTIONS: &[Section] = &[
         optional("length", ValueKind::LENGTHS.of(Sign::NotNegative), "0: the moment of the guide causes no friction")
             .means("length of the guide of a prismatic joint, half of it on each side of the point of the second link"),
         optional("table", ValueKind::Tables, "constant values")
-            .means("load as a function of the crank angle: crank angles ascending, within one period"),
+            .means("load as a function of the crank angle: crank angles ascending, within one period; between two points with the same \
+                    crank angle a table of straight lines jumps"),
         optional("interpolation", ValueKind::Choice(|| names(INTERPOLATIONS)), "`\"linear\"`").means(
             "interpolation of the table: straight lines, which do not overshoot, or a periodic cubic spline \
              with continuous second derivatives",
@@ -240,7 +241,9 @@ fn torsion_spring(table: &mut TomlTable, mechanism: &Mechanism) -> Result<Load> 
     let names = table.strings("links")?;
     let stiffness = table.quantity("stiffness", &TORSIONAL_STIFFNESS, Sign::NotNegative)?;
     let free_angle = table.si("free_angle")?;
-    Ok(Load::TorsionSpring { links: pair(table, mechanism, &names)?, stiffness, free_angle })
+    let acts = table.optional_choice("acts", sentences::DOES_NOT_SAY_WHEN_THE_MOMENT, SIDES)?;
+    let links = pair(table, mechanism, &names)?;
+    Ok(Load::TorsionSpring { links, stiffness, free_angle, acts: acts.unwrap_or(Acts::Always) })
 }
 
 fn torsion_damper(table: &mut TomlTable, mechanism: &Mechanism) -> Result<Load> {
@@ -287,7 +290,7 @@ fn courses<const N: usize>(table: &mut TomlTable, names: [&str; N]) -> Result<[C
             row.finish()
         });
         read?;
-        check_crank(&row, &points[0], turns)?;
+        check_crank(&row, &points[0], turns, smooth)?;
     }
     if points[0].is_empty() {
         let help = sentences::WRITE_A_CONSTANT_OR_ADD_POINTS;
@@ -297,16 +300,25 @@ fn courses<const N: usize>(table: &mut TomlTable, names: [&str; N]) -> Result<[C
 }
 
 /// Checks that the last point lies after the point before it and within the period of the table.
-fn check_crank(row: &TomlTable, points: &[(f64, f64)], turns: u32) -> Result<()> {
+/// Two points with the same crank angle are a jump, which only a table without a spline may have.
+fn check_crank(row: &TomlTable, points: &[(f64, f64)], turns: u32, smooth: bool) -> Result<()> {
     let (&[(first, _), ..], &[.., (last, _)]) = (points, points) else { return Ok(()) };
-    let before = points.len().checked_sub(2).map(|index| points[index].0);
-    if before.is_some_and(|before| !(last > before)) {
+    let before = |count: usize| points.len().checked_sub(count + 1).map(|index| points[index].0);
+    let jumps = before(1) == Some(last);
+    if jumps && smooth {
+        return Err(row.fault(sentences::A_SPLINE_CANNOT_JUMP).help(sentences::TAKE_LINES_FOR_JUMPS));
+    }
+    if jumps && before(2) == Some(last) {
+        return Err(row.fault(sentences::A_JUMP_HAS_TWO_POINTS).help(sentences::WRITE_THE_POINTS_IN_ASCENDING));
+    }
+    if !jumps && before(1).is_some_and(|before| !(last > before)) {
         let message = sentences::THE_CRANK_ANGLES_OF_THE_TABLE;
         return Err(row.fault(message).help(sentences::WRITE_THE_POINTS_IN_ASCENDING));
     }
     // Degrees are rounded when they are converted to radians.
     // The margin 1e-12 therefore refuses a point at the end of the period even if rounding has moved it below the end.
-    if last - first > TAU * f64::from(turns) * (1.0 - 1e-12) {
+    let (length, period) = (last - first, TAU * f64::from(turns));
+    if length > period * (1.0 - 1e-12) && (smooth || length > period * (1.0 + 1e-12)) {
         let message = sentences::the_table_is_longer_than_its_period(&(360 * u64::from(turns)));
         return Err(row.fault(message).help(sentences::A_TABLE_REPEATS_AFTER_A_TURN));
     }

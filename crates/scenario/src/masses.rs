@@ -1,4 +1,4 @@
-//! Checks masses that do not fit their mechanism. The usual cause is a wrong unit.
+//! Refuses masses that are out of proportion to their mechanism. The usual cause is a wrong unit.
 //!
 //! A double has sixteen digits.
 //! A mass that is too far from its link, or too heavy compared with the rest of the mechanism, leaves too few digits

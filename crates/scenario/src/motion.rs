@@ -4,7 +4,7 @@ use crate::sentences;
 use std::sync::Arc;
 
 use super::asked::StartRequest;
-use super::curve::{self, Variable};
+use super::curve::{self, CurveVariable};
 use super::keys::key::{Section, ValueKind, needed, optional};
 use super::motor;
 use super::reader::{Faults, Sign, TomlTable};
@@ -68,8 +68,8 @@ pub const SECTIONS: &[Section] = &[
 ];
 
 /// The drives of the mechanism: the crank first, then the further drives.
-/// `crank` is the angle at t = 0 of a crank as the first drive (rad), if it is stated. `asked` replaces the start of the
-/// first drive. The first drive gets the motor, if there is one.
+/// `crank` is the stated crank angle at t = 0 (rad), if the first drive moves a crank. `asked` may replace the start of
+/// the first drive. The first drive gets the motor, if there is one.
 /// Also returns the stated start of the first drive. After a mistake, the result is `None`.
 pub fn drives(
     tables: Vec<TomlTable>,
@@ -78,6 +78,9 @@ pub fn drives(
     (crank, asked): (Option<f64>, &StartRequest),
     faults: &mut Faults,
 ) -> Option<(Drives, f64)> {
+    if tables.is_empty() {
+        return None;
+    }
     let (mut drives, mut first): (Vec<Drive>, f64) = (Vec::new(), 0.0);
     let (count, whole) = (tables.len(), faults.whole);
     for (index, mut table) in tables.into_iter().enumerate() {
@@ -120,7 +123,7 @@ pub fn first_input(tables: &[TomlTable], mechanism: &Mechanism) -> Option<Input>
     Some(joint.map_or_else(|| guessed(table), |joint| Drive::of_joint(&mechanism.joints()[joint], &[], false).0))
 }
 
-/// Input that the keys of a drive at an unknown joint suggest.
+/// Probable input of a drive whose joint is unknown, from the units of its keys.
 fn guessed(table: &TomlTable) -> Input {
     let lengths = [("start", &LENGTH), ("to", &LENGTH), ("zero", &LENGTH), ("speed", &SPEED)];
     let has = |(key, family): &(&str, &'static UnitFamily)| family.all_keys(key).iter().any(|key| table.has(key));
@@ -174,6 +177,9 @@ fn drive(
         table.part(missing.map(|_| ()));
     }
     let (law, start) = law?;
+    if first.is_some() && law.constant() == Some(0.0) {
+        return table.refuse("law", sentences::THE_FIRST_DRIVE_HOLDS, sentences::PUT_A_MOVING_DRIVE_FIRST);
+    }
     let stated = stated.unwrap_or(start);
     let zero = table.optional_quantity("zero", of_input(input), Sign::Any)?.unwrap_or(0.0);
     let motion = motion(table, law, input)?;
@@ -241,9 +247,10 @@ const LAWS: Words<fn(&mut TomlTable, InputValue) -> Result<Begun>> = &[
     ("harmonic", harmonic),
     ("formula", formula),
     ("table", points),
+    ("hold", hold),
 ];
 
-/// Keys that only laws other than the constant one have.
+/// Keys that a constant speed does not have.
 const KEYS_OF_LAWS: [&str; 3] = ["law", "points", "formula"];
 
 fn law(table: &mut TomlTable, start: InputValue) -> Result<Begun> {
@@ -255,7 +262,7 @@ fn law(table: &mut TomlTable, start: InputValue) -> Result<Begun> {
     constant(table, start)
 }
 
-/// The law with its start, which must be `start` if both are stated.
+/// The law with its start. If the law states `begin` and the drive states `start`, both must be equal.
 fn begun(
     table: &mut TomlTable,
     input: Input,
@@ -265,8 +272,10 @@ fn begun(
 ) -> Result<(MotionLaw, f64)> {
     match (begin, start) {
         (Some(begin), Some(start)) if !((begin - start).abs() <= 1e-12 * start.abs().max(1.0)) => {
-            let message =
-                sentences::the_law_does_not_begin(&input.shown(begin), &input.shown(start), &input.shown_in().0);
+            let rounded = |value: f64| {
+                format!("{:.6}", input.shown(value)).trim_end_matches('0').trim_end_matches('.').to_string()
+            };
+            let message = sentences::the_law_does_not_begin(&rounded(begin), &rounded(start), &input.shown_in().0);
             let key = if table.has("formula") { "formula" } else { "points" };
             table.refuse(key, message, sentences::LET_LAW_AND_START_BE_EQUAL)
         }
@@ -288,6 +297,10 @@ fn ramp(table: &mut TomlTable, start: InputValue) -> Result<Begun> {
     Ok((MotionLaw::Ramp { speed, time: table.si("time")? }, None))
 }
 
+fn hold(_: &mut TomlTable, _: InputValue) -> Result<Begun> {
+    Ok((MotionLaw::ConstantSpeed(0.0), None))
+}
+
 fn harmonic(table: &mut TomlTable, start: InputValue) -> Result<Begun> {
     let amplitude = table.quantity("amplitude", of_input(start.input), Sign::NotZero)?;
     let (period, phase) = (table.si("period")?, table.optional_si("phase")?.unwrap_or(0.0));
@@ -296,7 +309,7 @@ fn harmonic(table: &mut TomlTable, start: InputValue) -> Result<Begun> {
 
 fn formula(table: &mut TomlTable, _: InputValue) -> Result<Begun> {
     let time = table.si("time")?;
-    let (curve, begin) = curve::formula(table, Variable::Time, time)?;
+    let (curve, begin) = curve::formula(table, CurveVariable::Time, time)?;
     Ok((MotionLaw::Curve(Arc::new(curve)), Some(begin)))
 }
 

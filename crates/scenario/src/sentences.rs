@@ -200,6 +200,9 @@ linkage::sentences! {
     A_TABLE_REPEATS_AFTER_A_TURN = "a table repeats after one turn or after `turns` turns: leave out its last point if it repeats the first";
     the_table_is_longer_than_its_period(u64) = "the table is longer than its period, {u64} deg";
     WRITE_THE_POINTS_IN_ASCENDING = "write the points in ascending order of the crank angle, each angle once";
+    A_SPLINE_CANNOT_JUMP = "the table jumps here, but its interpolation is smooth";
+    TAKE_LINES_FOR_JUMPS = "write `interpolation = \"linear\"`, or give each crank angle once";
+    A_JUMP_HAS_TWO_POINTS = "three points have the same crank angle";
     THE_CRANK_ANGLES_OF_THE_TABLE = "the crank angles of the table do not ascend";
     A_TABLE_OVER_THE_CRANK_ANGLE = "a table over the crank angle needs at least one point";
     WRITE_A_CONSTANT_OR_ADD_POINTS = "write a constant, or add points";
@@ -225,6 +228,8 @@ linkage::sentences! {
     the_mapping_cannot_be_read(path, error) = "the mapping {path} cannot be read: {error}";
     WRITE_IT_SUCH_AS_PHI3_PI = "write, for example, phi3*180/pi=link.rocker.angle_deg";
     A_MAPPING_IS_AN_ARITHMETIC = "a mapping is an expression of columns, `=`, and a channel";
+    // stated.rs
+    ADD_A_DRIVE = "add a `[drive]`; only structures that cannot move may be without one, for inspection and drawings";
     // curve.rs
     A_LAW_USES_T = "a law of motion uses the time `t` in seconds; an angle is in rad, a slide in m";
     A_LIFT_USES_PHI = "a lift uses the angle of the cam, `phi` in rad; the lift is in m, or in rad for a follower that swings";
@@ -244,11 +249,13 @@ linkage::sentences! {
     A_TABLE_OF_ANGLES_NEEDS_TWO = "a table needs at least two points with different values";
     WRITE_THE_POINTS_IN_ASCENDING_ORDER = "write the points in ascending order of time, each time once";
     the_times_do_not_ascend_comes(time, last) = "the times do not ascend: {time} s comes after {last} s";
-    LET_LAW_AND_START_BE_EQUAL = "a table begins at 0 s with the start, a formula has that value for t = 0";
+    LET_LAW_AND_START_BE_EQUAL = "let the value of the table or formula at t = 0 be equal to the start";
     the_law_does_not_begin(begin, input, input_2) = "the law begins with {begin} {input_2}, but the start is {input} {input_2}";
     THE_TABLE_BEGINS_LATER = "the first point of the table is not at 0 s";
     GIVE_A_CRANK_ANGLE_OTHER = "give a value other than that of the start";
     THE_CRANK_IS_TO_STAY_WHERE = "the input would not change";
+    THE_FIRST_DRIVE_HOLDS = "the first drive identifies the instants, but it holds its joint";
+    PUT_A_MOVING_DRIVE_FIRST = "write a drive that moves its joint before this one; if nothing moves, leave out `[drive]` and inspect the structure";
     IS_NO_LAW_OF_MOTION = "is not a law of motion";
     is_no_way_through_a_change(other) = "\"{other}\" is not a way to pass a change point";
     WRITE_THROUGH_SMOOTH_FOR_THE_BRANCH = "write `through = \"smooth\"` for the branch with continuous velocities, or remove the key";
@@ -458,17 +465,17 @@ linkage::sentences! {
     TAKE_A_ROLLER = "remove it, or write `follower = \"roller\"`";
     GIVE_THE_MOTION_OF_THE_FOLLOWER = "write `motion = [{ to_deg = 120, lift_mm = 20 }, { to_deg = 180 }, { to_deg = 300, lift_mm = 0 }, { to_deg = 360 }]`";
     IS_NO_CURVE_OF_A_CAM = "is not a curve of a cam";
-    the_cam_angles_do_not_ascend(to, last) = "the piece ends at {to} deg, but the one before ends at {last} deg and a turn at 360 deg";
-    ASCEND_TO_360 = "let the angles ascend, the last piece end at 360 deg with lift 0";
-    LIFTS_IN_TWO_UNITS = "the lifts are lengths as well as angles";
+    the_cam_angles_do_not_ascend(to, last) = "the piece ends at {to} deg, but must end after {last} deg and not after 360 deg";
+    ASCEND_TO_360 = "let the angles ascend, and let the last piece end at 360 deg with lift 0";
+    LIFTS_IN_TWO_UNITS = "some lifts are lengths, others are angles";
     THE_FOLLOWER_DOES_NOT_MOVE = "the follower has no lift";
     THE_CAM_HAS_TWO_LAWS = "the lift of the cam is given twice";
-    the_angle_of_the_lift(angle) = "the lift at {angle} deg follows one at a larger angle, or belongs to another turn";
+    the_angle_of_the_lift(angle) = "the lift at {angle} deg is not in ascending order of the angles, or is not below 360 deg";
     ASCEND_BELOW_360 = "let the angles ascend from 0 and stay below 360 deg; the table repeats with every turn";
     GIVE_LIFTS = "give lifts: `lifts = [{ angle_deg = 0, lift_mm = 0 }, { angle_deg = 120, lift_mm = 20 }, { angle_deg = 240, lift_mm = 5 }]`";
     THE_FORMULA_DOES_NOT_REPEAT = "the lift, or one of its first two derivatives, is different at `phi` = 0 and 2 pi";
     GIVE_A_LIFT = "give a lift: `{ to_deg = 120, lift_mm = 20 }`";
-    the_law_of_the_cam_ends_at(angle) = "the last piece ends at {angle} deg, or with a lift";
+    the_law_of_the_cam_ends_at(angle) = "the last piece ends at {angle} deg; it must end at 360 deg with lift 0";
     // transmissions.rs
     GIVE_LIFTS_LIKE_THE_JOINT = "give `lift_mm` for a sliding follower and `lift_deg` for a swinging one";
     the_lift_has_units_of(family, joint, kind) = "the lift is {family}, but joint \"{joint}\" of the follower is {kind}";
@@ -485,7 +492,7 @@ linkage::sentences! {
     EQUAL_GEARS_CANNOT_BE_INTERNAL = "a ring gear has more teeth than its wheel";
     GIVE_THE_RING_MORE_TEETH = "give the ring gear more teeth";
     GIVE_THE_PITCH_RADII = "give the pitch radii of both wheels";
-    IS_NO_COURSE_OF_STRANDS = "is not a course of strands";
+    IS_NO_COURSE_OF_STRANDS = "is not an arrangement of strands";
     the_pressure_angle_is(degrees) = "the pressure angle is {degrees} deg";
     GIVE_A_PRESSURE_ANGLE_BELOW_90 = "give a pressure angle below 90 deg; 20 deg is usual";
     found_numbers_for_two_wheels(key) = "`{key}` must have two positive numbers";

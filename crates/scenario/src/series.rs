@@ -36,7 +36,7 @@ pub struct OracleSeries {
 /// One published value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OraclePoint {
-    /// Where the value holds.
+    /// The instant of the value.
     pub at: When,
     /// Largest rounding error of the instant (rad or s), if a table prints the instant.
     /// The rounding error is 0 for numbers in the scenario itself.

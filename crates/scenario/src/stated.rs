@@ -82,10 +82,20 @@ impl<'a> FileSections<'a> {
         let (name, title, source) = (name(root), root.string("title"), root.optional_string("source"));
         // All sections are fetched before they are read. Otherwise a misspelt section name would cause further errors.
         let (ground, links, joints) = (root.table("ground"), root.table("links"), root.tables("joints")?);
-        let (drives, motor) = (root.needed_tables("drive"), root.optional_table("motor")?);
+        let drives = match asked.without_drive {
+            true => root.table_or_tables("drive"),
+            false if !root.has("drive") => Err(root.lacks(&["drive"], sentences::ADD_A_DRIVE)),
+            false => root.needed_tables("drive"),
+        };
+        let motor = root.optional_table("motor")?;
         let (gravity, loads) = (root.optional_table("gravity")?, root.tables("loads")?);
         let transmissions = root.tables("transmissions")?;
-        let (start, grid, channels) = (root.table("start"), root.table("grid"), root.optional_table("channels")?);
+        let section = |root: &mut TomlTable<'a>, key: &str| match asked.without_drive {
+            true => root.optional_table(key),
+            false => root.table(key).map(Some),
+        };
+        let (start, grid) = (section(root, "start"), section(root, "grid"));
+        let channels = root.optional_table("channels")?;
         let (engine, tolerances) = (root.optional_table("engine")?, root.optional_table("tolerances")?);
         let (oracles, clearance) = (root.tables("oracle")?, root.optional_table("clearance")?);
         let formulas = root.tables("formula")?;
@@ -107,11 +117,11 @@ impl<'a> FileSections<'a> {
         let mechanism = mechanism(links, joints, &mut faults);
         let mechanism = transmissions::read(transmissions, mechanism, &mut faults);
         let first_input = drives.as_ref().ok().and_then(|drives| motion::first_input(drives, &mechanism));
-        let (mut start, mut groups, mut crank) = (start.ok(), Vec::new(), None);
+        let (mut start, mut groups, mut crank) = (start.ok().flatten(), Vec::new(), None);
         if let Some(start) = &mut start {
             let own = |start: &mut TomlTable<'a>| {
                 groups = start.tables("groups")?;
-                let crank = crank_of(start, first_input)?;
+                let crank = if asked.without_drive { None } else { crank_of(start, first_input)? };
                 start.finish()?;
                 Ok(crank)
             };
@@ -131,8 +141,10 @@ impl<'a> FileSections<'a> {
             clearance.and_then(|mut table| faults.read(&mut table, |table| clearance::read(table, &mechanism)));
         let stand_in = || Drive::prescribed(JointId(0), LinkId(1), 0.0, 0.0, MotionLaw::ConstantSpeed(1.0));
         let all = drives.clone().unwrap_or_else(|| Drives::new(stand_in(), Vec::new()));
-        let grid =
-            grid.ok().and_then(|mut grid| faults.read(&mut grid, |grid| grid::read(grid, &all, asked.without_grid)));
+        let grid = grid
+            .ok()
+            .flatten()
+            .and_then(|mut grid| faults.read(&mut grid, |grid| grid::read(grid, &all, asked.without_grid)));
         let engine = engine.and_then(|mut table| faults.read(&mut table, |table| engine::read(table, all.crank())));
         root.part(faults.end());
         Ok(FileSections {

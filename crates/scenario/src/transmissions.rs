@@ -14,14 +14,15 @@ use linkage::input::Input;
 use linkage::mechanism::{Joint, JointId, Link, LinkId, Mechanism, TransmissionDesign, TransmissionKind};
 use std::f64::consts::FRAC_PI_2;
 
-/// Reads the keys of a type of transmission with this second member. Also returns the units of
-/// lifts.
+/// Reads the keys of a type of transmission. The link is the second member.
+/// Also returns the units of the lifts of a cam, if it states units.
 type ReadTransmission = fn(&mut TomlTable, &Link) -> Result<(TransmissionKind, Option<&'static UnitFamily>)>;
 
 /// Types of transmissions, each with its reader.
-const TYPES: Words<ReadTransmission> = &[("gears", gears), ("rack", rack), ("belt", belt), ("cam", cam::read)];
+const TYPES: Words<ReadTransmission> =
+    &[("gears", gears), ("rack", rack), ("screw", screw), ("belt", belt), ("cam", cam::read)];
 
-/// Words for the contact of gears: the sign of the larger number of teeth.
+/// Words for the contact of gears, each with the sign of the larger number of teeth.
 const CONTACTS: Words<f64> = &[("external", 1.0), ("internal", -1.0)];
 
 /// Words for the strands of a belt, and whether they cross.
@@ -36,7 +37,7 @@ pub const SECTIONS: &[Section] = &[
     needed("name", ValueKind::Text).means("unique name"),
     needed("type", ValueKind::Choice(|| names(TYPES))).means("kind of transmission"),
     needed("links", ValueKind::Texts)
-        .means("the two wheels, pinion and rack, or cam and follower; `\"ground\"` may be a wheel, such as a fixed ring gear"),
+        .means("the two wheels, pinion and rack, screw and nut, or cam and follower; `\"ground\"` may be a wheel, such as a fixed ring gear"),
     optional("carrier", ValueKind::Text, "`\"ground\"`").means(
         "the link that carries both axles, or the axle and the guide. A wheel is joined to the carrier, or to a \
          third link at a joint of the carrier with that link",
@@ -48,6 +49,8 @@ pub const SECTIONS: &[Section] = &[
         .means("gears: external, or internal if the wheel with more teeth is a ring gear"),
     optional("pressure_angle", ValueKind::ANGLES.of(Sign::NotNegative), "20 deg")
         .means("gears, rack: angle between the line of action and the tangent of the pitch circles"),
+    optional("lead", ValueKind::LENGTHS.of(Sign::NotZero), "required for a screw")
+        .means("screw: slide of the nut along the axis of its joint for a turn of the screw counter-clockwise; negative for a left-handed screw"),
     optional("radii", ValueKind::LIST_OF_LENGTHS, "required for a belt").means("belt: pitch radii of the two wheels"),
     optional("strands", ValueKind::Choice(|| names(STRANDS)), "`\"open\"`")
         .means("belt: open, or crossed, so that the wheels turn in opposite senses"),
@@ -58,7 +61,7 @@ pub const SECTIONS: &[Section] = &[
         .means("cam: point of the follower: the roller's centre, the knife's edge, or a point of the flat face"),
     optional("roller", ValueKind::LENGTHS.of(Sign::NotNegative), "required for a roller").means("cam: radius of the roller"),
     optional("motion", ValueKind::Tables, "required for a cam without `lifts` or `formula`")
-        .means("cam: lift over the angle of the cam against the carrier, piece by piece; it begins with lift 0 at angle 0"),
+        .means("cam: lift as a function of the cam's angle relative to the carrier, in pieces; it begins with lift 0 at angle 0"),
     optional("lifts", ValueKind::Tables, "none")
         .means("cam, instead of `motion`: a table of lifts in one turn, joined by a periodic cubic spline"),
     optional("formula", ValueKind::Text, "none").means(
@@ -66,7 +69,7 @@ pub const SECTIONS: &[Section] = &[
          `phi` in rad, from 0 to 2 pi, periodic with two continuous derivatives",
     ),
     optional("start_joint", ValueKind::Text, "the joint of the second link with the carrier")
-        .means("the joint that `start` refers to: one for each transmission, not driven"),
+        .means("the joint whose coordinate at t = 0 is `start`; a different joint for each transmission, not a driven one"),
     needed("start", ValueKind::INPUTS)
         .means("coordinate of that joint at t = 0: angle of its second link minus that of its first link, or slide"),
     ]), cam::SECTION, cam::LIFTS,
@@ -188,6 +191,10 @@ fn gears(table: &mut TomlTable, _: &Link) -> Result<(TransmissionKind, Option<&'
 
 fn rack(table: &mut TomlTable, _: &Link) -> Result<(TransmissionKind, Option<&'static UnitFamily>)> {
     Ok((TransmissionKind::Rack { pressure_angle: pressure_angle(table)? }, None))
+}
+
+fn screw(table: &mut TomlTable, _: &Link) -> Result<(TransmissionKind, Option<&'static UnitFamily>)> {
+    Ok((TransmissionKind::Screw { lead: table.si("lead")? }, None))
 }
 
 fn belt(table: &mut TomlTable, _: &Link) -> Result<(TransmissionKind, Option<&'static UnitFamily>)> {

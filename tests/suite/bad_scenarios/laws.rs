@@ -20,8 +20,8 @@ fn laws_and_their_grids() {
         (
             table("{ time_s = 0, angle_deg = 5 }, { time_s = 1, angle_deg = 9 }"),
             "points = [{ time_s",
-            "drive.points[1]",
-            &["does not begin with the start"],
+            "drive.points",
+            &["the law begins with 5 deg"],
         ),
         (
             table("{ time_s = 0, angle_deg = 0 }, { time_s = 1, angle_deg = 9 }, { time_s = 1, angle_deg = 19 }"),

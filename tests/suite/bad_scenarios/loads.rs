@@ -51,7 +51,7 @@ fn sorts_links_points_and_tables() {
         ),
         (format!("{moment}table = []\n"), "table = []", "loads[2].table", &["at least one point"]),
         (
-            format!("{moment}table = [{{ crank_deg = 9, moment_N_m = 1 }}, {{ crank_deg = 9, moment_N_m = 2 }}]\n"),
+            format!("{moment}table = [{{ crank_deg = 9, moment_N_m = 1 }}, {{ crank_deg = 8, moment_N_m = 2 }}]\n"),
             "table = [",
             "loads[2].table[2]",
             &["do not ascend"],

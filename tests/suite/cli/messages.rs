@@ -49,6 +49,63 @@ fn inspect_lists_all_configurations() {
     assert_eq!(place.run("inspect scenarios/ov7_base.toml --at-crank-deg 70").code, 2);
 }
 
+/// A platform on three rods of given length has up to six configurations; Hunt 1978, chapter on parallel manipulators.
+/// The lengths here are those of one known pose, so one configuration is known.
+#[test]
+fn a_structure_without_a_drive_is_inspected_and_drawn() {
+    let place = Place::new();
+    let pin = |name: &str, links: [&str; 2]| {
+        format!("[[joints]]\nname = \"{name}\"\ntype = \"revolute\"\nlinks = [\"{}\", \"{}\"]\n", links[0], links[1])
+    };
+    let point = |name: &str, x: f64, y: f64| format!("{name} = {{ x_m = {x}, y_m = {y} }}\n");
+    // The platform stands at (0.3, 0.2) without rotation.
+    let (base, eyes) = ([(0.0, 0.0), (0.5, 0.0), (0.2, 0.45)], [(0.0, 0.0), (0.15, 0.0), (0.06, 0.12)]);
+    let mut text = String::from("format = 1\nname = \"truss\"\ntitle = \"Truss\"\n[ground.points]\n");
+    let [mut platform, mut rods, mut joints] = [const { String::new() }; 3];
+    for (k, ((x, y), (u, v))) in base.into_iter().zip(eyes).enumerate() {
+        text += &point(&format!("A{k}"), x, y);
+        platform += &point(&format!("B{k}"), u, v);
+        let length = (0.3 + u - x).hypot(0.2 + v - y);
+        rods += &format!("[links.rod{k}.points]\n{}", point(&format!("A{k}"), 0.0, 0.0));
+        rods += &point(&format!("B{k}"), length, 0.0);
+        joints += &pin(&format!("A{k}"), ["ground", &format!("rod{k}")]);
+        joints += &pin(&format!("B{k}"), [&format!("rod{k}"), "platform"]);
+    }
+    text += &format!("{rods}[links.platform.points]\n{platform}{joints}");
+    fs::write(place.path("truss.toml"), &text).unwrap();
+    let shown = place.ok("inspect truss.toml --modes");
+    assert!(shown.contains("mobility 0, 4 moving links, 6 joints") && shown.contains("class 3, order 3"), "{shown}");
+    let found: Value = serde_json::from_str(&place.ok("inspect truss.toml -o -.json")).unwrap();
+    let all = found["configurations"].as_array().unwrap();
+    assert!(
+        all.len() >= 2 && all.len() <= 6 && shown.contains(&format!("{} real configurations", all.len())),
+        "{shown}"
+    );
+    let angles: Vec<f64> = all.iter().map(|own| own["links"][3]["angle_rad"].as_f64().unwrap()).collect();
+    assert!(angles.iter().any(|angle| angle.abs() < 1e-9), "{angles:?}");
+    for configuration in all {
+        let at = |link: usize, point: usize, axis: &str| {
+            configuration["links"][link]["points"][point][axis].as_f64().unwrap()
+        };
+        for k in 0..3 {
+            for axis in ["x_m", "y_m"] {
+                assert_within!((at(k, 1, axis) - at(3, k, axis)).abs(), 1e-9, "rod {k}");
+            }
+        }
+    }
+    for picture in ["draw truss.toml -o one.svg", "draw truss.toml --each-mode -o all.svg"] {
+        let run = place.run(picture);
+        assert!(run.code == 0 && !run.stderr.contains("warning"), "{}", run.stderr);
+    }
+    let refused = place.run("inspect truss.toml --range");
+    assert!(refused.code == 2 && refused.stderr.contains("nothing moves"), "{}", refused.stderr);
+    let refused = place.run("run truss.toml");
+    assert!(refused.code == 2 && refused.stderr.contains("`drive` is missing"), "{}", refused.stderr);
+    // A mechanism without a drive is a mistake.
+    fs::write(place.path("loose.toml"), text.replace(&pin("B2", ["rod2", "platform"]), "")).unwrap();
+    assert_eq!(place.run("inspect loose.toml").code, 2);
+}
+
 #[test]
 fn inspect_as_json() {
     let place = Place::new();

@@ -88,7 +88,15 @@ fn a_higher_group_moves_between_two_free_cranks() {
 fn a_spring_is_wound_up_by_a_free_motion() {
     let case = shipped("pendulum.toml").case;
     let (rod, stiffness) = (case.crank().link, 1.0);
-    let case = loaded(&case, &[Load::TorsionSpring { links: [LinkId(0), rod], stiffness, free_angle: 0.0 }]);
+    let case = loaded(
+        &case,
+        &[Load::TorsionSpring {
+            links: [LinkId(0), rod],
+            stiffness,
+            free_angle: 0.0,
+            acts: linkage::drive::Acts::Always,
+        }],
+    );
     let case = case.with(|parts| match &mut parts.drives.crank_mut().motion {
         DriveMotion::Free { initial_speed, .. } => *initial_speed = 25.0,
         motion @ DriveMotion::Prescribed { .. } => panic!("{motion:?}"),

@@ -5,7 +5,7 @@ use linkage::trajectory::Stage;
 use prover::run::{Options, Proof, prove};
 use scenario::Scenario;
 
-use crate::common::{from_outside, shipped};
+use crate::common::{assert_within, from_outside, shipped, states};
 
 /// For the pendulum under a load: the largest number of instants left out of a channel.
 fn left_out(load: &str) -> usize {
@@ -70,4 +70,51 @@ fn a_prescribed_acceleration_is_judged_where_a_load_jumps() {
     let proof = rocker(grid, &Options::default().step(2e-3).sweeps(16).extrapolated(1).route(Route::Probe));
     let [accelerations, forces] = [Stage::Accelerations, Stage::Reactions].map(|stage| left_out_in(&proof, stage));
     assert_eq!([accelerations, forces], [0, 2]);
+}
+
+/// A moment on the rocker that jumps at 90 deg, where an instant lies, and at the end of its period.
+const TABLE: &str = "[[loads]]\ntype = \"moment\"\nlink = \"rocker\"\ntable = [{ crank_deg = 0, moment_N_m = 5 }, \
+    { crank_deg = 90, moment_N_m = 10 }, { crank_deg = 90, moment_N_m = -40 }, { crank_deg = 360, moment_N_m = 30 }]\n";
+
+/// A scenario with the table in place of its resistance.
+fn with_table(name: &str, grid: &str) -> Scenario {
+    let path = shipped(name).path;
+    let text = std::fs::read_to_string(&path).unwrap();
+    let text = &text[..text.find("[[oracle]]").unwrap()];
+    let [loads, start, end] = ["[[loads]]", "[start]", "[grid]"].map(|section| text.find(section).unwrap());
+    let text = format!("{}{TABLE}{}[grid]\n{grid}", &text[..loads], &text[start..end]);
+    Scenario::parse(&text, &path).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// At a jump the value after it holds, for both sides and both senses of rotation.
+#[test]
+fn val_a_table_jumps_at_its_crank_angle() {
+    let case = with_table("crank_rocker.toml", "angles_deg = [0, 89.99999, 90, 90.00001, 180, 359.99999, 360]\n").case;
+    for solver in analytic::all() {
+        let found = states(solver, &case, &case.grid.times).unwrap();
+        let rocker = case.mechanism.link_named("rocker").unwrap();
+        let mut wrenches = vec![linkage::drive::Wrench::ZERO; case.mechanism.links().len()];
+        let moments = found.iter().map(|state| {
+            case.loads_on(&state.motions, &state.angles, &mut wrenches);
+            wrenches[rocker].moment
+        });
+        let expected = [5.0, 10.0, -40.0, -40.0, -40.0 + 70.0 / 3.0, 30.0, 5.0];
+        for (moment, expected) in moments.zip(expected) {
+            assert_within!((moment - expected).abs(), 1e-4, "{}: {expected}", solver.name());
+        }
+    }
+}
+
+/// The engine is not judged where its crank is on the other side of the jump.
+/// In the free motion, side 1 reduces the mechanism to the crank, and side 2 does not.
+#[test]
+fn a_table_that_jumps_agrees_in_prescribed_and_free_motions() {
+    let prescribed = with_table("crank_rocker.toml", "from_deg = 0\nto_deg = 360\nstep_deg = 10\n");
+    let free = with_table("crank_rocker_runup.toml", "from_s = 0\nto_s = 0.4\nstep_s = 0.004\n");
+    for scenario in [prescribed, free] {
+        let proof = prove(&scenario, &Options::default()).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(proof.verdict.word(), "agree", "{}: {:?}", scenario.name, proof.verdict);
+        let least = usize::from(scenario.case.is_free());
+        assert!(left_out_in(&proof, Stage::Reactions) >= least && left_out_in(&proof, Stage::Positions) == 0);
+    }
 }

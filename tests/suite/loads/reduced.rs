@@ -96,6 +96,11 @@ fn loads_unknown_to_the_reduction_are_refused_by_name() {
     });
     assert!(ReducedModel::of(&loaded(tables.into())).unwrap_err().message().contains("after 1309 turns"));
     let crank = case.crank().link;
-    let spring = vec![Load::TorsionSpring { links: [LinkId(0), crank], stiffness: 1.0, free_angle: 0.0 }];
+    let spring = vec![Load::TorsionSpring {
+        links: [LinkId(0), crank],
+        stiffness: 1.0,
+        free_angle: 0.0,
+        acts: linkage::drive::Acts::Always,
+    }];
     assert!(ReducedModel::of(&loaded(spring)).unwrap_err().message().contains("wound up by every turn"));
 }

@@ -107,13 +107,14 @@ impl Row<'_> {
                     all.push((ends[0].link, a, along * pull, 0.0));
                     all.push((ends[1].link, b, -along * pull, 0.0));
                 }
-                Load::TorsionSpring { links, stiffness, free_angle } => {
+                Load::TorsionSpring { links, stiffness, free_angle, acts } => {
                     let angle = |link: LinkId| self.link(link).turn[0];
                     let begun = self.case.start.0[links[1]].angle - self.case.start.0[links[0]].angle;
                     // At t = 0 the twist is in (-pi, pi]; `turns` is the number of revolutions that this removes.
                     let turns = ((begun - std::f64::consts::PI) / std::f64::consts::TAU).ceil();
                     let twist = angle(links[1]) - angle(links[0]) - turns * std::f64::consts::TAU;
-                    let moment = stiffness * (twist - free_angle);
+                    let over = twist - free_angle;
+                    let moment = if acts.has(over) { stiffness * over } else { 0.0 };
                     all.extend([couple(links[0], moment), couple(links[1], -moment)]);
                 }
                 Load::SlideForce { joint, .. } | Load::SlideSpring { joint, .. } | Load::SlideDamper { joint, .. } => {

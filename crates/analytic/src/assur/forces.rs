@@ -50,7 +50,7 @@ pub(super) struct Kinetostatics {
     /// One load per loaded link, if all loads are moments of resistance; otherwise `None`.
     /// Moments of resistance do not depend on the link's position.
     resistances: Option<Vec<(LinkId, Load)>>,
-    /// Whether a drive moves another joint than a crank's.
+    /// Whether any drive moves a joint that is not that of a crank.
     drives_joints: bool,
     /// The joints with friction, if there are any, and the loads without friction.
     dry: Option<Box<(Dry, Vec<Wrench>)>>,

@@ -50,7 +50,7 @@ pub enum Step {
     Rpp(Rpp),
     /// PRP dyad.
     Prp(Prp),
-    /// RRR dyad of bodies with given joints.
+    /// RRR dyad of bodies of changing shape.
     Shaped(Box<Shaped>),
     /// Any other group.
     Chain(Chain),

@@ -26,9 +26,9 @@ pub(super) const HALVINGS: u32 = 20;
 /// Explanation of a singular pose.
 const MEET: &str = sentences::THERE_THE_LINKS_OF_THE_GROUP;
 
-/// Goes from crank angle to crank angle on one branch and solves the pose at each angle, without allocation.
+/// Steps from crank angle to crank angle on one branch and solves the pose at each angle, without allocation.
 /// If several drives have laws of their own, the crank angle does not determine the pose.
-/// The solver then goes from time to time: wherever its functions take a crank angle (rad), they take a time (s).
+/// The solver then steps in time: its functions take a time (s) in place of a crank angle (rad).
 #[derive(Debug)]
 pub struct PoseSolver<'a> {
     pub(super) case: &'a Case,
@@ -52,7 +52,7 @@ pub struct PoseSolver<'a> {
     /// World direction of the crank at crank angle zero (rad).
     zero: f64,
     step: f64,
-    /// Whether the solver goes from time to time.
+    /// Whether the solver steps in time instead of the crank angle.
     by_time: bool,
     pub(super) gauges: Gauges,
     pub(super) watch: Watch,

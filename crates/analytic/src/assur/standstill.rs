@@ -1,4 +1,5 @@
-//! The interval of the driving force that friction leaves open where joints rest.
+//! The interval of the driving moment or force at an instant at which joints with friction rest.
+//! The friction of a joint at rest is undetermined, and so is the driving moment or force.
 
 use super::PoseSolver;
 use linkage::case::Case;
@@ -6,12 +7,12 @@ use linkage::error::Result;
 use linkage::math::KeepNan;
 use linkage::trajectory::Stage;
 
-/// Largest number of joints at rest whose friction is varied: all combinations of their senses are solved.
+/// Largest number of joints at rest whose friction is varied. All combinations of their senses are solved.
 const MOST_RESTING: usize = 8;
 
-/// Smallest and largest moment or force of the first drive at an instant (row of the grid) at which joints with friction
-/// rest: the friction of each of them acts in either sense or not at all.
-/// `None` if no such joint rests.
+/// Smallest and largest moment (N m) or force (N) of the first drive at the instant `row` of the grid.
+/// The friction of each joint at rest is varied: it acts in either sense, or is zero in all of these joints.
+/// `None` if every joint with friction is in motion.
 ///
 /// # Errors
 /// Those of [`PoseSolver::solve_row`].

@@ -6,11 +6,11 @@ use std::cell::{Cell, RefCell};
 
 use differential_equations::ode::ODE;
 
-use super::knots::Knots;
+use super::knots::{BEYOND, Knots};
 use super::march::Place;
 use super::side::{self, Held, Inputs};
 use super::step::Flow;
-use linkage::case::Case;
+use linkage::case::{ANY_CRANK, Case};
 use linkage::drive::load::sense_of;
 use linkage::drive::{Load, MotorBranch, Senses};
 use linkage::error::{Error, ErrorKind, Result};
@@ -83,7 +83,7 @@ pub(super) struct Pieces<'a, const N: usize> {
     entered: Cell<f64>,
     branch: Cell<Option<MotorBranch>>,
     knots: Knots,
-    /// Crank angles (rad) between which the loads' tables are smooth. They limit the present piece.
+    /// Crank angles (rad) that limit the present piece, each a little beyond a knot of the loads' tables.
     smooth: Cell<[f64; 2]>,
     origin: Cell<[f64; N]>,
 }
@@ -152,6 +152,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
             added: case.crank().moving_inertia(),
             senses: vec![0.0; loads],
             ways: vec![Vec2::zeros(); loads],
+            piece: ANY_CRANK,
         };
         let sensed = case.loads.iter().map(|load| sensed(case, load)).enumerate();
         let inputs = Inputs { angles: zeros(), speeds: zeros(), accelerations: zeros() };
@@ -163,7 +164,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
             entered: Cell::new(0.0),
             branch: Cell::new(None),
             knots: Knots::of(case),
-            smooth: Cell::new([f64::NEG_INFINITY, f64::INFINITY]),
+            smooth: Cell::new(ANY_CRANK),
             origin: Cell::new(start(case)),
         }
     }
@@ -256,7 +257,9 @@ impl<'a, const N: usize> Pieces<'a, N> {
     /// Computes the accelerations at `place`. The links or points of the loads in `stood` are at rest at `place`.
     fn go_on(&self, work: &mut Work, place: &Place<N>, stood: &[Sensed]) -> Result<()> {
         self.origin.set(place.y);
-        self.smooth.set(self.knots.around(self.crank(place.x, &place.y)));
+        let crank = self.crank(place.x, &place.y);
+        work.held.piece = self.knots.around(crank, 0.0);
+        self.smooth.set(self.knots.around(crank, BEYOND));
         match stood.is_empty() {
             true => self.accelerate(work, place.x, &place.y),
             false => self.set_off(work, place, stood),

@@ -1,16 +1,16 @@
-//! The knots of the loads' tables. At each knot, a motion under forces ends a piece.
+//! The knots of the loads' tables. A motion under forces is integrated in pieces that end at the knots.
 //!
-//! At a knot a derivative jumps, so a step over a knot would have a lower order.
+//! At a knot a load or its derivative jumps, so a step over a knot would have a lower order.
 
 use std::f64::consts::TAU;
 
 use linkage::case::Case;
-use linkage::math::KeepNan;
+use linkage::math::{KeepNan, just_below};
 
-/// A piece ends this distance beyond a knot (rad).
+/// A piece ends beyond a knot, at this fraction of the knot's absolute crank angle plus 1 rad.
 /// The distance lets a motion that reverses exactly on the knot leave the knot.
-/// The effect of the jump over this distance is far below rounding error.
-const BEYOND: f64 = 1e-9;
+/// Over this distance, loads keep the values at the knot, so that they do not jump within a piece.
+pub(super) const BEYOND: f64 = 1e-12;
 
 /// Crank angles (rad, as the scenario states them) of all knots of the loads' tables.
 #[derive(Debug)]
@@ -24,9 +24,10 @@ impl Knots {
         Knots(tables.map(|(knots, turns)| (knots.to_vec(), TAU * f64::from(turns))).collect())
     }
 
-    /// Ends of the interval around a crank angle in which all tables are smooth. Each end lies a little beyond its
-    /// knot.
-    pub(super) fn around(&self, crank: f64) -> [f64; 2] {
+    /// Ends of the interval around a crank angle in which all tables are smooth.
+    /// Each end lies beyond its knot, as described for [`BEYOND`], with the fraction `beyond`.
+    /// If `beyond` is zero, the interval begins at a knot and ends just before the next knot.
+    pub(super) fn around(&self, crank: f64, beyond: f64) -> [f64; 2] {
         let mut ends = [f64::NEG_INFINITY, f64::INFINITY];
         for (knots, period) in &self.0 {
             for knot in knots {
@@ -35,7 +36,11 @@ impl Knots {
                 ends = [ends[0].larger(last), ends[1].smaller(last + period)];
             }
         }
-        [ends[0] - BEYOND, ends[1] + BEYOND]
+        // At a knot with a jump, the table has the value after the jump.
+        if beyond == 0.0 {
+            return [ends[0], just_below(ends[1])];
+        }
+        [ends[0] - beyond * (ends[0].abs() + 1.0), ends[1] + beyond * (ends[1].abs() + 1.0)]
     }
 }
 
@@ -47,12 +52,16 @@ mod tests {
     fn knots_repeat_with_the_period() {
         let knots = Knots(vec![(vec![0.0, 1.0], TAU), (vec![0.5], 2.0 * TAU)]);
         let near = |[a, b]: [f64; 2], [c, d]: [f64; 2]| {
-            assert!((a - c).abs() < 2.0 * BEYOND && (b - d).abs() < 2.0 * BEYOND, "{a} {b}");
+            assert!((a - c).abs() < 10.0 * BEYOND && (b - d).abs() < 10.0 * BEYOND, "{a} {b}");
         };
-        near(knots.around(0.2), [0.0, 0.5]);
-        near(knots.around(0.7), [0.5, 1.0]);
-        near(knots.around(-0.1), [1.0 - TAU, 0.0]);
-        near(knots.around(TAU + 0.2), [TAU, TAU + 1.0]);
-        assert_eq!(Knots(Vec::new()).around(3.0), [f64::NEG_INFINITY, f64::INFINITY]);
+        near(knots.around(0.2, BEYOND), [0.0, 0.5]);
+        near(knots.around(0.7, BEYOND), [0.5, 1.0]);
+        near(knots.around(-0.1, BEYOND), [1.0 - TAU, 0.0]);
+        near(knots.around(TAU + 0.2, BEYOND), [TAU, TAU + 1.0]);
+        for beyond in [0.0, BEYOND] {
+            assert_eq!(Knots(Vec::new()).around(3.0, beyond), [f64::NEG_INFINITY, f64::INFINITY]);
+        }
+        near(knots.around(0.7, 0.0), [0.5, 1.0]);
+        assert!(knots.around(0.7, 0.0)[1] < 1.0);
     }
 }

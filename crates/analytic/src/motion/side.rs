@@ -34,6 +34,8 @@ pub(crate) struct Held {
     /// For every load against the motion of a point: direction of this motion at the beginning of the present step.
     /// It is a unit vector, or zero for standstill. Entries of other loads are unused.
     pub(crate) ways: Vec<Vec2>,
+    /// Crank angles (rad) between which the loads' tables are smooth.
+    pub(crate) piece: [f64; 2],
 }
 
 impl Held {
@@ -51,7 +53,7 @@ impl Held {
 /// Like [`Case::loads_on`], but loads that depend on a sense use the held sense.
 pub(crate) fn loads_held(case: &Case, motions: &[Motion], angles: &[f64], held: &Held, out: &mut [Wrench]) {
     let moment = |index: usize, load: &Load, crank: f64| load.moment_in(held.senses[index], crank);
-    case.loads_along(motions, angles, moment, |index, velocity| held.way(index, velocity), out);
+    case.loads_along(motions, angles, held.piece, moment, |index, velocity| held.way(index, velocity), out);
 }
 
 /// Solves a side's equations of motion for the accelerations of the free driving links, and writes them to the inputs.

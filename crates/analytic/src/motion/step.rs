@@ -27,7 +27,7 @@ pub(crate) trait Flow<const N: usize>: ODE<f64, [f64; N]> {
 /// One step: its beginning and its end.
 pub(crate) type Step<const N: usize> = [(f64, [f64; N]); 2];
 
-/// The rate at a state.
+/// The derivative dy / dx at the state `y`.
 pub(super) fn rate<const N: usize, F: Flow<N>>(flow: &F, x: f64, y: &[f64; N]) -> [f64; N] {
     let mut rate = [0.0; N];
     flow.diff(x, y, &mut rate);

@@ -221,7 +221,7 @@ impl Side for Embedded<'_> {
                         loads_held(case, motions, angles, held, out);
                     })?;
                 }
-                // The multipliers with friction are known from the accelerations.
+                // With friction, the multipliers were computed together with the accelerations.
                 _ if self.system.has_friction => {}
                 (Some(_), None) | (None, _) => self.system.multipliers(),
             }

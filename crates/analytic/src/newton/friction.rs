@@ -1,9 +1,10 @@
 //! Friction in the complete system: M q'' = Q + J^T lambda + F(lambda).
 //!
-//! The friction of a joint is a function of its multipliers: mu r |lambda| in a revolute joint, and mu times the larger
-//! of |lambda_1| and 2 |lambda_2| / l in a prismatic joint, whose multipliers are its normal force and its moment.
+//! The friction of a joint is a function of its multipliers: mu r |lambda| in a revolute joint.
+//! The multipliers of a prismatic joint are its normal force and its moment; the friction is mu times the larger of
+//! |lambda_1| and 2 |lambda_2| / l.
 //! Newton's method solves for all multipliers together and, in a free motion, for the accelerations of the free drives.
-//! The free drives have the equations lambda = T - inertia alpha with the moment and the inertia of the motor.
+//! A free drive has the equation lambda = T - I alpha, with the moment T and the inertia I of its motor, if it has one.
 //! The equation of motion with constraints is equation 6.3.18 of E. J. Haug, Computer Aided Kinematics and Dynamics of
 //! Mechanical Systems, vol. 1, Allyn and Bacon 1989; F is derived here.
 
@@ -18,21 +19,23 @@ use linkage::mechanism::{GROUND, LinkId};
 
 /// Largest number of Newton's steps.
 const MOST: usize = 40;
-/// Smallest part in which the friction is increased if the method does not converge.
+/// If the method does not converge, the friction is increased in steps. This is the smallest step, as a fraction of the
+/// friction.
 const LEAST: f64 = 1e-3;
-/// Relative change of the multipliers below which they are settled.
+/// The multipliers are settled if they change by less than this fraction of the largest one.
 const SETTLED: f64 = 1e-14;
-/// A change that no longer falls is rounding error if it is below this fraction of the largest multiplier.
+/// A change below this fraction of the largest multiplier is rounding error if the changes no longer decrease.
 const ROUNDING: f64 = 1e-10;
 
-/// The free drives of a motion: the columns V of all drives, the indices of the free drives, and the actions on them.
+/// The free drives of a motion: the velocities of all links for a unit rate of each drive (the columns V), the indices
+/// of the free drives, and the actions on the links.
 pub(super) struct Freedom<'a> {
     pub(super) columns: &'a [f64],
     pub(super) free: &'a [usize],
     pub(super) held: &'a Held,
 }
 
-/// Friction of a joint as a function of its multipliers, and its derivatives by them.
+/// Sum of the normal forces of a joint as a function of its multipliers, and its derivatives by them.
 fn of_multipliers(friction: &Friction, own: &[f64], slides: bool) -> (f64, [f64; 2]) {
     if !slides {
         let size = own[0].hypot(own[1]);
@@ -46,8 +49,9 @@ fn of_multipliers(friction: &Friction, own: &[f64], slides: bool) -> (f64, [f64;
 }
 
 impl System<'_> {
-    /// Solves for the multipliers with friction, from those without friction, and in a free motion for the
-    /// accelerations, which are stored in [`System::second`]. Senses are those of the motion, or those held.
+    /// Solves for the multipliers with friction. Newton's method starts from those without friction.
+    /// In a free motion, also solves for the accelerations and stores them in [`System::second`].
+    /// The senses of sliding are those of the velocities, and in a free motion those in `freedom`.
     ///
     /// # Errors
     /// [`ErrorKind::Numeric`](linkage::error::ErrorKind::Numeric) if the method does not converge.
@@ -85,8 +89,8 @@ impl System<'_> {
         Ok(())
     }
 
-    /// Newton's method for the multipliers, with the friction per newton of each joint in `levers`. Returns whether it
-    /// has converged.
+    /// Newton's method for the multipliers. Returns whether it has converged.
+    /// `levers` is the friction of each joint, with its sign, divided by the sum of the joint's normal forces.
     fn find_multipliers(&mut self, levers: &[f64], freedom: Option<&Freedom>) -> bool {
         let (case, n) = (self.case, self.q.len());
         let free = freedom.map_or(&[][..], |own| own.free);

@@ -26,11 +26,11 @@ pub(super) struct System<'a> {
     /// Multipliers of the joints, in the order of [`Mechanism::rows`](linkage::mechanism::Mechanism::rows), then those
     /// of the transmissions, then those of the drives.
     pub(super) lambda: Vec<f64>,
-    /// Changes of the multipliers by the second lines of action of the transmissions.
+    /// Changes of the multipliers because the forces of some transmissions act along their second lines of action.
     pub(super) beside: Vec<f64>,
     /// For every joint: see [`twist`].
     pub(super) twists: Vec<f64>,
-    /// Whether joints have friction.
+    /// Whether any joint has friction.
     pub(super) has_friction: bool,
     /// For every transmission: q2 - f(q1) in the start pose.
     pub(super) phases: PerTransmission<f64>,

@@ -2,9 +2,10 @@
 //!
 //! C' = w . (v2 - v1) with the line's direction w at the feet.
 //! The residual is c2 (q2 - f(q1)), minus its value in the start pose, plus the gaps of axles and guide along the line.
-//! The gaps are zero at the pose; with them, the row C' is the derivative of the residual.
-//! The feet move in the carrier with q1' p and the line turns in it with k q1' (only those of cams).
-//! With the angular velocities omega_i of the members and omega_0 of the carrier, and the velocity v of a foot itself,
+//! The gaps are zero in the solution. Because of them, the row C' is the derivative of the residual.
+//! For cams, the feet move in the carrier with the velocity q1' p, and the line turns in it with the rate k q1'.
+//! With the angular velocities omega_i of the members and omega_0 of the carrier, and the velocity v of the point of
+//! contact,
 //! ```text
 //! C'' = w . (a2 - a1) + w . (omega2 z x (v - v2) - omega1 z x (v - v1)) + (omega0 + k q1') (z x w) . (v2 - v1).
 //! ```

@@ -105,7 +105,7 @@ impl<'a> Constraints<'a> {
         Constraints { mechanism, origin, size, gearings, given, middles }
     }
 
-    /// The same with these gearings of drives; the transmissions have their phases in the pose `start`.
+    /// Adds the equations of the further drives. The pose `start` fixes the phases of the transmissions.
     pub(super) fn geared(mut self, gearings: Vec<Gearing>, start: &Pose) -> Self {
         let q = self.coordinates_of(start);
         self.gearings.iter_mut().for_each(|gearing| gearing.sum = gearing.at(self.mechanism, &q).0);

@@ -1,4 +1,4 @@
-//! Further drives as gearings of the first drive.
+//! Further drives, as if they were geared to the first drive.
 
 use super::constraints::{Constraints, Gearing};
 use crate::sentences;
@@ -7,8 +7,8 @@ use linkage::drive::Drive;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::input::Input;
 
-/// Index of the coordinate of the first drive, and the further drives as gearings. If the speeds are constant, their
-/// ratios to the speed of the first drive are constant.
+/// Index of the coordinate of the first drive, and one linear equation of coordinates for each further drive.
+/// At constant speeds, the ratios to the speed of the first drive are constant.
 ///
 /// # Errors
 /// [`ErrorKind::Unsupported`] if one of several speeds changes.

@@ -51,7 +51,7 @@ const MOST_POINTS: usize = 200_000;
 const SQUARE: f64 = 1e-3;
 /// If the crank has turned this number of turns, the search for a return to the first pose ends.
 const MOST_TURNS: i32 = 12;
-/// The same with transmissions: wheels with few common divisors return late.
+/// The same limit for a mechanism with transmissions. Its wheels may return to the first pose only after many turns.
 const MOST_GEARED_TURNS: i32 = 100;
 
 /// A pose on the curve.

@@ -6,7 +6,7 @@ use crate::sentences;
 use linkage::case::Case;
 use linkage::drive::{Load, LoadState, Motor, MotorBranch};
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::math::{Motion, Vec2};
+use linkage::math::{KeepNan, Motion, Vec2, just_below};
 use linkage::mechanism::{GROUND, LinkId};
 use linkage::solver::State;
 use linkage::trajectory::Stage;
@@ -212,9 +212,11 @@ impl<'a> ReducedModel<'a> {
         let state = self.at_unit_speed(poses, crank)?;
         let count = self.sensed.len();
         let row = piece.index.rem_euclid((self.senses.len() / count.max(1)).max(1) as i64) as usize;
-        let mut found = self.of_pose(state, crank);
+        // At its upper end a table may already have the value after a jump.
+        let within = crank.larger(piece.ends[0]).smaller(just_below(piece.ends[1]));
+        let mut found = self.of_pose(state, within);
         for ((link, load), sense) in self.sensed.iter().zip(&self.senses[row * count..]) {
-            found.applied += load.moment_in(way * sense, crank) * state.motions[*link].omega;
+            found.applied += load.moment_in(way * sense, within) * state.motions[*link].omega;
         }
         Ok(found)
     }

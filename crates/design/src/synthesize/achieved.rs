@@ -35,7 +35,7 @@ pub struct PhaseDone {
     pub end: Option<f64>,
 }
 
-/// A motion compared with its timing.
+/// The motion of a mechanism, compared with the required timing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Achieved {
     /// Stroke of the output (rad or m).

@@ -1,4 +1,4 @@
-//! Random mechanisms that are driven at any of their joints: slides, and angles between moving links.
+//! Random mechanisms with the drive at a random joint: the input may be a slide or an angle between moving links.
 
 use linkage::case::Case;
 use linkage::drive::MotionLaw;
@@ -43,7 +43,7 @@ mod tests {
         one.iter().map(off).fold(0.0, f64::larger)
     }
 
-    /// A third of the mechanisms has no pose at some instant. Both sides refuse these mechanisms.
+    /// About a third of the mechanisms cannot be assembled at some instant. Both sides must refuse these mechanisms.
     #[test]
     fn both_sides_agree_wherever_the_drive_is() {
         let (mut agreed, mut refused, mut worst) = (0, 0, 0.0);
@@ -67,7 +67,7 @@ mod tests {
                     worst = f64::larger(worst, apart(&one, &other));
                 }
                 (Err(_), Err(_)) => refused += 1,
-                // Side 1 alone looks for further states of the forces.
+                // Only side 1 detects that several states of the forces are in equilibrium.
                 (Err(error), Ok(_)) if error.message().contains("several states") => refused += 1,
                 (one, other) => {
                     let told = [one, other].map(|own| own.err().map(|error| error.to_string()));

@@ -16,7 +16,8 @@ pub const DEAD: f64 = 0.17364817766693033;
 /// Smallest distance between the outer pins of an RPR dyad (m): the length of the shortest link.
 const CLOSE: f64 = 0.1;
 
-/// The five kinds: whether the first outer, the inner and the second outer joint are prismatic.
+/// The five kinds of dyads. Each has three flags: whether the first outer, the inner and the second outer joint are
+/// prismatic.
 pub const SORTS: [[bool; 3]; 5] =
     [[false, false, false], [false, false, true], [false, true, false], [false, true, true], [true, false, true]];
 
@@ -72,7 +73,7 @@ pub fn dyad(sketch: &mut SpecimenSketch, slides: [bool; 3], bases: [usize; 2]) -
     [one, two]
 }
 
-/// A random kind, with its links in either order.
+/// A random one of the allowed kinds, with its joints in either order.
 pub fn sort(random: &mut RandomSource, allowed: &[[bool; 3]]) -> [bool; 3] {
     let mut slides = allowed[random.index(allowed.len())];
     if random.yes() {
@@ -98,9 +99,9 @@ pub fn chain(random: &mut RandomSource, allowed: &[[bool; 3]], dyads: usize) -> 
     sketch.finish()
 }
 
-/// Reads a chain and checks that on its grid it stays within `REACH` and away from dead points.
-/// The poses come from the `linkage` crate.
-/// A solver would also compute the range of the mechanism, which takes longer than all other work of this function.
+/// Reads a chain. `None` unless it stays within `REACH` and away from dead points at all instants of its grid.
+/// The poses come from [`first_pose`]. A solver would also compute the range of the mechanism, which takes longer than
+/// all other work of this function.
 pub fn sample(spec: Spec) -> Option<DyadSpecimen> {
     let scenario = spec.scenario().ok()?;
     let case = &scenario.case;

@@ -5,14 +5,14 @@ use linkage::drive::Load;
 
 use super::sketch::RandomSource;
 
-/// Largest coefficient of friction, and largest radius of a journal over the mechanism's size.
-/// Larger numbers lock many mechanisms.
+/// Largest coefficient of friction. Friction with a larger coefficient locks many mechanisms.
 const COEFFICIENT: f64 = 0.15;
+/// Largest radius of a journal, divided by the mechanism's size.
 const RADIUS: f64 = 0.03;
-/// Range of the length of a guide over the mechanism's size.
+/// Range of the length of a guide, divided by the mechanism's size.
 const GUIDE: [f64; 2] = [0.2, 0.6];
 
-/// The mechanism of `case` with friction in half of its joints. `None` if the case must not have friction.
+/// The mechanism of `case` with friction in half of its joints. `None` if the case does not allow friction.
 pub fn frictional(random: &mut RandomSource, case: &Case) -> Option<Case> {
     let size = case.mechanism.size();
     let mut loads = case.loads.clone();

@@ -1,4 +1,5 @@
-//! Random mechanisms with a wheel or follower that gears, a belt or a cam couple to one of their joints.
+//! Random mechanisms with a transmission: gears, a belt or a cam between one of the links and an additional wheel or
+//! follower.
 
 use std::f64::consts::{FRAC_PI_3, PI, TAU};
 
@@ -15,8 +16,9 @@ use super::sketch::RandomSource;
 /// Name of the wheel and of its axle.
 const WHEEL: &str = "wheel";
 
-/// The mechanism of `case` with a wheel on one of its links, coupled to a link that turns about a joint of this link.
-/// The wheel has a mass off its axle. `None` if the structure does not allow it.
+/// The mechanism of `case` with a wheel on one of its links, the carrier.
+/// The wheel is coupled to a link that is hinged to the carrier. Its mass centre is off its axle.
+/// `None` if the structure does not allow the wheel.
 pub fn geared(random: &mut RandomSource, case: &Case) -> Option<Case> {
     let (joints, size) = (case.mechanism.joints(), case.mechanism.size());
     let pins: Vec<JointId> = joints.entries().filter(|(_, joint)| joint.is_pin()).map(|(id, _)| id).collect();
@@ -30,7 +32,7 @@ pub fn geared(random: &mut RandomSource, case: &Case) -> Option<Case> {
     let local = joints[pin].on(carrier)? + unit(away) * distance;
     let kind = kind(random, distance);
     // The arm of a follower is half the distance of the axles.
-    // It is perpendicular to the way from the cam's axle to the roller.
+    // It is perpendicular to the line from the cam's axle to the roller's centre.
     let start = if let TransmissionKind::Cam { .. } = kind { away + PI + FRAC_PI_3 } else { start };
     let wheel = LinkId(case.mechanism.links().len());
     let mut links = case.mechanism.links().to_vec();
@@ -58,7 +60,7 @@ pub fn geared(random: &mut RandomSource, case: &Case) -> Option<Case> {
     restructured(case, parts)
 }
 
-/// The case of changed parts, with their structure. Groups that the case has too keep their modes.
+/// A case of the changed parts, with their structure. Groups that also exist in `case` keep their modes.
 fn restructured(case: &Case, mut parts: CaseParts) -> Option<Case> {
     parts.structure = Structure::of(&parts.mechanism, &parts.drives.joints()).ok()?;
     let mode = |own: &linkage::mechanism::Group| match own.kind {

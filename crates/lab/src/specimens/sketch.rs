@@ -1,6 +1,6 @@
 //! Random mechanisms in their start pose.
-//! Links have any position and direction, and each joint is placed at the present position of its two links.
-//! So every mechanism can be assembled, and its start pose is known without a formula.
+//! Links get random poses, and each joint is defined by the same world position on its two links.
+//! Every mechanism can therefore be assembled, and its start pose is known without solving.
 
 use chacha20::ChaCha20Rng;
 use chacha20::rand_core::{Rng, SeedableRng};

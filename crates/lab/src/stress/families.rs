@@ -5,6 +5,7 @@ mod four_bar;
 mod friction;
 mod gears;
 mod long;
+mod rams;
 mod random;
 mod settings;
 mod singular;
@@ -20,6 +21,8 @@ pub static FAMILIES: &[StressFamily] = &[
     four_bar::SIZE,
     gears::GEAR_RATIO,
     friction::FRICTION,
+    rams::RAM,
+    rams::CAM,
     settings::STEP,
     settings::SWEEPS,
     long::STEPS,

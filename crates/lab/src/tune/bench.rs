@@ -256,7 +256,7 @@ impl Bench<'_> {
         if seen < self.wanted.len() { failed(price) } else { Measured { error, worst, price } }
     }
 
-    /// Error predicted from runs of the engine alone.
+    /// Error estimated from several runs of the engine, without the reference.
     pub(super) fn predicted(&mut self, engine: &dyn Engine) -> Result<f64> {
         let settings = engine.settings();
         let at = |factor: f64| Settings { resolution: settings.resolution * factor, ..settings };

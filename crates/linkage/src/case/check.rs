@@ -76,7 +76,7 @@ fn drives(parts: &CaseParts) -> Result<()> {
         if before.iter().any(|other| other.joint == drive.joint || same_link(other)) {
             return fault(ErrorKind::Input, sentences::joint_or_link_is_driven_already(&names));
         }
-        if !(drive.zero.is_finite() && drive.start.is_finite() && motion_is_sound(&drive.motion)) {
+        if !(drive.zero.is_finite() && drive.start.is_finite() && motion_is_sound(&drive.motion, index > 0)) {
             return fault(
                 ErrorKind::Input,
                 sentences::has_a_number_that_is_not_finite(&names, &format_args!("{drive:?}")),
@@ -121,7 +121,8 @@ fn moves_nothing(mechanism: &Mechanism, drive: &Drive) -> bool {
             .all(|(is_pin, place)| is_pin && own.is_some_and(|own| (place - own).norm() <= POINT * mechanism.size()))
 }
 
-fn motion_is_sound(motion: &DriveMotion) -> bool {
+/// Whether all numbers of a motion are usable. The speed 0 is usable only if the drive `may_hold` its joint.
+fn motion_is_sound(motion: &DriveMotion, may_hold: bool) -> bool {
     let moves = |value: f64| value.is_finite() && value != 0.0;
     let (moved, motor) = match motion {
         DriveMotion::Prescribed { law, motor } => {
@@ -131,7 +132,8 @@ fn motion_is_sound(motion: &DriveMotion) -> bool {
                 MotionLaw::Cycloidal { rise, time } => moves(rise) && moves(time) && time > 0.0,
                 MotionLaw::Curve(ref curve) => curve.is_finite(),
             };
-            (moved && moves(law.top_speed()), motor)
+            let holds = may_hold && law.constant() == Some(0.0);
+            (holds || moved && moves(law.top_speed()), motor)
         }
         &DriveMotion::Free { initial_speed, nominal_speed, ref motor } => {
             (initial_speed.is_finite() && moves(nominal_speed), motor)

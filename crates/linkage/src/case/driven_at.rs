@@ -8,7 +8,7 @@ use crate::mechanism::assembly::transmission_sine;
 use crate::mechanism::{AssemblyMode, DrivenJoint, Group, JointId, Mechanism, Structure};
 
 impl Case {
-    /// Structure of the mechanism if the first drive moves `joint` instead of its joint. Further drives stay.
+    /// Structure of the mechanism if the first drive moves `joint` instead of its present joint. Further drives stay.
     ///
     /// # Errors
     /// Those of [`Structure::of_driven`].
@@ -20,7 +20,7 @@ impl Case {
     }
 
     /// This case with the first drive at `joint`, from the same start pose.
-    /// If this joint gives the start of a transmission, the joint of its first member with the carrier does so instead.
+    /// If this joint is the start joint of a transmission, the joint of its first member with the carrier replaces it.
     /// `law` gives the law of motion for the kind of input. The grid has these times (s).
     ///
     /// # Errors

@@ -1,13 +1,13 @@
 //! Dry friction in the joints.
 //!
-//! Friction acts against the sliding of a joint. Its size is the coefficient of friction times the normal forces of the
-//! contacts.
-//! A journal of the radius r has one contact with the force R of the joint: the moment is mu r |R|.
-//! A guide of the length l carries the force N and the moment M with two contacts at its ends, N/2 + M/l and N/2 - M/l.
-//! The sum of their sizes is the larger of |N| and 2 |M| / l.
+//! Friction acts against the sliding of a joint.
+//! Its size is the coefficient of friction mu times the sum of the normal forces of the joint's contacts.
+//! A journal of the radius r has one contact, with the force R of the joint: the moment is mu r |R|.
+//! A guide of the length l carries the force N and the moment M by contacts at its two ends.
+//! Their forces are N/2 + M/l and N/2 - M/l; the sum of the absolute values is the larger of |N| and 2 |M| / l.
 //! See docs/numerics/friction.md.
-//! J. L. Meriam, L. G. Kraige, Engineering Mechanics: Statics, 7th ed., Wiley 2012, sections 6/3 and 6/6, with the
-//! coefficient of friction for the radius of the friction circle; the two contacts are derived here from equilibrium.
+//! J. L. Meriam, L. G. Kraige, Engineering Mechanics: Statics, 7th ed., Wiley 2012, sections 6/3 and 6/6.
+//! The radius of the friction circle is mu r here. The forces of the two contacts follow from equilibrium.
 
 use super::{Case, STANDSTILL, fastest};
 use crate::drive::{Action, Load, Wrench};
@@ -18,7 +18,7 @@ use crate::mechanism::{Joint, JointId};
 #[derive(Clone, Copy, Debug)]
 pub struct Friction<'a> {
     case: &'a Case,
-    /// Index of the load.
+    /// Index of the friction in the loads of the case.
     pub load: usize,
     /// The joint.
     pub joint: JointId,
@@ -28,7 +28,7 @@ pub struct Friction<'a> {
 }
 
 impl Case {
-    /// The friction of every joint that has one, in the order of the loads.
+    /// The joints with friction, in the order of the loads.
     pub fn frictions(&self) -> impl Iterator<Item = Friction<'_>> {
         self.loads.iter().enumerate().filter_map(|(load, own)| {
             let &Load::Friction { joint, links: _, coefficient, length } = own else { return None };
@@ -36,7 +36,7 @@ impl Case {
         })
     }
 
-    /// Whether joints have friction.
+    /// Whether any joint has friction.
     #[must_use]
     pub fn has_friction(&self) -> bool {
         self.loads.iter().any(Load::is_friction)
@@ -48,13 +48,14 @@ impl Case {
     pub fn joint_rate(&self, motions: &[Motion], joint: JointId) -> f64 {
         let joint = &self.mechanism.joints()[joint];
         let (rate, unit) = (joint.rates(motions)[0], if joint.slides() { self.mechanism.size() } else { 1.0 });
-        // The comparison is false for NaN.
+        // A rate that is NaN counts as zero.
         if rate.abs() > STANDSTILL * fastest(motions) * unit { rate } else { 0.0 }
     }
 }
 
 impl Case {
-    /// Adds frictions to the loads on all links. `efforts` are those of [`Case::frictions`] on the second links (N m or N).
+    /// Adds the friction of all joints to the loads on all links.
+    /// `efforts` is the friction on the second link of each joint (N m or N), in the order of [`Case::frictions`].
     pub fn add_friction(&self, efforts: &[f64], motions: &[Motion], out: &mut [Wrench]) {
         for (friction, &effort) in self.frictions().zip(efforts) {
             for action in friction.act(effort, motions) {
@@ -64,7 +65,7 @@ impl Case {
     }
 }
 
-/// JointReactions of all joints: forces (N), and moments about the joints' points on their second links (N m).
+/// Reactions of all joints on the second links: forces (N), and moments about the joints' points on these links (N m).
 #[derive(Clone, Copy, Debug)]
 pub struct JointReactions<'a> {
     /// One force per joint.
@@ -78,8 +79,8 @@ impl Friction<'_> {
         &self.case.mechanism.joints()[self.joint]
     }
 
-    /// Sum of the contacts' normal forces (N) for a reaction: force (N), and moment about the joint's point on the second
-    /// link (N m). The sum is a norm of the reaction.
+    /// Sum of the contacts' normal forces (N), which is a norm of the reaction.
+    /// The reaction has a force (N), and a moment about the joint's point on the second link (N m).
     #[must_use]
     pub fn normal(&self, force: Vec2, moment: f64) -> f64 {
         match self.of_joint().slides() && self.length > 0.0 {
@@ -88,20 +89,20 @@ impl Friction<'_> {
         }
     }
 
-    /// Friction per newton of [`normal`](Friction::normal): a moment (m) in a revolute joint, a force (1) in a prismatic
-    /// joint.
+    /// Friction divided by [`normal`](Friction::normal): mu r in a revolute joint (m), mu in a prismatic joint (1).
     #[must_use]
     pub fn lever(&self) -> f64 {
         if self.of_joint().slides() { self.coefficient } else { self.coefficient * self.length }
     }
 
-    /// Speed of the contact per rate of the joint's coordinate: the radius of the journal (m), or 1.
+    /// Sliding speed of the contact divided by the rate of the joint's coordinate: the radius of a journal (m), 1 for a
+    /// guide.
     #[must_use]
     pub fn contact(&self) -> f64 {
         if self.of_joint().slides() { 1.0 } else { self.length }
     }
 
-    /// Length of the guide (m): zero for a revolute joint, and if the guide's moment causes no friction.
+    /// Length of the guide (m). It is zero for a revolute joint, and if the moment of the guide causes no friction.
     #[must_use]
     pub fn guide(&self) -> f64 {
         if self.of_joint().slides() { self.length } else { 0.0 }

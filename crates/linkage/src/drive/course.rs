@@ -5,6 +5,10 @@ use std::sync::Arc;
 
 use crate::math::Piecewise;
 
+/// The jumps of a table are moved back by this angle (rad), which is much larger than rounding errors.
+/// At the stated crank angle, all solvers therefore find the value after the jump.
+const BEFORE: f64 = 4e-9;
+
 /// A constant, or a table of values against the crank angle.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Course {
@@ -25,10 +29,17 @@ impl Course {
     /// After `turns` revolutions the table repeats.
     /// If `smooth` is true, the function is a periodic cubic spline with continuous second derivatives.
     /// Otherwise straight lines join the points.
+    /// Two points with the same crank angle make a jump, and so does a last point one period after the first point.
+    /// At the crank angle of a jump, the table has the value after the jump.
     #[must_use]
     pub fn table(points: &[(f64, f64)], turns: u32, smooth: bool) -> Self {
-        let of = if smooth { Piecewise::periodic_spline } else { Piecewise::periodic_lines };
-        Course::Table { function: Arc::new(of(points, TAU * f64::from(turns))), turns }
+        let period = TAU * f64::from(turns);
+        let function = if smooth {
+            Piecewise::periodic_spline(points, period)
+        } else {
+            Piecewise::periodic_lines(points, period).with_jumps_before(BEFORE)
+        };
+        Course::Table { function: Arc::new(function), turns }
     }
 
     /// Value at the crank angle `crank` (rad).
@@ -61,6 +72,13 @@ impl Course {
         }
     }
 
+    /// Crank angles (rad) at which the table jumps, each with the period (rad) after which the jump repeats.
+    pub fn jumps(&self) -> impl Iterator<Item = [f64; 2]> {
+        let (knots, turns) = self.knots().unwrap_or_default();
+        let jumps = knots.windows(2).filter(|pair| pair[1] <= pair[0]);
+        jumps.map(move |pair| [pair[0], TAU * f64::from(turns)])
+    }
+
     /// Breakpoints of the function (crank angles) in one period, and the period in revolutions.
     /// Between two breakpoints the function is a single polynomial.
     /// `None` for a constant.
@@ -70,5 +88,27 @@ impl Course {
             Course::Constant(_) => None,
             Course::Table { function, turns } => Some((function.knots(), *turns)),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_table_jumps_between_points_at_one_crank_angle_and_at_the_end_of_its_period() {
+        let turn = |degrees: f64| degrees.to_radians();
+        let points = [(30.0, 1.0), (90.0, 2.0), (90.0, 5.0), (390.0, 4.0)].map(|(x, y)| (turn(x), y));
+        let table = Course::table(&points, 1, false);
+        let jumps: Vec<[f64; 2]> = table.jumps().collect();
+        assert_eq!(jumps, [[turn(90.0) - BEFORE, TAU], [turn(30.0) - BEFORE + TAU, TAU]]);
+        // Moving the jumps does not change the lines between them.
+        assert!((table.at(turn(240.0)) - 4.5).abs() < 1e-15 && (table.at(turn(60.0)) - 1.5).abs() < 1e-15);
+        for (x, y) in [(90.0, 5.0), (90.0 - 1e-6, 2.0), (30.0, 1.0), (390.0 - 1e-6, 4.0), (-270.0, 5.0)] {
+            assert!((table.at(turn(x)) - y).abs() < 1e-7, "{x}");
+            // A rounding error of the crank angle does not lead to the other side of a jump.
+            assert!((table.at(turn(x) - 1e-12) - y).abs() < 1e-7, "{x}");
+        }
+        assert_eq!(Course::table(&points[..2], 1, true).jumps().count(), 0);
     }
 }

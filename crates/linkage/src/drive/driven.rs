@@ -258,7 +258,7 @@ impl Drive {
         Drive { motion, ..*self }
     }
 
-    /// Coordinate of the driven joint at the input `angle` (SI unit, in the scenario's convention).
+    /// Coordinate of the driven joint for a value `angle` of the input (rad or m, counted as in the scenario).
     /// For [`Input::Angle`]: the world angle of the driving link's x axis (rad).
     /// For [`Input::Turn`]: the angle of the joint's second link minus that of its first link (rad).
     /// For [`Input::Slide`]: the slide (m), as in [`State::slide`](crate::solver::State::slide).

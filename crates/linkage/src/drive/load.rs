@@ -76,6 +76,7 @@ pub enum Load {
     /// The moment on the first link is stiffness times (twist - free twist). The moment on the second link is opposite.
     /// The twist is the angle of the second link's frame minus that of the first.
     /// At t = 0 the twist is in (-pi, pi]. Later the twist counts whole turns.
+    /// A stop acts only on one side of the free twist.
     TorsionSpring {
         /// The links.
         links: [LinkId; 2],
@@ -83,6 +84,8 @@ pub enum Load {
         stiffness: f64,
         /// Unloaded twist (rad).
         free_angle: f64,
+        /// Side of the free twist on which the spring acts: counter-clockwise stands for larger twists.
+        acts: Acts,
     },
     /// Torsion damper between two links.
     /// The moment on the first link is damping times the rate of change of the twist. The moment on the second link is
@@ -184,8 +187,9 @@ impl Load {
                 let pull = if squared > 0.0 { span * (damping * rate / squared) } else { Vec2::zeros() };
                 pull_together(ends, places, pull, put);
             }
-            &Load::TorsionSpring { links, stiffness, free_angle } => {
-                twist_back(links, stiffness * (setting.twist(links) - free_angle), put);
+            &Load::TorsionSpring { links, stiffness, free_angle, acts } => {
+                let over = setting.twist(links) - free_angle;
+                twist_back(links, if acts.has(over) { stiffness * over } else { 0.0 }, put);
             }
             &Load::TorsionDamper { links, damping } => {
                 twist_back(links, damping * (motions[links[1]].omega - motions[links[0]].omega), put);
@@ -234,7 +238,7 @@ impl Load {
             }
             &Load::Spring { ends, stiffness: _, free_length: _ } => plain("spring", On::Points(ends)),
             &Load::Damper { ends, damping: _ } => LoadNature { is_viscous: true, ..plain("damper", On::Points(ends)) },
-            &Load::TorsionSpring { links, stiffness: _, free_angle: _ } => {
+            &Load::TorsionSpring { links, .. } => {
                 LoadNature { twist: Some(links), ..plain("torsion_spring", On::Links(links)) }
             }
             &Load::TorsionDamper { links, damping: _ } => {
@@ -286,12 +290,17 @@ impl Load {
             Load::Damper { ends: [first, second], damping } => {
                 vec![LoadPart::Point(first), LoadPart::Point(second), amount("damping_N_s_m", damping)]
             }
-            Load::TorsionSpring { links: [first, second], stiffness, free_angle } => vec![
-                LoadPart::Link(first),
-                LoadPart::Link(second),
-                amount("stiffness_N_m_rad", stiffness),
-                LoadPart::Number { role: LoadRole::Rest { unit: "rad" }, name: "free_angle_rad", value: free_angle },
-            ],
+            Load::TorsionSpring { links: [first, second], stiffness, free_angle, acts } => {
+                let role = LoadRole::Rest { unit: "rad" };
+                let mut parts = vec![
+                    LoadPart::Link(first),
+                    LoadPart::Link(second),
+                    amount("stiffness_N_m_rad", stiffness),
+                    LoadPart::Number { role, name: "free_angle_rad", value: free_angle },
+                ];
+                parts.extend((*acts != Acts::Always).then_some(LoadPart::Acts(acts)));
+                parts
+            }
             Load::TorsionDamper { links: [first, second], damping } => {
                 vec![LoadPart::Link(first), LoadPart::Link(second), amount("damping_N_m_s_rad", damping)]
             }

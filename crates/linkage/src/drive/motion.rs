@@ -24,7 +24,8 @@ pub struct InputState {
 /// The units in this type are those of an angle. For a length, read m for rad and m/s for rad/s.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MotionLaw {
-    /// Constant angular velocity (rad/s, not zero), counter-clockwise positive.
+    /// Constant angular velocity (rad/s), counter-clockwise positive.
+    /// It may be 0 in a drive that is not the first one: the drive then holds its joint.
     ConstantSpeed(f64),
     /// Constant acceleration from rest to a final speed. After the acceleration the speed is constant.
     Ramp {
@@ -81,7 +82,13 @@ impl MotionLaw {
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
-            MotionLaw::ConstantSpeed(_) => "constant",
+            MotionLaw::ConstantSpeed(speed) => {
+                if *speed == 0.0 {
+                    "hold"
+                } else {
+                    "constant"
+                }
+            }
             MotionLaw::Ramp { .. } => "ramp",
             MotionLaw::Cycloidal { .. } => "cycloidal",
             MotionLaw::Curve(curve) => curve.name(),
@@ -119,7 +126,7 @@ impl MotionLaw {
     }
 
     /// The speed with the largest absolute value that the law reaches (rad/s), counter-clockwise positive. This speed
-    /// is not zero.
+    /// is not zero, except for a drive that holds its joint.
     #[must_use]
     pub fn top_speed(&self) -> f64 {
         match self {
@@ -130,7 +137,8 @@ impl MotionLaw {
     }
 
     /// First time (s) at which the driving link has turned by the angle `gone` (rad).
-    /// NaN if the law never reaches the angle, or if a curve reaches it more than once; of a harmonic, in one period. The start is reached at t = 0.
+    /// The start is reached at t = 0.
+    /// NaN if the law never reaches the angle, or if a curve reaches it more than once (a harmonic: in one period).
     #[inline]
     #[must_use]
     pub fn time_of(&self, gone: f64) -> f64 {
@@ -150,7 +158,8 @@ impl MotionLaw {
 /// Number of parts into which each interval of a table is divided, to find where the table reaches a value.
 const PARTS: usize = 32;
 
-/// The only time (s) at which a curve reaches `gone`, by sign changes and bisection; NaN if there is no such time.
+/// The only time (s) at which a curve reaches `gone`, by sign changes and bisection.
+/// NaN if there is no such time, or if there are several.
 fn only_time(curve: &Curve, gone: f64) -> f64 {
     if gone == 0.0 {
         return 0.0;

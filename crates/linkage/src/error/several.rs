@@ -43,12 +43,12 @@ impl Error {
         [self].into_iter().chain(&self.0.further)
     }
 
-    /// The text that errors of one cause have in common: the message with its key replaced by the key's unit.
+    /// The text that errors of one cause have in common: the message, with a key that has a unit replaced by the unit.
     fn cause(&self) -> String {
         let key = self.scenario_key().map(|key| key.rsplit('.').next().unwrap_or(key).to_string());
         let Some(key) = key else { return self.message().into() };
-        let unit = key.find('_').map_or("", |at| &key[at..]);
-        self.message().replace(&format!("`{key}`"), unit)
+        let unit = key.find('_').map(|at| &key[at..]);
+        unit.map_or_else(|| self.message().into(), |unit| self.message().replace(&format!("`{key}`"), unit))
     }
 
     /// The errors grouped by cause. The groups are in the order of their first errors.

@@ -7,12 +7,12 @@ use std::sync::Arc;
 
 use super::{KeepNan, Piecewise, extremum};
 
-/// A function that its owner evaluates.
+/// A function that another crate evaluates, such as a formula.
 pub trait Smooth: Debug + Send + Sync {
     /// Value and first two derivatives.
     fn at(&self, x: f64) -> [f64; 3];
 
-    /// The statement of the function: functions with equal statements are equal.
+    /// The text that defines the function. Functions with equal texts are equal.
     fn stated(&self) -> &str;
 }
 
@@ -21,7 +21,7 @@ pub trait Smooth: Debug + Send + Sync {
 pub enum Curve {
     /// A spline through points.
     Table(Piecewise),
-    /// amplitude (sin(2 pi x / period + phase) - sin(phase)): it begins with 0 and never ends.
+    /// amplitude (sin(2 pi x / period + phase) - sin(phase)), which is 0 at x = 0 and never ends.
     Harmonic {
         /// Amplitude, not zero.
         amplitude: f64,
@@ -30,11 +30,11 @@ pub enum Curve {
         /// Phase at x = 0 (rad).
         phase: f64,
     },
-    /// A formula, from x = 0.
+    /// A formula that begins at x = 0.
     Formula(FormulaCurve),
 }
 
-/// factor (f(x) - shift), for a function that its owner evaluates.
+/// The function factor (f(x) - shift) from x = 0 to `end`.
 #[derive(Clone, Debug)]
 pub struct FormulaCurve {
     /// The function f.
@@ -107,8 +107,7 @@ impl Curve {
         }
     }
 
-    /// Ascending places between which a search finds all extremes and values: the knots of a table, equal parts
-    /// otherwise.
+    /// Ascending x between which extremes and values are searched for: the knots of a table, otherwise equal steps.
     #[must_use]
     pub fn places(&self) -> Vec<f64> {
         let parts = |end: f64| (0..=PARTS).map(|part| end * f64::from(part) / f64::from(PARTS)).collect();
@@ -119,7 +118,7 @@ impl Curve {
         }
     }
 
-    /// The derivative with the largest size, with its sign.
+    /// The first derivative of the largest absolute value, with its sign.
     #[must_use]
     pub fn steepest(&self) -> f64 {
         let [least, most] = match self {
@@ -135,14 +134,14 @@ impl Curve {
         if -least > most { least } else { most }
     }
 
-    /// Difference between the largest and the smallest value at the places of a search.
+    /// Difference between the largest and the smallest value at [`Curve::places`].
     #[must_use]
     pub fn range(&self) -> f64 {
         let values = || self.places().into_iter().map(|x| self.at(x)[0]);
         values().fold(f64::NEG_INFINITY, f64::larger) - values().fold(f64::INFINITY, f64::smaller)
     }
 
-    /// Whether values and derivatives are finite at all places of a search.
+    /// Whether values and derivatives are finite at [`Curve::places`].
     #[must_use]
     pub fn is_finite(&self) -> bool {
         self.places().into_iter().all(|x| self.at(x).into_iter().all(f64::is_finite))

@@ -3,6 +3,9 @@
 
 use crate::math::KeepNan;
 
+/// Two knots count as equal if they differ by at most this fraction of the period.
+const EQUAL: f64 = 1e-12;
+
 /// Cubic pieces between ascending knots.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Piecewise {
@@ -16,13 +19,32 @@ pub struct Piecewise {
 impl Piecewise {
     /// Straight lines through `(x, y)`, repeated with `period`.
     /// The x ascend within one period. At least one point is needed.
+    /// At two points with the same x the function jumps. At this x it has the value of the second point.
     #[must_use]
     pub fn periodic_lines(points: &[(f64, f64)], period: f64) -> Self {
         let (knots, values) = closed(points, period);
         let pieces = (1..knots.len())
-            .map(|k| [values[k - 1], (values[k] - values[k - 1]) / (knots[k] - knots[k - 1]), 0.0, 0.0])
+            .map(|k| {
+                let (rise, width) = (values[k] - values[k - 1], knots[k] - knots[k - 1]);
+                [values[k - 1], if width > EQUAL * period { rise / width } else { 0.0 }, 0.0, 0.0]
+            })
             .collect();
         Piecewise { knots, pieces, periodic: true }
+    }
+
+    /// The same lines with all jumps moved back by `by`. The line after a jump is extended back to the jump.
+    #[must_use]
+    pub fn with_jumps_before(mut self, by: f64) -> Self {
+        let last = self.pieces.len();
+        let period = self.knots[last] - self.knots[0];
+        for k in (0..last).filter(|&k| self.knots[k + 1] - self.knots[k] <= EQUAL * period).collect::<Vec<_>>() {
+            let next = if k + 1 == last { 0 } else { k + 1 };
+            self.pieces[next][0] -= by * self.pieces[next][1];
+            self.knots[next] -= by;
+            self.knots[k + 1] = if next == 0 { self.knots[0] + period } else { self.knots[next] };
+            self.knots[k] = self.knots[k + 1];
+        }
+        self
     }
 
     /// The periodic cubic spline through `(x, y)`. Its first two derivatives are continuous everywhere.
@@ -175,6 +197,16 @@ mod tests {
             assert!((lines.at(x - 18.0)[0] - y).abs() < 1e-13);
         }
         assert!((lines.at(4.5)[0] - 1.5).abs() < 1e-15 && lines.at(4.5)[1] == 1.0 && lines.at(4.5)[2] == 0.0);
+    }
+
+    #[test]
+    fn equal_places_are_jumps() {
+        let lines = Piecewise::periodic_lines(&[(0.0, 1.0), (2.0, 2.0), (2.0, 5.0), (6.0, 3.0)], 6.0);
+        let cases =
+            [(2.0, 5.0), (2.0 - 1e-12, 2.0), (4.0, 4.0), (6.0 - 1e-12, 3.0), (6.0, 1.0), (-4.0, 5.0), (12.0, 1.0)];
+        for (x, y) in cases {
+            assert!((lines.at(x)[0] - y).abs() < 1e-11, "{x}");
+        }
     }
 
     #[test]

@@ -1,11 +1,12 @@
 //! A cam and its follower: contact, profile and figures.
 //!
-//! The follower's point R moves in the carrier with the coordinate q2 of the follower, the cam turns about its axle A
-//! with q1, and q2 - f(q1) is constant.
-//! For a unit rate of the cam, the path of R in the cam has the tangent T = R' f' - z x (R - A).
+//! Relative to the carrier, the cam turns about its axle A by the angle q1, and the follower has the coordinate q2.
+//! With the lift f, q2 - f(q1) is constant.
+//! R(q2) is the centre of the roller, the knife edge, or a point of the flat face. R' = dR / dq2, f' = df / dq1.
+//! Relative to the cam, R has the velocity T = R' f' - z x (R - A) for a unit rate of the cam.
 //! A roller or knife edge touches the cam along the normal of T.
-//! A flat face has a fixed normal n. It touches the cam where the cam's point has the speed of the face along n, at the
-//! distance f' n . R' from the axle, beside the normal through the axle.
+//! A flat face has a fixed normal n. At the contact, face and cam have the same speed along n, so the contact is at the
+//! distance f' n . R' from the line through A along n.
 //! Norton, Cam Design and Manufacturing Handbook, 2nd ed., Industrial Press 2009, chapter 7.
 
 mod law;
@@ -17,7 +18,7 @@ pub use law::{CamCurve, CamLaw, CamSegment};
 use super::contact::{Contact, LineOfAction};
 use crate::math::{KeepNan, Vec2, cross, rotated, turned, unit};
 
-/// Number of cam angles at which the figures of a cam are found.
+/// Number of cam angles from which the figures of a cam are computed.
 const INSTANTS: usize = 720;
 
 /// The part of a follower that touches the cam.
@@ -53,17 +54,17 @@ impl CamContact {
     }
 }
 
-/// Motion of the touching point of a follower in the frame of the carrier.
+/// Motion of the follower's point R in the frame of the carrier.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Follower {
-    /// From its position at slide 0 along the vector of a unit slide.
+    /// R is at `at` for slide 0 and moves by `along` per unit of slide.
     Slides { at: Vec2, along: Vec2 },
-    /// About a pivot, from its arm at angle 0.
+    /// R turns about `pivot`; `arm` is the vector from the pivot to R at angle 0.
     Swings { pivot: Vec2, arm: Vec2 },
 }
 
 impl Follower {
-    /// Position, and its first two derivatives by the coordinate of the follower.
+    /// R, and its first two derivatives by the coordinate of the follower.
     fn at(self, q: f64) -> [Vec2; 3] {
         match self {
             Follower::Slides { at, along } => [at + along * q, along, Vec2::zeros()],
@@ -92,9 +93,9 @@ pub struct CamFigures {
     pub lift: f64,
     /// Radius of the base circle (m): the least distance of the profile, or of a flat face, from the axle.
     pub base: f64,
-    /// Largest pressure angle (rad): the angle between the force on the follower and the velocity of its touching point.
+    /// Largest pressure angle (rad): between the force on the follower and the velocity of [`CamContact::point`].
     pub pressure_angle: f64,
-    /// Least radius of curvature of the convex profile (m). The profile is undercut if it is negative.
+    /// Least radius of curvature of the convex parts of the profile (m). If it is negative, the profile is undercut.
     pub curvature: f64,
 }
 
@@ -105,13 +106,13 @@ impl Cam {
         self.law.at(angle)
     }
 
-    /// Angle between the cam and the nearest end of a piece of its law (rad).
+    /// Distance of an angle of the cam from the nearest end of a piece of its law (rad).
     #[must_use]
     pub fn to_knot(&self, angle: f64) -> f64 {
         self.law.to_knot(angle)
     }
 
-    /// The contact for coordinates of cam and follower (rad, or rad and m).
+    /// The contact at the coordinates of cam (rad) and follower (rad or m).
     #[must_use]
     pub fn contact(&self, [q1, q2]: [f64; 2]) -> Contact {
         let ([_, rate, second], [at, along, bend]) = (self.law.at(q1), self.follower.at(q2));
@@ -135,7 +136,7 @@ impl Cam {
         Contact { lines: [line(direction), line(-direction)], factor: direction.dot(&along), turn, drift }
     }
 
-    /// Coordinates of cam and follower at `count` angles of one turn, if the coordinates `[q1, q2]` belong to one pose.
+    /// Coordinates of cam and follower at `count` angles of one turn. `[q1, q2]` are their coordinates in any pose.
     fn turn(&self, [q1, q2]: [f64; 2], count: usize) -> impl Iterator<Item = [f64; 2]> {
         let phase = q2 - self.law.at(q1)[0];
         (0..count).map(move |index| {
@@ -144,8 +145,8 @@ impl Cam {
         })
     }
 
-    /// The profile in the frame of the cam (m): `count` points at which it touches the follower in one turn, if the
-    /// coordinates `at` belong to one pose.
+    /// The profile in the frame of the cam (m): `count` points at which it touches the follower in one turn.
+    /// `at` is the coordinates of cam and follower in any pose.
     #[must_use]
     pub fn profile(&self, at: [f64; 2], count: usize) -> Vec<Vec2> {
         let point = |q: [f64; 2]| {
@@ -156,7 +157,7 @@ impl Cam {
         self.turn(at, count).map(point).collect()
     }
 
-    /// Figures over one turn, if the coordinates `at` belong to one pose.
+    /// Figures over one turn. `at` is the coordinates of cam and follower in any pose.
     #[must_use]
     pub fn figures(&self, at: [f64; 2]) -> CamFigures {
         let (lift, width) = (self.law.range(), self.contact.radius());
@@ -168,7 +169,7 @@ impl Cam {
             let (distance, curvature) = match self.contact {
                 CamContact::Roller { .. } => {
                     let path = (along * rate - turned(reach)).norm() / (1.0 - contact.turn);
-                    // A concave profile fits any roller that its hollow admits; only the convex part counts.
+                    // Only convex parts of the profile count.
                     (reach.norm() - width, if path > 0.0 { path - width } else { f64::INFINITY })
                 }
                 CamContact::Flat(_) => {
@@ -213,8 +214,8 @@ mod tests {
         }
     }
 
-    /// The profile is the envelope: its distance from every position of the roller or face is the radius or zero, and
-    /// its curvature is that of its points.
+    /// The profile is the envelope: its distance from the roller's centre is the radius, that from the face is zero.
+    /// The radius of curvature is that of the profile's points.
     #[test]
     fn the_profile_touches_the_follower_in_all_positions() {
         for (contact, e) in [(ROLLER, 0.008), (CamContact::Flat(Vec2::zeros()), 0.0)] {

@@ -14,12 +14,12 @@ pub struct LineOfAction {
 /// The contact of a transmission in one pose, in the frame of the carrier.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact {
-    /// The lines of action. The first one carries positive forces.
+    /// The lines of action. The first one acts for positive forces, the second one for negative forces.
     pub lines: [LineOfAction; 2],
     /// Speed of the second member's foot along the first line for a unit rate of its coordinate (m, or 1 for a slide).
     pub factor: f64,
-    /// Rotation of the lines for a unit rate of the first member's coordinate.
+    /// Angular velocity of the lines in the carrier for a unit rate of the first member's coordinate.
     pub turn: f64,
-    /// Displacement of the feet for a unit rate of the first member's coordinate (m).
+    /// Velocity of the feet in the carrier for a unit rate of the first member's coordinate (m).
     pub drift: Vec2,
 }

@@ -235,8 +235,8 @@ impl Structure {
         pose
     }
 
-    /// Places the link of a [driven](GroupKind::Driven) group. The arguments are those of
-    /// [`Structure::driving_pose`]; in `pose`, the link that carries the joint is placed.
+    /// Places the link of a [driven](GroupKind::Driven) group. The arguments are those of [`Structure::driving_pose`].
+    /// In `pose`, the other link of the driven joint must already be placed.
     pub fn place_driven(&self, mechanism: &Mechanism, group: &Group, coordinates: &[f64], pose: &mut Pose) {
         let index = self.drivers.iter().position(|driver| driver.joint == group.given[0]).expect("the joint is driven");
         let (driver, joint) = (&self.drivers[index], &mechanism.joints()[group.given[0]]);
@@ -303,7 +303,7 @@ fn carries(mechanism: &Mechanism, drivers: &[DrivingLink], joint: JointId, link:
     base == GROUND || drivers.iter().any(|driver| driver.link == base && !driver.in_group)
 }
 
-/// Modes of the groups of `to`. The groups that `from` has too keep their `modes`.
+/// Modes of the groups of `to`. Groups that also exist in `from` keep their mode in `modes`.
 fn carried(from: &Structure, modes: &[AssemblyMode], to: &Structure) -> Vec<AssemblyMode> {
     let mode = |group: &Group| match from.groups.find(|own| own == group) {
         Some(own) => modes[own],

@@ -1,16 +1,18 @@
-//! Transmissions: gear pairs, racks, belts and cams that couple the coordinates of two members of one carrier.
+//! Transmissions: gear pairs, racks, screws, belts and cams that couple the coordinates of two members of one carrier.
 //!
 //! A member turns about an axle of the carrier, or slides in a guide of the carrier.
-//! Both members touch along a line of action, which is fixed in the carrier; that of a cam moves with its angle.
+//! The force between the members acts along a line of action. It is fixed in the carrier, except for cams.
 //! The line has the unit vector w, and a foot on each member.
 //! Along the line both members have the same speed: w . (v2 - v1) = 0 at the feet.
-//! With the coordinates q1 and q2 of the members against the carrier this is q2' = f'(q1) q1', so that q2 - f(q1) is
-//! constant. The law f is linear, except that of a cam.
-//! The force on the second member is f w at its foot, the force on the first member -f w at its foot.
+//! With the coordinates q1 and q2 of the members relative to the carrier, q2' = f'(q1) q1', so q2 - f(q1) is constant.
+//! The law f is linear, except for cams.
+//! The force on the second member is F w at its foot, the force on the first member -F w at its foot.
 //! There are two lines, one for each sense of the transmitted moment: the two flanks of a tooth, or the two strands of a
-//! belt. Teeth push and strands pull, so f >= 0 with w chosen accordingly.
-//! A gear pair with the pressure angle alpha is a crossed strand that pushes, between the base circles r cos(alpha):
-//! Niemann and Winter, Maschinenelemente, vol. 2, 2nd ed., Springer 2003, chapter 21.1.
+//! belt. Teeth push and strands pull, so F >= 0 along the line that acts.
+//! A gear pair with the pressure angle alpha acts like a crossed belt that pushes, on base circles of the radii
+//! r cos(alpha): Niemann and Winter, Maschinenelemente, vol. 2, 2nd ed., Springer 2003, chapter 21.1.
+
+use std::f64::consts::TAU;
 
 use super::cam::{Cam, CamContact, CamLaw, Follower};
 use super::contact::{Contact, LineOfAction};
@@ -36,6 +38,13 @@ pub enum TransmissionKind {
         /// Pressure angle (rad), at least 0 and below a right angle.
         pressure_angle: f64,
     },
+    /// A screw, the first member, and a nut that slides in the carrier.
+    /// In the plane it is a pinion of the radius lead / (2 pi) and a rack without pressure angle. The axial force acts this
+    /// far beside the axle of the screw.
+    Screw {
+        /// Slide of the nut along the axis for a turn of the screw counter-clockwise (m), not zero.
+        lead: f64,
+    },
     /// A belt or chain over two wheels.
     Belt {
         /// Pitch radii (m).
@@ -47,7 +56,7 @@ pub enum TransmissionKind {
     },
     /// A cam, the first member, and its follower, which slides or swings.
     Cam {
-        /// Lift of the follower over the cam's angle against the carrier.
+        /// Lift of the follower as a function of the cam's angle relative to the carrier.
         law: CamLaw,
         /// What touches the cam.
         contact: CamContact,
@@ -61,13 +70,14 @@ impl TransmissionKind {
         match self {
             TransmissionKind::Gears { .. } => "gears",
             TransmissionKind::Rack { .. } => "rack",
+            TransmissionKind::Screw { .. } => "screw",
             TransmissionKind::Belt { .. } => "belt",
             TransmissionKind::Cam { .. } => "cam",
         }
     }
 }
 
-/// Statement of a transmission, from which [`Transmission::of`] finds the geometry.
+/// The given data of a transmission, from which [`Transmission::of`] finds the geometry.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TransmissionDesign {
     /// Name, unique among the transmissions.
@@ -87,19 +97,19 @@ pub struct TransmissionDesign {
 /// A transmission between two members of a carrier.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Transmission {
-    /// The statement.
+    /// The given data.
     pub design: TransmissionDesign,
     /// First and second member.
     pub members: [Member; 2],
-    /// The coordinates of the members against the carrier, each as a sum of coordinates with signs.
+    /// The coordinates of the members relative to the carrier, each as a sum of angles or slides with signs.
     pub coordinates: [Vec<(Coordinate, f64)>; 2],
-    /// The contact; that of a cam is found anew in every pose.
+    /// The contact. It is unused for a cam, whose contact depends on the pose.
     fixed: Contact,
     /// A cam and its follower; `None` for other transmissions.
     pub cam: Option<Cam>,
 }
 
-/// A coordinate of a mechanism that a transmission couples.
+/// An angle or slide that a transmission couples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coordinate {
     /// Angle of a link (rad).
@@ -109,7 +119,7 @@ pub enum Coordinate {
 }
 
 impl Coordinate {
-    /// The joint of a slide.
+    /// The joint of a slide; `None` for an angle.
     #[must_use]
     pub fn joint(self) -> Option<JointId> {
         match self {
@@ -158,10 +168,22 @@ impl Transmission {
         let second_axle = || axle(second).map(|[place, local]| Member { link: second, place, radius: 0.0, local });
         let slide = guide(joints, second, carrier);
         let ([one, other], lines) = match design.kind {
-            TransmissionKind::Rack { pressure_angle } => {
+            TransmissionKind::Rack { .. } | TransmissionKind::Screw { .. } => {
                 let (_, line) =
                     slide.ok_or_else(|| design.fault(sentences::THE_RACK_DOES_NOT_SLIDE, sentences::JOIN_THE_RACK))?;
-                rack(one, line, second, pressure_angle)
+                let [at, axis, _] = line;
+                match design.kind {
+                    TransmissionKind::Screw { lead } => {
+                        rack(one, line, second, 0.0, place - turned(axis) * (lead / TAU))
+                    }
+                    _ => rack(
+                        one,
+                        line,
+                        second,
+                        design.pressure_angle().unwrap_or(0.0),
+                        at + axis * axis.dot(&(place - at)),
+                    ),
+                }
             }
             TransmissionKind::Gears { teeth, pressure_angle } => gears([one, second_axle()?], teeth, pressure_angle),
             TransmissionKind::Belt { radii, crossed, slack: _ } => belt([one, second_axle()?], radii, crossed),
@@ -253,7 +275,7 @@ impl Transmission {
         self.cam.as_ref().map_or(self.fixed, |cam| cam.contact(self.coordinates_in(joints, motions)))
     }
 
-    /// The coordinates of the members in a pose (rad, or rad and m), angles without whole turns.
+    /// The coordinates of the members in a pose (rad, or rad and m). Angles are from -pi to pi.
     #[must_use]
     pub fn coordinates_in(&self, joints: &PerJoint<Joint>, motions: &[Motion]) -> [f64; 2] {
         let carrier = motions[self.design.carrier].direction;
@@ -266,8 +288,8 @@ impl Transmission {
         [against(self.members[0].link), q2]
     }
 
-    /// Time (s) at the present speed between a pose and the nearest end of a piece of a cam's law; infinite for other
-    /// transmissions, and if the cam stands still.
+    /// Time (s) from a pose to the nearest end of a piece of a cam's law, before or after it, at the present speed.
+    /// It is infinite for other transmissions, and if the cam stands still.
     #[must_use]
     pub fn time_to_knot(&self, joints: &PerJoint<Joint>, motions: &[Motion]) -> f64 {
         let Some(cam) = &self.cam else { return f64::INFINITY };
@@ -283,15 +305,19 @@ impl Transmission {
         [(0, -force), (1, force)].map(|(k, force)| (self.members[k].link, force, carrier.point(line.feet[k])))
     }
 
-    /// The force (N) in each line of action if the transmission exerts `force` (N): positive in the first line, negative
-    /// in the second, each with the tension of a slack strand.
+    /// The force (N, not negative) in each line of action if the transmission exerts `force` (N).
+    /// A positive `force` acts in the first line, a negative one in the second line.
+    /// The tension of a slack strand is added in both lines.
     #[must_use]
     pub fn forces(&self, force: f64) -> [f64; 2] {
         let slack = match self.design.kind {
             TransmissionKind::Belt { slack, .. } => slack,
-            TransmissionKind::Gears { .. } | TransmissionKind::Rack { .. } | TransmissionKind::Cam { .. } => 0.0,
+            TransmissionKind::Gears { .. }
+            | TransmissionKind::Rack { .. }
+            | TransmissionKind::Screw { .. }
+            | TransmissionKind::Cam { .. } => 0.0,
         };
-        // The maximum of 0 and NaN must be NaN.
+        // If `force` is NaN, so must be one of the results. `f64::max` would return 0.
         let [push, pull] = if force >= 0.0 { [force, 0.0] } else { [0.0, -force] };
         [push + slack, pull + slack]
     }
@@ -322,8 +348,8 @@ impl TransmissionDesign {
         TransmissionDesign { links, carrier, joint: joint(self.joint), ..self.clone() }
     }
 
-    /// The same transmission with its ratio, or the lift of a cam, multiplied by `factor`; `None` for a rack, whose ratio
-    /// is a distance of the mechanism.
+    /// The same transmission with its ratio, or the lift of a cam, multiplied by `factor`.
+    /// `None` for a rack, whose ratio follows from the distance of the pinion's axle from the guide.
     #[must_use]
     pub fn times_ratio(&self, factor: f64) -> Option<Self> {
         let kind = match self.kind {
@@ -334,30 +360,33 @@ impl TransmissionDesign {
                 TransmissionKind::Belt { radii: [first * factor, second], crossed, slack }
             }
             TransmissionKind::Cam { ref law, contact } => TransmissionKind::Cam { law: law.times(factor), contact },
+            TransmissionKind::Screw { lead } => TransmissionKind::Screw { lead: lead * factor },
             TransmissionKind::Rack { .. } => return None,
         };
         Some(TransmissionDesign { kind, ..self.clone() })
     }
 
-    /// The same transmission with another pressure angle (rad); `None` for a belt or cam.
+    /// The same transmission with another pressure angle (rad); `None` for a screw, belt or cam.
     #[must_use]
     pub fn with_pressure_angle(&self, pressure_angle: f64) -> Option<Self> {
         let kind = match self.kind {
             TransmissionKind::Gears { teeth, .. } => TransmissionKind::Gears { teeth, pressure_angle },
             TransmissionKind::Rack { .. } => TransmissionKind::Rack { pressure_angle },
-            TransmissionKind::Belt { .. } | TransmissionKind::Cam { .. } => return None,
+            TransmissionKind::Screw { .. } | TransmissionKind::Belt { .. } | TransmissionKind::Cam { .. } => {
+                return None;
+            }
         };
         Some(TransmissionDesign { kind, ..self.clone() })
     }
 
-    /// Pressure angle (rad); `None` for a belt or cam.
+    /// Pressure angle (rad); `None` for a screw, belt or cam.
     #[must_use]
     pub fn pressure_angle(&self) -> Option<f64> {
         match self.kind {
             TransmissionKind::Gears { pressure_angle, .. } | TransmissionKind::Rack { pressure_angle } => {
                 Some(pressure_angle)
             }
-            TransmissionKind::Belt { .. } | TransmissionKind::Cam { .. } => None,
+            TransmissionKind::Screw { .. } | TransmissionKind::Belt { .. } | TransmissionKind::Cam { .. } => None,
         }
     }
 
@@ -367,7 +396,8 @@ impl TransmissionDesign {
 }
 
 /// Axle of a link in the frame of the carrier and in the frame of the link.
-/// The link turns about a joint with the carrier, or with a third link at a joint of the third link with the carrier.
+/// The axle is a revolute joint of the link with the carrier, or with a third link.
+/// In the second case, the third link must have a revolute joint with the carrier at the same place.
 fn axle(joints: &PerJoint<Joint>, size: f64, link: LinkId, carrier: LinkId) -> Option<[Vec2; 2]> {
     let pins = |on: LinkId| joints.iter().filter(move |joint| joint.is_pin() && joint.on(on).is_some());
     let near = COINCIDE * size;
@@ -384,8 +414,8 @@ fn axle(joints: &PerJoint<Joint>, size: f64, link: LinkId, carrier: LinkId) -> O
     })
 }
 
-/// The prismatic joint of a rack with the carrier, and its line: a point and the axis in the frame of the carrier, and
-/// the joint's point on the rack.
+/// The prismatic joint of a rack or follower with the carrier, and its line: a point and the axis in the frame of the
+/// carrier, and the joint's point in the frame of the rack or follower.
 fn guide(joints: &PerJoint<Joint>, rack: LinkId, carrier: LinkId) -> Option<(JointId, [Vec2; 3])> {
     joints.entries().find_map(|(index, joint)| {
         let axis = joint.axis_on(carrier)?;
@@ -393,12 +423,12 @@ fn guide(joints: &PerJoint<Joint>, rack: LinkId, carrier: LinkId) -> Option<(Joi
     })
 }
 
-/// Sign of a slide that moves `link` along the axis against the other link.
+/// Sign of the joint's slide if `link` moves along the axis relative to the other link.
 fn sense(joint: &Joint, link: LinkId) -> f64 {
     if joint.second.link == link { 1.0 } else { -1.0 }
 }
 
-/// A follower that slides in the guide with this line, with the touching point `local` in its frame.
+/// A follower that slides in a guide. `local` is [`CamContact::point`]; the line of the guide is that of [`guide`].
 fn sliding(link: LinkId, joint: &Joint, [at, axis, own]: [Vec2; 3], local: Vec2) -> (Member, Follower) {
     let (own_axis, sign) = (joint.axis_on(link).expect("it slides"), sense(joint, link));
     let turn = Vec2::new(own_axis.dot(&axis), cross(own_axis, axis));
@@ -409,12 +439,12 @@ fn sliding(link: LinkId, joint: &Joint, [at, axis, own]: [Vec2; 3], local: Vec2)
 /// Gears: the lines of action touch the base circles and pass through the pitch point.
 fn gears([mut one, mut other]: [Member; 2], teeth: [f64; 2], angle: f64) -> ([Member; 2], [LineOfAction; 2]) {
     let between = other.place - one.place;
-    // Signed pitch radii from the axles to the pitch point, towards the other axle.
+    // Pitch radii: distances of the pitch point from the axles, positive towards the other axle.
     let radii = teeth.map(|own| between.norm() * own / (teeth[0] + teeth[1]));
     let (along, across) = (between.normalize(), turned(between.normalize()));
     [one.radius, other.radius] = radii.map(f64::abs);
     let pitch = one.place + along * radii[0];
-    // External teeth push the second member away from the first, the teeth of a ring pull the axles together.
+    // External teeth push the axles apart, those of a ring gear pull them together.
     let apart = if radii[0] > 0.0 && radii[1] > 0.0 { 1.0 } else { -1.0 };
     let line = |side: f64| {
         let direction = across * (side * angle.cos()) + along * (apart * angle.sin());
@@ -424,8 +454,13 @@ fn gears([mut one, mut other]: [Member; 2], teeth: [f64; 2], angle: f64) -> ([Me
 }
 
 /// Pinion and rack: the lines of action pass through the foot of the axle on the pitch line.
-fn rack(mut one: Member, [at, axis, local]: [Vec2; 3], link: LinkId, angle: f64) -> ([Member; 2], [LineOfAction; 2]) {
-    let foot = at + axis * axis.dot(&(one.place - at));
+fn rack(
+    mut one: Member,
+    [_, axis, local]: [Vec2; 3],
+    link: LinkId,
+    angle: f64,
+    foot: Vec2,
+) -> ([Member; 2], [LineOfAction; 2]) {
     one.radius = (foot - one.place).norm();
     let away = (foot - one.place).normalize();
     let line = |side: f64| {
@@ -441,7 +476,7 @@ fn belt([mut one, mut other]: [Member; 2], radii: [f64; 2], crossed: bool) -> ([
     let between = other.place - one.place;
     let (distance, along) = (between.norm(), between.normalize());
     let of_second = if crossed { -radii[1] } else { radii[1] };
-    // Normal of a strand, on the side of the first wheel on which the strand leaves it.
+    // `normal` points from the first axle to the point at which the strand leaves the first wheel.
     let sine = (radii[0] - of_second) / distance;
     let line = |side: f64| {
         let normal = along * sine + turned(along) * (side * (1.0 - sine * sine).sqrt());

@@ -217,7 +217,7 @@ impl<'a> KnownTrajectory<'a> {
         claim.figures.iter().map(of).collect()
     }
 
-    /// Columns of a claim's channels, then of their first and second derivatives, up to an order.
+    /// Columns of a claim's channels, followed by those of their derivatives up to the order `orders`.
     pub(super) fn channels(&self, claim: &Claim, orders: usize) -> Result<Vec<Column<'_>>> {
         let mut all = Vec::with_capacity(claim.channels.len() * (orders + 1));
         let mut present: Vec<(Channel, &PrintedChannel)> =

@@ -56,7 +56,7 @@ impl<'a> Dimensions<'a> {
         LOOK * self.looked.take()
     }
 
-    /// Whether the units are consistent after some formulas get other trees.
+    /// Whether the units are consistent if the formulas with the indices in `changed` have these trees.
     pub(super) fn are_sound(&self, changed: &[(usize, FormulaTree)]) -> bool {
         let first = changed.iter().map(|(index, _)| *index).min().unwrap_or(self.of);
         let Some(known) = self.written.get(..first) else { return false };

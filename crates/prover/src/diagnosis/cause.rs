@@ -125,7 +125,7 @@ pub enum DataSlip {
 /// Rows between which differences are taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Over {
-    /// From this many rows before to this many rows after.
+    /// The rows at this distance before and after the row.
     Either(usize),
     /// The row and the previous row.
     Before,

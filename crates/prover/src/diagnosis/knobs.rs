@@ -335,6 +335,9 @@ fn of_drive(case: &Case, index: usize, drive: &Drive) -> Vec<Knob> {
         });
         Some(())
     };
+    if drive.constant_speed() == Some(0.0) && !drive.is_free() {
+        return vec![Knob { is_far: true, ..angle }];
+    }
     let given = if drive.is_free() { drive.initial_speed() } else { drive.top_speed() };
     let part = if drive.is_free() { CasePart::InitialSpeed(joint) } else { CasePart::Speed(joint) };
     let units = [

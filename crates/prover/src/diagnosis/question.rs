@@ -58,7 +58,7 @@ pub(super) enum Rank {
     Slip,
     /// A change of the case without a free number: a part that is missing or reversed.
     Change,
-    /// A part of the case multiplied by a number with a meaning.
+    /// A part of the case multiplied by a factor with a known meaning, such as a factor between units.
     Scale,
     /// A number of the case, or the instant, changed by a fitted amount.
     Number,

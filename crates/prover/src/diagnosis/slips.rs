@@ -11,8 +11,8 @@ use linkage::math::angle::wrapped;
 use linkage::math::{KeepNan, largest_size};
 use linkage::trajectory::{Channel, Stage, Unit};
 
-/// A bound is at least this fraction of the size of the reference's numbers.
-/// The reference is not known more accurately than to this fraction.
+/// Smallest bound, as a fraction of the size of the reference's numbers.
+/// The reference itself may have relative errors of this size.
 pub(super) const KNOWN: f64 = 1e-10;
 
 /// A factor on the values of a channel, and the confusion of units that causes it.

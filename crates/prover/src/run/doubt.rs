@@ -2,7 +2,7 @@
 //! motion.
 //!
 //! A load may jump when its link reverses. If a load vanishes at the reversal, it does not jump, so no instant is left
-//! out.
+//! out. A table of loads may jump at a crank angle.
 //! At the end of a piece of a cam's law, the third derivative of the motion jumps. The error of a second difference there
 //! depends on the place of the jump within the step.
 //! At a change point an engine follows one of many solutions.
@@ -31,7 +31,7 @@ const APART: f64 = 0.25;
 
 /// As `STEPS`, for accelerations and forces at the end of a piece of a cam's law.
 const KNOT: f64 = 2.0;
-/// An instant lies on the end of a piece within this fraction of a step.
+/// An instant lies at the end of a piece if it is nearer to it than this fraction of a step.
 const ON_KNOT: f64 = 1e-6;
 
 /// A drive counts as standing still below this fraction of its top speed. The limit exceeds the rounding error of a
@@ -124,6 +124,7 @@ fn against(a: Vec2, b: Vec2) -> bool {
 fn drive_turns(case: &Case, t: f64, reach: f64) -> bool {
     case.drives.iter().any(|drive| match &drive.motion {
         DriveMotion::Free { .. } => false,
+        DriveMotion::Prescribed { law, .. } if law.constant() == Some(0.0) => false,
         DriveMotion::Prescribed { .. } => {
             let jumps = drive.jump().is_some_and(|jump| (t - jump).abs() <= reach);
             let least = STANDSTILL * drive.top_speed().abs();
@@ -133,8 +134,8 @@ fn drive_turns(case: &Case, t: f64, reach: f64) -> bool {
     })
 }
 
-/// Times at which a load jumps, because the velocity that determines its direction reverses.
-/// The times are interpolated linearly between the instants.
+/// Times at which a load jumps, because the velocity that determines its direction reverses or the crank passes a jump
+/// of a table. The times are interpolated linearly between the instants.
 fn reversals(times: &[f64], senses: &Senses) -> Vec<f64> {
     let mut rows: Vec<usize> = (0..times.len()).collect();
     rows.sort_by(|&a, &b| times[a].total_cmp(&times[b]));

@@ -133,11 +133,12 @@ pub struct EngineProof {
     pub checks: Vec<Check>,
     /// Judgement of the forces that the engine itself exerts. `None` unless the judged forces follow from its motion.
     pub own_forces: Option<Box<EngineProof>>,
-    /// Verdict on channels, checks and own forces together.
+    /// Verdict on channels, checks and the engine's own forces together.
     pub verdict: Verdict,
-    /// Trajectory of the engine: all instants, or those before a failure. For own forces it contains forces only.
+    /// Trajectory of the engine: all instants, or those before a failure.
+    /// In a proof of the engine's own forces it contains forces only.
     pub trajectory: Option<Trajectory>,
-    /// Engine minus reference; `None` if the engine failed, and for own forces.
+    /// Engine minus reference; `None` if the engine failed, and in a proof of the engine's own forces.
     pub errors: Option<Trajectory>,
     /// For every row of the grid, whether all channels are judged; empty if the engine failed.
     pub kept: Vec<bool>,
@@ -175,9 +176,9 @@ impl EngineProof {
         }
     }
 
-    /// Verdict on the own forces as it enters the engine's verdict.
-    /// Inconclusive own forces are reported but do not change the verdict, because the motion and its forces are judged
-    /// without them.
+    /// The part of the engine's verdict that comes from its own forces.
+    /// If they are inconclusive, they are reported but do not change the verdict, because the motion and its forces are
+    /// judged without them.
     /// Impulses converge with a lower order than the motion. They need the true masses and many sweeps.
     #[must_use]
     pub fn added(&self) -> Option<&Verdict> {
@@ -226,7 +227,7 @@ impl EngineProof {
         self.conclude();
     }
 
-    /// Recomputes the verdict from those of all channels, checks and own forces.
+    /// Recomputes the verdict from those of all channels, all checks and the engine's own forces.
     pub(super) fn conclude(&mut self) {
         let channels = self.channels.iter().map(|own| &own.verdict);
         self.verdict = overall(channels.chain(self.added()).chain(self.checks.iter().map(|own| &own.verdict)));

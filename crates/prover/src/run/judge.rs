@@ -170,8 +170,8 @@ impl<'a> Judge<'a> {
 
     /// Largest growth of the differences between runs with increasing numbers of sweeps.
     /// It is the maximum over all positions with differences that are not negligible.
-    /// If own forces are judged, it is the maximum over these forces, because they come from other simulations than the
-    /// motion.
+    /// If the engine's own forces are judged, it is the maximum over these forces, because they come from other
+    /// simulations than the motion.
     fn growth(&self, runs: &Runs) -> f64 {
         let Ladder { resolutions: [_, single, _], other_sweeps } = runs.ladder();
         let of = |(channel, scale): (&Channel, &f64)| {

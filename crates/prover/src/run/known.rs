@@ -169,7 +169,7 @@ impl Known {
         let integration = EachSide::tried(|side| integration(sides[side]))?;
         let dependence = Dependence::of(case, own.channels());
         let magnitudes = magnitudes_by(own, &dependence.of, &|from, to| dependence.feeds(from, to));
-        // Without coordinates among the channels, a velocity that vanishes has no other size.
+        // These sizes serve for quantities that vanish, for example a velocity if no coordinate is among the channels.
         let sizes = built(case);
         let sized = magnitudes.into_iter().zip(own.channels());
         // The angular acceleration of a wheel is a sum of terms of the size omega^2. They cancel at a constant ratio.

@@ -1,12 +1,14 @@
 //! Solves one case with one solver, and records quantities during the run.
 
+use std::f64::consts::PI;
+
 use analytic::range::is_singular;
 use analytic::witness::{momentum, power};
 use linkage::case::Case;
 use linkage::drive::{Drive, Load, Senses as LoadSenses};
 use linkage::error::Error;
 use linkage::math::statistics::share;
-use linkage::math::{KeepNan, Motion, Vec2, largest_size};
+use linkage::math::{KeepNan, Motion, Vec2, largest_size, unit};
 use linkage::mechanism::{LinkPose, Pose};
 use linkage::solver::{Sampler, Solver, State};
 use linkage::trajectory::{Stage, Trajectory};
@@ -138,7 +140,8 @@ pub(super) fn observe(
     let (arm, size, steady) = (case.drive_arm(), case.mechanism.size(), case.is_steady());
     let mut opening = if watch == Watch::Senses { Vec::new() } else { vec![0.0; case.grid.len()] };
     let with_sense = case.loads.iter().filter(|load| load.has_sense());
-    let mut senses = Senses::new(with_sense.count(), case.grid.len());
+    let tables: Vec<[f64; 2]> = case.loads.iter().flat_map(|load| load.courses()).flat_map(|own| own.jumps()).collect();
+    let mut senses = Senses::new(with_sense.count() + tables.len(), case.grid.len());
     let (mut reach, mut moment, mut fastest): (f64, f64, f64) = (0.0, 0.0, 0.0);
     let mut unbalance = Unbalance::default();
     let mut passing: f64 = 1.0;
@@ -152,8 +155,9 @@ pub(super) fn observe(
         }
         let crank = case.input_in(&state.motions, &state.angles);
         let sensed = case.loads.iter().filter_map(|load| Some((sensed(case, state, load)?, load.jump(crank) > 0.0)));
+        let beside = tables.iter().map(|&jump| (beside(crank, jump), true));
         let own = senses.values.iter_mut().zip(&mut senses.jumps).skip(row * senses.each);
-        own.zip(sensed).for_each(|((value, jumps), now)| (*value, *jumps) = now);
+        own.zip(sensed.chain(beside)).for_each(|((value, jumps), now)| (*value, *jumps) = now);
         if let Some(opening) = opening.get_mut(row) {
             let [own, far] = state.opening(case, size);
             (*opening, reach) = (own, reach.larger(far));
@@ -236,6 +240,13 @@ fn reduced_torque(case: &Case, state: &State) -> f64 {
     let further = case.drives.further().iter().zip(&state.torques[1..]);
     let further = further.map(|(drive, effort)| effort * (rate(drive) / rate(case.crank())));
     state.torques[0] + further.sum::<f64>()
+}
+
+/// A vector that reverses only where the crank passes a jump of a table.
+/// Its length is the distance of the crank from the nearest jump (rad).
+fn beside(crank: f64, [jump, period]: [f64; 2]) -> Vec2 {
+    let share = ((crank - jump) / period).rem_euclid(1.0);
+    unit(PI * share) * (period * share.smaller(1.0 - share))
 }
 
 /// Force (N) and moment about the origin (N m) that a state leaves undetermined.

@@ -1,4 +1,4 @@
-//! Judges the forces that an engine itself exerts.
+//! Judges the forces that an engine itself exerts: its own forces.
 //! These forces are judged in addition to the forces that follow from the engine's motion by Newton-Euler equations.
 //! A second search tries the engine's routes.
 //! See docs/numerics/forces.md.
@@ -23,10 +23,10 @@ use scenario::EngineSetting;
 
 /// Limit of the number of sweeps at the start of the search, even if the motion has needed more.
 const ENOUGH: usize = 32;
-/// Own forces may use this fraction of the work allowed for an engine's settings, as additional work.
+/// Additional work allowed for the engine's own forces, as a fraction of the work allowed for its settings.
 const SHARE: f64 = 0.05;
 
-/// Whether own forces are judged.
+/// Whether the engine's own forces are judged.
 /// They are not judged if no force is requested or if the route is given.
 /// If the engine's default route already gives its own forces, [`judged`] finds no route for them.
 pub(super) fn are_asked(judge: &Judge, chosen: &Chosen) -> bool {
@@ -43,7 +43,7 @@ pub(super) fn judged(
     progress: &mut dyn FnMut(f64),
 ) -> Option<EngineProof> {
     let effort = motion.search.as_ref().map_or(0.0, |search| search.effort);
-    // If the motion has needed more work than is allowed for own forces, the own forces are not judged.
+    // If the motion has needed more work than is allowed for the engine's own forces, they are not judged.
     // Impulses are of a lower order than the motion. They need as many sweeps as the motion, with the true masses.
     if effort > SHARE * chosen.budget {
         let told = sentences::the_motion_has_taken_the_work(&error(effort), &error(SHARE * chosen.budget));

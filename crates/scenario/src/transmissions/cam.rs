@@ -1,6 +1,6 @@
 //! `[[transmissions.motion]]` and the other keys of cams.
 
-use super::super::curve::{self, Variable};
+use super::super::curve::{self, CurveVariable};
 use super::super::keys::key::{Section, ValueKind, needed, optional};
 use super::super::reader::{Sign, TomlTable};
 use super::super::unit::UnitFamily;
@@ -11,7 +11,7 @@ use linkage::math::{Curve, Piecewise, Vec2};
 use linkage::mechanism::{CamContact, CamCurve, CamLaw, CamSegment, Link, TransmissionKind};
 use std::f64::consts::TAU;
 
-/// What touches the cam.
+/// The part of the follower that touches the cam.
 #[derive(Clone, Copy, Debug)]
 pub enum Follower {
     Roller,
@@ -19,7 +19,7 @@ pub enum Follower {
     Flat,
 }
 
-/// Words for what touches the cam.
+/// Words for the part that touches the cam.
 pub const FOLLOWERS: Words<Follower> =
     &[("roller", Follower::Roller), ("knife", Follower::Knife), ("flat", Follower::Flat)];
 
@@ -31,7 +31,8 @@ const CURVES: Words<CamCurve> = &[
     ("modified-sine", CamCurve::ModifiedSine),
 ];
 
-/// Angles of the cam that differ by less are equal (rad).
+/// Angles of the cam count as equal if they differ by less than this (rad), and the ends of a formula if they differ by
+/// at most this fraction of its range.
 const EQUAL: f64 = 1e-9;
 
 /// Description of the pieces of a law.
@@ -49,7 +50,7 @@ pub const LIFTS: Section = Section::at("transmissions.lifts").with(&[
     needed("lift", ValueKind::INPUTS).means("lift of the follower at that angle"),
 ]);
 
-/// Reads the keys of a cam with this follower. Also returns the units of the lifts.
+/// Reads the keys of a cam; `link` is the follower. Also returns the units of the lifts, if the law states units.
 pub fn read(table: &mut TomlTable, link: &Link) -> Result<(TransmissionKind, Option<&'static UnitFamily>)> {
     let follower = table.choice("follower", sentences::IS_NO_FOLLOWER, FOLLOWERS)?;
     let (point, radius) = (table.string("point")?, table.optional_si("roller")?);
@@ -91,7 +92,7 @@ fn law(table: &mut TomlTable) -> Result<Law> {
     }
 }
 
-/// A periodic spline through lifts.
+/// A law by a periodic spline through a table of lifts.
 fn lifts(table: &mut TomlTable) -> Result<Law> {
     let (mut points, mut unit): (Vec<(f64, f64)>, Option<&'static UnitFamily>) = (Vec::new(), None);
     for mut point in table.tables("lifts")? {
@@ -120,7 +121,7 @@ fn lifts(table: &mut TomlTable) -> Result<Law> {
     }
 }
 
-/// A lift whose units agree with those of the lifts before it.
+/// The lift (rad or m), if its units agree with those of the lifts before it.
 fn lift_in(
     table: &mut TomlTable,
     lift: Option<(&'static UnitFamily, f64)>,
@@ -133,9 +134,9 @@ fn lift_in(
     Ok(Some(lift))
 }
 
-/// A formula of the angle, which repeats after a turn.
+/// A law by a formula of the cam's angle. The formula must repeat after a full turn.
 fn formula(table: &mut TomlTable) -> Result<Law> {
-    let (curve, _) = curve::formula(table, Variable::Angle, TAU)?;
+    let (curve, _) = curve::formula(table, CurveVariable::Angle, TAU)?;
     let (begin, end, range) = (curve.at(0.0), curve.at(TAU), curve.range());
     if !begin.iter().zip(&end).all(|(begin, end)| (begin - end).abs() <= EQUAL * range) {
         let help = sentences::GIVE_A_FORMULA_WITH_TWO_DERIVATIVES;
@@ -144,7 +145,7 @@ fn formula(table: &mut TomlTable) -> Result<Law> {
     Ok((CamLaw::Curve(curve), None))
 }
 
-/// Pieces of a law.
+/// A law in pieces.
 fn pieces(table: &mut TomlTable) -> Result<Law> {
     let (mut segments, mut unit): (Vec<CamSegment>, Option<&'static UnitFamily>) = (Vec::new(), None);
     for mut piece in table.tables("motion")? {
@@ -161,7 +162,7 @@ fn pieces(table: &mut TomlTable) -> Result<Law> {
             return Err(piece.fault(message).help(sentences::ASCEND_TO_360));
         }
         let lift = lift_in(&mut piece, lift, &mut unit)?;
-        // The last angle is a whole turn, whatever its rounding.
+        // Removes the rounding error of the last angle, which is a full turn.
         let to = if (to - TAU).abs() <= EQUAL { TAU } else { to };
         segments.push(CamSegment { to, lift: lift.unwrap_or(before), curve });
     }

@@ -30,7 +30,7 @@ pub(super) struct Settled {
 }
 
 impl Settled {
-    /// Nothing is known.
+    /// No force is known yet.
     pub(super) fn nothing(mechanism: &Mechanism) -> Self {
         Settled {
             joints: vec![false; mechanism.joints().len()].into(),

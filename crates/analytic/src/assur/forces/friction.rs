@@ -1,11 +1,13 @@
-//! Friction in the joints: the normal forces, and the reactions that they belong to.
+//! Finds the friction in the joints together with the reactions.
 //!
 //! The reactions R are linear in the normal forces p of the joints with friction: R = R0 + C p.
-//! Each normal force is a norm of its joint's reaction, so that p = |R0 + C p|.
-//! The equation is solved by iteration. If the iteration converges slowly, Newton's method continues.
-//! With L_ij = |C_ij|, the iteration is a contraction if the spectral radius of L is below 1, and the solution is then
-//! the only one (Banach). Otherwise the equation is solved from several starts: without a solution the friction locks the
-//! mechanism, and with two solutions the forces are undetermined.
+//! R0 are the reactions without friction.
+//! Each normal force is a norm of its joint's reaction, so p is a solution of p = |R0 + C p|.
+//! The equation is solved by iteration of p = |R0 + C p|. If the iteration converges slowly, Newton's method follows.
+//! With L_ij = |C_ij|, the iteration is a contraction if the spectral radius of L is below 1.
+//! The solution is then the only one (Banach).
+//! Otherwise Newton's method is tried from several starts.
+//! Without a solution the friction locks the mechanism; with two solutions the forces are undetermined.
 //! By Collatz and Wielandt, the spectral radius is at most the largest ratio (L v)_i / v_i, for any v > 0.
 
 use crate::sentences;
@@ -20,19 +22,20 @@ type Reaction = (Vec2, f64);
 
 /// Largest number of linearisations. One is enough unless a transmission changes its line of action.
 const ROUNDS: usize = 20;
-/// Relative change of the normal forces below which they are settled: rounding errors of the reactions are larger.
+/// The normal forces are settled if they change by less than this fraction of the largest one.
+/// Rounding errors of the reactions are larger.
 const SETTLED: f64 = 1e-14;
-/// A change that has stopped falling is rounding error if it is below this fraction of the normal forces.
+/// A change below this fraction of the largest normal force is rounding error if the changes no longer decrease.
 const ROUNDING: f64 = 1e-10;
-/// Largest number of iterations, and of Newton's steps.
+/// Largest number of steps of the iteration, and of Newton's method.
 const MOST: usize = 60;
-/// The iteration continues while each change is below this fraction of the change before.
+/// The iteration continues while each change is below this fraction of the previous change.
 const QUICK: f64 = 0.3;
-/// Number of applications of L to a start vector.
+/// Number of multiplications by L from which the spectral radius is bounded.
 const POWERS: usize = 8;
-/// Relative difference of two different solutions.
+/// Two solutions are different if a normal force differs by more than this fraction of the sum of its two values.
 const DIFFERENT: f64 = 1e-6;
-/// Sizes of the starts, over the largest normal force without friction.
+/// Start values of the normal forces for Newton's method, divided by the largest normal force.
 const STARTS: [f64; 7] = [0.0, 0.1, 1.0, 3.0, 10.0, 100.0, 1e4];
 
 /// Reason why there is no unique solution.
@@ -42,12 +45,13 @@ enum Stuck {
     Several,
 }
 
-/// The normal forces of all joints with friction, prepared for many poses.
+/// Solver for the normal forces of all joints with friction. Its memory is reused for every pose.
 #[derive(Clone, Debug)]
 pub(crate) struct Dry {
     /// Sense of the sliding of every joint: +1, -1, or 0 at standstill.
     pub(crate) senses: Vec<f64>,
-    /// Sense in which the friction of a joint at standstill acts: 0 unless its interval is sought.
+    /// Sense of sliding that is assumed for a joint at standstill: 0 for no friction.
+    /// It differs from 0 only while the interval of the driving force is computed.
     pub(crate) at_rest: Vec<f64>,
     normals: Vec<f64>,
     /// Normal forces at which the reactions are linearised.
@@ -55,13 +59,13 @@ pub(crate) struct Dry {
     next: Vec<f64>,
     efforts: Vec<f64>,
     base: Vec<Reaction>,
-    /// Changes of the reactions per newton of each normal force, one after the other.
+    /// Derivatives of all reactions by the first normal force, then by the second one, and so on.
     columns: Vec<Reaction>,
     matrix: Lu,
 }
 
 impl Dry {
-    /// The joints of a case; `None` if no joint has friction.
+    /// The solver for a case; `None` if no joint has friction.
     pub(crate) fn of(case: &Case) -> Option<Self> {
         let n = case.frictions().count();
         let zeros = || vec![0.0; n];
@@ -78,7 +82,7 @@ impl Dry {
         })
     }
 
-    /// Takes the senses from a motion.
+    /// Sets the senses of sliding from a motion.
     pub(crate) fn sense(&mut self, case: &Case, motions: &[Motion]) {
         for ((sense, at_rest), friction) in self.senses.iter_mut().zip(&self.at_rest).zip(case.frictions()) {
             let rate = friction.rate(motions);
@@ -86,8 +90,9 @@ impl Dry {
         }
     }
 
-    /// Finds the reactions with friction. `react` writes to the state the reactions for given frictions on the second
-    /// links (N m or N). It must be linear in them, but for the lines of action of transmissions.
+    /// Finds the reactions with friction.
+    /// `react` receives the friction of each joint on its second link (N m or N) and writes the reactions to the state.
+    /// They must be linear in the friction while no transmission changes its line of action.
     ///
     /// # Errors
     /// Those of `react`; [`ErrorKind::Numeric`] if the friction locks the mechanism, or if several states of the forces
@@ -124,11 +129,11 @@ impl Dry {
             self.solve(case, unit).map_err(|why| stuck(case, state, &why))?;
             std::mem::swap(&mut self.at, &mut self.normals);
         }
-        // A transmission changes its line of action again and again.
+        // In every round, a transmission has changed its line of action.
         Err(stuck(case, state, &Stuck::Locked))
     }
 
-    /// Finds the reactions for the normal forces `at`, with `more` added to the normal force number `index`.
+    /// Finds the reactions for the normal forces `self.at`; `more` (N) is added to the one with the number `index`.
     fn react(
         &mut self,
         case: &Case,
@@ -144,7 +149,7 @@ impl Dry {
         react(&self.efforts, state)
     }
 
-    /// Reaction number `j` for the normal forces `normals`, linearised.
+    /// Reaction number `j` for the normal forces `normals`, by linearisation at `self.at`.
     fn linear(&self, normals: &[f64], j: usize) -> Reaction {
         let (mut force, mut moment) = self.base[j];
         for (i, (normal, at)) in normals.iter().zip(&self.at).enumerate() {
@@ -155,7 +160,7 @@ impl Dry {
         (force, moment)
     }
 
-    /// Solves for the normal forces. `unit` is the largest of them without friction.
+    /// Solves the linearised equation for the normal forces. `unit` is the unit of the start values (N).
     fn solve(&mut self, case: &Case, unit: f64) -> std::result::Result<(), Stuck> {
         if self.contracts(case) {
             let mut start = std::mem::take(&mut self.normals);
@@ -186,7 +191,7 @@ impl Dry {
         Ok(())
     }
 
-    /// Whether the iteration is a contraction.
+    /// Whether the iteration is proven to be a contraction.
     fn contracts(&mut self, case: &Case) -> bool {
         let n = self.normals.len();
         let (mut v, mut before) = (std::mem::take(&mut self.next), std::mem::take(&mut self.efforts));
@@ -202,7 +207,7 @@ impl Dry {
                 };
                 let own: f64 = (0..n).map(of).sum();
                 most = most.larger(own / before[j]);
-                // The sum of the powers stays positive.
+                // v + L v stays positive, even if L v has zeros.
                 v[j] = before[j] + own;
                 sum += v[j];
             }
@@ -213,7 +218,7 @@ impl Dry {
         ratio < 1.0
     }
 
-    /// Iterates from `start` while the changes fall quickly. Returns whether the iteration has converged.
+    /// Iterates from `start` while the changes decrease quickly. Returns whether the iteration has converged.
     fn iterate(&mut self, case: &Case, start: &mut [f64]) -> bool {
         let mut last = f64::INFINITY;
         for _ in 0..MOST {

@@ -1,4 +1,5 @@
-//! Joint reactions of the RRR dyad of bodies with given joints.
+//! Joint reactions of an RRR dyad of bodies of changing shape, such as cylinder and rod.
+//! The links of a body are connected by given joints, whose coordinates are functions of time.
 //!
 //! The two bodies are in equilibrium like the links of an RRR dyad: see [`super::rrr`].
 //! The links of a body then follow one by one, from the link farthest from the root: each is in equilibrium with its
@@ -21,7 +22,7 @@ struct Member {
     carried: (Vec2, f64),
 }
 
-/// Force analysis of an RRR dyad of bodies with given joints.
+/// Force analysis of an RRR dyad of bodies of changing shape.
 #[derive(Clone, Debug)]
 pub(super) struct Formed {
     /// Index of the group in the plan.

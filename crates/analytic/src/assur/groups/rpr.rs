@@ -117,7 +117,7 @@ impl Rpr {
         self.pins.map(|pin| pin.link)
     }
 
-    /// Sine of the clearance.
+    /// The `sine` of [`Self::clearance`], which is zero in a singular pose.
     pub(super) fn sine(&self, motions: &[Motion]) -> f64 {
         self.along(motions).1.abs() / self.size
     }

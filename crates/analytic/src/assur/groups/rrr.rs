@@ -283,8 +283,8 @@ impl Rrr {
         self.clearance_with(0.0, motions)
     }
 
-    /// The same, if the second link's vector between its joints also turns in the frame of its link, by `shape` (rad/s)
-    /// more than that of the first link.
+    /// [`Rrr::clearance`] of bodies of changing shape: the vectors between outer and inner joint turn in the frames of
+    /// their links. `shape` (rad/s) is the rate of the second vector minus that of the first.
     #[inline]
     pub(super) fn clearance_with(&self, shape: f64, motions: &[Motion]) -> SingularityDistance {
         let [r1, r2] = self.spans;
@@ -298,7 +298,7 @@ impl Rrr {
         self.velocities_with([Vec2::zeros(); 2], motions);
     }
 
-    /// The same, if the inner joint has the velocities `extra` (m/s) relative to the two links.
+    /// [`Rrr::velocities`], if the inner joint also moves relative to the two links, with the velocities `extra` (m/s).
     #[inline]
     pub(super) fn velocities_with(&mut self, extra: [Vec2; 2], motions: &mut [Motion]) {
         let [r1, r2] = self.spans;
@@ -317,7 +317,7 @@ impl Rrr {
         self.accelerations_with([Vec2::zeros(); 2], motions);
     }
 
-    /// The same, if the acceleration of the inner joint has the additional terms `extra` (m/s^2) on the two links.
+    /// [`Rrr::accelerations`], if the inner joint has the additional accelerations `extra` (m/s^2) on the two links.
     #[inline]
     pub(super) fn accelerations_with(&self, extra: [Vec2; 2], motions: &mut [Motion]) {
         let [r1, r2] = self.spans;

@@ -1,7 +1,8 @@
 //! RRR dyad of bodies of changing shape: a cylinder and its rod are one link of changing length.
 //! See docs/numerics/given.md.
 //!
-//! The root of a body is the link with its outer joint. The other links of the body hang on given joints.
+//! The root of a body is the link with its outer joint.
+//! The other links of the body hang on given joints, whose coordinates are functions of time.
 //! In the frame of the root, the inner joint has the position p(t) from the outer joint, with the rates p' and p''.
 //! The dyad is solved with the present vectors p in closed form.
 //! With w = p' in world axes, the velocity of the inner joint is v + omega x r + w. Its acceleration has the additional
@@ -120,7 +121,7 @@ impl Shape {
     }
 }
 
-/// RRR dyad of bodies with given joints, prepared for solving.
+/// RRR dyad of bodies of changing shape, prepared for solving.
 #[derive(Clone, Debug)]
 pub struct Shaped {
     dyad: Rrr,

@@ -7,8 +7,8 @@ use linkage::math::KeepNan;
 
 /// Ratio of a search step to the estimated distance of the change point.
 const STEP: f64 = 0.4;
-/// The determinant of a block, divided by its largest possible value, counts as zero if it falls linearly below this
-/// limit.
+/// The determinant of a block counts as zero if it decreases linearly to less than this fraction of its largest
+/// possible value.
 /// For a dyad this ratio is about a tenth of the sine of its transmission angle.
 const MET: f64 = 1e-7;
 /// Below this ratio, the search stores the slope of the determinant, for comparison with the slope at `MET`.

@@ -98,7 +98,7 @@ pub(super) fn forces(model: &MjcfModel) -> Result<Forces> {
             found.tendons.push(Tendon { name, ends, stiffness, free_length, damping: 0.0 });
         } else if let &Load::Damper { ends, damping } = load {
             found.tendons.push(Tendon { name, ends, stiffness: 0.0, free_length: 0.0, damping });
-        } else if let &Load::TorsionSpring { links: [first, second], stiffness, free_angle } = load {
+        } else if let &Load::TorsionSpring { links: [first, second], stiffness, free_angle, .. } = load {
             // A tendon's length is the difference of the link angles as the start pose states them.
             // The twist is this difference, reduced to (-pi, pi] at t = 0.
             let begun = model.case.start.0[second].angle - model.case.start.0[first].angle;

@@ -19,7 +19,9 @@ pub(super) fn check(load: &Load) -> Result<()> {
     if load.courses().any(|course| course.knots().is_some()) {
         return Err(refused(sentences::a_load_of_type_with_a_table(&sort), ALONE));
     }
-    if let Load::Moment { acts: Acts::CounterClockwise | Acts::Clockwise, .. } = load {
+    if let Load::Moment { acts, .. } | Load::TorsionSpring { acts, .. } = load
+        && *acts != Acts::Always
+    {
         return Err(refused(sentences::a_load_of_type_that_acts(&sort), ALONE));
     }
     let has_words = matches!(load, Load::Resistance { .. } | Load::Moment { .. } | Load::Force { .. })

@@ -76,8 +76,8 @@ kinds! { Load, Case:
         (*free_length != 0.0).then_some(Load::Spring { ends: *ends, stiffness: *stiffness, free_length: 0.0 })
     });
     "spring-free-angle": "the free angle of a torsion spring is one turn too large", |case, _| changed(case, &|load| {
-        let &Load::TorsionSpring { links, stiffness, free_angle } = load else { return None };
-        Some(Load::TorsionSpring { links, stiffness, free_angle: free_angle + TAU })
+        let &Load::TorsionSpring { links, stiffness, free_angle, acts } = load else { return None };
+        Some(Load::TorsionSpring { links, stiffness, free_angle: free_angle + TAU, acts })
     });
     "friction-missing": "the first friction is missing", |case, _| times(case, rubbed(case, |_| true)?, 0.0);
     "friction-sign": "the first friction acts with the sliding", |case, _| times(case, rubbed(case, |_| true)?, -1.0);

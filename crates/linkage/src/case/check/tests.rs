@@ -175,7 +175,15 @@ fn loads_need_existing_links_and_valid_numbers() {
         (Load::Spring { ends: [at(LinkId(0)), at(LinkId(5))], stiffness: 1.0, free_length: 0.0 }, "link 5"),
         (Load::TorsionDamper { links: [LinkId(9), LinkId(0)], damping: 1.0 }, "link 9"),
         (Load::Resistance { link: LinkId(1), moment: -1.0 }, "not finite"),
-        (Load::TorsionSpring { links: [LinkId(0), LinkId(1)], stiffness: f64::NAN, free_angle: 0.0 }, "not finite"),
+        (
+            Load::TorsionSpring {
+                links: [LinkId(0), LinkId(1)],
+                stiffness: f64::NAN,
+                free_angle: 0.0,
+                acts: crate::drive::Acts::Always,
+            },
+            "not finite",
+        ),
         (friction(7, [0, 1], 0.01), "4 joints"),
         (friction(1, [0, 1], 0.01), "not those of joint"),
         (friction(0, [0, 1], -0.01), "negative"),

@@ -15,7 +15,8 @@ pub enum Acts {
 }
 
 impl Acts {
-    /// Whether the load acts for this rate, or at this distance from the free slide. Zero has no sense.
+    /// Whether the load acts at this rate or, for a spring, at this distance from the free slide.
+    /// At zero, a load that is limited to one sense does not act.
     #[inline]
     #[must_use]
     pub fn has(self, rate: f64) -> bool {

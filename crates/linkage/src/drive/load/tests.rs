@@ -113,7 +113,8 @@ fn a_torsion_spring_counts_turns_from_the_start() {
     // At the start the link's angle is 90 degrees.
     // Two revolutions later the twist is larger by two revolutions. A pose that reports the start angle again must not
     // change the twist.
-    let load = Load::TorsionSpring { links: [LinkId(0), LinkId(1)], stiffness: 2.0, free_angle: 0.5 };
+    let load =
+        Load::TorsionSpring { links: [LinkId(0), LinkId(1)], stiffness: 2.0, free_angle: 0.5, acts: Acts::Always };
     let still = motions(0.0);
     for turns in [0.0, 2.0, -1.0] {
         let angle = PI / 2.0 + 2.0 * PI * turns;
@@ -185,7 +186,7 @@ fn scaled_loads_act_in_proportion() {
         }
     }
     let twist = [
-        Load::TorsionSpring { links: [LinkId(0), LinkId(1)], stiffness: 2.0, free_angle: 0.1 },
+        Load::TorsionSpring { links: [LinkId(0), LinkId(1)], stiffness: 2.0, free_angle: 0.1, acts: Acts::Always },
         Load::TorsionDamper { links: [LinkId(0), LinkId(1)], damping: 2.0 },
     ];
     for load in twist {

@@ -66,8 +66,8 @@ pub fn blame(
 }
 
 /// Whether a changed configuration of an earlier group clearly improves the fit of the last group.
-/// `found` is the distance (m) of the last group from its approximate positions after the change.
-/// The change is a clear improvement if `found` is less than half of the smallest distance without the change.
+/// After the change, the distance of the last group from its approximate positions is `found` (m).
+/// The improvement is clear if `found` is less than half of the smallest distance without the change.
 fn clearly_nearer(
     mechanism: &Mechanism,
     part: &Structure,

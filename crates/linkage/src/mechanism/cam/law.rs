@@ -1,6 +1,6 @@
-//! Laws of cams: the motion of a follower over the angle of its cam, piece by piece.
+//! Laws of cams: lift of the follower as a function of the cam's angle, in pieces or as one curve.
 //!
-//! The curves are normalised: they rise from 0 to 1 over 0 to 1, at rest at both ends.
+//! The curve of a piece is normalised: it rises from 0 to 1 while x goes from 0 to 1, and rests at both ends.
 //! Equations: Norton, Cam Design and Manufacturing Handbook, 2nd ed., Industrial Press 2009, chapters 2 and 3.
 
 use std::f64::consts::{PI, TAU};
@@ -47,7 +47,7 @@ impl CamCurve {
                 ]
             }
             CamCurve::ModifiedSine => {
-                // Quarter sines of the acceleration at both ends, and half a slower one between.
+                // The acceleration is a quarter of a sine wave at each end, and half of a slower sine wave between.
                 let (share, turns) = ((4.0 + PI).recip(), (x * 8.0).clamp(0.0, 8.0));
                 let (sine, cosine) = (4.0 * PI * x).sin_cos();
                 let (slow, slow_cosine) = ((4.0 * PI * x + PI) / 3.0).sin_cos();
@@ -71,28 +71,28 @@ impl CamCurve {
     }
 }
 
-/// A piece of a law, from the end of the piece before it.
+/// A piece of a law. It begins at the end of the previous piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CamSegment {
     /// Angle of the cam at the end (rad).
     pub to: f64,
     /// Lift at the end (m, or rad for a swinging follower).
     pub lift: f64,
-    /// Curve of the rise or return; of no effect in a dwell, where the lift stays.
+    /// Curve of the rise or return. It has no effect in a dwell, in which the lift is constant.
     pub curve: CamCurve,
 }
 
 /// The motion of a follower over the angle of its cam, repeated with every turn.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CamLaw {
-    /// Pieces from lift 0 at angle 0 to lift 0 at a whole turn; see [`CamLaw::of`].
+    /// Pieces from lift 0 at angle 0 to lift 0 at a full turn; see [`CamLaw::of`].
     Segments(Vec<CamSegment>),
-    /// A periodic spline, or a formula up to a whole turn.
+    /// A periodic spline, or a formula from 0 to a full turn.
     Curve(Curve),
 }
 
 impl CamLaw {
-    /// The law of these pieces; `None` unless their ends ascend from 0 to a whole turn and the last lift is 0.
+    /// The law of these pieces. `None` unless their ends ascend from above 0 to a full turn and the last lift is 0.
     #[must_use]
     pub fn of(segments: Vec<CamSegment>) -> Option<Self> {
         let ends = std::iter::once(0.0).chain(segments.iter().map(|own| own.to));
@@ -131,7 +131,8 @@ impl CamLaw {
         }
     }
 
-    /// Distance of an angle of the cam from the nearest end of a piece (rad). There the third derivative jumps.
+    /// Distance of an angle of the cam (rad) from the nearest end of a piece, at which the third derivative jumps.
+    /// It is pi for a law without pieces.
     #[must_use]
     pub fn to_knot(&self, angle: f64) -> f64 {
         let away = |end: f64| ((angle - end + PI).rem_euclid(TAU) - PI).abs();

@@ -48,7 +48,7 @@ struct Equation {
     ends: [LinkId; 3],
 }
 
-/// The links of an equation of a joint. The second link stands twice.
+/// The links of an equation of a joint, the second one twice.
 fn joined([first, second]: [LinkId; 2]) -> [LinkId; 3] {
     [first, second, second]
 }

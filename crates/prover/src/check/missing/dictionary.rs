@@ -31,7 +31,7 @@ impl Entry {
     }
 }
 
-/// The dictionary of a trial, and the constant steps before its formula by name and value.
+/// The expressions that may be missing in a formula, and name and value of every constant step before the formula.
 pub(super) struct Dictionary {
     pub(super) entries: Vec<Entry>,
     pub(super) constants: Vec<(String, f64)>,

@@ -13,8 +13,8 @@ impl Chain {
         }
     }
 
-    /// Writes the right-hand sides of the given coordinates and transmissions: `of` is the rates or accelerations of the
-    /// drives, `led` those of known angles. The `order` is 1 for rates and 2 for accelerations.
+    /// Writes the right-hand sides of the given coordinates and transmissions. The `order` is 1 for rates and 2 for
+    /// accelerations. `of` contains those of the drives; `led` returns that of a known angle.
     fn put_given(&mut self, order: usize, of: &[f64], led: impl Fn(&Motion) -> f64, motions: &[Motion]) {
         let first = 2 * self.contours.closings.len();
         for (row, given) in self.given.iter().enumerate() {
