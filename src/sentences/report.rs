@@ -292,7 +292,7 @@ linkage::sentences! {
     from_the_rough_place(mm) = ", {mm} from the approximate position in the file";
     class_order_mode_2(names, class, order, pairs, mode, transmission, from) = "  {names:28} class {class}, order {order}, {pairs}, mode {mode}{transmission}{from}";
     transmission_angle_deg(sine) = ", transmission angle {sine:.2} deg";
-    groups_at_the_start(word, fixed_in) = "\ngroups at the start ({word} {fixed_in})";
+    groups_at_the_start(word, fixed_in) = "\ngroups at the start ({word} {fixed_in}); a mode belongs to this order of the links";
     kg_kg(mass, inertia, at) = "m = {mass} kg, J = {inertia} kg·m², {at}";
     NO_CONFIGURATION_CLOSES = "no configuration of the structure closes";
     OR_MORE = " or more";

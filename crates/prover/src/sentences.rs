@@ -17,6 +17,7 @@ linkage::sentences! {
     a_missing_in(noun, formula, what, beside) = "a missing {noun}, in {formula}: `{what}`{beside}";
     DIVISOR_OR_A_FACTOR_TOO_MANY = "divisor, or a factor too many";
     too_large_by_the_factor_everywhere(significant) = "too large by a factor of {significant} everywhere";
+    too_little_everywhere(significant) = "too small by {significant} everywhere";
     too_much_everywhere(significant) = "too large by {significant} everywhere";
     in_instead_of(kind, formula, right, written, wherever) = "{kind}, in {formula}: `{right}` instead of `{written}`{wherever}";
     WHEREVER_IT_STANDS = " wherever it occurs";

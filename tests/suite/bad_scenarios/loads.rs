@@ -57,7 +57,7 @@ fn sorts_links_points_and_tables() {
             &["do not ascend"],
         ),
         (
-            format!("{moment}table = [{{ crank_deg = 0, moment_N_m = 1 }}, {{ crank_deg = 360, moment_N_m = 1 }}]\n"),
+            format!("{moment}table = [{{ crank_deg = 0, moment_N_m = 1 }}, {{ crank_deg = 370, moment_N_m = 1 }}]\n"),
             "table = [",
             "loads[2].table[2]",
             &["longer than its period, 360 deg", "repeats the first"],

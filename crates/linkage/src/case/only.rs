@@ -6,7 +6,7 @@ use crate::trajectory::{Channel, Stage};
 impl Case {
     /// Channels selected by `word`, out of all channels that the case can have, in the order of columns.
     /// A word is the name of a stage (`positions`), a subject (`point.P`, `link.rocker`, `joint.B`, `frame`, `drive`),
-    /// a subject's stage (`point.P.positions`) or a channel (`joint.B.fx_N`).
+    /// a subject's stage (`point.P.positions`) or a channel (`joint.B.fx_N`). `drive` means all drives.
     /// The list is empty for any other word.
     #[must_use]
     pub fn channels_called(&self, word: &str) -> Vec<Channel> {
@@ -16,6 +16,7 @@ impl Case {
             word == stage
                 || rest.is_some_and(|rest| rest.is_empty() || rest.strip_prefix('.') == Some(stage))
                 || channel.to_string() == word
+                || word == "drive" && subject.starts_with("drive.")
         };
         let mut all = self.all_channels();
         all.retain(is_meant);

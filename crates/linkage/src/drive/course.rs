@@ -3,11 +3,14 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use crate::math::Piecewise;
+use crate::math::{Piecewise, just_below};
 
 /// The jumps of a table are moved back by this angle (rad), which is much larger than rounding errors.
 /// At the stated crank angle, all solvers therefore find the value after the jump.
 const BEFORE: f64 = 4e-9;
+
+/// Values beside a jump are equal within this share.
+const EQUAL: f64 = 1e-12;
 
 /// A constant, or a table of values against the crank angle.
 #[derive(Clone, Debug, PartialEq)]
@@ -75,7 +78,10 @@ impl Course {
     /// Crank angles (rad) at which the table jumps, each with the period (rad) after which the jump repeats.
     pub fn jumps(&self) -> impl Iterator<Item = [f64; 2]> {
         let (knots, turns) = self.knots().unwrap_or_default();
-        let jumps = knots.windows(2).filter(|pair| pair[1] <= pair[0]);
+        let differs = |a: f64, b: f64| (a - b).abs() > EQUAL * (a.abs() + b.abs());
+        let jumps = knots
+            .windows(2)
+            .filter(move |pair| pair[1] <= pair[0] && differs(self.at(just_below(pair[0])), self.at(pair[0])));
         jumps.map(move |pair| [pair[0], TAU * f64::from(turns)])
     }
 

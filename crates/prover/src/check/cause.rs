@@ -71,6 +71,9 @@ impl fmt::Display for FormulaCause {
                 let wherever = if *everywhere { sentences::WHEREVER_IT_STANDS } else { "" };
                 write!(f, "{}", sentences::in_instead_of(&kind.words(), &formula, &right, &written, &wherever))
             }
+            FormulaCause::Offset(offset) if *offset < 0.0 => {
+                write!(f, "{}", sentences::too_little_everywhere(&significant(-*offset, 6)))
+            }
             FormulaCause::Offset(offset) => write!(f, "{}", sentences::too_much_everywhere(&significant(*offset, 6))),
             FormulaCause::Factor(factor) => {
                 write!(f, "{}", sentences::too_large_by_the_factor_everywhere(&significant(*factor, 6)))
