@@ -1,5 +1,5 @@
 //! A layout for Foxglove and Lichtblick: the mechanism from above, beside plots of both sides and of their errors.
-//! A film gives the same contents to viewers other than Foxglove and Lichtblick.
+//! Programs that convert a recording for other viewers get the same content as JSON, from `film`.
 
 use serde_json::{Map, Value, json};
 

@@ -82,7 +82,7 @@ fn has_formal_order(case: &Case, engines: impl Iterator<Item = Box<dyn Engine>>,
         }
         // Crank angles are exact; in a Scotch yoke all angles and speeds are exact.
         // In single precision almost every error is rounding.
-        // Only a third of the channels must therefore show an order, and in single precision none.
+        // So it suffices that more than a third of the channels show an order. In single precision none need to.
         assert!(
             single(engine.as_ref()) || seen > reference.channels().len() / 3,
             "only {seen} channels have more than rounding errors"

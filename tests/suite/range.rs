@@ -341,8 +341,8 @@ fn asked(case: &Case, degrees: f64) -> Case {
     case.on(Grid::of_inputs(case.crank(), vec![degrees.to_radians()])).unwrap()
 }
 
-/// The errors of both solvers and of the list of configurations are explained by the reachable crank angles, to 1e-6
-/// deg.
+/// Both solvers and the list of configurations refuse an unreachable crank angle. Their errors, once explained, give
+/// the reachable range to 1e-6 deg.
 #[test]
 fn an_unreachable_angle_is_refused_with_the_reachable_range() {
     let lengths = [0.4, 0.35, 0.3, 0.2];

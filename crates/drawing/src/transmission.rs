@@ -46,7 +46,7 @@ fn of(mechanism: &Mechanism, travels: &Travels, index: TransmissionId, own: &Tra
     marks
 }
 
-/// The pitch line of a rack over the travel of the contact.
+/// The pitch line of a rack over the travel of the contact, or the spindle of a screw.
 fn rack(mechanism: &Mechanism, travels: &Travels, own: &Transmission) -> Option<(LinkId, Mark)> {
     let [pinion, rack] = &own.members;
     let index = own.slide()?;
@@ -58,7 +58,11 @@ fn rack(mechanism: &Mechanism, travels: &Travels, own: &Transmission) -> Option<
     let is_guide = mechanism.guide_and_block(joint)?[0].link == rack.link;
     let contact = travel.map(|way| if is_guide { foot + way } else { foot - way });
     let beyond = BEYOND * pinion.radius;
-    let ends = [contact[0].smaller(contact[1]) - beyond, contact[0].larger(contact[1]) + beyond];
+    let mut ends = [contact[0].smaller(contact[1]) - beyond, contact[0].larger(contact[1]) + beyond];
+    // The spindle of a screw reaches from its nut to its axle.
+    if matches!(own.design.kind, TransmissionKind::Screw { .. }) {
+        ends = [ends[0].smaller(0.0), ends[1].larger(0.0)];
+    }
     let along: Vec2 = joint.axis_on(rack.link)?;
     Some((rack.link, Mark::line(MarkRole::Wheel, ends.map(|end| rack.local + along * end))))
 }

@@ -23,7 +23,7 @@ sentences! {
     LN_TAKES_A_POSITIVE_NUMBER = "ln takes a positive number";
     A_NEGATIVE_BASE_TAKES_A_WHOLE = "a negative base needs a whole exponent, and a base of zero an exponent that is not negative";
     A_DIVISOR_MUST_NOT_BE_ZERO = "a divisor must not be zero";
-    ITS_PARTS_MUST_HAVE_VALUES = "its parts must have values";
+    ITS_PARTS_MUST_HAVE_VALUES = "every part of it must have a value";
     is_undefined(what) = "{what} is undefined";
     WHAT_IT_STANDS_FOR_HAS_NO_VALUE = "its definition has no value";
     // graph.rs

@@ -158,7 +158,7 @@ impl Mechanism {
     }
 
     /// Total number of equations of all joints.
-    /// In a list of equations, those of the joints come first. Those of the transmissions and of the drives follow.
+    /// A list of equations begins with those of the joints. Those of the transmissions and of the drives follow.
     #[inline]
     #[must_use]
     pub fn equations(&self) -> usize {

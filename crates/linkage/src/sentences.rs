@@ -150,10 +150,10 @@ crate::sentences! {
     DRIVE_ANOTHER_JOINT = "drive another joint, or make one of the prismatic joints revolute";
     the_mobility_is_but_the_number(n, p, mobility, drives) = "the mobility is W = 3*{n} - 2*{p} = {mobility}, but the number of drives is {drives}";
     the_mobility_with_transmissions_is(n, p, t, mobility, drives) = "the mobility is W = 3*{n} - 2*{p} - {t} = {mobility}, with {t} transmissions, but the number of drives is {drives}";
-    the_start_joint_of_a_transmission_changes(group) = "the joints that give the start of the transmissions change the group {group}, which has no transmission";
+    the_start_joint_of_a_transmission_changes(group) = "with the start joints of the transmissions, the group {group} would change, although no transmission acts in it";
     the_start_joint_is_driven(name, joint) = "the start joint \"{joint}\" of transmission \"{name}\" is driven";
     GIVE_A_JOINT_OF_THE_TRANSMISSION = "name another joint of a member or of the carrier with `start_joint`";
-    the_start_of_the_transmissions(message) = "with the joints that give the start of the transmissions: {message}";
+    the_start_of_the_transmissions(message) = "with the start joints of the transmissions: {message}";
     THE_MECHANISM_IS_OVER_CONSTRAINED = "the mechanism is over-constrained: remove the surplus joints or drives";
     ADD_THE_MISSING_JOINTS_OR_DRIVES = "add the missing joints or drives, or remove the loose links";
     LINKS_THAT_ARE_JOINED_BY_PRISMATIC = "links that are connected by prismatic joints only cannot turn relative to each other: one joint of the loop must be revolute";

@@ -7,7 +7,7 @@ linkage::sentences! {
     // check/cause.rs
     THE_SEARCH_ENDED_AT_ITS_LIMIT = "the search reached its work limit before all slips and terms were tried";
     for_the_most_part_with_that_of_the_difference(cause, left) = "for the most part {cause}; {left:.2} % of the difference remains";
-    no_single_slip_or_term_it_is_right(significant, significant_2) = "no single slip or term; the formula is right to {significant} % of the largest value, like an approximation or a rounded number: `error = {significant_2}` declares it as one";
+    no_single_slip_or_term_it_is_right(significant, significant_2) = "no single slip or missing term explains the difference; the formula is right to {significant} % of the largest value, as an approximation or a rounded number would be: `error = {significant_2}` declares it as one";
     IT_IS_A_CONSTANT_AND_WHAT = "it is a constant, but the claimed quantity changes with the crank";
     another_quantity_is_claimed_it_is(channel) = "it gives another quantity: {channel}";
     or_more(more) = "; or {more} more";
@@ -187,7 +187,7 @@ linkage::sentences! {
     NAME_A_LINK_POINT_OR_JOINT = "name a link, point or joint of this scenario";
     oracle_there_is_no_channel(oracle, channel) = "oracle {oracle}: there is no channel {channel}";
     PRINT_THE_INSTANTS_WITH_MORE = "print the instants with more digits, zeros at their ends included";
-    at_the_rounding_of_the_instant(at) = "at {at} the number is off by more than a hundredth of the channel's scale, and only the rounding of its instant covers this";
+    at_the_rounding_of_the_instant(at) = "at {at} the number deviates by more than a hundredth of the channel's scale; this is within the bound only because the instant is rounded";
     // run/order.rs
     the_runs_converge_with_order(order, error, error_2, formal) = "the runs converge with order {order:.2} at all five steps from {error} to {error_2} s, but the method has order {formal}: the values read or computed are not those of the method";
     // run/own_forces.rs

@@ -101,7 +101,7 @@ fn a_structure_without_a_drive_is_inspected_and_drawn() {
     assert!(refused.code == 2 && refused.stderr.contains("nothing moves"), "{}", refused.stderr);
     let refused = place.run("run truss.toml");
     assert!(refused.code == 2 && refused.stderr.contains("`drive` is missing"), "{}", refused.stderr);
-    // A mechanism without a drive is a mistake.
+    // Without one joint the truss can move, and a mechanism that moves needs a drive.
     fs::write(place.path("loose.toml"), text.replace(&pin("B2", ["rod2", "platform"]), "")).unwrap();
     assert_eq!(place.run("inspect loose.toml").code, 2);
 }

@@ -56,7 +56,7 @@ fn a_run_is_independent_of_threads_and_can_be_resumed() {
     }
     assert!(closures > 0);
 
-    // Nothing is run again.
+    // A second call runs no point again.
     let told = place.ok("stress length_ratio redundant --quick --out one");
     assert!(run_of(&told).contains("0 of 5 points were run"), "{told}");
     assert!(whole == files(&place, "one"), "other bytes from what was kept");

@@ -103,8 +103,9 @@ fn val_a_wedge_lifts_with_the_tangent_of_its_angle_and_twice_that_of_friction() 
     }
 }
 
-/// Driven by its follower, the wedge moves only if its angle is above 2 phi: near it the force is F = P / tan(alpha - 2
-/// phi), below it no force moves the wedge. In the other sense the forces are undetermined below the same angle.
+/// Driven by its follower, the wedge moves only if its angle alpha exceeds 2 phi. The force is then
+/// F = P / tan(alpha - 2 phi). Below 2 phi no force moves the wedge.
+/// In the other sense of motion, the forces are undetermined below 2 phi.
 #[test]
 fn val_a_wedge_locks_below_twice_the_angle_of_friction() {
     let limit = 2.0 * MU.atan();

@@ -62,7 +62,9 @@ impl System<'_> {
     }
 
     /// Right-hand side of a drive's equation for the accelerations, if the input has the acceleration `of_input`.
-    /// For a slide: s'' = e . d'' + 2 omega1 n . d' - alpha1-terms of the Jacobian - omega1^2 s, with d = p2 - p1.
+    /// For a slide s = e . d, with d = p2 - p1 and n = z x e:
+    /// s'' = e . d'' + 2 omega1 n . d' + alpha1 n . d - omega1^2 s.
+    /// The terms linear in the accelerations belong to the Jacobian. All other terms form the right-hand side.
     pub(super) fn drive_gamma(&self, drive: &Drive, of_input: f64) -> f64 {
         match drive.input {
             Input::Angle | Input::Turn => of_input,

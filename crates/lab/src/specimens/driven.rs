@@ -1,8 +1,12 @@
 //! Random mechanisms with the drive at a random joint: the input may be a slide or an angle between moving links.
 
+use std::f64::consts::FRAC_PI_2;
+use std::sync::Arc;
+
 use linkage::case::Case;
 use linkage::drive::MotionLaw;
 use linkage::input::Input;
+use linkage::math::Curve;
 use linkage::mechanism::JointId;
 
 use super::sketch::RandomSource;
@@ -16,7 +20,12 @@ pub fn driven_elsewhere(random: &mut RandomSource, case: &Case) -> Option<Case> 
     let joints: Vec<JointId> = case.mechanism.joints().ids().filter(|&joint| joint != case.crank().joint).collect();
     let joint = joints[random.index(joints.len())];
     let share = RISE * random.number(0.1, 1.0) * if random.yes() { 1.0 } else { -1.0 };
-    let law = |input: Input| MotionLaw::Cycloidal { rise: share * input.span(case.mechanism.size()), time: 1.0 };
+    let law = |input: Input| {
+        let rise = share * input.span(case.mechanism.size());
+        // Half a period of an oscillation, or a cycloid.
+        let half = Curve::Harmonic { amplitude: rise / 2.0, period: 2.0, phase: -FRAC_PI_2 };
+        if share > 0.0 { MotionLaw::Curve(Arc::new(half)) } else { MotionLaw::Cycloidal { rise, time: 1.0 } }
+    };
     case.driven_at(joint, law, (0..=20).map(|k| f64::from(k) * 0.05).collect()).ok()
 }
 

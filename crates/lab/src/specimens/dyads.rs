@@ -99,7 +99,7 @@ pub fn chain(random: &mut RandomSource, allowed: &[[bool; 3]], dyads: usize) -> 
     sketch.finish()
 }
 
-/// Reads a chain. `None` unless it stays within `REACH` and away from dead points at all instants of its grid.
+/// Reads a chain. `None` if it leaves `REACH` or comes near a dead point at an instant of its grid.
 /// The poses come from [`first_pose`]. A solver would also compute the range of the mechanism, which takes longer than
 /// all other work of this function.
 pub fn sample(spec: Spec) -> Option<DyadSpecimen> {

@@ -19,8 +19,12 @@ use super::contact::{Contact, LineOfAction};
 use super::ids::{JointId, LinkId, PerJoint, PerLink};
 use super::parts::{GROUND, Joint, Link};
 use crate::error::{Error, ErrorKind, Result};
-use crate::math::{Motion, Vec2, cross, rotated, turned};
+use crate::math::{Motion, Vec2, cross, turned};
 use crate::sentences;
+
+mod geometry;
+
+use geometry::{COINCIDE, axle, belt, gears, guide, rack, sense, sliding};
 
 /// Kind of transmission.
 #[derive(Clone, Debug, PartialEq)]
@@ -141,9 +145,6 @@ pub struct Member {
     /// The axle of a wheel in the frame of the link (m); for a rack, the joint's point on the link.
     pub local: Vec2,
 }
-
-/// Distance of two axles, as a fraction of the mechanism's size, below which they coincide.
-const COINCIDE: f64 = 1e-9;
 
 impl Transmission {
     /// Finds the geometry of a transmission between these links and joints; `size` is the size of the mechanism (m).
@@ -395,170 +396,5 @@ impl TransmissionDesign {
     }
 }
 
-/// Axle of a link in the frame of the carrier and in the frame of the link.
-/// The axle is a revolute joint of the link with the carrier, or with a third link.
-/// In the second case, the third link must have a revolute joint with the carrier at the same place.
-fn axle(joints: &PerJoint<Joint>, size: f64, link: LinkId, carrier: LinkId) -> Option<[Vec2; 2]> {
-    let pins = |on: LinkId| joints.iter().filter(move |joint| joint.is_pin() && joint.on(on).is_some());
-    let near = COINCIDE * size;
-    pins(link).find_map(|pin| {
-        let (own, other) = (pin.on(link)?, pin.other(link));
-        if other.link == carrier {
-            return Some([other.local, own]);
-        }
-        let coaxial = |next: &&Joint| {
-            let on = next.other(carrier);
-            on.link == other.link && (on.local - other.local).norm() <= near
-        };
-        Some([pins(carrier).find(coaxial)?.on(carrier)?, own])
-    })
-}
-
-/// The prismatic joint of a rack or follower with the carrier, and its line: a point and the axis in the frame of the
-/// carrier, and the joint's point in the frame of the rack or follower.
-fn guide(joints: &PerJoint<Joint>, rack: LinkId, carrier: LinkId) -> Option<(JointId, [Vec2; 3])> {
-    joints.entries().find_map(|(index, joint)| {
-        let axis = joint.axis_on(carrier)?;
-        Some((index, [joint.on(carrier)?, axis, joint.on(rack)?]))
-    })
-}
-
-/// Sign of the joint's slide if `link` moves along the axis relative to the other link.
-fn sense(joint: &Joint, link: LinkId) -> f64 {
-    if joint.second.link == link { 1.0 } else { -1.0 }
-}
-
-/// A follower that slides in a guide. `local` is [`CamContact::point`]; the line of the guide is that of [`guide`].
-fn sliding(link: LinkId, joint: &Joint, [at, axis, own]: [Vec2; 3], local: Vec2) -> (Member, Follower) {
-    let (own_axis, sign) = (joint.axis_on(link).expect("it slides"), sense(joint, link));
-    let turn = Vec2::new(own_axis.dot(&axis), cross(own_axis, axis));
-    let follower = Follower::Slides { at: at + rotated(turn, local - own), along: axis * sign };
-    (Member { link, place: at, radius: 0.0, local: own }, follower)
-}
-
-/// Gears: the lines of action touch the base circles and pass through the pitch point.
-fn gears([mut one, mut other]: [Member; 2], teeth: [f64; 2], angle: f64) -> ([Member; 2], [LineOfAction; 2]) {
-    let between = other.place - one.place;
-    // Pitch radii: distances of the pitch point from the axles, positive towards the other axle.
-    let radii = teeth.map(|own| between.norm() * own / (teeth[0] + teeth[1]));
-    let (along, across) = (between.normalize(), turned(between.normalize()));
-    [one.radius, other.radius] = radii.map(f64::abs);
-    let pitch = one.place + along * radii[0];
-    // External teeth push the axles apart, those of a ring gear pull them together.
-    let apart = if radii[0] > 0.0 && radii[1] > 0.0 { 1.0 } else { -1.0 };
-    let line = |side: f64| {
-        let direction = across * (side * angle.cos()) + along * (apart * angle.sin());
-        LineOfAction { direction, feet: [pitch; 2] }
-    };
-    ([one, other], [line(1.0), line(-1.0)])
-}
-
-/// Pinion and rack: the lines of action pass through the foot of the axle on the pitch line.
-fn rack(
-    mut one: Member,
-    [_, axis, local]: [Vec2; 3],
-    link: LinkId,
-    angle: f64,
-    foot: Vec2,
-) -> ([Member; 2], [LineOfAction; 2]) {
-    one.radius = (foot - one.place).norm();
-    let away = (foot - one.place).normalize();
-    let line = |side: f64| {
-        let direction = axis * (side * angle.cos()) + away * angle.sin();
-        LineOfAction { direction, feet: [foot; 2] }
-    };
-    ([one, Member { link, place: foot, radius: 0.0, local }], [line(1.0), line(-1.0)])
-}
-
-/// Belt: the lines of action are the strands, from the second wheel to the first.
-fn belt([mut one, mut other]: [Member; 2], radii: [f64; 2], crossed: bool) -> ([Member; 2], [LineOfAction; 2]) {
-    [one.radius, other.radius] = radii;
-    let between = other.place - one.place;
-    let (distance, along) = (between.norm(), between.normalize());
-    let of_second = if crossed { -radii[1] } else { radii[1] };
-    // `normal` points from the first axle to the point at which the strand leaves the first wheel.
-    let sine = (radii[0] - of_second) / distance;
-    let line = |side: f64| {
-        let normal = along * sine + turned(along) * (side * (1.0 - sine * sine).sqrt());
-        let feet = [one.place + normal * radii[0], other.place + normal * of_second];
-        LineOfAction { direction: (feet[0] - feet[1]).normalize(), feet }
-    };
-    ([one, other], [line(1.0), line(-1.0)])
-}
-
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::fixtures::{link, mechanism};
-    use approx::assert_relative_eq;
-
-    /// Two wheels on a carrier that stands on the ground, 3 m apart.
-    fn two_wheels(kind: TransmissionKind) -> Result<Transmission> {
-        let links = vec![
-            link("ground", &[("O", 0.0, 0.0)]),
-            link("carrier", &[("O", 0.0, 0.0), ("P", 3.0, 0.0)]),
-            link("first", &[("O", 0.0, 0.0)]),
-            link("second", &[("P", 0.0, 0.0)]),
-        ];
-        let pins = [("H", "O", "ground", "carrier"), ("S", "O", "ground", "first"), ("P", "P", "carrier", "second")];
-        let mechanism = mechanism(links, &pins).unwrap();
-        let [carrier, first, second] = ["carrier", "first", "second"].map(|name| mechanism.link_named(name).unwrap());
-        let links = [first, second];
-        let design = TransmissionDesign { name: "t".into(), kind, links, carrier, joint: JointId(2), start: 0.0 };
-        Transmission::of(mechanism.links(), mechanism.joints(), mechanism.size(), design)
-    }
-
-    fn gears(first: f64, second: f64) -> TransmissionKind {
-        TransmissionKind::Gears { teeth: [first, second], pressure_angle: 0.3 }
-    }
-
-    fn belt(radii: [f64; 2], crossed: bool) -> TransmissionKind {
-        TransmissionKind::Belt { radii, crossed, slack: 0.0 }
-    }
-
-    #[test]
-    fn ratios_and_radii_follow_from_teeth_and_radii() {
-        let cases = [
-            (gears(20.0, 40.0), -0.5, [1.0, 2.0]),
-            (gears(20.0, -50.0), 0.4, [2.0, 5.0]),
-            (gears(-50.0, 20.0), 2.5, [5.0, 2.0]),
-            (belt([0.5, 1.0], false), 0.5, [0.5, 1.0]),
-            (belt([0.5, 1.0], true), -0.5, [0.5, 1.0]),
-        ];
-        for (kind, ratio, radii) in cases {
-            let own = two_wheels(kind).unwrap();
-            assert_relative_eq!(own.ratio().unwrap(), ratio, epsilon = 1e-14);
-            assert_relative_eq!(own.members[0].radius, radii[0], epsilon = 1e-14);
-            assert_relative_eq!(own.members[1].radius, radii[1], epsilon = 1e-14);
-            // Both lines have the same power, and the second one the opposite sense.
-            let lever = |line: &LineOfAction| cross(line.feet[1] - own.members[1].place, line.direction);
-            let lines = own.contact([0.0; 2]).lines;
-            assert_relative_eq!(lever(&lines[0]), -lever(&lines[1]), epsilon = 1e-14);
-        }
-    }
-
-    /// Teeth of external wheels push the axles apart, those of a ring pull them together, and so do strands.
-    #[test]
-    fn lines_of_action_push_or_pull_the_second_axle() {
-        let along = |kind| two_wheels(kind).unwrap().contact([0.0; 2]).lines.map(|line| line.direction.x);
-        for (kind, away) in [(gears(20.0, 40.0), 1.0), (gears(20.0, -50.0), -1.0), (gears(-50.0, 20.0), -1.0)] {
-            for own in along(kind) {
-                assert_relative_eq!(own, away * 0.3f64.sin(), epsilon = 1e-14);
-            }
-        }
-        for own in along(belt([0.5, 1.0], true)) {
-            assert_relative_eq!(own, -(1.0 - 0.25f64).sqrt(), epsilon = 1e-14);
-        }
-        let own = two_wheels(belt([0.5, 1.0], false)).unwrap();
-        assert_eq!((own.forces(3.0), own.forces(-3.0)), ([3.0, 0.0], [0.0, 3.0]));
-        assert!(own.forces(f64::NAN).iter().any(|force| force.is_nan()));
-    }
-
-    #[test]
-    fn wheels_that_cannot_touch_are_refused() {
-        for kind in [gears(20.0, -20.0), belt([2.0, 1.5], true), belt([4.0, 0.5], false)] {
-            let error = two_wheels(kind).unwrap_err();
-            assert!(error.to_string().contains("cannot touch"), "{error}");
-        }
-    }
-}
+mod tests;

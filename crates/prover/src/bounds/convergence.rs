@@ -31,7 +31,7 @@ const BEARS_OUT: f64 = 0.1;
 pub struct Ladder<'a> {
     /// Runs at double, single and half the step (or accuracy).
     pub resolutions: [&'a Trajectory; 3],
-    /// Runs at the single step. Their numbers of sweeps differ from that of the middle run.
+    /// Runs at the step of the middle run, with other numbers of sweeps.
     pub other_sweeps: OtherSweeps<&'a Trajectory>,
 }
 

@@ -31,7 +31,7 @@ const APART: f64 = 0.25;
 
 /// As `STEPS`, for accelerations and forces at the end of a piece of a cam's law.
 const KNOT: f64 = 2.0;
-/// An instant lies at the end of a piece if it is nearer to it than this fraction of a step.
+/// An instant nearer to the end of a piece than this fraction of a step lies at this end.
 const ON_KNOT: f64 = 1e-6;
 
 /// A drive counts as standing still below this fraction of its top speed. The limit exceeds the rounding error of a

@@ -30,7 +30,7 @@ pub(super) fn prove(
 ) -> Result<EngineProof> {
     let (engine, asked) = (chosen.engine.as_ref(), judge.asked);
     let mut bank = Bank::new(case, engine, Watch::Engine);
-    // No search begins with an impossible step, because the engine itself rejects such a step.
+    // If the given step is not positive and finite, no search begins: the engine itself refuses such a step.
     let is_step = asked.resolution > 0.0 && asked.resolution.is_finite();
     let given = chosen.given.clone().of_motion();
     let searches = given.leaves_a_choice() && !engine.controls_error() && is_step;

@@ -244,7 +244,7 @@ impl<'a> Judge<'a> {
             .collect()
     }
 
-    /// The case without the first instants of a free motion, for which second differences are taken from later steps.
+    /// The case without the first instants of a free motion. At these instants, second differences use later steps.
     /// `None` if nothing is left out: in a prescribed motion, in a motion that is not longer than its beginning, or if
     /// accelerations and forces are conclusive despite the rounding error of these differences.
     fn after_the_beginning(&self, engine: &dyn Engine) -> Result<Option<Case>> {

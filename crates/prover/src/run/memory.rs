@@ -47,7 +47,7 @@ pub fn of_comparison(rows: usize, claims: usize, channels: usize) -> f64 {
     ELSE + rows as f64 * (solved + claims as f64 * OF_NUMBER + OF_ROW)
 }
 
-/// Estimated memory (bytes) of the values of both sides for the numbers of other sources.
+/// Estimated memory (bytes) for published numbers, and for the values of both sides that are compared with them.
 #[must_use]
 pub fn of_oracles(oracles: &[Oracle]) -> f64 {
     let series: Vec<usize> = oracles.iter().flat_map(|own| &own.series).map(|own| own.instants().count()).collect();

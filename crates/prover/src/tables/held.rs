@@ -343,7 +343,7 @@ const NAMED: usize = 8;
 struct Reader<'a> {
     raw: &'a Raw,
     graph: FormulaGraph,
-    /// The first column of each name.
+    /// Index of the first column with each name.
     places: BTreeMap<&'a str, usize>,
     used: BTreeSet<&'a str>,
     /// The numbers of one row, for the columns used in an expression.

@@ -14,6 +14,7 @@
 //! of the ends) + centripetal and Coriolis parts.
 
 mod contour;
+mod given;
 mod predict;
 mod rates;
 mod train;
@@ -23,9 +24,9 @@ pub(in crate::assur) use contour::Arrow;
 pub use contour::{ClosingJoint, Node};
 pub(in crate::assur) use contour::{Contours, Hangs};
 
+pub(in crate::assur) use self::given::Given;
 use self::predict::{Memory, copy};
 pub(in crate::assur) use self::train::Train;
-use linkage::input::Input;
 use linkage::math::dense::Lu;
 use linkage::math::{KeepNan, Motion, Vec2, cross, rotated, turned, unit};
 use linkage::mechanism::{DrivingLink, GROUND, Group, JointSide, Mechanism};
@@ -131,35 +132,6 @@ pub struct Chain {
     largest: f64,
     memory: Memory,
     tally: Box<WorkTally>,
-}
-
-/// A joint between a node and its parent whose coordinate is given.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::assur) struct Given {
-    pub(in crate::assur) node: usize,
-    /// Number of the drive.
-    pub(in crate::assur) drive: usize,
-    /// The sign of the coordinate from the parent to the node, and the same divided by the unit of the node's unknown.
-    pub(in crate::assur) sign: f64,
-    pub(in crate::assur) factor: f64,
-    pub(in crate::assur) is_slide: bool,
-    /// The node that has the parent's angle as its unknown.
-    parent_spin: Option<usize>,
-}
-
-impl Given {
-    /// The given coordinates of a group's joints; `size` is the unit of slides (m).
-    fn all(mechanism: &Mechanism, nodes: &[Node], drivers: &[DrivingLink], size: f64) -> Vec<Self> {
-        let of = |(drive, driver): (usize, &DrivingLink)| {
-            let node = nodes.iter().position(|node| node.joint == driver.joint)?;
-            let sign = if mechanism.joints()[driver.joint].second.link == nodes[node].link { 1.0 } else { -1.0 };
-            let is_slide = driver.input == Input::Slide;
-            let factor = if is_slide { sign / size } else { sign };
-            let parent_spin = nodes[node].parent_node.and_then(|parent| nodes[parent].spin);
-            Some(Given { node, drive, sign, factor, is_slide, parent_spin })
-        };
-        drivers.iter().enumerate().filter(|(_, driver)| driver.in_group).filter_map(of).collect()
-    }
 }
 
 impl Chain {

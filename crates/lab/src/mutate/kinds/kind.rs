@@ -89,7 +89,7 @@ impl FaultKind {
     }
 }
 
-/// Conversion of a change's return value.
+/// Return value of a function that plants a fault: an `Option`, or nothing if the function always changes something.
 pub(in crate::mutate) trait Told<T> {
     /// The changed value; `None` if there was nothing to change.
     fn told(self) -> Option<T>;

@@ -89,8 +89,8 @@ impl Node {
     }
 }
 
-/// A vector of the tree. It leads from the joint of a node to its parent to another joint on the node's link, or it is
-/// the slide of the node.
+/// A vector of the tree: from the joint between a node's link and its parent to another joint on the node's link, or
+/// along the slide of the node.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::assur) struct Arrow {
     pub(in crate::assur) node: usize,
