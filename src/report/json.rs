@@ -64,7 +64,7 @@ rows! {
         recording["Option::is_none"]: Option<String> = recording,
         /// The parts of the mechanism on which no requested channel depends.
         left_out: Left = Left::of(left),
-        /// The work, part by part.
+        /// The work of each part of the proof.
         work: Vec<Part> = proof.work.iter().map(Part::of).collect(),
     }
 
@@ -270,7 +270,7 @@ impl Failure {
 }
 
 impl Document {
-    /// An empty document whose advice names no options.
+    /// An empty document. Its advice does not name command-line options.
     #[must_use]
     pub fn new() -> Self {
         Document::told_by(Advice::to_string)

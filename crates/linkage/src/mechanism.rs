@@ -130,7 +130,7 @@ impl Mechanism {
         &self.transmissions
     }
 
-    /// The statements of all transmissions.
+    /// The given data of all transmissions.
     #[must_use]
     pub fn transmission_designs(&self) -> Vec<TransmissionDesign> {
         self.transmissions.iter().map(|own| own.design.clone()).collect()

@@ -3,10 +3,9 @@
 //!
 //! For every link, m (a - g) = sum of joint forces + loads.
 //! Also J alpha = sum of the moments of these forces about the mass centre + moments of the loads.
-//! A joint has as many unknown components as equations.
-//! For a revolute joint, the components are the two components of its force.
-//! For a prismatic joint, the components are the force across its axis, at its point on the second link, and the
-//! moment.
+//! The reaction of a joint has as many unknown components as the joint has constraint equations.
+//! For a revolute joint, these are the two components of its force.
+//! For a prismatic joint, these are the force across its axis, at its point on the second link, and the moment.
 //!
 //! The unknowns are the components in the joints that the tree cuts.
 //! The force and moment that a tree joint must transmit to its outer link follow from the motion of all links beyond

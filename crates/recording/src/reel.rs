@@ -40,7 +40,7 @@ pub struct ReelMessage<'a> {
 struct Entry {
     time: u64,
     topic: u16,
-    /// Where its bytes end.
+    /// End of the message in `data` of the reel. The message begins at the end of the previous message.
     end: usize,
 }
 

@@ -85,7 +85,8 @@ fn panel(family: &StressFamily, outcomes: &[&StressOutcome], names: &[&str], gro
     let clipped = |error: f64| if error.is_nan() { ERRORS[1] } else { error.clamp(3.0 * ERRORS[0], ERRORS[1]) };
     let mut is_empty = true;
     for (number, name) in names.iter().enumerate() {
-        // Errors and bounds of a party are connected by a line; the line is interrupted where a value is not a number.
+        // Each party has two lines: one through its errors, and one through its bounds.
+        // Both lines are interrupted where the party has no numbers.
         let mut lines: Vec<[Vec<Vec2>; 2]> = vec![Default::default()];
         let mut marks = Vec::new();
         for own in outcomes {

@@ -32,7 +32,7 @@ fn point(at: Vec2) -> Value {
     json!([at.x, at.y])
 }
 
-/// A parallelogram that passes its change point smoothly; beside the change point nothing is proven.
+/// A parallelogram that passes its change point smoothly. Near the change point no clearance is proven.
 fn smooth() -> String {
     let mut spec = four_bar([0.4, 0.1, 0.4, 0.1], false);
     (spec.start, spec.dt) = (60f64.to_radians(), None);

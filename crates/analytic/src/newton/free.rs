@@ -4,6 +4,7 @@
 //! V = J^-1 E has one column per drive. Then q'' = a0 + V alpha.
 //! V^T J^T lambda = E^T lambda are the moments of the drives, which motor and rotor determine.
 //! The equations for alpha are (V^T M V + added) alpha = T + V^T (Q - M a0).
+//! T is the moment of the motor, and `added` the moment of inertia of rotor and reducer, both on the first drive.
 //! The multipliers then are the reactions (Haug 1989, section 6.6, as in `solver`).
 //! See docs/numerics/forces.md.
 

@@ -69,8 +69,8 @@ impl System<'_> {
             way / drive.input.span(size)
         };
         let turn = self.case.drives.iter().map(turned).fold(0.0, f64::larger);
-        // Refuse too many turns. If a law reaches its top speed only for a moment, this check is the only limit of
-        // `turn`.
+        // Refuse too many turns. With a varying speed, `turn` is computed from the top speed and may be much larger
+        // than the real angle. Only this check limits it.
         if !(turn <= 2.0 * Grid::MOST_TURNS * TAU) {
             let turns = turn / TAU;
             return Err(self.lost(&sentences::up_to_turns_on_the_way_to_are_too(&format_args!("{turns:.1e}"), &t)));

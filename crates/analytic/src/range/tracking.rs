@@ -89,9 +89,9 @@ const FAR: f64 = 50.0;
 /// Beyond this distance from the crank's pivot, in units of the mechanism's size, steps grow in proportion to the
 /// distance.
 const NEAR: f64 = 2.0;
-/// The extrapolation to links at infinity ends if its result changes by less than this (rad) when the nearest pose is
-/// left out.
-/// Poses farther out would then give no more information.
+/// The pose with links at infinity is extrapolated from poses with distant links. It is accurate enough if it changes
+/// by less than this (rad) when the pose with the most distant links is left out.
+/// Poses with still more distant links are then not needed.
 const AGREED: f64 = 1e-9;
 /// Growth factor of the extent between two extrapolations to links at infinity.
 const FARTHER: f64 = 1.2;

@@ -82,7 +82,7 @@ fn place_within(labels: &[PlacedLabel], obstacles: &Obstacles, most: usize) -> V
 
 /// Lets neighbouring labels exchange positions if the exchange lowers their total cost.
 /// Without exchanges, a label would keep its position even if its neighbour needs this position more.
-/// Each pair uses two of the searches counted in `left`.
+/// Each pair of neighbours needs two calls of `cheapest`. `left` is the number of calls that remain.
 fn trade(labels: &[PlacedLabel], places: &mut [Option<Vec2>], obstacles: &Obstacles, left: &mut usize) {
     let both = |a: usize, b: usize, places: &[Option<Vec2>]| {
         let one = |index: usize| places[index].map_or(f64::INFINITY, |at| cost(index, at, labels, places, obstacles));

@@ -246,7 +246,7 @@ impl Drive {
     }
 
     /// Returns this drive with the law's top speed at all times.
-    /// A free link stays free: its nominal motion already has that speed.
+    /// The drive of a free link is returned unchanged: the speed of its nominal motion is constant.
     #[must_use]
     pub fn at_top_speed(&self) -> Drive {
         let motion = match &self.motion {

@@ -2,7 +2,7 @@
 //!
 //! A member turns about an axle of the carrier, or slides in a guide of the carrier.
 //! The force between the members acts along a line of action. It is fixed in the carrier, except for cams.
-//! The line has the unit vector w, and a foot on each member.
+//! The line has the unit vector w. The force acts on each member at a point of the line, the member's foot.
 //! Along the line both members have the same speed: w . (v2 - v1) = 0 at the feet.
 //! With the coordinates q1 and q2 of the members relative to the carrier, q2' = f'(q1) q1', so q2 - f(q1) is constant.
 //! The law f is linear, except for cams.

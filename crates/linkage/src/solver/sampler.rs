@@ -251,7 +251,8 @@ impl Row<'_> {
     #[inline(always)]
     fn put<Of: Copy, const N: usize>(&mut self, rows: &[(Of, Stage); N], mask: Mask, read: impl Fn(Of) -> f64) {
         let mut put = 0;
-        // The loop over quantities is unrolled. Every quantity is then a constant, so the compiler removes the match.
+        // The loop over quantities is unrolled. Every quantity is then a constant, so the compiler removes the `match`
+        // in `read`.
         macro_rules! each {
             ($condition:ident: $($row:literal)*) => {{
                 const { assert!(N <= [$($row),*].len(), "every row of a subject is put") };

@@ -291,8 +291,9 @@ fn product(factor: &FormulaTree, entry: &FormulaTree) -> FormulaTree {
 }
 
 /// Missing amount at one position of the formula, for each of the few instants.
-/// Squares have two solutions, so the iteration uses three kinds of starting value.
-/// The starting value is neutral, or it is the amount at the previous or at the next instant.
+/// If the amount enters the formula as a square, for example, there are two solutions.
+/// The iteration is therefore run with three starting values: the neutral value, the amount at the previous instant,
+/// and the amount at the next instant. Different results are all returned.
 fn needed(trial: &mut Trial, place: usize, operator: Operator) -> Vec<Needed> {
     let depending = trial.sheet.depending(&[place]);
     let neutral = if operator == Operator::Plus { 0.0 } else { 1.0 };

@@ -110,7 +110,7 @@ fn masses(case: &Case) -> Vec<(Change, Make)> {
         if link.inertia > 0.0 && case.mechanism.can_turn(index) {
             put(CasePart::Body, Box::new(move |case| without_masses(case, &[index])));
         }
-        // Without gravity, a mass only causes inertia forces, so weights are not changed.
+        // Without gravity there is no weight, and resistance to acceleration is the only effect of a mass.
         if case.gravity.norm() > 0.0 {
             let lifted = move |case: &Case| case.with(|parts| parts.loads.push(weight(case, index, -1.0))).ok();
             put(CasePart::Weight, Box::new(lifted));

@@ -60,12 +60,13 @@ pub(super) struct Observed {
     pub(super) to_knot: Vec<f64>,
 }
 
-/// Several values at every instant, in one list.
+/// Several vectors at every instant, in one list: the velocities whose direction loads depend on, and vectors that
+/// reverse where the crank passes a jump of a table.
 #[derive(Clone, Debug)]
 pub(super) struct Senses {
     each: usize,
     values: Vec<Vec2>,
-    /// Whether the load would jump if this velocity reversed at this instant.
+    /// For each vector, whether its load would jump if the vector reversed at this instant.
     jumps: Vec<bool>,
 }
 
@@ -74,12 +75,12 @@ impl Senses {
         Senses { each, values: vec![Vec2::zeros(); each * rows], jumps: vec![false; each * rows] }
     }
 
-    /// The values of one row of the grid.
+    /// The vectors of one row of the grid.
     pub(super) fn of(&self, row: usize) -> &[Vec2] {
         &self.values[row * self.each..][..self.each]
     }
 
-    /// For each load, whether it would jump if its velocity reversed at this row.
+    /// For each vector of [`Senses::of`], whether its load would jump if the vector reversed at this row.
     pub(super) fn jumps(&self, row: usize) -> &[bool] {
         &self.jumps[row * self.each..][..self.each]
     }

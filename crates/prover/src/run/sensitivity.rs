@@ -1,5 +1,5 @@
 //! Sensitivity of a free motion to the forces that cause it.
-//! The sensitivity is the condition of the problem, whatever the solver.
+//! The sensitivity is the condition number of the problem and does not depend on the solver.
 //! See docs/numerics/bounds.md.
 
 use crate::bounds::largest_difference;

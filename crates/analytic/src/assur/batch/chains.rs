@@ -12,8 +12,8 @@ use crate::assur::groups::{self, Hangs};
 use linkage::math::Vec2;
 use linkage::mechanism::LinkId;
 
-/// Numbers per start: direction of the link at the anchor (2), fraction of the interval to the next anchor (1), and
-/// coefficients of the rotation from the anchor (5, rad).
+/// Number of columns for the starting value of a link: its direction at the anchor (2), the fraction of the interval to
+/// the next anchor (1), and coefficients of the rotation from the anchor (5, rad).
 pub(super) const OF_START: usize = 8;
 /// A link, and the joint to its parent. This joint is the link's pole.
 #[derive(Clone, Debug)]

@@ -78,7 +78,8 @@ fn rename(tree: &mut FormulaTree, [one, other]: [&str; 2]) {
     }
 }
 
-/// The symbols of the part in the same order, with another grouping that the rules cannot express:
+/// The symbols of the part in the same order, with other parentheses. Only groupings that the table of rules
+/// (`rules.rs`) cannot express are returned:
 /// a*b + c + d for a*(b + c + d), a/b + c for a/(b + c), sin(a) + b for sin(a + b), sin(a^2) for sin(a)^2.
 fn regrouped(part: &FormulaTree) -> Option<FormulaTree> {
     let first = first_of(part);
