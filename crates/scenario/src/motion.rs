@@ -13,7 +13,7 @@ use super::words::{Words, names, suggestion};
 use linkage::drive::{Drive, DriveMotion, Drives, MotionLaw};
 use linkage::error::Result;
 use linkage::input::{Input, InputValue};
-use linkage::math::{Curve, Piecewise, Vec2};
+use linkage::math::{Curve, KeepNan, Piecewise, Vec2};
 use linkage::mechanism::{LinkId, Mechanism};
 
 /// Descriptions of the keys that this module reads.
@@ -271,7 +271,7 @@ fn begun(
     start: Option<f64>,
 ) -> Result<(MotionLaw, f64)> {
     match (begin, start) {
-        (Some(begin), Some(start)) if !((begin - start).abs() <= 1e-12 * start.abs().max(1.0)) => {
+        (Some(begin), Some(start)) if !((begin - start).abs() <= 1e-12 * start.abs().larger(1.0)) => {
             let rounded = |value: f64| {
                 format!("{:.6}", input.shown(value)).trim_end_matches('0').trim_end_matches('.').to_string()
             };

@@ -168,23 +168,18 @@ impl Transmission {
         let mut cam = None;
         let second_axle = || axle(second).map(|[place, local]| Member { link: second, place, radius: 0.0, local });
         let slide = guide(joints, second, carrier);
+        let sliding_line = || match slide {
+            Some((_, line)) => Ok(line),
+            None => Err(design.fault(sentences::THE_RACK_DOES_NOT_SLIDE, sentences::JOIN_THE_RACK)),
+        };
         let ([one, other], lines) = match design.kind {
-            TransmissionKind::Rack { .. } | TransmissionKind::Screw { .. } => {
-                let (_, line) =
-                    slide.ok_or_else(|| design.fault(sentences::THE_RACK_DOES_NOT_SLIDE, sentences::JOIN_THE_RACK))?;
-                let [at, axis, _] = line;
-                match design.kind {
-                    TransmissionKind::Screw { lead } => {
-                        rack(one, line, second, 0.0, place - turned(axis) * (lead / TAU))
-                    }
-                    _ => rack(
-                        one,
-                        line,
-                        second,
-                        design.pressure_angle().unwrap_or(0.0),
-                        at + axis * axis.dot(&(place - at)),
-                    ),
-                }
+            TransmissionKind::Rack { pressure_angle } => {
+                let line = sliding_line()?;
+                rack(one, line, second, pressure_angle, line[0] + line[1] * line[1].dot(&(place - line[0])))
+            }
+            TransmissionKind::Screw { lead } => {
+                let line = sliding_line()?;
+                rack(one, line, second, 0.0, place - turned(line[1]) * (lead / TAU))
             }
             TransmissionKind::Gears { teeth, pressure_angle } => gears([one, second_axle()?], teeth, pressure_angle),
             TransmissionKind::Belt { radii, crossed, slack: _ } => belt([one, second_axle()?], radii, crossed),

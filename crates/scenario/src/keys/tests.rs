@@ -8,7 +8,7 @@ use crate::reader::asked;
 use crate::{Scenario, files_in};
 
 /// Changes of a scenario that make readers request keys that no scenario of the repository has.
-const CHANGES: [(&str, &str, &str); 16] = [
+const CHANGES: [(&str, &str, &str); 17] = [
     (
         "crank_rocker",
         "speed_rpm = 130",
@@ -17,6 +17,7 @@ const CHANGES: [(&str, &str, &str); 16] = [
     ("crank_rocker", "law = \"linear\"\ntorque_at_rest_N_m = 22.51", "law = \"constant\"\ntorque_N_m = 5"),
     ("crank_rocker", "speed_rpm = 130", "law = \"harmonic\"\namplitude_deg = 9\nperiod_s = 1\nphase_deg = 0"),
     ("crank_rocker", "speed_rpm = 130", "law = \"formula\"\nformula = \"3*t\"\ntime_s = 1"),
+    ("cam_follower", "type = \"cam\"", "type = \"screw\"\nlead_mm = 1"),
     ("cam_follower", "motion = [", "formula = \"0.01*sin(phi)\"\nx = ["),
     ("cam_follower", "motion = [", "lifts = [{ angle_deg = 0, lift_mm = 0 }, { angle_deg = 9, lift_mm = 1 }]\nx = ["),
     (

@@ -77,9 +77,11 @@ fn contact(table: &mut TomlTable, follower: Follower, point: Vec2, radius: Optio
 /// A law of a cam, and the units of its lifts, if it states units.
 type Law = (CamLaw, Option<&'static UnitFamily>);
 
+/// Reads a law of a cam.
+type ReadLaw = fn(&mut TomlTable) -> Result<Law>;
+
 /// The ways to state the law of a cam, each with its reader.
-const LAWS: [(&str, fn(&mut TomlTable) -> Result<Law>); 3] =
-    [("motion", pieces), ("lifts", lifts), ("formula", formula)];
+const LAWS: [(&str, ReadLaw); 3] = [("motion", pieces), ("lifts", lifts), ("formula", formula)];
 
 fn law(table: &mut TomlTable) -> Result<Law> {
     let mut stated = LAWS.into_iter().filter(|(key, _)| table.has(key));
