@@ -19,7 +19,7 @@ from mcap_protobuf.decoder import DecoderFactory
 
 # Texts of robots' programs: four bytes of encoding, a length, the text, a zero.
 TEXT = {"/robot_description": "std_msgs/msg/String"}
-OWN = {"grid": "Grid", "link": "Link", "point": "Point", "joint": "Joint", "frame": "Frame", "drive": "Drive"}
+OWN = {"grid": "Grid", "link": "Link", "point": "Point", "joint": "Joint", "transmission": "Transmission", "frame": "Frame", "drive": "Drive"}
 FOXGLOVE = {
     "/tf": "FrameTransforms",
     "/mechanism/links": "SceneUpdate",
@@ -80,8 +80,9 @@ def load(path):
 
 def check_numbers(schemas, messages, slow):
     """The topics of every sample; log times run `slow` times slower than the simulation."""
-    # A joint that slides has more fields, and a schema of its own.
-    wrong = [f"{t} is {s}" for t, s in schemas.items() if s.replace("Slider", "Joint") != expected_schema(t)]
+    # Joints that slide or have friction have more fields, and slides are driven by forces.
+    plain = lambda schema: schema.replace("Slider", "Joint").replace("Rubbing", "").replace("Thrust", "")
+    wrong = [f"{t} is {s}" for t, s in schemas.items() if plain(s) != expected_schema(t)]
     check("every topic has the schema of its name", not wrong, ", ".join(wrong) or f"{len(schemas)} topics")
     disorder = [t for t, ms in messages.items() if any(b[0] < a[0] for a, b in zip(ms, ms[1:]))]
     check("log times ascend in every topic", not disorder, ", ".join(disorder))
@@ -145,7 +146,7 @@ def check_scene(path, schemas, messages, sides):
                 worst, compared = max(worst, float(np.abs(gap).max())), compared + 1
     check("lettered points are drawn where the numbers say", worst < 4 * DRAWING * max(size, 1.0), f"{compared} compared, {worst:.1e} m")
 
-    sliding = sorted({t.split("/", 3)[3] for t, s in schemas.items() if s == "linkproof.Slider"})
+    sliding = sorted({t.split("/", 3)[3] for t, s in schemas.items() if s in ("linkproof.Slider", "linkproof.RubbingSlider")})
     if sliding:
         blocks = [line for e in framed for line in e.lines if line.type == 1 and len(line.points) == 4]
         check("every sliding joint has its block", len(blocks) >= len(sliding) * len(sides), f"{', '.join(sliding)}: {len(blocks)} blocks")

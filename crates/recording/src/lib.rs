@@ -5,7 +5,7 @@
 //! | `/<side>/grid` | `linkproof.Grid` | every sample |
 //! | `/<side>/link/<name>`, `/<side>/point/<name>` | `linkproof.Link`, `linkproof.Point` | every sample |
 //! | `/<side>/frame`, `/<side>/drive` | `linkproof.Frame`, `linkproof.Drive` | every sample |
-//! | `/<side>/joint/<name>` | `linkproof.Joint`; `linkproof.Slider` of a prismatic joint | every sample |
+//! | `/<side>/joint/<name>` | `linkproof.Joint`; `linkproof.Slider` of a prismatic joint; both with `Rubbing` before the name if the joint has friction | every sample |
 //! | `/error/link/<name>`, ... | `linkproof.LinkError`, ...: um, urad, mN | every sample |
 //! | `/mechanism/links` | `foxglove.SceneUpdate` | once |
 //! | `/robot_description` | `std_msgs/msg/String`: the links as URDF, for viewers without scenes | once |

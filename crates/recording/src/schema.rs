@@ -35,9 +35,19 @@ pub fn grid(input: Input) -> MessageKind {
 }
 
 /// Number of a channel's field in the message of its subject.
+/// The channels of a joint, whether it slides or has friction, have different numbers.
 pub fn tag(kind: &ChannelKind) -> u32 {
-    let place = kinds(kind.subject).position(|own| own.suffix == kind.suffix);
+    let is_beside = |own: &&ChannelKind| own.subject == kind.subject || is_of_joint(own) && is_of_joint(kind);
+    let place = CHANNELS.iter().filter(is_beside).position(|own| own.suffix == kind.suffix);
     place.expect("every kind is a row of the table") as u32 + 1
+}
+
+fn is_of_joint(kind: &ChannelKind) -> bool {
+    kind.subject.word() == ChannelSubject::Joint.word()
+}
+
+fn is_of_friction(kind: &ChannelKind) -> bool {
+    matches!(kind.subject, ChannelSubject::Journal | ChannelSubject::Guide)
 }
 
 /// Name of a channel's error with its small unit, and the number of these units in the SI unit.
@@ -116,18 +126,24 @@ pub fn field_names(descriptor: &[u8], full_name: &str) -> Result<BTreeMap<u32, S
     Ok(numbers.map(|field| (field.number() as u32, field.name().to_string())).collect())
 }
 
-/// Channels in the message of a subject.
+/// Channels in the message of a subject, without friction.
 /// The message of a sliding joint has the channels of any joint, and additional channels.
 fn kinds(subject: ChannelSubject) -> impl Iterator<Item = &'static ChannelKind> {
     let joint = subject == ChannelSubject::Slider;
     CHANNELS.iter().filter(move |kind| kind.subject == subject || joint && kind.subject == ChannelSubject::Joint)
 }
 
-/// The message of a subject with these channels, named after the subject.
+/// The message of a subject with these channels, named after the subject. A joint with friction has a separate message.
 /// If channels are missing, the name also contains the numbers of the present fields.
 /// Without these numbers, viewers would confuse messages with the same name but different fields.
 pub fn of_subject(subject: ChannelSubject, told: MessageContent, own: &[&ChannelKind]) -> MessageKind {
-    let word = if subject == ChannelSubject::Slider { "slider" } else { subject.word() };
+    let word = if subject == ChannelSubject::Slider {
+        "slider"
+    } else if matches!(subject, ChannelSubject::Thrust | ChannelSubject::FurtherThrust) {
+        "driveThrust"
+    } else {
+        subject.word()
+    };
     let (suffix, number) = match told {
         MessageContent::Values => ("", Type::Double),
         MessageContent::Errors => ("Error", Type::Float),
@@ -136,9 +152,11 @@ pub fn of_subject(subject: ChannelSubject, told: MessageContent, own: &[&Channel
         MessageContent::Values => kind.suffix.to_string(),
         MessageContent::Errors => small_unit(kind).0,
     };
-    let mut name = word[..1].to_uppercase() + &word[1..] + suffix;
+    let rubs = own.iter().any(|kind| is_of_friction(kind));
+    let mut name = if rubs { String::from("Rubbing") } else { String::new() };
+    name += &(word[..1].to_uppercase() + &word[1..] + suffix);
     let fields: BTreeMap<u32, String> = own.iter().map(|kind| (tag(kind), field(kind))).collect();
-    if fields.len() < kinds(subject).count() {
+    if fields.len() < kinds(subject).count() + usize::from(rubs) {
         name.extend(fields.keys().map(|tag| format!("_{tag}")));
     }
     message(&name, fields.into_iter(), number)

@@ -24,6 +24,7 @@ use crate::sentences;
 
 mod geometry;
 
+pub use geometry::Member;
 use geometry::{COINCIDE, axle, belt, gears, guide, rack, sense, sliding};
 
 /// Kind of transmission.
@@ -131,19 +132,6 @@ impl Coordinate {
             Coordinate::Slide(joint) => Some(joint),
         }
     }
-}
-
-/// A member of a transmission.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Member {
-    /// The link.
-    pub link: LinkId,
-    /// Axle of a wheel in the frame of the carrier (m); for a rack, the foot of the pinion's axle on the pitch line.
-    pub place: Vec2,
-    /// Pitch radius (m); 0 for a rack.
-    pub radius: f64,
-    /// The axle of a wheel in the frame of the link (m); for a rack, the joint's point on the link.
-    pub local: Vec2,
 }
 
 impl Transmission {

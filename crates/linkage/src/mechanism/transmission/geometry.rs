@@ -4,8 +4,20 @@ use super::super::cam::Follower;
 use super::super::contact::LineOfAction;
 use super::super::ids::{JointId, LinkId, PerJoint};
 use super::super::parts::Joint;
-use super::Member;
 use crate::math::{Vec2, cross, rotated, turned};
+
+/// A member of a transmission.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Member {
+    /// The link.
+    pub link: LinkId,
+    /// Axle of a wheel in the frame of the carrier (m); for a rack, the foot of the pinion's axle on the pitch line.
+    pub place: Vec2,
+    /// Pitch radius (m); 0 for a rack.
+    pub radius: f64,
+    /// The axle of a wheel in the frame of the link (m); for a rack, the joint's point on the link.
+    pub local: Vec2,
+}
 
 /// Distance of two axles, as a fraction of the mechanism's size, below which they coincide.
 pub(super) const COINCIDE: f64 = 1e-9;

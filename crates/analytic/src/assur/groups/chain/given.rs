@@ -1,6 +1,6 @@
 //! Joints of a group whose coordinates are given.
 
-use super::Node;
+use super::contour::Node;
 use linkage::input::Input;
 use linkage::mechanism::{DrivingLink, Mechanism};
 
