@@ -50,7 +50,7 @@ pub(crate) fn picture(all: &[Drawn], wish: &PictureOptions, medium: Medium) -> R
     for own in all {
         let mut cells = own.cells(wish, medium, room);
         if all.len() > 1 {
-            cells.iter_mut().for_each(|cell| cell.heading.insert(0, own.headline()));
+            cells.iter_mut().for_each(|cell| cell.heading.insert(0, own.headline.clone()));
         }
         match wish.each_mode {
             true => sheets[0].extend(cells),
@@ -63,7 +63,7 @@ pub(crate) fn picture(all: &[Drawn], wish: &PictureOptions, medium: Medium) -> R
     }
     let (title, subtitle) = match all {
         [one] if medium.moves() => (one.name.clone(), one.title.as_str()),
-        [one] => (one.headline(), one.title.as_str()),
+        [one] => (one.headline.clone(), one.title.as_str()),
         _ => (all.iter().map(|own| own.name.as_str()).collect::<Vec<_>>().join(", "), ""),
     };
     let pages: Vec<_> = sheets.iter().map(|cells| sheet(&title, subtitle, cells, room.x)).collect();

@@ -11,7 +11,6 @@ use drawing::view::{DrawnSubject, Extras, Shot, Trace, cells};
 use drawing::{Sketch, Travels, acting, unit};
 use linkage::drive::Drive;
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::input::Input;
 use linkage::math::Vec2;
 use linkage::mechanism::assembly::ConfigurationChoice;
 use linkage::mechanism::{AssemblyMode, DrivingLink, GROUND, LinkId, LinkPose, Mechanism, StartGroup, Structure};
@@ -34,12 +33,8 @@ pub(crate) enum Note {
 pub(crate) struct Drawn {
     pub(crate) name: String,
     pub(super) title: String,
-    /// Value of the input in the first frame (SI).
-    crank: f64,
-    /// What the input measures.
-    input: Input,
-    /// Whether the file has no drive and nothing moves.
-    is_fixed: bool,
+    /// The name, and the value of the input in the first frame in words. A structure without a drive has only its name.
+    pub(super) headline: String,
     mechanism: Mechanism,
     drives: Vec<Drive>,
     loads: Vec<linkage::drive::Load>,
@@ -85,11 +80,6 @@ impl Drawn {
         self
     }
 
-    /// The name, and the value of the input in words.
-    pub(super) fn headline(&self) -> String {
-        if self.is_fixed { self.name.clone() } else { format!("{}, {}", self.name, self.input.marked(self.crank)) }
-    }
-
     /// The cells of all frames; `room` is the size of the area (mm).
     pub(super) fn cells(&self, wish: &PictureOptions, medium: Medium, room: Vec2) -> Vec<SheetCell> {
         let Drawn { mechanism, drives, loads, gravity, .. } = self;
@@ -112,7 +102,9 @@ impl Drawn {
     }
 
     fn new(draft: Draft, crank: f64, shots: Vec<Shot>) -> Drawn {
-        let (has_mistakes, input, is_fixed) = (draft.mistakes.is_some(), draft.input(), draft.is_fixed());
+        let has_mistakes = draft.mistakes.is_some();
+        let input = (!draft.is_fixed()).then(|| format!(", {}", draft.input().marked(crank)));
+        let headline = draft.name.clone() + &input.unwrap_or_default();
         let drives = if draft.is_driven_by_guess { Vec::new() } else { draft.drives };
         let Draft { name, title, mechanism, loads, gravity, .. } = draft;
         let mut travels = Travels::none(&mechanism);
@@ -122,9 +114,7 @@ impl Drawn {
         Drawn {
             name,
             title,
-            crank,
-            input,
-            is_fixed,
+            headline,
             mechanism,
             drives,
             loads,

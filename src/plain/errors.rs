@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
 use super::Tell;
-use super::cells::{distinct, some};
+use super::cells::{counted, distinct, some};
 use crate::sentences;
 use files::{visible, visible_lines};
 use linkage::error::Error;
@@ -54,9 +54,8 @@ fn others(others: &[&Error]) -> String {
     match lines.as_slice() {
         [] => String::new(),
         lines => {
-            let times = if others.len() == 1 { "time" } else { "times" };
             let place = if lines.len() == 1 { "line" } else { "lines" };
-            sentences::also_in_places(&others.len(), &times, &place, &some(lines, MOST_LINES))
+            sentences::also_in_places(&counted(others.len(), "more time"), &place, &some(lines, MOST_LINES))
         }
     }
 }

@@ -100,8 +100,8 @@ fn effort(input: Input) -> (&'static str, &'static str) {
 pub(crate) fn json(journals: Journals, scenario: &Scenario, peaks: &Peaks) -> String {
     let input = scenario.case.crank().input;
     let whole = |peak: Peak, unit: &str| json!({unit: peak.value, input.key(): peak.crank});
-    let (effort, unit) = effort(input);
-    let [effort, unit] = [effort, unit].map(|name| name.replace(' ', "_"));
+    let keys = |input: Input| <[&str; 2]>::from(effort(input)).map(|name| name.replace(' ', "_"));
+    let [effort, unit] = keys(input);
     let joints = list(scenario.case.mechanism.joints().iter().enumerate(), |(index, joint)| {
         json!({
             "joint": joint.name, "reaction": whole(peaks.reactions[index], "N"),
@@ -117,8 +117,7 @@ pub(crate) fn json(journals: Journals, scenario: &Scenario, peaks: &Peaks) -> St
         "stress_Pa": journals.stress_mpa * 1e6, "joints": joints, "shaking_force": whole(peaks.shaking_force, "N"),
         effort: whole(peaks.balancing_moment, &unit),
         "further_drives": list(further, |(drive, &peak)| {
-            let (name, unit) = self::effort(drive.input);
-            let [name, unit] = [name, unit].map(|name| name.replace(' ', "_"));
+            let [name, unit] = keys(drive.input);
             json!({"joint": joints_of[drive.joint].name, name: whole(peak, &unit)})
         }),
         "transmissions": list(transmissions, |(own, &peak)| json!({"name": own.name(), "force": whole(peak, "N")})),

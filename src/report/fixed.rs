@@ -1,12 +1,13 @@
 //! A structure without a drive: its groups and all its configurations.
 
-use serde_json::{Value, json};
+use serde_json::json;
 
+use super::modes::{points_json, points_text};
 use super::pretty::{list, pretty};
 use crate::sentences;
 use drawing::lay::{Laid, all_modes};
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::mechanism::{AssemblyMode, Structure};
+use linkage::mechanism::{AssemblyMode, LinkPose, Structure};
 use prover::numbers::fixed;
 use scenario::Draft;
 
@@ -19,7 +20,24 @@ pub(crate) struct FixedStructure<'a> {
     draft: &'a Draft,
     structure: &'a Structure,
     /// All configurations that can be assembled.
-    configurations: Vec<Laid>,
+    configurations: Vec<Configuration>,
+}
+
+/// A configuration of the whole structure.
+#[derive(Debug)]
+struct Configuration {
+    /// The modes of its groups that have names.
+    modes: Vec<&'static str>,
+    /// Pose of every link, the ground included.
+    poses: Vec<LinkPose>,
+}
+
+impl Configuration {
+    fn of(laid: &Laid) -> Self {
+        let named = |mode: &AssemblyMode| !matches!(mode, AssemblyMode::Only | AssemblyMode::Followed);
+        let modes = laid.modes.iter().map(|own| own.mode).filter(named).map(AssemblyMode::name).collect();
+        Configuration { modes, poses: laid.places.iter().filter_map(|place| place.pose().copied()).collect() }
+    }
 }
 
 impl<'a> FixedStructure<'a> {
@@ -31,7 +49,8 @@ impl<'a> FixedStructure<'a> {
         let structure = draft.structure.as_ref().map_err(Error::clone)?;
         let all = all_modes(&draft.mechanism, structure, &[], &draft.starts, MOST);
         let open = all.iter().find_map(|laid| laid.faults.first().cloned());
-        let configurations: Vec<Laid> = all.into_iter().filter(Laid::is_whole).collect();
+        let configurations: Vec<Configuration> =
+            all.iter().filter(|laid| laid.is_whole()).map(Configuration::of).collect();
         if configurations.is_empty() {
             return Err(open.unwrap_or_else(|| Error::new(ErrorKind::Geometry, sentences::NO_CONFIGURATION_CLOSES)));
         }
@@ -53,16 +72,11 @@ impl<'a> FixedStructure<'a> {
         }
         let cut = if configurations.len() < MOST { "" } else { sentences::OR_MORE };
         say!(text, sentences::configurations_of_the_structure(&configurations.len(), &cut));
-        for (number, laid) in configurations.iter().enumerate().filter(|_| lists) {
-            say!(text, "  {}{}", number + 1, modes(laid).iter().map(|mode| format!(", {mode}")).collect::<String>());
-            for (link, place) in links.iter().zip(&laid.places).skip(1) {
-                let Some(pose) = place.pose() else { continue };
-                let points = link.points.iter().map(|point| {
-                    let at = pose.point(point.local);
-                    format!("{} ({}, {})", point.name, fixed(at.x, 6), fixed(at.y, 6))
-                });
-                let (angle, points) = (fixed(pose.angle.to_degrees(), 5), points.collect::<Vec<_>>().join(", "));
-                say!(text, "    {:14} {angle:>11} deg   {points} m", link.name);
+        for (number, Configuration { modes, poses }) in configurations.iter().enumerate().filter(|_| lists) {
+            say!(text, "  {}{}", number + 1, modes.iter().map(|mode| format!(", {mode}")).collect::<String>());
+            for (link, pose) in links.iter().zip(poses).skip(1) {
+                let angle = fixed(pose.angle.to_degrees(), 5);
+                say!(text, "    {:14} {angle:>11} deg   {} m", link.name, points_text(link, pose));
             }
         }
         text
@@ -71,32 +85,21 @@ impl<'a> FixedStructure<'a> {
     /// The structure and all configurations as JSON, schema 1.
     pub(crate) fn json(&self) -> String {
         let FixedStructure { draft, structure, configurations } = self;
-        let name = |link: &linkage::mechanism::Link| Value::from(link.name.as_str());
         let links = draft.mechanism.links();
         let groups = list(&structure.groups, |group| {
-            let own = list(&group.links, |&link| name(&links[link]));
-            json!({"links": own, "class": group.class, "order": group.order(), "kind": group.pairs()})
+            let names = list(&group.links, |&link| links[link].name.as_str().into());
+            json!({"links": names, "class": group.class, "order": group.order(), "kind": group.pairs()})
         });
-        let configurations = list(configurations, |laid| {
-            let links = list(links.iter().zip(&laid.places).skip(1), |(link, place)| {
-                let pose = place.pose();
-                let points = list(&link.points, |point| {
-                    let at = pose.map(|pose| pose.point(point.local));
-                    json!({"name": point.name, "x_m": at.map(|at| at.x), "y_m": at.map(|at| at.y)})
-                });
-                json!({"name": link.name, "angle_rad": pose.map(|pose| pose.angle), "points": points})
-            });
-            json!({"modes": modes(laid), "links": links})
+        let configurations = list(configurations, |Configuration { modes, poses }| {
+            let links = list(
+                links.iter().zip(poses).skip(1),
+                |(link, pose)| json!({"name": link.name, "angle_rad": pose.angle, "points": points_json(link, pose)}),
+            );
+            json!({"modes": modes, "links": links})
         });
         pretty(&json!({
             "schema": 1, "scenario": draft.name, "title": draft.title, "mobility": structure.mobility,
             "formula": structure.formula(&draft.mechanism), "groups": groups, "configurations": configurations,
         }))
     }
-}
-
-/// The modes of a configuration that have names.
-fn modes(laid: &Laid) -> Vec<&'static str> {
-    let named = laid.modes.iter().map(|own| own.mode);
-    named.filter(|mode| !matches!(mode, AssemblyMode::Only | AssemblyMode::Followed)).map(AssemblyMode::name).collect()
 }

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 
 use super::pretty::list;
 use analytic::modes::Modes;
-use linkage::mechanism::{AssemblyMode, GroupId};
+use linkage::mechanism::{AssemblyMode, GroupId, Link, LinkPose};
 use prover::numbers::{fixed, input_told};
 use scenario::{Scenario, Undecided};
 
@@ -56,17 +56,29 @@ pub(crate) fn text(scenario: &Scenario, crank: f64, all: &[Modes], undecided: &[
                 let omega = mode.omegas.as_ref().map(|all| format!("{:>12} rad/s", fixed(all[k], 5)));
                 let omega = omega.unwrap_or_else(|| "singular".into());
                 let link = &mechanism.links()[link];
-                let points = link.points.iter().map(|point| {
-                    let at = pose.point(point.local);
-                    format!("{} ({}, {})", point.name, fixed(at.x, 6), fixed(at.y, 6))
-                });
-                let points = points.collect::<Vec<_>>().join(", ");
                 let angle = fixed(pose.angle.to_degrees(), 5);
-                say!(text, "    {:14} {angle:>11} deg {omega:<18}   {points} m", link.name);
+                say!(text, "    {:14} {angle:>11} deg {omega:<18}   {} m", link.name, points_text(link, pose));
             }
         }
     }
     text
+}
+
+/// Names and world positions of the points of a link.
+pub(super) fn points_text(link: &Link, pose: &LinkPose) -> String {
+    let points = link.points.iter().map(|point| {
+        let at = pose.point(point.local);
+        format!("{} ({}, {})", point.name, fixed(at.x, 6), fixed(at.y, 6))
+    });
+    points.collect::<Vec<_>>().join(", ")
+}
+
+/// Names and world positions of the points of a link as JSON.
+pub(super) fn points_json(link: &Link, pose: &LinkPose) -> Value {
+    list(&link.points, |point| {
+        let at = pose.point(point.local);
+        json!({"name": point.name, "x_m": at.x, "y_m": at.y})
+    })
 }
 
 /// The configurations as JSON.
@@ -78,10 +90,7 @@ pub(super) fn json(scenario: &Scenario, crank: f64, all: &[Modes], undecided: &[
         let modes = list(&found.modes, |mode| {
             let links = list(group.links.iter().zip(&mode.poses).enumerate(), |(k, (&link, pose))| {
                 let link = &mechanism.links()[link];
-                let points = list(&link.points, |point| {
-                    let at = pose.point(point.local);
-                    json!({"name": point.name, "x_m": at.x, "y_m": at.y})
-                });
+                let points = points_json(link, pose);
                 let omega = mode.omegas.as_ref().map(|all| all[k]);
                 json!({"name": link.name, "angle_rad": pose.angle, "omega_rad_s": omega, "points": points})
             });

@@ -24,7 +24,7 @@ linkage::sentences! {
     is_to_be_ignored_but_no_scenario(own) = "\"{own}\" is to be ignored, but no scenario has this name";
     THERE_IS_NO_SCENARIO_TOML = "there is no scenario (*.toml) in this folder";
     // plain/errors.rs
-    also_in_places(count, times, place, lines) = "\n   = note: the same mistake {count} more {times}, in {place} {lines}";
+    also_in_places(times, place, lines) = "\n   = note: the same mistake {times}, in {place} {lines}";
     // plain/brief.rs
     step_ms(numbers) = "step {numbers} ms";
     of_numbers_are_open(open, all) = "{open} of {all} results could not be decided";

@@ -16,7 +16,7 @@ use std::ops::Deref;
 
 use crate::Result;
 use crate::drive::load::sense_of;
-use crate::drive::{Action, Drive, InputState, Load, LoadState, Motor, Senses, Wrench};
+use crate::drive::{Action, Course, Drive, InputState, Load, LoadState, Motor, Senses, Wrench};
 use crate::input::{Input, InputValue};
 use crate::math::{KeepNan, Motion, Vec2};
 use crate::mechanism::{GROUND, JointSide, LinkId};
@@ -363,6 +363,11 @@ impl Case {
             }
             Senses::Point(_) => {}
         }
+    }
+
+    /// Crank angles (rad) at which tables of loads jump, each with the period of its table (rad).
+    pub fn load_jumps(&self) -> impl Iterator<Item = [f64; 2]> {
+        self.loads.iter().flat_map(Load::courses).flat_map(Course::jumps)
     }
 
     /// Whether a link can turn. A slider on the ground and the coupler of a parallelogram only translate.

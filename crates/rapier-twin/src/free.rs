@@ -4,6 +4,7 @@
 use super::added::Added;
 use super::friction::Braking;
 use super::guard::Guard;
+use super::jumps::Jumps;
 use super::rapier::Precision;
 use super::window::Window;
 use crate::sentences;
@@ -13,7 +14,7 @@ use linkage::drive::{Drive, Load, MotorBranch, Wrench};
 use linkage::engine::Settings;
 use linkage::engine::bodies::check_inertias;
 use linkage::error::Result;
-use linkage::math::{KeepNan, Motion, Vec2, just_below, unit};
+use linkage::math::{KeepNan, Motion, Vec2, unit};
 use linkage::mechanism::{GROUND, JointSide, LinkId};
 use linkage::solver::State;
 
@@ -43,10 +44,7 @@ pub(super) struct Acting {
     loads: Vec<Wrench>,
     /// The loads plus the loads that compensate added masses.
     relieved: Vec<Wrench>,
-    /// Crank angles (rad) at which the loads' tables jump, each with the period of its table (rad).
-    jumps: Vec<[f64; 2]>,
-    /// Rate of the input one step earlier (rad/s or m/s); NaN before the second step.
-    rate: f64,
+    jumps: Option<Jumps>,
     branch: Option<MotorBranch>,
     /// Moment of the motor on the crank (N m) that acts as a load in this step.
     /// It acts as a load because Rapier's motor cannot apply it.
@@ -74,8 +72,7 @@ impl Acting {
             setting_off: vec![0.0; links],
             loads: vec![Wrench::ZERO; links],
             relieved: vec![Wrench::ZERO; links],
-            jumps: case.loads.iter().flat_map(Load::courses).flat_map(|own| own.jumps()).collect(),
-            rate: f64::NAN,
+            jumps: Jumps::of(case),
             branch: None,
             direct: 0.0,
             added: worlds.iter().map(|guard| Added::of(case, guard.world().tree())).collect(),
@@ -132,11 +129,11 @@ impl Acting {
             }
         };
         case.loads_along(motions, angles, ANY_CRANK, sensed, way, &mut self.loads);
-        let crank = case.state_in(motions, angles);
-        // The engine turns the crank with the rate at the end of the step.
-        let next = if self.rate.is_nan() { crank.rate } else { 2.0 * crank.rate - self.rate };
-        self.rate = if window.newest() > 0 { crank.rate } else { f64::NAN };
-        if let Some((share, beyond)) = passed(&self.jumps, crank.value, next * (ends[1] - ends[0])) {
+        let passed = self
+            .jumps
+            .as_mut()
+            .and_then(|own| own.passed(case.state_in(motions, angles), ends[1] - ends[0], window.newest() == 0));
+        if let Some((share, beyond)) = passed {
             case.loads_along(motions, angles, beyond, sensed, way, &mut self.relieved);
             for (own, beyond) in self.loads.iter_mut().zip(&self.relieved) {
                 own.force = share * own.force + (1.0 - share) * beyond.force;
@@ -238,20 +235,6 @@ impl Acting {
     pub(super) fn direct(&self) -> f64 {
         self.direct
     }
-}
-
-/// The first jump of a table that the crank passes when it turns from an angle by `turn` (rad): the fraction of the step
-/// before it, and the crank angles beyond it.
-fn passed(jumps: &[[f64; 2]], crank: f64, turn: f64) -> Option<(f64, [f64; 2])> {
-    let of = |&[jump, period]: &[f64; 2]| {
-        let before = crank - jump - period * ((crank - jump) / period).floor();
-        let [way, next] =
-            if turn > 0.0 { [period - before, crank + period - before] } else { [before, crank - before] };
-        let beyond =
-            if turn > 0.0 { [-just_below(-next), f64::INFINITY] } else { [f64::NEG_INFINITY, just_below(next)] };
-        (way < turn.abs()).then(|| (way / turn.abs(), beyond))
-    };
-    jumps.iter().filter_map(of).min_by(|a, b| a.0.total_cmp(&b.0))
 }
 
 /// Gives worlds at the start pose the start velocities of the driving links.

@@ -10,6 +10,7 @@ mod free;
 mod friction;
 mod ghost;
 mod guard;
+mod jumps;
 mod lines;
 mod masses;
 mod native;

@@ -60,23 +60,24 @@ pub fn formula(table: &mut TomlTable, variable: CurveVariable, end: f64) -> Resu
         }),
         Err(fault) => Err(fault),
     };
-    let mut program = program.map_err(|fault| table.fault_in("formula", &fault))?;
-    let shift = program.run(&inputs(variable, 0.0))[0].value;
+    let program = program.map_err(|fault| table.fault_in("formula", &fault))?;
     // With other parameters, the same text is another function, so the parameters belong to the compared text.
     let numbers: Vec<String> = parameters.iter().map(|own| format!("{} = {:e}", own.key, own.given)).collect();
     let stated = Stated { text: format!("{text} | {}", numbers.join(", ")), variable, program: Mutex::new(program) };
-    let curve = Curve::Formula(FormulaCurve { of: Arc::new(stated), shift, factor: 1.0, end });
-    if let Some(x) = curve.places().into_iter().find(|&x| !curve.at(x).into_iter().all(f64::is_finite)) {
+    let begin = stated.at(0.0)[0];
+    let formula = FormulaCurve::new(Arc::new(stated), end);
+    if let Some(x) = formula.undefined_at() {
         let message = match variable {
             CurveVariable::Time => sentences::the_formula_is_undefined_at(&"t", &x, &"s"),
             CurveVariable::Angle => sentences::the_formula_is_undefined_at(&"phi", &x, &"rad"),
         };
         return table.refuse("formula", message, sentences::GIVE_A_FORMULA_WITH_TWO_DERIVATIVES);
     }
+    let curve = Curve::Formula(formula);
     if !(curve.range() > 0.0) {
         return Err(table.wrong(ErrorKind::Input, "formula", sentences::THE_FORMULA_IS_CONSTANT));
     }
-    Ok((curve, shift))
+    Ok((curve, begin))
 }
 
 /// Checks that a formula has the right variable and no kink.

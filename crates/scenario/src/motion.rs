@@ -177,7 +177,7 @@ fn drive(
         table.part(missing.map(|_| ()));
     }
     let (law, start) = law?;
-    if first.is_some() && law.constant() == Some(0.0) {
+    if first.is_some() && law.holds() {
         return table.refuse("law", sentences::THE_FIRST_DRIVE_HOLDS, sentences::PUT_A_MOVING_DRIVE_FIRST);
     }
     let stated = stated.unwrap_or(start);
@@ -250,12 +250,10 @@ const LAWS: Words<fn(&mut TomlTable, InputValue) -> Result<Begun>> = &[
     ("hold", hold),
 ];
 
-/// Keys that a constant speed does not have.
-const KEYS_OF_LAWS: [&str; 3] = ["law", "points", "formula"];
-
 fn law(table: &mut TomlTable, start: InputValue) -> Result<Begun> {
-    let quantities = ["to", "time", "amplitude", "period"];
-    if KEYS_OF_LAWS.iter().any(|key| table.has(key)) || quantities.iter().any(|key| table.has_si(key)) {
+    // Keys that a constant speed does not have.
+    let has_key = ["law", "points", "formula"].iter().any(|key| table.has(key));
+    if has_key || ["to", "time", "amplitude", "period"].iter().any(|key| table.has_si(key)) {
         return table.choice("law", sentences::IS_NO_LAW_OF_MOTION, LAWS)?(table, start);
     }
     table.optional_string("law")?;

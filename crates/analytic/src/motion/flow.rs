@@ -6,7 +6,7 @@ use std::cell::{Cell, RefCell};
 
 use differential_equations::ode::ODE;
 
-use super::knots::{BEYOND, Knots};
+use super::knots::{self, Knots};
 use super::march::Place;
 use super::side::{self, Held, Inputs};
 use super::step::Flow;
@@ -14,7 +14,7 @@ use linkage::case::{ANY_CRANK, Case};
 use linkage::drive::load::sense_of;
 use linkage::drive::{Load, MotorBranch, Senses};
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::math::{KeepNan, Vec2, cross, root};
+use linkage::math::{KeepNan, Vec2, cross, just_below, root};
 use linkage::mechanism::{JointId, JointSide, LinkId};
 use linkage::solver::State;
 use linkage::work::{Count, WorkTally};
@@ -257,9 +257,10 @@ impl<'a, const N: usize> Pieces<'a, N> {
     /// Computes the accelerations at `place`. The links or points of the loads in `stood` are at rest at `place`.
     fn go_on(&self, work: &mut Work, place: &Place<N>, stood: &[Sensed]) -> Result<()> {
         self.origin.set(place.y);
-        let crank = self.crank(place.x, &place.y);
-        work.held.piece = self.knots.around(crank, 0.0);
-        self.smooth.set(self.knots.around(crank, BEYOND));
+        let ends = self.knots.around(self.crank(place.x, &place.y));
+        // At its upper end a table may already have the value after a jump.
+        work.held.piece = [ends[0], just_below(ends[1])];
+        self.smooth.set(knots::beyond(ends));
         match stood.is_empty() {
             true => self.accelerate(work, place.x, &place.y),
             false => self.set_off(work, place, stood),

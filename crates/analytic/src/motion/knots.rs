@@ -5,12 +5,12 @@
 use std::f64::consts::TAU;
 
 use linkage::case::Case;
-use linkage::math::{KeepNan, just_below};
+use linkage::math::KeepNan;
 
 /// A piece ends beyond a knot, at this fraction of the knot's absolute crank angle plus 1 rad.
 /// The distance lets a motion that reverses exactly on the knot leave the knot.
 /// Over this distance, loads keep the values at the knot, so that they do not jump within a piece.
-pub(super) const BEYOND: f64 = 1e-12;
+const BEYOND: f64 = 1e-12;
 
 /// Crank angles (rad, as the scenario states them) of all knots of the loads' tables.
 #[derive(Debug)]
@@ -25,9 +25,7 @@ impl Knots {
     }
 
     /// Ends of the interval around a crank angle in which all tables are smooth.
-    /// Each end lies beyond its knot, as described for [`BEYOND`], with the fraction `beyond`.
-    /// If `beyond` is zero, the interval begins at a knot and ends just before the next knot.
-    pub(super) fn around(&self, crank: f64, beyond: f64) -> [f64; 2] {
+    pub(super) fn around(&self, crank: f64) -> [f64; 2] {
         let mut ends = [f64::NEG_INFINITY, f64::INFINITY];
         for (knots, period) in &self.0 {
             for knot in knots {
@@ -37,11 +35,13 @@ impl Knots {
             }
         }
         // At a knot with a jump, the table has the value after the jump.
-        if beyond == 0.0 {
-            return [ends[0], just_below(ends[1])];
-        }
-        [ends[0] - beyond * (ends[0].abs() + 1.0), ends[1] + beyond * (ends[1].abs() + 1.0)]
+        ends
     }
+}
+
+/// Ends a little beyond those of an interval around a crank angle.
+pub(super) fn beyond([low, high]: [f64; 2]) -> [f64; 2] {
+    [low - BEYOND * (low.abs() + 1.0), high + BEYOND * (high.abs() + 1.0)]
 }
 
 #[cfg(test)]
@@ -54,14 +54,12 @@ mod tests {
         let near = |[a, b]: [f64; 2], [c, d]: [f64; 2]| {
             assert!((a - c).abs() < 10.0 * BEYOND && (b - d).abs() < 10.0 * BEYOND, "{a} {b}");
         };
-        near(knots.around(0.2, BEYOND), [0.0, 0.5]);
-        near(knots.around(0.7, BEYOND), [0.5, 1.0]);
-        near(knots.around(-0.1, BEYOND), [1.0 - TAU, 0.0]);
-        near(knots.around(TAU + 0.2, BEYOND), [TAU, TAU + 1.0]);
-        for beyond in [0.0, BEYOND] {
-            assert_eq!(Knots(Vec::new()).around(3.0, beyond), [f64::NEG_INFINITY, f64::INFINITY]);
-        }
-        near(knots.around(0.7, 0.0), [0.5, 1.0]);
-        assert!(knots.around(0.7, 0.0)[1] < 1.0);
+        near(beyond(knots.around(0.2)), [0.0, 0.5]);
+        near(beyond(knots.around(0.7)), [0.5, 1.0]);
+        near(beyond(knots.around(-0.1)), [1.0 - TAU, 0.0]);
+        near(beyond(knots.around(TAU + 0.2)), [TAU, TAU + 1.0]);
+        let all = Knots(Vec::new()).around(3.0);
+        assert_eq!([all, beyond(all)], [[f64::NEG_INFINITY, f64::INFINITY]; 2]);
+        assert_eq!(knots.around(0.7), [0.5, 1.0]);
     }
 }

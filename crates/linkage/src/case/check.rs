@@ -132,8 +132,7 @@ fn motion_is_sound(motion: &DriveMotion, may_hold: bool) -> bool {
                 MotionLaw::Cycloidal { rise, time } => moves(rise) && moves(time) && time > 0.0,
                 MotionLaw::Curve(ref curve) => curve.is_finite(),
             };
-            let holds = may_hold && law.constant() == Some(0.0);
-            (holds || moved && moves(law.top_speed()), motor)
+            (may_hold && law.holds() || moved && moves(law.top_speed()), motor)
         }
         &DriveMotion::Free { initial_speed, nominal_speed, ref motor } => {
             (initial_speed.is_finite() && moves(nominal_speed), motor)

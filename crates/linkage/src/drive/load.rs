@@ -188,8 +188,7 @@ impl Load {
                 pull_together(ends, places, pull, put);
             }
             &Load::TorsionSpring { links, stiffness, free_angle, acts } => {
-                let over = setting.twist(links) - free_angle;
-                twist_back(links, if acts.has(over) { stiffness * over } else { 0.0 }, put);
+                twist_back(links, spring(stiffness, setting.twist(links) - free_angle, acts), put);
             }
             &Load::TorsionDamper { links, damping } => {
                 twist_back(links, damping * (motions[links[1]].omega - motions[links[0]].omega), put);
@@ -202,8 +201,7 @@ impl Load {
             &Load::SlideSpring { joint, stiffness, free_slide, acts, .. } => {
                 let joint = &setting.joints[joint];
                 let stretch = joint.slide(motions).map_or(0.0, |[slide, ..]| slide - free_slide);
-                let effort = if acts.has(stretch) { -stiffness * stretch } else { 0.0 };
-                Action::pair(joint, effort, motions).into_iter().for_each(put);
+                Action::pair(joint, -spring(stiffness, stretch, acts), motions).into_iter().for_each(put);
             }
             &Load::SlideDamper { joint, damping, .. } => {
                 let joint = &setting.joints[joint];
@@ -476,6 +474,12 @@ fn span(motions: &[Motion], ends: [JointSide; 2]) -> ([Vec2; 2], Vec2) {
 fn pull_together(ends: [JointSide; 2], places: [Vec2; 2], pull: Vec2, put: &mut impl FnMut(Action)) {
     put(Action { link: ends[0].link, force: pull, place: places[0], moment: 0.0 });
     put(Action { link: ends[1].link, force: -pull, place: places[1], moment: 0.0 });
+}
+
+/// Force (N) or moment (N m) of a spring, which may act on one side of its unloaded state only.
+#[inline]
+fn spring(stiffness: f64, stretch: f64, acts: Acts) -> f64 {
+    if acts.has(stretch) { stiffness * stretch } else { 0.0 }
 }
 
 #[inline]

@@ -69,6 +69,12 @@ impl MotionLaw {
         }
     }
 
+    /// Whether the law holds its joint.
+    #[must_use]
+    pub fn holds(&self) -> bool {
+        self.constant() == Some(0.0)
+    }
+
     /// Time (s) at which the angular acceleration jumps; `None` if there is no jump.
     #[must_use]
     pub fn jump(&self) -> Option<f64> {
@@ -82,13 +88,8 @@ impl MotionLaw {
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
-            MotionLaw::ConstantSpeed(speed) => {
-                if *speed == 0.0 {
-                    "hold"
-                } else {
-                    "constant"
-                }
-            }
+            MotionLaw::ConstantSpeed(_) if self.holds() => "hold",
+            MotionLaw::ConstantSpeed(_) => "constant",
             MotionLaw::Ramp { .. } => "ramp",
             MotionLaw::Cycloidal { .. } => "cycloidal",
             MotionLaw::Curve(curve) => curve.name(),

@@ -34,17 +34,47 @@ pub enum Curve {
     Formula(FormulaCurve),
 }
 
-/// The function factor (f(x) - shift) from x = 0 to `end`.
+/// The function factor (f(x) - f(0)) from x = 0 to `end`.
 #[derive(Clone, Debug)]
 pub struct FormulaCurve {
     /// The function f.
-    pub of: Arc<dyn Smooth>,
-    /// The shift.
-    pub shift: f64,
-    /// The factor.
-    pub factor: f64,
-    /// Last x.
-    pub end: f64,
+    of: Arc<dyn Smooth>,
+    shift: f64,
+    factor: f64,
+    end: f64,
+    /// The derivative of the largest absolute value, with its sign. It is found once, because it takes many evaluations.
+    steepest: f64,
+}
+
+impl FormulaCurve {
+    /// The function f(x) - f(0) from x = 0 to `end`.
+    #[must_use]
+    pub fn new(of: Arc<dyn Smooth>, end: f64) -> Self {
+        let places = parts(end);
+        let [least, most] = [-1.0, 1.0].map(|sign| {
+            let mut slope = |x: f64| Ok::<_, Infallible>(sign * of.at(x)[1]);
+            let samples: Vec<f64> = places.iter().map(|&x| sign * of.at(x)[1]).collect();
+            let Ok((_, most)) = extremum::greatest(&places, &samples, &mut slope);
+            sign * most
+        });
+        let (shift, steepest) = (of.at(0.0)[0], larger_size(least, most));
+        FormulaCurve { of, shift, factor: 1.0, end, steepest }
+    }
+
+    /// The first x of a search at which the function or one of its first two derivatives is undefined.
+    #[must_use]
+    pub fn undefined_at(&self) -> Option<f64> {
+        parts(self.end).into_iter().find(|&x| !self.of.at(x).into_iter().all(f64::is_finite))
+    }
+}
+
+/// The places of a search from 0 to `end`.
+fn parts(end: f64) -> Vec<f64> {
+    (0..=PARTS).map(|part| end * f64::from(part) / f64::from(PARTS)).collect()
+}
+
+fn larger_size(least: f64, most: f64) -> f64 {
+    if -least > most { least } else { most }
 }
 
 impl PartialEq for FormulaCurve {
@@ -103,14 +133,16 @@ impl Curve {
             &Curve::Harmonic { amplitude, period, phase } => {
                 Curve::Harmonic { amplitude: factor * amplitude, period, phase }
             }
-            Curve::Formula(own) => Curve::Formula(FormulaCurve { factor: factor * own.factor, ..own.clone() }),
+            Curve::Formula(own) => {
+                let [factor, steepest] = [own.factor, own.steepest].map(|number| factor * number);
+                Curve::Formula(FormulaCurve { factor, steepest, ..own.clone() })
+            }
         }
     }
 
     /// Ascending x between which extremes and values are searched for: the knots of a table, otherwise equal steps.
     #[must_use]
     pub fn places(&self) -> Vec<f64> {
-        let parts = |end: f64| (0..=PARTS).map(|part| end * f64::from(part) / f64::from(PARTS)).collect();
         match self {
             Curve::Table(table) => table.knots().to_vec(),
             Curve::Harmonic { period, .. } => parts(*period),
@@ -121,17 +153,14 @@ impl Curve {
     /// The first derivative of the largest absolute value, with its sign.
     #[must_use]
     pub fn steepest(&self) -> f64 {
-        let [least, most] = match self {
-            Curve::Table(table) => table.slopes(),
-            Curve::Harmonic { .. } | Curve::Formula(_) => [-1.0, 1.0].map(|sign| {
-                let places = self.places();
-                let samples: Vec<f64> = places.iter().map(|&x| sign * self.at(x)[1]).collect();
-                let Ok((_, most)) =
-                    extremum::greatest(&places, &samples, &mut |x| Ok::<_, Infallible>(sign * self.at(x)[1]));
-                sign * most
-            }),
-        };
-        if -least > most { least } else { most }
+        match self {
+            Curve::Table(table) => {
+                let [least, most] = table.slopes();
+                larger_size(least, most)
+            }
+            Curve::Harmonic { amplitude, period, .. } => amplitude.abs() * TAU / period,
+            Curve::Formula(own) => own.steepest,
+        }
     }
 
     /// Difference between the largest and the smallest value at [`Curve::places`].
@@ -141,10 +170,16 @@ impl Curve {
         values().fold(f64::NEG_INFINITY, f64::larger) - values().fold(f64::INFINITY, f64::smaller)
     }
 
-    /// Whether values and derivatives are finite at [`Curve::places`].
+    /// Whether all numbers of the curve are finite.
     #[must_use]
     pub fn is_finite(&self) -> bool {
-        self.places().into_iter().all(|x| self.at(x).into_iter().all(f64::is_finite))
+        match self {
+            Curve::Table(table) => table.knots().iter().all(|knot| knot.is_finite()),
+            Curve::Harmonic { amplitude, period, phase } => {
+                [amplitude, period, phase].iter().all(|own| own.is_finite())
+            }
+            Curve::Formula(own) => [own.shift, own.factor, own.end, own.steepest].iter().all(|own| own.is_finite()),
+        }
     }
 }
 

@@ -335,7 +335,7 @@ fn of_drive(case: &Case, index: usize, drive: &Drive) -> Vec<Knob> {
         });
         Some(())
     };
-    if drive.constant_speed() == Some(0.0) && !drive.is_free() {
+    if matches!(&drive.motion, DriveMotion::Prescribed { law, .. } if law.holds()) {
         return vec![Knob { is_far: true, ..angle }];
     }
     let given = if drive.is_free() { drive.initial_speed() } else { drive.top_speed() };

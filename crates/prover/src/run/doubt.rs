@@ -124,7 +124,7 @@ fn against(a: Vec2, b: Vec2) -> bool {
 fn drive_turns(case: &Case, t: f64, reach: f64) -> bool {
     case.drives.iter().any(|drive| match &drive.motion {
         DriveMotion::Free { .. } => false,
-        DriveMotion::Prescribed { law, .. } if law.constant() == Some(0.0) => false,
+        DriveMotion::Prescribed { law, .. } if law.holds() => false,
         DriveMotion::Prescribed { .. } => {
             let jumps = drive.jump().is_some_and(|jump| (t - jump).abs() <= reach);
             let least = STANDSTILL * drive.top_speed().abs();

@@ -141,7 +141,7 @@ pub(super) fn observe(
     let (arm, size, steady) = (case.drive_arm(), case.mechanism.size(), case.is_steady());
     let mut opening = if watch == Watch::Senses { Vec::new() } else { vec![0.0; case.grid.len()] };
     let with_sense = case.loads.iter().filter(|load| load.has_sense());
-    let tables: Vec<[f64; 2]> = case.loads.iter().flat_map(|load| load.courses()).flat_map(|own| own.jumps()).collect();
+    let tables: Vec<[f64; 2]> = case.load_jumps().collect();
     let mut senses = Senses::new(with_sense.count() + tables.len(), case.grid.len());
     let (mut reach, mut moment, mut fastest): (f64, f64, f64) = (0.0, 0.0, 0.0);
     let mut unbalance = Unbalance::default();
