@@ -18,8 +18,7 @@ use lab::bench::{Bench, BenchOptions, Clock, CostAxis, Peer, bench};
 use lab::outside::{Command, Exports, machine, processor_time};
 
 use linkage::error::{Error, ErrorKind, Result};
-use prover::engines::with_step;
-use prover::engines::{EngineName, usual_step};
+use prover::engines::{EngineName, usual_step, with_step};
 use scenario::{Scenario, files_in};
 
 /// Name of the file with the numbers of all scenarios.

@@ -9,8 +9,7 @@ use linkage::engine::Settings;
 use linkage::error::Result;
 use prover::engines::named;
 
-use scenario::{EngineSetting, EngineSettings};
-use scenario::{Scenario, edit};
+use scenario::{EngineSetting, EngineSettings, Scenario, edit};
 
 /// The keys with which a scenario runs an engine at `settings`.
 /// The route is omitted if it is the engine's usual route and the scenario states no route.

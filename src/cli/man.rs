@@ -1,9 +1,8 @@
 //! `linkproof man`: the manual, from the arguments of the command line.
 
 use crate::sentences;
-use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
+use std::{fs, io};
 
 use clap::Command;
 use clap_mangen::Man;

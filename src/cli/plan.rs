@@ -10,8 +10,7 @@ use super::{advice, number};
 use crate::report::plan as report;
 use analytic::range::explained;
 use design::draw;
-use design::plan::state_at;
-use design::plan::{Plans, SingularPoint};
+use design::plan::{Plans, SingularPoint, state_at};
 use linkage::error::{Error, ErrorKind, Result};
 use prover::run::Reference;
 

@@ -15,8 +15,7 @@ use crate::report::table_csv;
 use analytic::range::explained;
 use linkage::error::{Error, ErrorKind, Result};
 use prover::engines::EngineName;
-use prover::run::Reference;
-use prover::run::memory;
+use prover::run::{Reference, memory};
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = include_str!("help/solve.txt").trim_ascii_end())]

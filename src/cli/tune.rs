@@ -12,8 +12,7 @@ use lab::tune::{Candidate, WantedAccuracy, by_work, tune};
 use linkage::engine::Engine;
 use linkage::error::{Advice, Error, Result};
 use prover::run::Reference;
-use scenario::EngineSettings;
-use scenario::{Scenario, edit};
+use scenario::{EngineSettings, Scenario, edit};
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = include_str!("help/tune.txt").trim_ascii_end())]

@@ -2,13 +2,12 @@
 //! loads require.
 
 use crate::sentences;
-use linkage::math::KeepNan;
+use linkage::math::{KeepNan, extremum};
 use std::f64::consts::PI;
 
 use analytic::PoseSolver;
 use linkage::case::{Case, Friction};
 use linkage::error::{Advice, Error, ErrorKind, Result};
-use linkage::math::extremum;
 use linkage::math::statistics::ends;
 use linkage::mechanism::JointId;
 use linkage::solver::State;

@@ -12,6 +12,5 @@ mod work;
 pub use families::{FAMILIES, named};
 pub use family::{EngineUse, Setup, StressFamily, WORK};
 pub use outcome::{PartyAtPoint, PointEnd, QuantityGroup, StressOutcome, WorstOfGroup};
-pub use point::fnv;
-pub use point::run;
+pub use point::{fnv, run};
 pub use work::{Job, jobs, run_all};

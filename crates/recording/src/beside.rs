@@ -4,9 +4,8 @@
 
 use crate::sentences;
 use std::collections::BTreeMap;
-use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
+use std::{fs, io};
 
 use super::raw;
 use linkage::error::{Error, ErrorKind, Result};

@@ -10,9 +10,8 @@ use prost::DecodeError;
 use std::collections::hash_map::Entry;
 use std::collections::{BTreeMap, HashMap};
 use std::fmt::Display;
-use std::fs;
-use std::io;
 use std::path::Path;
+use std::{fs, io};
 
 /// Values with the sequence numbers of their samples.
 type Numbered = Vec<(u32, f64)>;

@@ -8,9 +8,9 @@ use crate::sentences;
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::Vec2;
 use linkage::mechanism::{
-    AssemblyMode, DrivenJoint, Group, GroupId, GroupKind, JointSide, Mechanism, StartGroup, Structure,
+    AssemblyMode, DrivenJoint, Group, GroupId, GroupKind, JointSide, LinkId, Mechanism, StartGroup, Structure,
+    pose::SidePoint,
 };
-use linkage::mechanism::{LinkId, pose::SidePoint};
 
 const MODES: Words<AssemblyMode> = &[
     ("left", AssemblyMode::Left),

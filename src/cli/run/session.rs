@@ -4,7 +4,7 @@ use crate::sentences;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use super::args::Args;
+use super::args::{Args, RunResults};
 use crate::cli::engine_section::{self, keys};
 use crate::cli::exit_code::{self, graver};
 use crate::cli::html::Pages;
@@ -14,12 +14,10 @@ use crate::cli::record_args::Recorded;
 use crate::cli::{advice, load, output};
 use crate::plain::brief;
 
-use super::args::RunResults;
 use crate::plain::style::Detail;
 use crate::report::closing::Closing;
 use crate::report::outcomes::Outcomes;
-use crate::report::{explain, json, recorded, text};
-use crate::report::{junit, markdown};
+use crate::report::{explain, json, junit, markdown, recorded, text};
 use linkage::error::{Error, Result};
 use linkage::work::Work;
 use prover::run::{EngineProof, LedgerEntry, Proof};

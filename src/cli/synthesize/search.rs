@@ -9,10 +9,9 @@ use crate::cli::outputs::{Outputs, results};
 use crate::cli::{output, progress};
 use crate::report::synthesize::{self as report, Story};
 use design::draw;
-use design::synthesize::redraw;
 use design::synthesize::task::Task;
 use design::synthesize::task_file::TaskFile;
-use design::synthesize::{self, Achieved};
+use design::synthesize::{self, Achieved, redraw};
 use linkage::error::{Error, ErrorKind, Result};
 use scenario::Scenario;
 

@@ -2,8 +2,7 @@
 
 use super::markup::escaped;
 use super::placed::Placed;
-use drawing::palette;
-use drawing::{Fill, Ink, Layer, Mark, MarkRole, MarkShape, Sketch};
+use drawing::{Fill, Ink, Layer, Mark, MarkRole, MarkShape, Sketch, palette};
 use linkage::math::KeepNan;
 use linkage::mechanism::{GROUND, LinkId, LinkPose};
 

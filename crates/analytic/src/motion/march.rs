@@ -11,12 +11,11 @@ use differential_equations::interpolate::Interpolation;
 use differential_equations::methods::ExplicitRungeKutta;
 use differential_equations::ode::OrdinaryNumericalMethod;
 use differential_equations::status::Status;
-use linkage::math::KeepNan;
+use linkage::math::{KeepNan, root};
 
 use super::inside::{Course, Remembering, Targets, parts};
 use super::step::{Flow, Method, Step, a_step, checked, lost, rate};
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::math::root;
 use linkage::work::{self, Count, WorkTally};
 
 /// Relative and absolute error allowed in each step, including the states inside it.

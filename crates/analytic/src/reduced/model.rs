@@ -1,8 +1,7 @@
 //! The mechanism reduced to its crank's shaft: the exact coefficients of its equation of motion at every crank angle.
 
 use super::means::{self, Kinks};
-use crate::PoseSolver;
-use crate::sentences;
+use crate::{PoseSolver, sentences};
 use linkage::case::Case;
 use linkage::drive::{Load, LoadState, Motor, MotorBranch};
 use linkage::error::{Error, ErrorKind, Result};

@@ -2,10 +2,9 @@
 
 use super::flow::{Forces, InTime};
 use super::model::{Piece, ReducedModel};
-use crate::PoseSolver;
 use crate::motion::march::{MOST_EMPTY, Pace, Place, Stop, march};
 use crate::motion::step::Step;
-use crate::sentences;
+use crate::{PoseSolver, sentences};
 use linkage::case::{Case, Grid};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;

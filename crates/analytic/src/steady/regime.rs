@@ -1,7 +1,7 @@
 //! Steady periodic motion: the crank has the same speed after every period.
 
 use crate::sentences;
-use linkage::math::KeepNan;
+use linkage::math::{KeepNan, root};
 use std::f64::consts::TAU;
 
 use crate::AssurSolver;
@@ -11,7 +11,6 @@ use crate::reduced::flow::{Forces, OverAngle};
 use crate::reduced::means::{self, no_turn};
 use crate::reduced::model::{Piece, ReducedModel};
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::math::root;
 
 /// Largest number of Newton steps of the shooting method. It usually needs three to six.
 const MOST_SHOTS: usize = 60;

@@ -8,8 +8,7 @@ use std::path::Path;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
-use super::answer;
-use super::process;
+use super::{answer, process};
 use crate::bench::{Answer, Clock, Peer, Way};
 use files::visible;
 

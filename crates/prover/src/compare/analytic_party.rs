@@ -4,11 +4,10 @@ use crate::sentences;
 use std::collections::BTreeSet;
 
 use super::allowed::ComparisonRule;
-use super::cause;
-use super::instants;
 use super::judge::{Both, Which};
 use super::pair::{Side, SidePair, crank_check};
 use super::scale::Scales;
+use super::{cause, instants};
 use crate::run::memory;
 use crate::run::solved::{Solved, asked};
 use crate::tables::{Held, PartyColumn, RowKey};

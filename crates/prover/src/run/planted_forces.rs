@@ -6,8 +6,7 @@ use super::ledger::Ledger;
 use super::observe::{Watch, observe};
 use super::options::Chosen;
 use super::problem::Problem;
-use super::settle;
-use super::{EngineProof, ForceFault, engines};
+use super::{EngineProof, ForceFault, engines, settle};
 use crate::engines::coarse_step;
 use analytic::{AssurSolver, NewtonSolver};
 use linkage::case::Case;
@@ -16,8 +15,7 @@ use linkage::math::rotated;
 use linkage::mechanism::{JointId, LinkId};
 use linkage::solver::{Solver, State};
 use rapier_twin::{Build, Precision, Rapier};
-use scenario::EngineSettings;
-use scenario::of_repository;
+use scenario::{EngineSettings, of_repository};
 
 /// Effect of a fault on every state.
 type Fault = fn(&mut State);

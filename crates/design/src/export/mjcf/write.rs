@@ -5,12 +5,11 @@ use std::fmt::Write;
 
 use quick_xml::escape::escape;
 
-use super::effects;
 use super::forces::Forces;
 use super::model::{Freedom, MjcfModel};
 use super::names::{of_transmission, side};
-use super::shapes;
 use super::xml::{Xml, about_z, flat, number, numbers};
+use super::{effects, shapes};
 use linkage::math::{KeepNan, corners};
 use linkage::mechanism::{GROUND, LinkId};
 
