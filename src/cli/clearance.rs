@@ -71,8 +71,7 @@ fn question(scenario: &Scenario) -> &ClearanceQuestion {
 fn answer(args: &Args, file: &Path) -> Result<(Scenario, ClearanceResult)> {
     let scenario = plain(file)?;
     let Some(asked) = &scenario.clearance else {
-        let message = sentences::the_scenario_asks_nothing_about(&file.display());
-        return Err(Error::new(ErrorKind::Input, message)
+        return Err(Error::new(ErrorKind::Input, sentences::the_scenario_asks_nothing_about(&file.display()))
             .key("clearance")
             .help(sentences::ADD_A_SECTION_CLEARANCE_FOR_EXAMPLE));
     };

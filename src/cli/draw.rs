@@ -75,8 +75,7 @@ fn fits(args: &Args, medium: Medium) -> Result<()> {
             refused(option, sentences::THE_PICTURE_DOES_NOT_MOVE, sentences::LEAVE_IT_OUT_OR_WRITE_A_GIF)
         }
         _ if args.each_mode && medium.moves() => {
-            let message = sentences::AN_ANIMATION_SHOWS_ONE_CONFIGURATION;
-            refused("--each-mode", message, sentences::WRITE_AN_SVG_OR_A_PNG)
+            refused("--each-mode", sentences::AN_ANIMATION_SHOWS_ONE_CONFIGURATION, sentences::WRITE_AN_SVG_OR_A_PNG)
         }
         _ if args.width.is_some() && medium == Medium::Svg => {
             refused("--width", sentences::AN_SVG_HAS_NO_PIXELS, sentences::LEAVE_IT_OUT_OR_WRITE_A_PNG)

@@ -80,8 +80,7 @@ pub(super) enum Live {}
 #[cfg(not(feature = "live"))]
 impl Live {
     fn at(_: &str) -> Result<Live> {
-        let message = sentences::LIVE_IS_ASKED_FOR_BUT_THIS_BUILD;
-        Err(Error::new(ErrorKind::Unsupported, message)
+        Err(Error::new(ErrorKind::Unsupported, sentences::LIVE_IS_ASKED_FOR_BUT_THIS_BUILD)
             .help(sentences::BUILD_WITH_THE_CARGO_FEATURE)
             .or_help(sentences::LEAVE_OUT_LIVE_AND_OPEN_THE_RECORDING))
     }

@@ -89,10 +89,7 @@ pub(super) fn to_list(file: &Path, asked: &StartRequest) -> Result<(Scenario, Ve
 
 /// The readable part of the mechanism in a file that cannot be assembled.
 pub(super) fn draft(file: &Path, asked: &StartRequest) -> Result<Draft> {
-    match is_standard_input(file) {
-        true => Draft::parse(standard_input()?, named(file), asked),
-        false => Draft::load(file, asked),
-    }
+    if is_standard_input(file) { Draft::parse(standard_input()?, named(file), asked) } else { Draft::load(file, asked) }
 }
 
 /// If a requested mode probably caused the error, adds the option `--mode` as the location of the error.
@@ -139,6 +136,5 @@ pub(super) fn refuse_writing(path: &Path) -> Result<()> {
     if !is_standard_input(path) {
         return Ok(());
     }
-    let help = sentences::SAVE_THE_SCENARIO_TO_A_FILE;
-    output::refused("--write", sentences::settings_cannot_be_written_to(&NAME), help)
+    output::refused("--write", sentences::settings_cannot_be_written_to(&NAME), sentences::SAVE_THE_SCENARIO_TO_A_FILE)
 }

@@ -52,10 +52,7 @@ pub(super) fn run(args: &Args) -> Result<u8> {
 fn threads(args: &Args) -> usize {
     let mut seen = BTreeSet::new();
     let is_new = |file: &PathBuf| seen.insert(fs::canonicalize(file).unwrap_or_else(|_| file.clone()));
-    match args.write && !args.files.iter().all(is_new) {
-        true => 1,
-        false => args.jobs.map_or_else(cores, usize::from),
-    }
+    if args.write && !args.files.iter().all(is_new) { 1 } else { args.jobs.map_or_else(cores, usize::from) }
 }
 
 /// Waits until enough memory is free, then proves a file.

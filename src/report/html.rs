@@ -123,8 +123,5 @@ pub(crate) fn page(proof: &Proof, beside: &Beside, tell: Tell) -> String {
 /// Number of instants on the page, if some instants are omitted.
 fn told(thinned: &Thinned) -> String {
     let (shown, all) = (thinned.rows.len(), thinned.all);
-    match shown == all {
-        true => format!("{all} instants."),
-        false => sentences::of_instants_evenly_chosen_and_those(&shown, &all),
-    }
+    if shown == all { format!("{all} instants.") } else { sentences::of_instants_evenly_chosen_and_those(&shown, &all) }
 }

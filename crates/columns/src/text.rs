@@ -151,9 +151,8 @@ pub fn read(text: &str) -> Result<TextTable, TableFault> {
             return Err(wrong(start, message, sentences::GIVE_EVERY_ROW_AS_MANY_CELLS));
         }
         if let Some((column, cell)) = fault {
-            let message = sentences::in_the_column_stands_which_is_no_number(&names[column], &cell);
             let help = sentences::WRITE_DECIMALS_WITH_A_POINT;
-            return Err(wrong(start, message, help));
+            return Err(wrong(start, sentences::in_the_column_stands_which_is_no_number(&names[column], &cell), help));
         }
     }
     let others = |own: usize| columns.iter().enumerate().filter(move |(other, _)| *other != own);

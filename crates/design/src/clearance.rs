@@ -21,7 +21,7 @@ use linkage::input::Input;
 use linkage::math::Motion;
 use linkage::math::statistics::ends;
 use linkage::mechanism::GroupKind;
-use linkage::solver::Solver;
+use linkage::solver::{Progress, Solver};
 use linkage::trajectory::Stage;
 use scenario::clearance::{ClearanceBody, ClearanceQuestion};
 
@@ -123,7 +123,7 @@ impl ClearanceResult {
 /// # Errors
 /// [`ErrorKind::Unsupported`] for a free motion with several degrees of freedom.
 /// Those of [`analytic::PoseSolver::solve`] for crank angles that the mechanism cannot reach.
-pub fn find(case: &Case, question: &ClearanceQuestion, progress: &mut dyn FnMut(f64)) -> Result<ClearanceResult> {
+pub fn find(case: &Case, question: &ClearanceQuestion, progress: Progress) -> Result<ClearanceResult> {
     let range = range(case)?;
     let case = &case.nominal();
     let size = case.mechanism.size();

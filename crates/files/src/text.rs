@@ -30,10 +30,7 @@ pub fn visible_lines(text: &str) -> String {
 fn shown(text: &str, is_escaped: impl Fn(char) -> bool) -> String {
     let mut shown = String::new();
     for letter in text.chars().take(LONGEST) {
-        match is_escaped(letter) {
-            true => shown.extend(letter.escape_default()),
-            false => shown.push(letter),
-        }
+        if is_escaped(letter) { shown.extend(letter.escape_default()) } else { shown.push(letter) }
     }
     if text.chars().nth(LONGEST).is_some() {
         shown.push_str(" ...");

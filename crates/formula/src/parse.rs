@@ -100,8 +100,7 @@ fn whole(input: &mut Input<'_>) -> Read<FormulaTree> {
 fn no_operator<T>(sign: char, at: usize) -> Read<T> {
     let own = at..at + sign.len_utf8();
     if sign == ',' {
-        let help = sentences::WRITE_NUMBERS_WITH_A_DECIMAL;
-        return refused(sentences::A_COMMA_STANDS_BETWEEN_ARGUMENTS, own, help);
+        return refused(sentences::A_COMMA_STANDS_BETWEEN_ARGUMENTS, own, sentences::WRITE_NUMBERS_WITH_A_DECIMAL);
     }
     if sign.is_ascii_alphanumeric() || sign == '(' || sign == '_' {
         let message = sentences::an_operator_is_missing_before(&sign);
@@ -258,8 +257,11 @@ fn number(input: &mut Input<'_>, start: usize) -> Read<FormulaTree> {
     }
     let written = &text[..end];
     let Some(value) = written.parse::<f64>().ok().filter(|value| value.is_finite()) else {
-        let message = sentences::is_no_finite_number(&written);
-        return refused(message, start..start + end, sentences::WRITE_A_NUMBER_SUCH_AS);
+        return refused(
+            sentences::is_no_finite_number(&written),
+            start..start + end,
+            sentences::WRITE_A_NUMBER_SUCH_AS,
+        );
     };
     take(input, end);
     Ok(FormulaTree { shape: NodeShape::Number(value), at: start..start + end })

@@ -22,6 +22,7 @@ pub use point::{AnsweredRun, BenchOutcome, BenchPoint, Errors, MethodOwner};
 pub use reference::Floor;
 
 use linkage::error::Result;
+use linkage::solver::Progress;
 use linkage::trajectory::Stage;
 use scenario::Scenario;
 
@@ -62,7 +63,7 @@ pub fn bench(
     options: &BenchOptions,
     peers: &[&dyn Peer],
     clock: Clock,
-    progress: &mut dyn FnMut(f64),
+    progress: Progress,
 ) -> Result<Bench> {
     let case = &scenario.case;
     let (reference, floor) = reference::of(case)?;

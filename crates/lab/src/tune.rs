@@ -24,7 +24,7 @@ use confirm::confirmed;
 use linkage::case::Wanted;
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::KeepNan;
-use linkage::solver::Solver;
+use linkage::solver::{Progress, Solver};
 use linkage::trajectory::{Channel, Stage};
 use prover::numbers::significant;
 use prover::run::{Options, memory};
@@ -81,7 +81,7 @@ pub fn tune(
     wish: &WantedAccuracy,
     options: &Options,
     price: Price,
-    progress: &mut dyn FnMut(f64),
+    progress: Progress,
 ) -> Result<Tuning> {
     if !(wish.within > 0.0 && wish.within < 1.0) {
         return Err(Error::new(ErrorKind::Input, sentences::an_error_within_is_wanted(&wish.within))

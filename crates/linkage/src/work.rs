@@ -7,73 +7,36 @@ use std::cell::Cell;
 
 use crate::error::{Advice, Error, ErrorKind, Result};
 
-/// What is counted.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Count {
-    /// Computed poses of the whole mechanism, including intermediate poses between requested poses.
-    Poses,
-    /// Assur groups placed while the counted poses were computed.
-    Groups,
-    /// Iterations of Newton's method.
-    Iterations,
-    /// Factorisations of a Jacobian.
-    Factorisations,
-    /// Solutions for the velocities of the whole mechanism.
-    Velocities,
-    /// Solutions for its accelerations.
-    Accelerations,
-    /// Solutions for the reactions and balancing moments of the whole mechanism, from a known motion.
-    Forces,
-    /// Evaluations of an equation of motion.
-    Evaluations,
-    /// Accepted integration steps of a motion that forces determine.
-    Intervals,
-    /// Engine worlds built.
-    Worlds,
-    /// Time steps in simulations by engines.
-    Steps,
-    /// Sweeps over the constraints of an engine's simulation, summed over all steps.
-    Sweeps,
-    /// Tiny steps from a given pose. Such a step shows the forces that the engine exerts in the pose.
-    Probes,
-}
-
-impl Count {
-    /// All kinds of count, in the order of reports.
-    pub const ALL: [Count; 13] = [
-        Count::Poses,
-        Count::Groups,
-        Count::Iterations,
-        Count::Factorisations,
-        Count::Velocities,
-        Count::Accelerations,
-        Count::Forces,
-        Count::Evaluations,
-        Count::Intervals,
-        Count::Worlds,
-        Count::Steps,
-        Count::Sweeps,
-        Count::Probes,
-    ];
-
-    /// Name, in the plural and in lower case: `poses`, `sweeps`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Count::Poses => "poses",
-            Count::Groups => "groups",
-            Count::Iterations => "iterations",
-            Count::Factorisations => "factorisations",
-            Count::Velocities => "velocities",
-            Count::Accelerations => "accelerations",
-            Count::Forces => "forces",
-            Count::Evaluations => "evaluations",
-            Count::Intervals => "intervals",
-            Count::Worlds => "worlds",
-            Count::Steps => "steps",
-            Count::Sweeps => "sweeps",
-            Count::Probes => "probes",
-        }
+crate::words! {
+    /// What is counted.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+    pub enum Count: name {
+        /// Computed poses of the whole mechanism, including intermediate poses between requested poses.
+        Poses = "poses",
+        /// Assur groups placed while the counted poses were computed.
+        Groups = "groups",
+        /// Iterations of Newton's method.
+        Iterations = "iterations",
+        /// Factorisations of a Jacobian.
+        Factorisations = "factorisations",
+        /// Solutions for the velocities of the whole mechanism.
+        Velocities = "velocities",
+        /// Solutions for its accelerations.
+        Accelerations = "accelerations",
+        /// Solutions for the reactions and balancing moments of the whole mechanism, from a known motion.
+        Forces = "forces",
+        /// Evaluations of an equation of motion.
+        Evaluations = "evaluations",
+        /// Accepted integration steps of a motion that forces determine.
+        Intervals = "intervals",
+        /// Engine worlds built.
+        Worlds = "worlds",
+        /// Time steps in simulations by engines.
+        Steps = "steps",
+        /// Sweeps over the constraints of an engine's simulation, summed over all steps.
+        Sweeps = "sweeps",
+        /// Tiny steps from a given pose. Such a step shows the forces that the engine exerts in the pose.
+        Probes = "probes",
     }
 }
 

@@ -52,6 +52,7 @@ use analytic::range::explained;
 use linkage::case::{Case, Scene};
 use linkage::error::Result;
 use linkage::math::KeepNan;
+use linkage::solver::Progress;
 use linkage::trajectory::Trajectory;
 use linkage::work::limited;
 use scenario::Scenario;
@@ -150,7 +151,7 @@ pub fn prove(scenario: &Scenario, options: &Options) -> Result<Proof> {
 ///
 /// # Errors
 /// Those of [`prove`].
-pub fn prove_with(scenario: &Scenario, options: &Options, progress: &mut dyn FnMut(f64)) -> Result<Proof> {
+pub fn prove_with(scenario: &Scenario, options: &Options, progress: Progress) -> Result<Proof> {
     joined(scenario, &scenario.case, options, progress).map_err(|error| explained(&scenario.case, error))
 }
 
@@ -183,7 +184,7 @@ pub fn solve(case: &Case) -> Result<Trajectory> {
 }
 
 /// As `prove_with`, but with a separate case for the engines. Errors of the solvers are returned unchanged.
-fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: &mut dyn FnMut(f64)) -> Result<Proof> {
+fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: Progress) -> Result<Proof> {
     let scene = scenario.case.scene()?;
     let (whole, case) = (&scenario.case, &scene.case);
     let problem = Problem::of(scenario, case);

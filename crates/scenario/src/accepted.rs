@@ -82,9 +82,8 @@ fn read(root: &mut TomlTable, name: &str) -> Result<Accepted> {
     check_format(root)?;
     let scenario = root.string("scenario")?;
     if scenario != name {
-        let message = sentences::these_are_accepted_figures_of_not_of(&scenario, &name);
         let help = sentences::MOVE_THE_FILE_TO_ITS_OWN;
-        return root.refuse("scenario", message, help);
+        return root.refuse("scenario", sentences::these_are_accepted_figures_of_not_of(&scenario, &name), help);
     }
     let verdict = root.string("verdict")?;
     if !["agree", "disagree", "inconclusive"].contains(&verdict.as_str()) {

@@ -198,8 +198,7 @@ fn rounded(table: &TomlTable, (key, places): (&'static str, Vec<Vec2>), radius: 
 fn wall(mut table: TomlTable, mechanism: &Mechanism, before: &[ClearanceBody]) -> Result<ClearanceBody> {
     let name = sound_name(&mut table, sentences::A_PART_OF_THE_HOUSING)?;
     if name == HOUSING || before.iter().any(|body| body.name == name) {
-        let message = sentences::is_taken(&name);
-        return table.refuse("name", message, sentences::GIVE_EVERY_PART_A_NAME_OF_ITS_OWN);
+        return table.refuse("name", sentences::is_taken(&name), sentences::GIVE_EVERY_PART_A_NAME_OF_ITS_OWN);
     }
     let drawn = drawn(&mut table, &mechanism.links()[GROUND].points)?;
     let radius = table.optional_si("radius")?.unwrap_or(0.0);

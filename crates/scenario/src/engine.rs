@@ -15,44 +15,24 @@ use linkage::engine::{Engine, Route, Settings};
 use linkage::error::{ErrorKind, Result};
 use linkage::input::Input;
 
-/// An engine by name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum EngineName {
-    /// Rapier in f64, the default: a spanning tree as a multibody, loops closed by impulse joints.
-    Rapier,
-    /// The engine above, in single precision; needs the feature `f32`.
-    RapierF32,
-    /// Rapier in f64, every link as a separate rigid body.
-    Impulse,
-    /// The engine above, in single precision; needs the feature `f32`.
-    ImpulseF32,
-    /// Simbody; needs the feature `simbody`, and the library.
-    Simbody,
+linkage::words! {
+    /// An engine by name.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    pub enum EngineName: name {
+        /// Rapier in f64, the default: a spanning tree as a multibody, loops closed by impulse joints.
+        Rapier = "rapier",
+        /// The engine above, in single precision; needs the feature `f32`.
+        RapierF32 = "rapier-f32",
+        /// Rapier in f64, every link as a separate rigid body.
+        Impulse = "impulse",
+        /// The engine above, in single precision; needs the feature `f32`.
+        ImpulseF32 = "impulse-f32",
+        /// Simbody; needs the feature `simbody`, and the library.
+        Simbody = "simbody",
+    }
 }
 
 impl EngineName {
-    /// All engines, the default first. The list includes engines that this build does not have.
-    pub const ALL: [EngineName; 5] =
-        [EngineName::Rapier, EngineName::RapierF32, EngineName::Impulse, EngineName::ImpulseF32, EngineName::Simbody];
-
-    /// Name of the engine, as on the command line and in scenario files.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            EngineName::Rapier => "rapier",
-            EngineName::RapierF32 => "rapier-f32",
-            EngineName::Impulse => "impulse",
-            EngineName::ImpulseF32 => "impulse-f32",
-            EngineName::Simbody => "simbody",
-        }
-    }
-
-    /// The engine called `name`.
-    #[must_use]
-    pub fn named(name: &str) -> Option<EngineName> {
-        EngineName::ALL.into_iter().find(|engine| engine.name() == name)
-    }
-
     /// Cargo feature that a build needs to contain the engine. `None` if every build contains it.
     #[must_use]
     pub fn feature(self) -> Option<&'static str> {
@@ -286,15 +266,13 @@ pub fn read(table: &mut TomlTable, drive: &Drive) -> Result<EngineSettings> {
     table.finish()?;
     let omega = drive.top_speed();
     if let (Some(_), Input::Slide) = (angle, drive.input) {
-        let help = sentences::GIVE_THE_TIME_STEP_OF_THE_ENGINE;
-        return table.refuse("step", sentences::THE_STEP_IS_AN_ANGLE_BUT, help);
+        return table.refuse("step", sentences::THE_STEP_IS_AN_ANGLE_BUT, sentences::GIVE_THE_TIME_STEP_OF_THE_ENGINE);
     }
     own.step = match (time, angle) {
         (Some(dt), None) => table.given("dt", Some(dt)),
         (None, Some(angle)) => table.given("step", Some((angle / omega).abs())),
         (Some(_), Some(_)) => {
-            let help = sentences::KEEP_EITHER_DT_A_TIME_OR_STEP;
-            return table.refuse("step", sentences::THE_ENGINE_STEP_IS_GIVEN, help);
+            return table.refuse("step", sentences::THE_ENGINE_STEP_IS_GIVEN, sentences::KEEP_EITHER_DT_A_TIME_OR_STEP);
         }
         (None, None) => EngineSetting::Free,
     };

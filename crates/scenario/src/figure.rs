@@ -162,9 +162,8 @@ fn distance(entry: &mut TomlTable, case: &Case) -> Result<(MechanismFigure, Stri
     let has = |link: LinkId, of: &[JointSide]| of.iter().any(|side| side.link == link);
     let measured = |this: usize| places[this].iter().find(|side| !has(side.link, &places[1 - this])).copied();
     let (Some(first), Some(second)) = (measured(0), measured(1)) else {
-        let message = sentences::the_distance_of_stands_in_the_file(&names.join(" and "));
         let help = sentences::NAME_POINTS_WHOSE_DISTANCE_FOLLOWS;
-        return entry.refuse("points", message, help);
+        return entry.refuse("points", sentences::the_distance_of_stands_in_the_file(&names.join(" and ")), help);
     };
     Ok((MechanismFigure::Distance([first, second]), names.join(" ")))
 }

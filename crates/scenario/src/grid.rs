@@ -89,12 +89,10 @@ pub fn read(table: &mut TomlTable, drives: &Drives, is_replaced: bool) -> Result
         (Some((family, from)), []) => (family, ranged_points(table, family, from)?),
         (None, []) => {
             let keys = ["from_deg", "from_rad", "from_s", "from_ms", "angles_deg", "angles_rad", "times_s", "times_ms"];
-            let help = sentences::A_GRID_GOES_BY_CRANK_ANGLE;
-            return Err(table.lacks(&keys, help));
+            return Err(table.lacks(&keys, sentences::A_GRID_GOES_BY_CRANK_ANGLE));
         }
         (_, [.., (key, _, _)]) => {
-            let help = sentences::KEEP_ONE_OF_A_RANGE_FROM_TO_STEP;
-            return table.refuse(key, sentences::THE_GRID_IS_GIVEN_TWICE, help);
+            return table.refuse(key, sentences::THE_GRID_IS_GIVEN_TWICE, sentences::KEEP_ONE_OF_A_RANGE_FROM_TO_STEP);
         }
     };
     table.finish()?;
@@ -119,8 +117,7 @@ pub fn read(table: &mut TomlTable, drives: &Drives, is_replaced: bool) -> Result
 fn ranged_points(table: &mut TomlTable, family: &'static UnitFamily, from: f64) -> Result<Vec<f64>> {
     let to = table.quantity("to", family, Sign::Any)?;
     let step = table.quantity("step", family, Sign::NotZero)?;
-    let help = sentences::CHECK_FROM_TO_AND_THE_SIZE;
-    range(from, to, step).or_else(|message| table.refuse("step", message, help))
+    range(from, to, step).or_else(|message| table.refuse("step", message, sentences::CHECK_FROM_TO_AND_THE_SIZE))
 }
 
 #[cfg(test)]

@@ -66,9 +66,7 @@ pub fn read(tables: Vec<TomlTable>, links: &[Link], faults: &mut Faults) -> Vec<
 fn joint(table: &mut TomlTable, links: &[Link], before: &[Joint]) -> Result<Joint> {
     let name = sound_name(table, "a joint")?;
     if before.iter().any(|joint| joint.name == name) {
-        let message = sentences::two_joints_are_called(&name);
-        let help = sentences::GIVE_EVERY_JOINT_ITS_OWN;
-        return table.refuse("name", message, help);
+        return table.refuse("name", sentences::two_joints_are_called(&name), sentences::GIVE_EVERY_JOINT_ITS_OWN);
     }
     let (kind, drawn) = kind(table)?;
     let pair = table.strings("links")?;

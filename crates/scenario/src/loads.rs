@@ -312,8 +312,7 @@ fn check_crank(row: &TomlTable, points: &[(f64, f64)], turns: u32, smooth: bool)
         return Err(row.fault(sentences::A_JUMP_HAS_TWO_POINTS).help(sentences::WRITE_THE_POINTS_IN_ASCENDING));
     }
     if !jumps && before(1).is_some_and(|before| !(last > before)) {
-        let message = sentences::THE_CRANK_ANGLES_OF_THE_TABLE;
-        return Err(row.fault(message).help(sentences::WRITE_THE_POINTS_IN_ASCENDING));
+        return Err(row.fault(sentences::THE_CRANK_ANGLES_OF_THE_TABLE).help(sentences::WRITE_THE_POINTS_IN_ASCENDING));
     }
     // Degrees are rounded when they are converted to radians.
     // The margin 1e-12 therefore refuses a point at the end of the period even if rounding has moved it below the end.
@@ -355,8 +354,7 @@ fn turning(table: &mut TomlTable, name: &str, mechanism: &Mechanism) -> Result<L
     // A link that cannot turn has the angular velocity zero plus rounding error. Such a link is refused, because the
     // rounding error would decide the sense of the moment.
     if !mechanism.can_turn(link) {
-        let message = sentences::link_does_not_turn_prismatic(&name);
-        return table.refuse("link", message, sentences::NAME_A_LINK_THAT_TURNS);
+        return table.refuse("link", sentences::link_does_not_turn_prismatic(&name), sentences::NAME_A_LINK_THAT_TURNS);
     }
     Ok(link)
 }

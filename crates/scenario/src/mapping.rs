@@ -237,8 +237,7 @@ fn read(root: &mut TomlTable) -> Result<Mapping> {
             for (key, size) in SIZES {
                 let Some(number) = entry.optional_number(key)? else { continue };
                 if number < 0.0 {
-                    let help = sentences::A_DIFFERENCE_THAT_IS_ALLOWED;
-                    return entry.refuse(key, format!("found {number}"), help);
+                    return entry.refuse(key, format!("found {number}"), sentences::A_DIFFERENCE_THAT_IS_ALLOWED);
                 }
                 mapping.allowed.push(Allowed { of: of.clone(), size: size(number) });
             }

@@ -208,8 +208,7 @@ fn motion(table: &mut TomlTable, law: MotionLaw, input: Input) -> Result<DriveMo
         }
         None if initial.is_some() => Err(table.lacks(&["motion"], sentences::A_LINK_WITH_A_SPEED_AT_MOVES)),
         Some("prescribed") if initial.is_some() => {
-            let help = sentences::WRITE_MOTION_FREE_TO_LEAVE;
-            table.refuse("initial_speed", sentences::THE_LINK_IS_GIVEN_A_SPEED, help)
+            table.refuse("initial_speed", sentences::THE_LINK_IS_GIVEN_A_SPEED, sentences::WRITE_MOTION_FREE_TO_LEAVE)
         }
         None | Some("prescribed") => Ok(DriveMotion::Prescribed { law, motor: None }),
         Some(other) => {
@@ -225,9 +224,8 @@ fn through(table: &mut TomlTable) -> Result<bool> {
         None => Ok(false),
         Some("smooth") => Ok(true),
         Some("jump") => {
-            let message = sentences::ON_THE_OTHER_BRANCH_VELOCITIES;
             let help = sentences::WRITE_THROUGH_SMOOTH_FOR_THE_BRANCH_ON_WHICH_THEY;
-            table.unsupported("through", message, help)
+            table.unsupported("through", sentences::ON_THE_OTHER_BRANCH_VELOCITIES, help)
         }
         Some(other) => {
             let help = sentences::WRITE_THROUGH_SMOOTH_FOR_THE_BRANCH;
@@ -315,8 +313,7 @@ fn cycloidal(table: &mut TomlTable, start: InputValue) -> Result<Begun> {
     let rise = table.quantity("to", of_input(start.input), Sign::Any)? - start.value;
     let time = table.si("time")?;
     if rise == 0.0 {
-        let message = sentences::THE_CRANK_IS_TO_STAY_WHERE;
-        return table.refuse("to", message, sentences::GIVE_A_CRANK_ANGLE_OTHER);
+        return table.refuse("to", sentences::THE_CRANK_IS_TO_STAY_WHERE, sentences::GIVE_A_CRANK_ANGLE_OTHER);
     }
     Ok((MotionLaw::Cycloidal { rise, time }, None))
 }

@@ -98,9 +98,8 @@ fn kloss(table: &mut TomlTable) -> Result<MotorLaw> {
         }
         (Some(slip), None) if slip > 0.0 => slip,
         (Some(slip), None) => {
-            let help = sentences::GIVE_SYNCHRONOUS_SPEED_SPEED_OF_BREAKDOWN;
             let message = sentences::found_but_the_slip_of_breakdown(&slip);
-            return table.refuse("breakdown_slip", message, help);
+            return table.refuse("breakdown_slip", message, sentences::GIVE_SYNCHRONOUS_SPEED_SPEED_OF_BREAKDOWN);
         }
         (None, Some(speed)) if speed < synchronous_speed => 1.0 - speed / synchronous_speed,
         (None, Some(speed)) => {
@@ -145,14 +144,12 @@ fn inertia(table: &mut TomlTable) -> Result<ShaftInertia> {
     let ratio = table.optional_number("intermediate_ratio")?;
     match ratio {
         Some(ratio) if ratio <= 0.0 => {
-            let message = sentences::found_but_a_ratio_of_speeds(&ratio);
             let help = sentences::GIVE_THE_SPEED_OF_THE_INTERMEDIATE;
-            return table.refuse("intermediate_ratio", message, help);
+            return table.refuse("intermediate_ratio", sentences::found_but_a_ratio_of_speeds(&ratio), help);
         }
         None if intermediate > 0.0 => {
-            let message = sentences::THE_INTERMEDIATE_SHAFT_HAS_A_MOMENT;
             let help = sentences::ADD_INTERMEDIATE_RATIO_ITS_SPEED;
-            return table.refuse("intermediate_inertia_kg_m2", message, help);
+            return table.refuse("intermediate_inertia_kg_m2", sentences::THE_INTERMEDIATE_SHAFT_HAS_A_MOMENT, help);
         }
         _ => {}
     }

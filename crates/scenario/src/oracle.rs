@@ -107,15 +107,17 @@ pub struct Oracle {
     pub figures: Vec<OracleFigure>,
 }
 
-/// Origin of the numbers of an oracle.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum OracleBasis {
-    /// Printed in the source.
-    Published,
-    /// Recomputed by this project from the data in the source.
-    Recomputed,
-    /// Derived from given data by a formula.
-    Derived,
+linkage::words! {
+    /// Origin of the numbers of an oracle.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum OracleBasis: word {
+        /// Printed in the source.
+        Published = "published",
+        /// Recomputed by this project from the data in the source.
+        Recomputed = "recomputed",
+        /// Derived from given data by a formula.
+        Derived = "derived",
+    }
 }
 
 impl Oracle {
@@ -139,16 +141,6 @@ impl Oracle {
 }
 
 impl OracleBasis {
-    const ALL: [OracleBasis; 3] = [OracleBasis::Published, OracleBasis::Recomputed, OracleBasis::Derived];
-
-    fn word(self) -> &'static str {
-        match self {
-            OracleBasis::Published => "published",
-            OracleBasis::Recomputed => "recomputed",
-            OracleBasis::Derived => "derived",
-        }
-    }
-
     /// Reads the key `basis`; `Published` if the key is missing.
     fn read(table: &mut TomlTable) -> Result<Self> {
         let words = Self::ALL.map(|basis| (basis.word(), basis));

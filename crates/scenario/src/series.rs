@@ -145,9 +145,8 @@ impl Known<'_> {
         if self.wanted.contains(&found.channel) {
             return Ok((name, found));
         }
-        let message = sentences::this_channel_is_one_of_the_which_channels(&stage.name());
         let help = sentences::add_to_want_or_take_the_published(&stage.name());
-        table.refuse("channel", message, help)
+        table.refuse("channel", sentences::this_channel_is_one_of_the_which_channels(&stage.name()), help)
     }
 
     fn help(&self, name: &str) -> String {

@@ -98,8 +98,7 @@ impl<'a> Source<'a> {
     fn check_size(&self) -> Result<()> {
         let mut signs = self.text.bytes().enumerate().filter(|(_, byte)| b",=[{.".contains(byte));
         let Some((at, _)) = signs.nth(MOST_VALUES) else { return Ok(()) };
-        let message = sentences::the_file_has_more_than_values(&MOST_VALUES);
-        Err(Error::new(ErrorKind::Input, message)
+        Err(Error::new(ErrorKind::Input, sentences::the_file_has_more_than_values(&MOST_VALUES))
             .at(self.place(at..at + 1))
             .help(sentences::DIVIDE_IT_OR_TAKE_A_COARSER))
     }

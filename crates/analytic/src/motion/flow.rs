@@ -261,10 +261,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
         // At its upper end a table may already have the value after a jump.
         work.held.piece = [ends[0], just_below(ends[1])];
         self.smooth.set(knots::beyond(ends));
-        match stood.is_empty() {
-            true => self.accelerate(work, place.x, &place.y),
-            false => self.set_off(work, place, stood),
-        }
+        if stood.is_empty() { self.accelerate(work, place.x, &place.y) } else { self.set_off(work, place, stood) }
     }
 
     /// Chooses the motor's branch at the crank's speed.
@@ -436,8 +433,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
 
     fn is_held(&self, place: &Place<N>, link: LinkId, what: &str) -> Error {
         let name = &self.case.mechanism.links()[link].name;
-        let message = sentences::link_at_rest_at(&what, &name, &place.x);
-        Error::new(ErrorKind::Numeric, message)
+        Error::new(ErrorKind::Numeric, sentences::link_at_rest_at(&what, &name, &place.x))
             .at_time(place.x)
             .of_link(name)
             .help(sentences::GIVE_THE_MOTOR_MORE_TORQUE)

@@ -104,8 +104,7 @@ fn run<const N: usize>(
         pace.piece(place.x, last)?;
         empty = if place.x > from { 0 } else { empty + 1 };
         if empty > MOST_EMPTY {
-            let message = sentences::the_motion_does_not_get_away(&from);
-            return Err(Error::new(ErrorKind::Numeric, message)
+            return Err(Error::new(ErrorKind::Numeric, sentences::the_motion_does_not_get_away(&from))
                 .at_time(from)
                 .help(sentences::A_LOAD_THAT_TURNS_ABOUT_JUST));
         }

@@ -274,10 +274,12 @@ impl Pace {
         self.0 += 1;
         // The comparison is negated so that NaN is refused.
         if self.0.is_multiple_of(JUDGED) && !(last / x * self.0 as f64 <= MOST_PIECES as f64) {
-            let message = sentences::of_the_motion_has_gone_in_pieces(&last, &x, &self.0);
-            return Err(Error::new(ErrorKind::Numeric, message)
-                .at_time(x)
-                .help(sentences::IT_RUNS_AWAY_OR_A_LOAD_TURNS));
+            return Err(Error::new(
+                ErrorKind::Numeric,
+                sentences::of_the_motion_has_gone_in_pieces(&last, &x, &self.0),
+            )
+            .at_time(x)
+            .help(sentences::IT_RUNS_AWAY_OR_A_LOAD_TURNS));
         }
         Ok(())
     }

@@ -179,8 +179,7 @@ impl<'m, 'a> Runner<'m, 'a> {
             }
             if omega == 0.0 && way > 0.0 && self.starts_back(crank) {
                 let at = forces.model.case.told(crank + self.gone);
-                let message = sentences::at_the_crank_may_start_from_rest(&t, &at);
-                return Err(Error::new(ErrorKind::Unsupported, message)
+                return Err(Error::new(ErrorKind::Unsupported, sentences::at_the_crank_may_start_from_rest(&t, &at))
                     .at_time(t)
                     .at_input(at)
                     .help(sentences::GIVE_THE_CRANK_A_SPEED_AT_OR_LET));

@@ -64,8 +64,7 @@ impl Achieved {
         let as_drawn = Task { places: Vec::new(), ..task.clone() };
         let mut evaluator = Evaluator::new(&as_drawn);
         evaluator.run(&[], task.case.crank().zero, &turns).map_err(|_| {
-            let message = sentences::THE_MECHANISM_CANNOT_BE_ASSEMBLED;
-            Error::new(ErrorKind::Geometry, message).help(Advice::LookAtRange)
+            Error::new(ErrorKind::Geometry, sentences::THE_MECHANISM_CANNOT_BE_ASSEMBLED).help(Advice::LookAtRange)
         })?;
         let curve = &evaluator.curve;
         let [low, high] = ends(curve.iter().copied());

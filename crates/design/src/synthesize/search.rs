@@ -20,6 +20,7 @@ use super::rating::Rater;
 use crate::synthesize::task::Task;
 use candidate::{Candidate, even, free_zero, of_share, values};
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::solver::Progress;
 use linkage::threads::{cores, made};
 
 /// Number of equal parts of the turn for the cost of random candidates.
@@ -65,7 +66,7 @@ pub struct SearchResult {
 /// # Errors
 /// Those of [`Task::check`]; [`ErrorKind::Numeric`] if no candidate assembles over the whole turn and nearly keeps the
 /// limits.
-pub fn search(task: &Task, threads: usize, progress: &mut dyn FnMut(f64)) -> Result<SearchResult> {
+pub fn search(task: &Task, threads: usize, progress: Progress) -> Result<SearchResult> {
     task.check()?;
     let threads = if threads == 0 { cores() } else { threads.min(MOST_THREADS) };
     let effort = task.effort;

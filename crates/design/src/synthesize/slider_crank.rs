@@ -110,8 +110,7 @@ fn crank_of(stroke: f64, e: f64, rod: f64) -> Result<f64> {
 /// Lengths of crank and rod for a time ratio (m).
 fn of_time_ratio(stroke: f64, e: f64, ratio: f64) -> Result<(f64, f64)> {
     if !(ratio >= 1.0 && ratio.is_finite()) {
-        let help = sentences::GIVE_THE_TIME_OF_THE_SLOWER;
-        return Err(wrong("time_ratio", sentences::the_time_ratio_is(&ratio), help));
+        return Err(wrong("time_ratio", sentences::the_time_ratio_is(&ratio), sentences::GIVE_THE_TIME_OF_THE_SLOWER));
     }
     let theta = PI * (ratio - 1.0) / (ratio + 1.0);
     let undecided = match (e == 0.0, theta == 0.0) {

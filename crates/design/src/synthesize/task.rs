@@ -154,8 +154,7 @@ impl Task {
             return wrong(ErrorKind::Unsupported, "scenario", message, sentences::TAKE_A_SCENARIO_WITH_ONE_DRIVE);
         }
         if self.variables.is_empty() {
-            let help = sentences::ADD_A_TABLE_VARY_FOR_EACH;
-            return wrong(ErrorKind::Input, "vary", sentences::NOTHING_MAY_VARY, help);
+            return wrong(ErrorKind::Input, "vary", sentences::NOTHING_MAY_VARY, sentences::ADD_A_TABLE_VARY_FOR_EACH);
         }
         let higher = self.case.structure.groups.iter().any(|group| group.kind == GroupKind::Higher);
         if higher && self.transmission > 0.0 {
@@ -165,9 +164,8 @@ impl Task {
         let effort = &self.effort;
         let counts = [effort.candidates, effort.refined, effort.evaluations];
         if counts.iter().any(|count| !(1..=MOST).contains(count)) || effort.refined > effort.candidates {
-            let help = sentences::GIVE_COUNTS_OF_OR_MORE_AND_NO_MORE;
             let message = sentences::THE_SEARCH_HAS_NO_CANDIDATES;
-            return wrong(ErrorKind::Input, "search", message, help);
+            return wrong(ErrorKind::Input, "search", message, sentences::GIVE_COUNTS_OF_OR_MORE_AND_NO_MORE);
         }
         Ok(())
     }

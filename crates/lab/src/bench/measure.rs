@@ -11,7 +11,7 @@ use crate::sentences;
 use linkage::case::Case;
 use linkage::error::Error;
 use linkage::math::KeepNan;
-use linkage::solver::Solver;
+use linkage::solver::{Progress, Solver};
 use linkage::trajectory::{Channel, Stage, Trajectory};
 use linkage::work::{Count, Work, counted};
 
@@ -42,7 +42,7 @@ impl Desk<'_> {
         &self,
         mut planned: Vec<Planned>,
         rounds: usize,
-        progress: &mut dyn FnMut(f64),
+        progress: Progress,
         versions: &mut Vec<(String, String)>,
     ) -> Vec<BenchPoint> {
         let (count, all) = (planned.len(), (rounds * planned.len()).max(1) as f64);

@@ -10,6 +10,7 @@ use super::seen::FaultyProof;
 use super::stage::Stage;
 use crate::sentences;
 use linkage::error::{Advice, Error, ErrorKind, Result};
+use linkage::solver::Progress;
 use linkage::threads::{cores, made};
 use prover::run::{BUDGET, Options};
 use scenario::Scenario;
@@ -47,12 +48,11 @@ impl MutationPlan {
 ///
 /// # Errors
 /// The errors of the proof without a fault; [`ErrorKind::Input`] if that proof disagrees.
-pub fn mutate(scenario: &Scenario, asked: &MutationPlan, progress: &mut dyn FnMut(f64)) -> Result<Mutated> {
+pub fn mutate(scenario: &Scenario, asked: &MutationPlan, progress: Progress) -> Result<Mutated> {
     let stage = Stage::new(scenario, &asked.options)?;
     if stage.verdict == "disagree" {
-        let message = sentences::disagrees_without_a_fault_so(&scenario.name);
         let help = sentences::PROVE_IT_WITHOUT_A_FAULT;
-        return Err(Error::new(ErrorKind::Input, message).help(help));
+        return Err(Error::new(ErrorKind::Input, sentences::disagrees_without_a_fault_so(&scenario.name)).help(help));
     }
     let kinds = asked.kinds();
     allowed(&stage, &kinds, asked)?;

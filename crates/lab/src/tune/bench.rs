@@ -10,6 +10,7 @@ use crate::steps::work_of_run;
 use linkage::case::Case;
 use linkage::engine::{CachedEngine, Engine, Settings};
 use linkage::error::{ErrorKind, Result};
+use linkage::solver::Progress;
 use linkage::trajectory::{Channel, Trajectory};
 use prover::bounds::{Convergence, Ladder, OtherSweeps, residuals};
 use prover::run::Options;
@@ -113,7 +114,7 @@ impl Bench<'_> {
         within: f64,
         options: &Options,
         others: f64,
-        progress: &mut dyn FnMut(f64),
+        progress: Progress,
     ) -> Outcome {
         let mut search = Search { engine, within, others, best: None, least: f64::INFINITY, dear: false };
         let (ways, sweeps) = (ways(engine, self.case, options), sweeps(engine, options));

@@ -29,8 +29,7 @@ pub fn check_inertias(case: &Case, software: &str) -> Result<()> {
     let Some(bare) = case.mechanism.links()[1..].iter().find(|link| !(link.mass > 0.0 && link.inertia > 0.0)) else {
         return Ok(());
     };
-    let message = sentences::link_has_no_mass_or_no_moment(&bare.name, &software);
-    Err(Error::new(ErrorKind::Unsupported, message)
+    Err(Error::new(ErrorKind::Unsupported, sentences::link_has_no_mass_or_no_moment(&bare.name, &software))
         .key(format!("links.{}", bare.name))
         .of_link(&bare.name)
         .help(sentences::GIVE_EVERY_LINK_BOTH)

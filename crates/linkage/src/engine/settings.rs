@@ -5,35 +5,16 @@ use std::fmt;
 use crate::case::Case;
 use crate::math::KeepNan;
 
-/// A method for reactions and balancing moment.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Route {
-    /// Newton-Euler equations. The accelerations are centred second differences of the engine's positions.
-    Differences,
-    /// Values that the engine reports during the run, such as impulses or multipliers.
-    Native,
-    /// Values that the engine reports for one tiny step from a state of its trajectory.
-    Probe,
-}
-
-impl Route {
-    /// All routes.
-    pub const ALL: [Route; 3] = [Route::Differences, Route::Native, Route::Probe];
-
-    /// Name, as on the command line.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Route::Differences => "differences",
-            Route::Native => "native",
-            Route::Probe => "probe",
-        }
-    }
-
-    /// The route called `name`.
-    #[must_use]
-    pub fn named(name: &str) -> Option<Route> {
-        Route::ALL.into_iter().find(|route| route.name() == name)
+crate::words! {
+    /// A method for reactions and balancing moment.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    pub enum Route: name {
+        /// Newton-Euler equations. The accelerations are centred second differences of the engine's positions.
+        Differences = "differences",
+        /// Values that the engine reports during the run, such as impulses or multipliers.
+        Native = "native",
+        /// Values that the engine reports for one tiny step from a state of its trajectory.
+        Probe = "probe",
     }
 }
 

@@ -159,26 +159,14 @@ impl JointKind {
     }
 }
 
-/// Appearance of a prismatic pair in pictures. The appearance does not affect any calculation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Guise {
-    /// A piston in a cylinder.
-    Cylinder,
-    /// A block: on rails of the ground, or in a slot of a moving link.
-    Block,
-}
-
-impl Guise {
-    /// All of them.
-    pub const ALL: [Guise; 2] = [Guise::Cylinder, Guise::Block];
-
-    /// Name, as in scenario files.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Guise::Cylinder => "cylinder",
-            Guise::Block => "block",
-        }
+crate::words! {
+    /// Appearance of a prismatic pair in pictures. The appearance does not affect any calculation.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Guise: name {
+        /// A piston in a cylinder.
+        Cylinder = "cylinder",
+        /// A block: on rails of the ground, or in a slot of a moving link.
+        Block = "block",
     }
 }
 

@@ -9,36 +9,20 @@ use super::reading::{
 };
 use super::unit::Unit;
 
-/// The last stage that a solver must compute to obtain a channel. Each stage needs all stages before it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Stage {
-    /// Positions and angles.
-    Positions,
-    /// Velocities and angular velocities.
-    Velocities,
-    /// Accelerations and angular accelerations.
-    Accelerations,
-    /// Joint reactions.
-    Reactions,
-    /// Balancing moments on the driving links.
-    BalancingMoment,
-}
-
-impl Stage {
-    /// All stages, in order.
-    pub const ALL: [Stage; 5] =
-        [Stage::Positions, Stage::Velocities, Stage::Accelerations, Stage::Reactions, Stage::BalancingMoment];
-
-    /// Name of the stage in scenario files.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Stage::Positions => "positions",
-            Stage::Velocities => "velocities",
-            Stage::Accelerations => "accelerations",
-            Stage::Reactions => "reactions",
-            Stage::BalancingMoment => "balancing_moment",
-        }
+crate::words! {
+    /// The last stage that a solver must compute to obtain a channel. Each stage needs all stages before it.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+    pub enum Stage: name {
+        /// Positions and angles.
+        Positions = "positions",
+        /// Velocities and angular velocities.
+        Velocities = "velocities",
+        /// Accelerations and angular accelerations.
+        Accelerations = "accelerations",
+        /// Joint reactions.
+        Reactions = "reactions",
+        /// Balancing moments on the driving links.
+        BalancingMoment = "balancing_moment",
     }
 }
 

@@ -2,44 +2,31 @@
 
 use std::fmt;
 
-/// SI unit of a channel.
-/// Code that depends on the unit matches on this enum. Such code does not compile until it handles every new unit.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Unit {
-    /// Angles (rad).
-    Radian,
-    /// Angular velocities (rad/s).
-    RadianPerSecond,
-    /// Angular accelerations (rad/s^2).
-    RadianPerSecondSquared,
-    /// Lengths and coordinates (m).
-    Metre,
-    /// Velocities (m/s).
-    MetrePerSecond,
-    /// Accelerations (m/s^2).
-    MetrePerSecondSquared,
-    /// Forces (N).
-    Newton,
-    /// Moments (N m).
-    NewtonMetre,
+crate::words! {
+    /// SI unit of a channel.
+    /// Code that depends on the unit matches on this enum. Such code does not compile until it handles every new unit.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+    pub enum Unit: symbol {
+        /// Angles (rad).
+        Radian = "rad",
+        /// Angular velocities (rad/s).
+        RadianPerSecond = "rad/s",
+        /// Angular accelerations (rad/s^2).
+        RadianPerSecondSquared = "rad/s^2",
+        /// Lengths and coordinates (m).
+        Metre = "m",
+        /// Velocities (m/s).
+        MetrePerSecond = "m/s",
+        /// Accelerations (m/s^2).
+        MetrePerSecondSquared = "m/s^2",
+        /// Forces (N).
+        Newton = "N",
+        /// Moments (N m).
+        NewtonMetre = "N m",
+    }
 }
 
 impl Unit {
-    /// Symbol of the unit in files, for example `rad/s^2`.
-    #[must_use]
-    pub const fn symbol(self) -> &'static str {
-        match self {
-            Unit::Radian => "rad",
-            Unit::RadianPerSecond => "rad/s",
-            Unit::RadianPerSecondSquared => "rad/s^2",
-            Unit::Metre => "m",
-            Unit::MetrePerSecond => "m/s",
-            Unit::MetrePerSecondSquared => "m/s^2",
-            Unit::Newton => "N",
-            Unit::NewtonMetre => "N m",
-        }
-    }
-
     /// Suffix of names of quantities in this unit, for example `rad_s2`.
     #[must_use]
     pub const fn suffix(self) -> &'static str {

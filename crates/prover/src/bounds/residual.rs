@@ -97,10 +97,7 @@ pub(crate) fn scales_beyond(errors: &[f64], trajectory: &Trajectory, built: &Bui
     });
     let own: Vec<[f64; 2]> = halves.iter().copied().zip(largest).map(|(half, largest)| [half, largest]).collect();
     let sizes = own.iter().map(|[half, largest]| half.larger(*largest));
-    let (turn, share) = match is_instant {
-        true => (1.0, 1.0),
-        false => (half_range(trajectory.inputs()), SMALLEST_SHARE),
-    };
+    let (turn, share) = if is_instant { (1.0, 1.0) } else { (half_range(trajectory.inputs()), SMALLEST_SHARE) };
     let sizes = Sizes::of(trajectory, trajectory.channels().iter().zip(sizes));
     let of = |(index, channel): (usize, &Channel)| {
         let [half, largest] = own[index];

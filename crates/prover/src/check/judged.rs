@@ -130,10 +130,7 @@ impl JudgedFormula {
     /// Enlarges the scale to the size of this value of the claim.
     /// All values must be passed to this function before the first instant is judged.
     pub(super) fn seen(&mut self, mechanism: Rounded) {
-        match has_number(mechanism) {
-            true => self.scale = self.scale.larger(mechanism.value.abs()),
-            false => self.undefined += 1,
-        }
+        if has_number(mechanism) { self.scale = self.scale.larger(mechanism.value.abs()) } else { self.undefined += 1 }
     }
 
     /// Judges one instant.

@@ -81,9 +81,8 @@ impl ComparisonRule {
             None => Ok(()),
             Some((_, word)) => {
                 let all: Vec<&str> = compared.map(|claim| claim.text.as_str()).take(5).collect();
-                let message = sentences::no_channel_that_is_compared(&word);
                 let help = sentences::name_one_of_them_a_subject(&all.join(", "));
-                Err(Error::new(ErrorKind::Input, message).help(help))
+                Err(Error::new(ErrorKind::Input, sentences::no_channel_that_is_compared(&word)).help(help))
             }
         }
     }

@@ -181,9 +181,6 @@ pub(super) fn place(at: &RowPair, input: Input) -> String {
         (true, _) => format!("{:.3}", input.at(*crank)),
     };
     let told = |value: &f64| if value.is_nan() { "no number".into() } else { format!("{value:.9e}") };
-    let way_out = match at.difference.is_nan() {
-        true => sentences::LEAVE_A_CELL_EMPTY_WHERE,
-        false => "",
-    };
+    let way_out = if at.difference.is_nan() { sentences::LEAVE_A_CELL_EMPTY_WHERE } else { "" };
     sentences::first_at_against(&when, &told(one), &told(other), &way_out)
 }

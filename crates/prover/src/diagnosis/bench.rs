@@ -220,10 +220,7 @@ fn gaps(question: &DiagnosisInput, channel: &Channel) -> Option<Vec<f64>> {
 
 fn spread(rows: &[usize]) -> Vec<usize> {
     let last = rows.len().saturating_sub(1);
-    match rows.len() > INSTANTS {
-        true => (0..INSTANTS).map(|k| rows[k * last / (INSTANTS - 1)]).collect(),
-        false => rows.to_vec(),
-    }
+    if rows.len() > INSTANTS { (0..INSTANTS).map(|k| rows[k * last / (INSTANTS - 1)]).collect() } else { rows.to_vec() }
 }
 
 /// Each row once. The first row of the grid comes first, because whole revolutions are counted from this row.

@@ -18,6 +18,7 @@ use linkage::case::Case;
 use linkage::engine::{Engine, Settings};
 use linkage::error::{Advice, ErrorKind, Result};
 use linkage::math::KeepNan;
+use linkage::solver::Progress;
 use scenario::EngineSettings;
 
 /// Runs an engine on `case` and judges it, at the given settings or at the settings found by the search.
@@ -26,7 +27,7 @@ pub(super) fn prove(
     case: &Case,
     chosen: &Chosen,
     ledger: &mut Ledger,
-    progress: &mut dyn FnMut(f64),
+    progress: Progress,
 ) -> Result<EngineProof> {
     let (engine, asked) = (chosen.engine.as_ref(), judge.asked);
     let mut bank = Bank::new(case, engine, Watch::Engine);
@@ -105,13 +106,7 @@ type Outcome = std::result::Result<Judged, Stopped>;
 
 /// Judges the engine at its given settings, without a search.
 /// The work is limited by the usual budget or, if that is larger, by the budget of a search.
-fn at_given(
-    judge: &Judge,
-    bank: &mut Bank,
-    engine: &dyn Engine,
-    budget: f64,
-    progress: &mut dyn FnMut(f64),
-) -> Outcome {
+fn at_given(judge: &Judge, bank: &mut Bank, engine: &dyn Engine, budget: f64, progress: Progress) -> Outcome {
     if !engine.controls_error() {
         let budget = budget.larger(BUDGET);
         too_much(bank, judge.asked, &rungs(judge.asked, &[]), [budget; 2])?;

@@ -21,7 +21,7 @@ use formula::Rounded;
 use linkage::case::Case;
 use linkage::engine::Engine;
 use linkage::error::Result;
-use linkage::solver::Solver;
+use linkage::solver::{Progress, Solver};
 use linkage::trajectory::{Channel, Trajectory};
 use scenario::{Formulas, MechanismFigure};
 
@@ -255,7 +255,7 @@ impl ObservedSides {
         how: &EngineRole,
         engines: Vec<Chosen>,
         ledger: &mut Ledger,
-        progress: &mut dyn FnMut(f64),
+        progress: Progress,
     ) -> Result<Vec<EngineProof>> {
         let case = how.case.on(problem.case.grid.clone())?;
         let count = engines.len() as f64;

@@ -10,7 +10,7 @@ use linkage::error::Error;
 use linkage::math::statistics::share;
 use linkage::math::{KeepNan, Motion, Vec2, largest_size, unit};
 use linkage::mechanism::{LinkPose, Pose};
-use linkage::solver::{Sampler, Solver, State};
+use linkage::solver::{Progress, Sampler, Solver, State};
 use linkage::trajectory::{Stage, Trajectory};
 
 /// Quantities observed during a run besides its trajectory.
@@ -132,7 +132,7 @@ pub(super) fn observe(
     case: &Case,
     solver: &dyn Solver,
     watch: Watch,
-    progress: &mut dyn FnMut(f64),
+    progress: Progress,
 ) -> std::result::Result<Observed, Stopped> {
     let mut sampler = Sampler::new(case);
     let with_power = watch != Watch::Senses && case.wanted.has(Stage::BalancingMoment);

@@ -18,6 +18,7 @@ use crate::numbers::error;
 use linkage::case::Case;
 use linkage::engine::{Engine, Route, Settings};
 use linkage::error::{Advice, Error, ErrorKind};
+use linkage::solver::Progress;
 use linkage::trajectory::Stage;
 use scenario::EngineSetting;
 
@@ -40,7 +41,7 @@ pub(super) fn judged(
     case: &Case,
     chosen: &Chosen,
     motion: &EngineProof,
-    progress: &mut dyn FnMut(f64),
+    progress: Progress,
 ) -> Option<EngineProof> {
     let effort = motion.search.as_ref().map_or(0.0, |search| search.effort);
     // If the motion has needed more work than is allowed for the engine's own forces, they are not judged.
@@ -88,7 +89,7 @@ fn by_route(
     chosen: &Chosen,
     route: Route,
     sweeps: usize,
-    progress: &mut dyn FnMut(f64),
+    progress: Progress,
 ) -> EngineProof {
     let given = chosen.engine.settings();
     // If the step and the number of extrapolations are given, the step is kept: both settings belong together.

@@ -13,6 +13,7 @@ use linkage::case::Case;
 use linkage::engine::{CachedEngine, Engine, Settings, plain_runs, size_of_step};
 use linkage::error::Advice;
 use linkage::math::KeepNan;
+use linkage::solver::Progress;
 use linkage::work::limited;
 
 /// The runs that judge an engine at some settings.
@@ -81,7 +82,7 @@ impl<'a> Bank<'a> {
     }
 
     /// Makes the runs that are still missing for all `settings`, in parallel.
-    pub(super) fn prepare(&mut self, settings: &[Settings], progress: &mut dyn FnMut(f64)) {
+    pub(super) fn prepare(&mut self, settings: &[Settings], progress: Progress) {
         let missing = self.kept.missing(self.case, settings);
         self.count += missing.len();
         self.effort += self.work(&missing);
@@ -140,12 +141,7 @@ impl<'a> Bank<'a> {
 
     /// The runs that judge the engine at `settings`: those at double, single and half the resolution, and those with
     /// `others` sweeps, at most two.
-    pub(super) fn runs(
-        &mut self,
-        settings: Settings,
-        others: &[usize],
-        progress: &mut dyn FnMut(f64),
-    ) -> Result<Runs, Stopped> {
+    pub(super) fn runs(&mut self, settings: Settings, others: &[usize], progress: Progress) -> Result<Runs, Stopped> {
         let rungs = rungs(settings, others);
         self.keep_few(&rungs);
         self.prepare(&rungs, progress);

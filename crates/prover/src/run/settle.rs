@@ -8,6 +8,7 @@ use linkage::engine::{Engine, Settings};
 use linkage::error::{Advice, Error, ErrorKind};
 use linkage::math::KeepNan;
 use linkage::math::statistics::half_range;
+use linkage::solver::Progress;
 
 use super::engine_proof::{SearchEnd, SettingsSearch};
 use super::judge::{Judge, Judged};
@@ -158,7 +159,7 @@ impl<'a, 'b> Settling<'a, 'b> {
     /// # Errors
     /// The failure of the last run, if no run can be judged.
     /// An error if the first runs need more work than is allowed.
-    pub(super) fn run(mut self, progress: &mut dyn FnMut(f64)) -> Result<Judged, Stopped> {
+    pub(super) fn run(mut self, progress: Progress) -> Result<Judged, Stopped> {
         let mut best: Option<Trial> = None;
         let mut failure = None;
         let (mut round, mut failed) = (0, 0);
@@ -367,7 +368,7 @@ impl<'a, 'b> Settling<'a, 'b> {
 
     /// Makes the runs of a round, judges the combinations of the runs and returns the best combination.
     /// A long search (`is_long`) determines the iteration error whatever the step.
-    fn round(&mut self, is_long: bool, progress: &mut dyn FnMut(f64)) -> Result<Trial, Stopped> {
+    fn round(&mut self, is_long: bool, progress: Progress) -> Result<Trial, Stopped> {
         let mut best: Option<Trial> = None;
         let mut failure = None;
         let candidates = self.candidates();
@@ -426,7 +427,7 @@ impl<'a, 'b> Settling<'a, 'b> {
         }
     }
 
-    fn trial(&mut self, settings: Settings, others: &[usize], progress: &mut dyn FnMut(f64)) -> Result<Trial, Stopped> {
+    fn trial(&mut self, settings: Settings, others: &[usize], progress: Progress) -> Result<Trial, Stopped> {
         let runs = self.bank.runs(settings, others, progress)?;
         let judged = self.judge.judge(self.bank.engine(settings).as_ref(), runs)?;
         let (need, blame) = need(&judged, self.judge.problem.engine_rel);

@@ -50,8 +50,7 @@ fn of_file(path: &Path, size: u64, may: May) -> std::result::Result<Result<TextT
     let described = reader.metadata().file_metadata();
     let names: Vec<String> = described.schema().get_fields().iter().map(|field| field.name().to_string()).collect();
     let refused = |message: String, help: &str| {
-        let message = sentences::the_table(&path.display(), &message);
-        Ok(Err(Error::new(ErrorKind::Input, message).help(help.to_string())))
+        Ok(Err(Error::new(ErrorKind::Input, sentences::the_table(&path.display(), &message)).help(help.to_string())))
     };
     if let Some(twice) = Twice::of(&names) {
         return refused(twice.to_string(), Twice::HELP);

@@ -174,8 +174,7 @@ impl ClassChange {
         }
         if halvings == 0 {
             let (names, at) = (&self.names, self.input.at(target));
-            let message = sentences::class_change_the_group_cannot(&names, &at);
-            return Err(Error::new(ErrorKind::Geometry, message)
+            return Err(Error::new(ErrorKind::Geometry, sentences::class_change_the_group_cannot(&names, &at))
                 .at_input(at)
                 .of_group(names)
                 .help(Advice::ShortenGrid));

@@ -30,14 +30,12 @@ pub(super) fn check(mechanism: &Mechanism) -> Result<()> {
         Err(error.help(sentences::GIVE_IT_ANOTHER_NAME_IN_THE_SCENARIO))
     };
     if mechanism.links()[1..].iter().any(|link| link.name == WORLD) {
-        let message = sentences::MUJOCO_CALLS_THE_GROUND_WORLD.to_string();
-        return unsupported(message, format!("links.{WORLD}"));
+        return unsupported(sentences::MUJOCO_CALLS_THE_GROUND_WORLD.to_string(), format!("links.{WORLD}"));
     }
     let links = mechanism.links()[1..].iter().map(|link| ("links", &link.name));
     for (table, name) in links.chain(mechanism.joints().iter().map(|joint| ("joints", &joint.name))) {
         if name.is_empty() || name.chars().any(char::is_control) {
-            let message = sentences::MUJOCO_TAKES_NO_EMPTY_NAMES.to_string();
-            return unsupported(message, format!("{table}.{name}"));
+            return unsupported(sentences::MUJOCO_TAKES_NO_EMPTY_NAMES.to_string(), format!("{table}.{name}"));
         }
     }
     let mut sites = BTreeSet::new();
@@ -46,8 +44,7 @@ pub(super) fn check(mechanism: &Mechanism) -> Result<()> {
     let points = mechanism.moving_points().map(|(name, _)| name.to_string());
     for name in sides.chain(points) {
         if !sites.insert(name.clone()) {
-            let message = sentences::the_file_would_have_two_sites(&name);
-            return unsupported(message, format!("points.{name}"));
+            return unsupported(sentences::the_file_would_have_two_sites(&name), format!("points.{name}"));
         }
     }
     Ok(())

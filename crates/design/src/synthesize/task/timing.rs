@@ -105,8 +105,10 @@ impl Timing {
         }
         for sense in [Sense::Forward, Sense::Back] {
             if !phases.iter().any(|phase| phase.sense == sense) {
-                let message = sentences::no_phase_goes_the_output(&sense.name());
-                return of_all(message, sentences::AN_OUTPUT_THAT_ROCKS_GOES);
+                return of_all(
+                    sentences::no_phase_goes_the_output(&sense.name()),
+                    sentences::AN_OUTPUT_THAT_ROCKS_GOES,
+                );
             }
         }
         Ok(Timing { levels: levels(&phases), phases, follow: false })

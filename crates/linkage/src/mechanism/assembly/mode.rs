@@ -4,27 +4,29 @@ use crate::math::Vec2;
 use crate::mechanism::LinkPose;
 use crate::mechanism::pose::SidePoint;
 
-/// The assembly mode of a group: which real configuration it has.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum AssemblyMode {
-    /// Dyad: the inner joint lies to the left of the directed line from the first link's outer joint to the second
-    /// link's outer joint.
-    Left,
-    /// Dyad: the inner joint lies to the right of the directed line from the first link's outer joint to the second
-    /// link's outer joint.
-    Right,
-    /// RRP dyad: along the axis of its prismatic pair, the inner joint lies ahead of the outer pin.
-    /// RPR dyad: along the axis of its prismatic pair, one outer pin lies ahead of the second outer pin.
-    /// The pin ahead is on the pair's second link, the pin behind on the pair's first link.
-    Ahead,
-    /// RRP dyad: along the axis of its prismatic pair, the inner joint lies behind the outer pin.
-    /// RPR dyad: along the axis of its prismatic pair, one outer pin lies behind the second outer pin.
-    /// The pin behind is on the pair's second link, the pin ahead on the pair's first link.
-    Behind,
-    /// RPP or PRP dyad, which has only one configuration.
-    Only,
-    /// Higher group: the configuration that the group has in the start pose and keeps during the motion.
-    Followed,
+crate::words! {
+    /// The assembly mode of a group: which real configuration it has.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum AssemblyMode: name {
+        /// Dyad: the inner joint lies to the left of the directed line from the first link's outer joint to the second
+        /// link's outer joint.
+        Left = "left",
+        /// Dyad: the inner joint lies to the right of the directed line from the first link's outer joint to the second
+        /// link's outer joint.
+        Right = "right",
+        /// RRP dyad: along the axis of its prismatic pair, the inner joint lies ahead of the outer pin.
+        /// RPR dyad: along the axis of its prismatic pair, one outer pin lies ahead of the second outer pin.
+        /// The pin ahead is on the pair's second link, the pin behind on the pair's first link.
+        Ahead = "ahead",
+        /// RRP dyad: along the axis of its prismatic pair, the inner joint lies behind the outer pin.
+        /// RPR dyad: along the axis of its prismatic pair, one outer pin lies behind the second outer pin.
+        /// The pin behind is on the pair's second link, the pin ahead on the pair's first link.
+        Behind = "behind",
+        /// RPP or PRP dyad, which has only one configuration.
+        Only = "only",
+        /// Higher group: the configuration that the group has in the start pose and keeps during the motion.
+        Followed = "followed",
+    }
 }
 
 impl AssemblyMode {
@@ -35,19 +37,6 @@ impl AssemblyMode {
             AssemblyMode::Left => AssemblyMode::Right,
             AssemblyMode::Right => AssemblyMode::Left,
             AssemblyMode::Ahead | AssemblyMode::Behind | AssemblyMode::Only | AssemblyMode::Followed => self,
-        }
-    }
-
-    /// Name, as in scenario files.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            AssemblyMode::Left => "left",
-            AssemblyMode::Right => "right",
-            AssemblyMode::Ahead => "ahead",
-            AssemblyMode::Behind => "behind",
-            AssemblyMode::Only => "only",
-            AssemblyMode::Followed => "followed",
         }
     }
 }
