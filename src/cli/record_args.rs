@@ -10,6 +10,7 @@ use crate::report::{layout, recorded};
 use files::{self, OutputTarget};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
+use linkage::math::statistics::ends;
 use prover::run::Proof;
 use recording::{self, RecordedSide, Recording, RecordingPlace, Show};
 use scenario::Scenario;
@@ -199,10 +200,8 @@ fn large(bytes: u64, times: &[f64], hz: Option<f64>) -> String {
     if bytes < LARGE {
         return String::new();
     }
-    let ends = times
-        .iter()
-        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &time| [low.smaller(time), high.larger(time)]);
-    let rate = hz.unwrap_or(times.len() as f64 / (ends[1] - ends[0]));
+    let [begin, end] = ends(times.iter().copied());
+    let rate = hz.unwrap_or(times.len() as f64 / (end - begin));
     // The suggested number is rounded to one significant digit, which is enough for a suggestion.
     let fewer = rate * HANDY / bytes as f64;
     let digit = 10f64.powf(fewer.log10().floor());

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use drawing::Travels;
 use linkage::case::{Case, Grid, Wanted};
-use linkage::math::KeepNan;
+use linkage::math::statistics::ends;
 use linkage::mechanism::LinkId;
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
@@ -48,8 +48,7 @@ pub(super) fn with_travels(case: &Case, states: Vec<State>) -> (Vec<State>, Trav
 
 /// Whether a link turns fully in these states.
 fn turns(states: &[State], link: LinkId) -> bool {
-    let angles = || states.iter().map(|state| state.angles[link]);
-    let [least, most] = [angles().fold(f64::INFINITY, f64::smaller), angles().fold(f64::NEG_INFINITY, f64::larger)];
+    let [least, most] = ends(states.iter().map(|state| state.angles[link]));
     most - least >= TAU
 }
 

@@ -29,17 +29,6 @@ pub fn at_input(input: Input) -> String {
     format!("{first}\n{last}, {}", input.shown_in().0)
 }
 
-/// The distinct items, in the order of their first occurrence.
-pub fn distinct<T: PartialEq>(all: impl IntoIterator<Item = T>) -> Vec<T> {
-    let mut found = Vec::new();
-    for one in all {
-        if !found.contains(&one) {
-            found.push(one);
-        }
-    }
-    found
-}
-
 /// A row of a table in Markdown, without a newline.
 pub fn marked<T: AsRef<str>>(cells: &[T]) -> String {
     format!("| {} |", cells.iter().map(AsRef::as_ref).collect::<Vec<_>>().join(" | "))

@@ -2,7 +2,7 @@
 //! The reports also show the forces that an engine itself exerts, beside the forces that follow from its motion.
 
 use super::cells::{fitted, share, trimmed};
-use super::judged::{Grade, grade, worst};
+use super::judged::{grade, worst};
 use crate::sentences;
 use linkage::solver::Provision;
 use linkage::trajectory::Stage;
@@ -28,11 +28,7 @@ fn of_stage(engine: &EngineProof, stage: Stage) -> String {
     let own = || engine.channels.iter().filter(|channel| channel.residual.channel.kind.stage == stage);
     let Some(worst) = worst(own()) else { return "-".into() };
     let residual = &worst.residual;
-    let mark = match grade(&overall(own().map(|channel| &channel.verdict))) {
-        Grade::Agree => "",
-        Grade::Open => " ?",
-        Grade::Disagree => " !",
-    };
+    let mark = grade(&overall(own().map(|channel| &channel.verdict))).of(["", " ?", " !"]);
     format!("{} ({}){mark}", share(residual.max, residual.scale), share(worst.bound, residual.scale))
 }
 

@@ -5,10 +5,11 @@ use std::borrow::Cow;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
 use super::Tell;
-use super::cells::{counted, distinct, some};
+use super::cells::{counted, some};
 use crate::sentences;
 use files::{visible, visible_lines};
 use linkage::error::Error;
+use linkage::math::statistics::distinct;
 use linkage::mechanism::is_unseen;
 
 /// A text for a snippet, in which positions are counted in bytes.

@@ -22,6 +22,17 @@ linkage::words! {
     }
 }
 
+impl Grade {
+    /// The one of three values that belongs to this grade, in the order of the grades.
+    pub(crate) fn of<T>(self, [agree, open, disagree]: [T; 3]) -> T {
+        match self {
+            Grade::Agree => agree,
+            Grade::Open => open,
+            Grade::Disagree => disagree,
+        }
+    }
+}
+
 /// Grade of a verdict.
 #[must_use]
 pub fn grade(verdict: &Verdict) -> Grade {

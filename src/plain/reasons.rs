@@ -2,7 +2,6 @@
 //! This information states why something disagrees or is open, what was not judged, and which printed numbers are known
 //! to be wrong.
 
-use super::cells::distinct;
 use super::judged::{Grade, grade, unproven};
 use super::style::wrapped;
 use super::{Tell, diagnosis};
@@ -10,6 +9,7 @@ use crate::sentences;
 use analytic::assur::effort_at_rest;
 use linkage::error::Advice;
 use linkage::input::Input;
+use linkage::math::statistics::distinct;
 use prover::bounds::{Check, Verdict};
 use prover::numbers::{input_in, quantity};
 use prover::run::Proof;

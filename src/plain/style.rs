@@ -4,7 +4,7 @@
 use anstyle::{AnsiColor, Style};
 use textwrap::{Options, WordSplitter, wrap};
 
-use super::judged::{Grade, grade};
+use super::judged::grade;
 use prover::bounds::Verdict;
 
 /// How detailed a report is.
@@ -45,11 +45,7 @@ pub fn plain(text: &str) -> String {
 /// The word of a verdict in capitals, in its colour.
 pub fn verdict(verdict: &Verdict) -> String {
     let grade = grade(verdict);
-    let colour = match grade {
-        Grade::Agree => AnsiColor::Green,
-        Grade::Open => AnsiColor::Yellow,
-        Grade::Disagree => AnsiColor::Red,
-    };
+    let colour = grade.of([AnsiColor::Green, AnsiColor::Yellow, AnsiColor::Red]);
     let style = Style::new().bold().fg_color(Some(colour.into()));
     format!("{style}{}{style:#}", grade.capitals())
 }

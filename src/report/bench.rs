@@ -5,9 +5,10 @@ use serde_json::{Value, json};
 
 use super::pretty::{list, pretty};
 use super::table_csv::csv;
-use crate::plain::cells::{distinct, table};
+use crate::plain::cells::table;
 use lab::bench::{Bench, BenchOutcome, BenchPoint, CostAxis, Errors, MethodOwner, front};
 use linkage::error::Result;
+use linkage::math::statistics::distinct;
 use linkage::trajectory::Stage;
 
 /// Names and values that describe machine and build.

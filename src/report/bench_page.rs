@@ -4,9 +4,9 @@ use super::bench::{Machine, error, fastest, ratio, short};
 use super::bench_plot::{gaps, programs, reasons};
 use super::html::filled;
 use super::markdown::foreign;
-use crate::plain::cells::distinct;
 use crate::sentences;
 use lab::bench::{Bench, BenchPoint, CLEAR, CostAxis, MethodOwner, front};
+use linkage::math::statistics::distinct;
 use linkage::trajectory::Stage;
 
 /// Errors for which the cells of the tables state the times.

@@ -1,14 +1,15 @@
 //! Diagrams of error against cost, one panel for each stage of channels, as SVG.
 
+use crate::plain::style::wrapped;
 use crate::sentences;
 use std::ops::RangeInclusive;
 
 use super::chart::{Chart, DASHED, Filling, colour, decades, mark};
-use crate::plain::cells::distinct;
 use drawing::paper::document::document;
 use drawing::paper::figure::{DrawnFigure, solid, words};
 use drawing::paper::style::GREY;
 use lab::bench::{Bench, BenchPoint, CLEAR, CostAxis, MethodOwner, front};
+use linkage::math::statistics::distinct;
 use linkage::math::{KeepNan, Vec2};
 use linkage::trajectory::Stage;
 
@@ -146,21 +147,6 @@ fn cut(text: &str, most: usize) -> String {
     }
 }
 
-/// The words of a text in lines of at most `most` characters; a longer word is alone in its line.
-fn wrapped(text: &str, most: usize) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for word in text.split_whitespace() {
-        match lines.last_mut() {
-            Some(line) if line.chars().count() + word.chars().count() < most => {
-                line.push(' ');
-                line.push_str(word);
-            }
-            Some(_) | None => lines.push(word.to_string()),
-        }
-    }
-    lines
-}
-
 /// Programs with their colours, the meaning of the marks, and the reasons of failures.
 fn legend(bench: &Bench, axis: CostAxis) -> DrawnFigure {
     let mut figure = DrawnFigure::default();
@@ -184,7 +170,7 @@ fn legend(bench: &Bench, axis: CostAxis) -> DrawnFigure {
     }
     y -= 2.0;
     let mut write = |y: &mut f64, text: &str, size: f64| {
-        for line in wrapped(text, WIDTH) {
+        for line in wrapped(text, Some(WIDTH), 0).lines() {
             figure.text(Vec2::new(5.0, *y), line, words(size));
             *y -= 1.28 * size;
         }
@@ -204,7 +190,7 @@ fn legend(bench: &Bench, axis: CostAxis) -> DrawnFigure {
     let reasons: Vec<String> = failed.chain(gaps).map(|text| cut(&text, 2 * WIDTH)).collect();
     let mut left = reasons.len();
     for text in &reasons {
-        let high = LINE * wrapped(text, WIDTH).len() as f64;
+        let high = LINE * wrapped(text, Some(WIDTH), 0).lines().count() as f64;
         if y - high < -PANEL[1] {
             break;
         }

@@ -113,11 +113,7 @@ pub fn text(scenario: &Scenario, claimed: &Claimed, tell: Tell, width: usize) ->
             |at: FormulaAtInstant| [fixed(at.input.shown(at.crank), 1), error(at.difference.abs()), error(at.bound)];
         let [at, off, bound] = line.judged.worst.map(numbers).unwrap_or_default();
         let claim = if line.judged.order == 0 { line.judged.claim.clone() } else { String::new() };
-        let word = match line.grade {
-            Grade::Agree => "right",
-            Grade::Open => "undecided",
-            Grade::Disagree => "WRONG",
-        };
+        let word = line.grade.of(["right", "undecided", "WRONG"]);
         [line.name(), claim, at, off, bound, word.into()]
     }));
     let mut text = format!("{}\n\n{}\n", verdict_line(scenario, claimed), trimmed(&table));
@@ -297,11 +293,7 @@ pub fn json(scenario: &Scenario, claimed: &Claimed, tell: Tell) -> String {
     };
     let row = |side: Reference, judged: &JudgedFormula| {
         let formula = formulas.get(judged.name.as_str());
-        let verdict = match grade(judged) {
-            Grade::Agree => "agree",
-            Grade::Open => "inconclusive",
-            Grade::Disagree => "disagree",
-        };
+        let verdict = grade(judged).of(["agree", "inconclusive", "disagree"]);
         json!({
             "side": side.name(), "formula": judged.name, "expression": formula.map(|formula| formula.text.as_str()),
             "source": formula.and_then(|formula| formula.source.as_deref()), "claim": judged.claim,

@@ -91,11 +91,7 @@ fn row(own: &Compared, by: Option<Input>) -> [String; 7] {
         let [first, second] = numbers::beside(values, at.known.smaller_number(NOTHING * largest));
         [when, first, second, numbers::error(at.difference), numbers::error(at.bound)]
     });
-    let word = match grade(&own.verdict) {
-        Grade::Agree => "",
-        Grade::Open => "undecided",
-        Grade::Disagree => "OFF",
-    };
+    let word = grade(&own.verdict).of(["", "undecided", "OFF"]);
     [own.claim.text.clone(), at, first, second, difference, bound, word.into()]
 }
 

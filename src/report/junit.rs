@@ -7,7 +7,7 @@ use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, BytesText, Event};
 
 use super::outcomes::{Case, Entry, Outcomes};
-use crate::plain::judged::{Grade, grade};
+use crate::plain::judged::grade;
 
 /// The outcomes as XML.
 #[must_use]
@@ -48,11 +48,7 @@ fn suite(writer: &mut Writer<Vec<u8>>, entry: &Entry) -> io::Result<()> {
 /// The XML element that reports a case without agreement.
 /// An open case is an error instead of a failure: nothing is wrong, but the verdict is missing.
 fn flaw(case: &Case) -> Option<&'static str> {
-    match grade(&case.verdict) {
-        Grade::Agree => None,
-        Grade::Open => Some("error"),
-        Grade::Disagree => Some("failure"),
-    }
+    grade(&case.verdict).of([None, Some("error"), Some("failure")])
 }
 
 /// A case by name and class, with the element and the type of its flaw, and the reason.

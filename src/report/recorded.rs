@@ -39,11 +39,7 @@ pub(crate) fn metadata(proof: &Proof) -> BTreeMap<String, String> {
 /// The verdict at the start, and every number that disagrees or is open, at its worst instant.
 pub(crate) fn log(proof: &Proof, tell: Tell) -> Vec<LogEntry> {
     let start = proof.reference_trajectory.times().iter().copied().fold(f64::INFINITY, f64::smaller);
-    let level = |verdict: &Verdict| match grade(verdict) {
-        Grade::Agree => Level::Info,
-        Grade::Open => Level::Warning,
-        Grade::Disagree => Level::Error,
-    };
+    let level = |verdict: &Verdict| grade(verdict).of([Level::Info, Level::Warning, Level::Error]);
     let mut log = vec![LogEntry {
         time: start,
         level: level(&proof.verdict),

@@ -1,11 +1,12 @@
 //! Proofs as text for the terminal.
 
-use crate::plain::cells::{counted, distinct, fitted, share, table, trimmed};
+use crate::plain::cells::{counted, fitted, share, table, trimmed};
 use crate::plain::judged::{self, JudgedNumber, Sort, counts, verdicts, worst};
 use crate::plain::style::wrapped;
 use crate::plain::{Tell, brief, engines, reasons};
 use crate::sentences;
 use linkage::math::statistics;
+use linkage::math::statistics::distinct;
 use prover::bounds::{Check, Verdict, overall};
 use prover::numbers;
 use prover::run::{ChannelProof, EngineInfo, EngineProof, Proof, SearchEnd, SettingsSearch};

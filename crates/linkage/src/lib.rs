@@ -45,7 +45,7 @@ macro_rules! sentences {
 /// word.
 #[macro_export]
 macro_rules! words {
-    ($(#[$about:meta])* $vis:vis enum $name:ident: $method:ident { $($(#[$meaning:meta])* $variant:ident = $word:literal,)* }) => {
+    ($(#[$about:meta])* $vis:vis enum $name:ident: $method:ident { $($(#[$meaning:meta])* $variant:ident = $word:expr,)* }) => {
         $(#[$about])*
         $vis enum $name {
             $($(#[$meaning])* $variant,)*

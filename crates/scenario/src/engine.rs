@@ -122,56 +122,33 @@ pub const MOST_TIMES: usize = 8;
 
 /// All settings.
 pub const ROWS: &[SettingRow] = &[
-    SettingRow {
-        key: Some("dt"),
-        argument: "dt",
-        value: "S",
-        help: sentences::TIME_STEP_OF_THE_ENGINE_IN_SECONDS,
-        slot: |own| Slot::Positive(&mut own.step),
-    },
-    SettingRow {
-        key: Some("name"),
-        argument: "engine",
-        value: "ENGINE",
-        help: sentences::ENGINE_OR_ALL_TO_RUN_EVERY_ONE_SIDE,
-        slot: |own| Slot::Engines(&mut own.engines),
-    },
-    SettingRow {
-        key: None,
-        argument: "accuracy",
-        value: "ACCURACY",
-        help: sentences::RELATIVE_ACCURACY_OF_AN_ENGINE,
-        slot: |own| Slot::Positive(&mut own.accuracy),
-    },
-    SettingRow {
-        key: Some("sweeps"),
-        argument: "sweeps",
-        value: "N",
-        help: sentences::SWEEPS_OF_THE_ENGINE_ITERATION,
-        slot: |own| Slot::Count(&mut own.sweeps),
-    },
-    SettingRow {
-        key: Some("substeps"),
-        argument: "substeps",
-        value: "N",
-        help: sentences::NUMBER_OF_SUBSTEPS_INTO_WHICH_THE_ENGINE,
-        slot: |own| Slot::Count(&mut own.substeps),
-    },
-    SettingRow {
-        key: Some("route"),
-        argument: "route",
-        value: "ROUTE",
-        help: sentences::ROUTE_BY_WHICH_REACTIONS_AND_BALANCING,
-        slot: |own| Slot::Route(&mut own.route),
-    },
-    SettingRow {
-        key: Some("extrapolated"),
-        argument: "extrapolate",
-        value: "TIMES",
-        help: sentences::COMBINE_RUNS_AT_THE_STEP,
-        slot: |own| Slot::Times(&mut own.extrapolated),
-    },
+    row(Some("dt"), ["dt", "S", sentences::TIME_STEP_OF_THE_ENGINE_IN_SECONDS], |own| Slot::Positive(&mut own.step)),
+    row(Some("name"), ["engine", "ENGINE", sentences::ENGINE_OR_ALL_TO_RUN_EVERY_ONE_SIDE], |own| {
+        Slot::Engines(&mut own.engines)
+    }),
+    row(None, ["accuracy", "ACCURACY", sentences::RELATIVE_ACCURACY_OF_AN_ENGINE], |own| {
+        Slot::Positive(&mut own.accuracy)
+    }),
+    row(Some("sweeps"), ["sweeps", "N", sentences::SWEEPS_OF_THE_ENGINE_ITERATION], |own| Slot::Count(&mut own.sweeps)),
+    row(Some("substeps"), ["substeps", "N", sentences::NUMBER_OF_SUBSTEPS_INTO_WHICH_THE_ENGINE], |own| {
+        Slot::Count(&mut own.substeps)
+    }),
+    row(Some("route"), ["route", "ROUTE", sentences::ROUTE_BY_WHICH_REACTIONS_AND_BALANCING], |own| {
+        Slot::Route(&mut own.route)
+    }),
+    row(Some("extrapolated"), ["extrapolate", "TIMES", sentences::COMBINE_RUNS_AT_THE_STEP], |own| {
+        Slot::Times(&mut own.extrapolated)
+    }),
 ];
+
+/// A row with its key, its three texts in their order, and its slot.
+const fn row(
+    key: Option<&'static str>,
+    [argument, value, help]: [&'static str; 3],
+    slot: fn(&mut EngineSettings) -> Slot<'_>,
+) -> SettingRow {
+    SettingRow { key, argument, value, help, slot }
+}
 
 /// Descriptions of the keys that this module reads, in the order of the rows.
 pub const SECTIONS: &[Section] = &[Section::at("engine").with(&[

@@ -434,35 +434,23 @@ impl<'a> TomlTable<'a> {
     }
 }
 
-/// The type of value that a key needs.
-#[derive(Clone, Copy)]
-enum Needed {
-    Text,
-    Texts,
-    Number,
-    FiniteNumber,
-    Numbers,
-    WholeNumber,
-    Boolean,
-    Table,
-    Tables,
+linkage::words! {
+    /// The type of value that a key needs.
+    #[derive(Clone, Copy)]
+    enum Needed: words {
+        Text = "text",
+        Texts = sentences::AN_ARRAY_OF_TEXTS,
+        Number = "a number",
+        FiniteNumber = sentences::A_FINITE_NUMBER,
+        Numbers = sentences::AN_ARRAY_OF_NUMBERS,
+        WholeNumber = sentences::A_WHOLE_NUMBER,
+        Boolean = sentences::TRUE_OR_FALSE,
+        Table = "a table",
+        Tables = sentences::AN_ARRAY_OF_TABLES,
+    }
 }
 
 impl Needed {
-    fn words(self) -> &'static str {
-        match self {
-            Needed::Text => "text",
-            Needed::Texts => sentences::AN_ARRAY_OF_TEXTS,
-            Needed::Number => "a number",
-            Needed::FiniteNumber => sentences::A_FINITE_NUMBER,
-            Needed::Numbers => sentences::AN_ARRAY_OF_NUMBERS,
-            Needed::WholeNumber => sentences::A_WHOLE_NUMBER,
-            Needed::Boolean => sentences::TRUE_OR_FALSE,
-            Needed::Table => "a table",
-            Needed::Tables => sentences::AN_ARRAY_OF_TABLES,
-        }
-    }
-
     /// Help text that says how to correct the value that was found at a dotted path.
     fn help(self, path: &str, found: &DeValue) -> String {
         let help = match (self, found) {

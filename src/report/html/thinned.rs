@@ -2,8 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use linkage::math::KeepNan;
-use linkage::math::statistics::{ascending, differences};
+use linkage::math::statistics::{self, ascending, differences};
 use linkage::trajectory::{Channel, Stage, Trajectory};
 
 use prover::run::Proof;
@@ -114,8 +113,7 @@ fn matching(times: &[f64], others: &[f64]) -> Vec<Option<usize>> {
 
 /// Smallest and largest of some numbers; zeros if there are no numbers.
 pub(super) fn ends(values: impl Iterator<Item = f64>) -> [f64; 2] {
-    let [low, high] =
-        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.smaller(value), high.larger(value)]);
+    let [low, high] = statistics::ends(values);
     if low <= high { [low, high] } else { [0.0; 2] }
 }
 

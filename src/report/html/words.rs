@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use super::markup::escaped;
 use crate::plain::brief;
-use crate::plain::judged::{self, Grade, JudgedNumber, Sort, grade};
+use crate::plain::judged::{self, JudgedNumber, Sort, grade};
 use crate::report::text;
 use linkage::mechanism::{DrivingLink, JointId, LinkId, Mechanism};
 use prover::numbers::{error_in, fixed, significant};
@@ -17,11 +17,7 @@ const LONGEST: usize = 200_000;
 /// Sign and word of a proof's verdict.
 pub(super) fn verdict(proof: &Proof) -> String {
     let grade = grade(&proof.verdict);
-    let sign = match grade {
-        Grade::Agree => "✓",
-        Grade::Open => "?",
-        Grade::Disagree => "✗",
-    };
+    let sign = grade.of(["✓", "?", "✗"]);
     let (word, class) = (grade.capitals(), grade.capitals().to_lowercase());
     format!("<span class=\"{class}\"><span aria-hidden=\"true\">{sign}</span> {word}</span>")
 }

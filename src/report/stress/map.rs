@@ -4,12 +4,12 @@
 
 use super::super::chart::{Chart, DASHED, Filling, colour, decades, mark};
 use super::summary::names;
-use crate::plain::cells::distinct;
 use crate::sentences;
 use drawing::paper::document::document;
 use drawing::paper::figure::{DrawnFigure, Style, solid, width, words};
 use drawing::paper::style::{BLACK, GREY};
 use lab::stress::{PointEnd, QuantityGroup, StressFamily, StressOutcome};
+use linkage::math::statistics::distinct;
 use linkage::math::{KeepNan, Vec2};
 
 /// Size of a panel, and height of the head with the legend (mm).

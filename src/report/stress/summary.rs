@@ -5,9 +5,10 @@ use crate::sentences;
 use std::collections::BTreeMap;
 
 use linkage::math::KeepNan;
+use linkage::math::statistics::distinct;
 
 use super::super::chart::label as dial;
-use crate::plain::cells::{distinct, table};
+use crate::plain::cells::table;
 use lab::stress::{PointEnd, QuantityGroup, StressFamily, StressOutcome};
 
 /// Counts over all points.

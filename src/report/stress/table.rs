@@ -4,29 +4,8 @@ use super::super::table_csv::csv;
 use lab::stress::{StressFamily, StressOutcome};
 use linkage::error::Result;
 
-const HEADER: [&str; 21] = [
-    "family",
-    "dial",
-    "sample",
-    "party",
-    "verdict",
-    "group",
-    "error",
-    "bound",
-    "channel",
-    "used",
-    "closure",
-    "balance",
-    "step_s",
-    "sweeps",
-    "extrapolated",
-    "steps",
-    "work",
-    "done",
-    "silent",
-    "against",
-    "why",
-];
+const HEADER: &str = "family dial sample party verdict group error bound channel used closure balance step_s sweeps \
+                      extrapolated steps work done silent against why";
 
 /// The table.
 /// Errors and bounds are divided by the channel's scale; missing numbers are empty cells.
@@ -34,7 +13,8 @@ const HEADER: [&str; 21] = [
 /// # Errors
 /// [`ErrorKind::Io`](linkage::ErrorKind::Io) if the table cannot be written.
 pub(crate) fn rows<'a>(family: &StressFamily, outcomes: impl Iterator<Item = &'a StressOutcome>) -> Result<String> {
-    let mut rows = vec![HEADER.map(String::from).to_vec()];
+    let mut rows = vec![HEADER.split(' ').map(String::from).collect::<Vec<_>>()];
+    let width = rows[0].len();
     let some = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:e}"));
     let count = |value: Option<usize>| value.map_or_else(String::new, |value| value.to_string());
     for own in outcomes {
@@ -42,7 +22,7 @@ pub(crate) fn rows<'a>(family: &StressFamily, outcomes: impl Iterator<Item = &'a
         if !own.refused.is_empty() {
             let mut row: Vec<String> = head.clone().into();
             row.extend(["", "refused"].map(String::from));
-            row.resize(HEADER.len() - 1, String::new());
+            row.resize(width - 1, String::new());
             row.push(own.refused.clone());
             rows.push(row);
         }

@@ -15,36 +15,23 @@ use linkage::mechanism::{GROUND, GroupKind, LinkId};
 /// error of four lengths that are given as decimal numbers.
 const EQUAL: f64 = 1e-14;
 
-/// Rotation of the links of a four-bar.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FourBarType {
-    /// The driving link is the shortest: it turns fully, the output link rocks.
-    CrankRocker,
-    /// The output link is the shortest: the driving link rocks, the output link can turn fully.
-    RockerCrank,
-    /// The frame is the shortest (drag link): driving and output link turn fully.
-    DoubleCrank,
-    /// The coupler is the shortest: driving and output link rock, the coupler turns fully relative to both of these
-    /// links.
-    DoubleRocker,
-    /// No link turns fully relative to any other link of the four-bar: s + l > p + q.
-    TripleRocker,
-    /// s + l = p + q: all joints can lie on one line.
-    ChangePoint,
-}
-
-impl FourBarType {
-    /// Name, as in reports.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            FourBarType::CrankRocker => sentences::CRANK_ROCKER_GRASHOF_THE_DRIVING,
-            FourBarType::RockerCrank => sentences::ROCKER_CRANK_GRASHOF_THE_OUTPUT,
-            FourBarType::DoubleCrank => sentences::DOUBLE_CRANK_DRAG_LINK_GRASHOF,
-            FourBarType::DoubleRocker => sentences::DOUBLE_ROCKER_GRASHOF_THE_COUPLER,
-            FourBarType::TripleRocker => sentences::TRIPLE_ROCKER_NON_GRASHOF,
-            FourBarType::ChangePoint => sentences::CHANGE_POINT_MECHANISM,
-        }
+linkage::words! {
+    /// Rotation of the links of a four-bar.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum FourBarType: name {
+        /// The driving link is the shortest: it turns fully, the output link rocks.
+        CrankRocker = sentences::CRANK_ROCKER_GRASHOF_THE_DRIVING,
+        /// The output link is the shortest: the driving link rocks, the output link can turn fully.
+        RockerCrank = sentences::ROCKER_CRANK_GRASHOF_THE_OUTPUT,
+        /// The frame is the shortest (drag link): driving and output link turn fully.
+        DoubleCrank = sentences::DOUBLE_CRANK_DRAG_LINK_GRASHOF,
+        /// The coupler is the shortest: driving and output link rock, the coupler turns fully relative to both of these
+        /// links.
+        DoubleRocker = sentences::DOUBLE_ROCKER_GRASHOF_THE_COUPLER,
+        /// No link turns fully relative to any other link of the four-bar: s + l > p + q.
+        TripleRocker = sentences::TRIPLE_ROCKER_NON_GRASHOF,
+        /// s + l = p + q: all joints can lie on one line.
+        ChangePoint = sentences::CHANGE_POINT_MECHANISM,
     }
 }
 

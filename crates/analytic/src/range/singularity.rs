@@ -3,31 +3,20 @@
 use crate::sentences;
 use linkage::mechanism::GroupId;
 
-/// Kind of a singular pose.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SingularityKind {
-    /// Limit of rotation of the crank: two configurations of a group coincide, and no configuration exists beyond the
-    /// limit.
-    /// The determinant goes to zero as the square root of the remaining crank angle.
-    DeadPoint,
-    /// Branches cross: the determinant passes through zero linearly in the crank angle, and the crank need not reverse.
-    ChangePoint,
-    /// The two axes of an RPP or PRP dyad are parallel. Towards this pose the slides of the dyad grow without bound.
-    ParallelAxes,
-    /// A branch other than the followed one is so near that the determinant is below 1e-3 without changing its sign.
-    BranchContact,
-}
-
-impl SingularityKind {
-    /// Name, as in reports.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            SingularityKind::DeadPoint => sentences::LIMIT_OF_ROTATION_DEAD_POINT,
-            SingularityKind::ChangePoint => "change point",
-            SingularityKind::ParallelAxes => "parallel axes",
-            SingularityKind::BranchContact => "branch contact",
-        }
+linkage::words! {
+    /// Kind of a singular pose.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum SingularityKind: name {
+        /// Limit of rotation of the crank: two configurations of a group coincide, and no configuration exists beyond the
+        /// limit.
+        /// The determinant goes to zero as the square root of the remaining crank angle.
+        DeadPoint = sentences::LIMIT_OF_ROTATION_DEAD_POINT,
+        /// Branches cross: the determinant passes through zero linearly in the crank angle, and the crank need not reverse.
+        ChangePoint = "change point",
+        /// The two axes of an RPP or PRP dyad are parallel. Towards this pose the slides of the dyad grow without bound.
+        ParallelAxes = "parallel axes",
+        /// A branch other than the followed one is so near that the determinant is below 1e-3 without changing its sign.
+        BranchContact = "branch contact",
     }
 }
 

@@ -77,6 +77,17 @@ pub fn ends(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
     values.into_iter().fold(none, |[low, high], value| [low.smaller(value), high.larger(value)])
 }
 
+/// The distinct items, in the order of their first occurrence.
+pub fn distinct<T: PartialEq>(all: impl IntoIterator<Item = T>) -> Vec<T> {
+    let mut found = Vec::new();
+    for one in all {
+        if !found.contains(&one) {
+            found.push(one);
+        }
+    }
+    found
+}
+
 /// Half the distance between the smallest and the largest value. NaN if a value is NaN; 0 for an empty slice.
 #[must_use]
 pub fn half_range(values: &[f64]) -> f64 {

@@ -1,6 +1,7 @@
 //! Helpers that select the part in which a fault is planted, and that change this part.
 
 use linkage::case::{Case, CaseParts};
+use linkage::math::statistics::distinct;
 use linkage::math::{Motion, Vec2};
 use linkage::mechanism::{GROUND, Joint, JointId, Link, LinkId};
 use linkage::solver::State;
@@ -68,13 +69,7 @@ pub(super) fn coupler(case: &Case) -> Option<LinkId> {
 
 /// The joint positions on a link, without repetition, in the order of joints.
 pub(super) fn places(case: &Case, link: LinkId) -> Vec<Vec2> {
-    let mut places: Vec<Vec2> = Vec::new();
-    for place in case.mechanism.joints().iter().filter_map(|joint| joint.on(link)) {
-        if !places.contains(&place) {
-            places.push(place);
-        }
-    }
-    places
+    distinct(case.mechanism.joints().iter().filter_map(|joint| joint.on(link)))
 }
 
 /// The first and the last joint position on a link; `None` if the link has fewer than two.
