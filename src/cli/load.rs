@@ -1,6 +1,7 @@
 //! The common first step of every command: reads a scenario from a file or from standard input.
 
 use crate::sentences;
+use std::borrow::Cow;
 use std::io::{self, IsTerminal};
 use std::path::Path;
 use std::sync::OnceLock;
@@ -8,6 +9,7 @@ use std::sync::OnceLock;
 use super::grid::GridArgs;
 use super::{number, output};
 use linkage::error::{Error, ErrorKind, Result};
+use scenario::source::text_of;
 use scenario::{Draft, Scenario, StartRequest, Undecided};
 
 /// A different start from that of the file.
@@ -70,26 +72,18 @@ pub(super) fn load(file: &Path, modes: &[String]) -> Result<Scenario> {
 }
 
 pub(super) fn as_asked(file: &Path, asked: &StartRequest) -> Result<Scenario> {
-    let found = match is_standard_input(file) {
-        true => Scenario::parse_as(standard_input()?, named(file), asked),
-        false => Scenario::load_as(file, asked),
-    };
-    found.map_err(|error| of_mode(asked, error))
+    Scenario::parse_as(&text(file)?, named(file), asked).map_err(|error| of_mode(asked, error))
 }
 
 /// Like `load`, for a list of configurations.
 /// Also returns the groups whose configuration the file leaves open.
 pub(super) fn to_list(file: &Path, asked: &StartRequest) -> Result<(Scenario, Vec<Undecided>)> {
-    let found = match is_standard_input(file) {
-        true => Scenario::parse_to_list(standard_input()?, named(file), asked),
-        false => Scenario::load_to_list(file, asked),
-    };
-    found.map_err(|error| of_mode(asked, error))
+    Scenario::parse_to_list(&text(file)?, named(file), asked).map_err(|error| of_mode(asked, error))
 }
 
 /// The readable part of the mechanism in a file that cannot be assembled.
 pub(super) fn draft(file: &Path, asked: &StartRequest) -> Result<Draft> {
-    if is_standard_input(file) { Draft::parse(standard_input()?, named(file), asked) } else { Draft::load(file, asked) }
+    Draft::parse(&text(file)?, named(file), asked)
 }
 
 /// If a requested mode probably caused the error, adds the option `--mode` as the location of the error.
@@ -116,8 +110,11 @@ pub(super) fn named(path: &Path) -> &Path {
     if is_standard_input(path) { Path::new(NAME) } else { path }
 }
 
-/// The text of standard input, which is read once.
-fn standard_input() -> Result<&'static str> {
+/// The text of a file, or of standard input, which is read once.
+fn text(file: &Path) -> Result<Cow<'static, str>> {
+    if !is_standard_input(file) {
+        return text_of(file).map(Cow::Owned);
+    }
     static TEXT: OnceLock<Result<String>> = OnceLock::new();
     let read = || {
         if io::stdin().is_terminal() {
@@ -128,7 +125,7 @@ fn standard_input() -> Result<&'static str> {
             Error::new(ErrorKind::Io, sentences::cannot_be_read(&NAME, &error)).help(files::way_out(&error, usual))
         })
     };
-    TEXT.get_or_init(read).as_ref().map(String::as_str).map_err(Error::clone)
+    TEXT.get_or_init(read).as_ref().map(|text| Cow::Borrowed(text.as_str())).map_err(Error::clone)
 }
 
 /// Refuses to write settings if the scenario comes from standard input.

@@ -67,11 +67,6 @@ impl Form {
         self.endings().first().map_or("DIR".into(), |ending| format!(".{ending}"))
     }
 
-    /// Whether a directory may be named in place of a file.
-    fn is_folder(self) -> bool {
-        matches!(self, Form::Html | Form::Results)
-    }
-
     /// The path of a result of this form.
     fn target(self, text: &str) -> std::result::Result<PathBuf, String> {
         match self {
@@ -139,7 +134,7 @@ fn read<R: Results>(text: &str) -> std::result::Result<(R, PathBuf), String> {
         None if output::is_standard(path) => Some(form.endings().first().copied().unwrap_or("")),
         None => None,
     };
-    let folder = all().find(|(_, form)| form.is_folder());
+    let folder = all().find(|(_, form)| matches!(form, Form::Html | Form::Results));
     if let (Some((own, form)), None) = (folder, standard)
         && (text.ends_with('/') || path.is_dir() || form == Form::Results && path.extension().is_none())
     {

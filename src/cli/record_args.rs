@@ -38,7 +38,7 @@ pub(super) struct RecordArgs {
     record: PathBuf,
     /// Write no recording
     #[arg(long, conflicts_with = "record")]
-    no_record: bool,
+    pub(super) no_record: bool,
     /// Time scale of recordings and of `--live`: viewers play recordings this many times slower than the mechanism
     /// runs. Without this option, layouts and `--live` show a turn in some four seconds [default: 1]
     #[arg(long, value_name = "FACTOR", allow_hyphen_values = true, value_parser = number::positive)]
@@ -63,11 +63,6 @@ pub(super) struct Recorded {
 }
 
 impl RecordArgs {
-    /// Whether recording is off.
-    pub(super) fn is_off(&self) -> bool {
-        self.no_record
-    }
-
     /// Refuses options without effect when neither a recording nor a live view is requested.
     pub(super) fn refuse_idle(&self) -> Result<()> {
         let given = [

@@ -74,7 +74,11 @@ pub(super) fn solve(args: &Args) -> Result<()> {
     let mut bar = Bar::new(&scenario.name);
     let mut progress = |part| bar.at(part);
     let trajectory = match (args.with, args.settings.given()) {
-        (With::Side(side), Some(option)) => return Err(no_engine(side.name(), &option)),
+        (With::Side(side), Some(option)) => {
+            let engines = EngineName::ALL.map(EngineName::name).join(", ");
+            let error = Error::new(ErrorKind::Input, sentences::is_a_setting_of_an_engine(&option, &side));
+            return Err(error.help(sentences::leave_out_or_solve_with_one_of(&option, &engines)));
+        }
         (With::Side(side), None) => {
             side.solver().solve_with(case, &mut progress).map_err(|error| explained(case, error))?
         }
@@ -83,11 +87,4 @@ pub(super) fn solve(args: &Args) -> Result<()> {
     drop(bar);
     let to = args.outputs.first(Solutions::Csv).unwrap_or(Path::new("-"));
     output::stream(to, |out| table_csv::solution(&trajectory, out))
-}
-
-/// The error if an engine setting is given to an analytic solver.
-/// Such a setting is a misunderstanding, so it is not ignored.
-fn no_engine(solver: &str, option: &str) -> Error {
-    Error::new(ErrorKind::Input, sentences::is_a_setting_of_an_engine(&option, &solver))
-        .help(sentences::leave_out_or_solve_with_one_of(&option, &EngineName::ALL.map(EngineName::name).join(", ")))
 }

@@ -98,10 +98,8 @@ pub fn over_range(case: &Case) -> Result<Peaks> {
     let parts = ((to - from) / case.step(SAMPLE_STEP)).ceil().larger(1.0) as usize;
     let cranks: Vec<f64> = (0..=parts).map(|k| from + (to - from) * (k as f64 / parts as f64)).collect();
     let joints = case.mechanism.joints();
-    let mut quantities: Vec<Quantity> = Vec::new();
-    for joint in joints.ids() {
-        quantities.push(Box::new(move |state| state.forces[joint].norm()));
-    }
+    let reaction = |joint: JointId| Box::new(move |state: &State| state.forces[joint].norm()) as Quantity;
+    let mut quantities: Vec<Quantity> = joints.ids().map(reaction).collect();
     for (joint, _) in joints.entries().filter(|(_, joint)| joint.keeps_angle()) {
         quantities.push(Box::new(move |state| state.moments[joint].abs()));
     }

@@ -37,13 +37,9 @@ pub fn pour(recording: &Recording, drawn: &DrawnRecording, sink: &mut impl Sink)
     let start = start(recording);
     let nanoseconds = |time: f64| ((time - start) * recording.show.slow * SECOND as f64).round().larger(0.0) as u64;
 
-    let mut tables = Vec::new();
-    for side in recording.sides {
-        tables.push(ChannelTable::values(sink, side.name, side.trajectory)?);
-    }
-    if let Some(errors) = recording.errors {
-        tables.push(ChannelTable::errors(sink, errors)?);
-    }
+    let sides = recording.sides.iter().map(|side| ChannelTable::values(sink, side.name, side.trajectory));
+    let mut tables: Vec<_> = sides.collect::<McapResult<_>>()?;
+    tables.extend(recording.errors.map(|errors| ChannelTable::errors(sink, errors)).transpose()?);
 
     let mut events: Vec<(u64, Event)> = Vec::new();
     if let Some(scene) = scene {

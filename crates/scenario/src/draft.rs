@@ -5,7 +5,7 @@ use std::path::Path;
 use super::asked::StartRequest;
 use super::links::is_somewhere;
 use super::reader::TomlTable;
-use super::source::{Source, text_of};
+use super::source::Source;
 use super::start::Lists;
 use super::stated::FileSections;
 use super::{keys, parameter_table, start};
@@ -45,19 +45,11 @@ pub struct Draft {
 }
 
 impl Draft {
-    /// Reads the file at `path`.
-    ///
-    /// # Errors
-    /// An error if the file cannot be read or is not TOML, or if the request `asked` is wrong.
-    /// Also an error if the format version of the file is not that of this program.
-    pub fn load(path: &Path, asked: &StartRequest) -> Result<Draft> {
-        Draft::parse(&text_of(path)?, path, asked)
-    }
-
     /// Reads a draft from the text of the file at `path`.
     ///
     /// # Errors
-    /// The errors of [`Draft::load`] that do not come from reading the file.
+    /// An error if the text is not TOML, or if the request `asked` is wrong.
+    /// Also an error if the format version of the file is not that of this program.
     pub fn parse(text: &str, path: &Path, asked: &StartRequest) -> Result<Draft> {
         let plain = Source::new(path, text);
         let tree = plain.tree()?;

@@ -76,10 +76,9 @@ pub fn listed(values: Vec<f64>) -> std::result::Result<Vec<f64>, String> {
 /// The grid of a scenario, by crank angle or by time: a range or a list.
 /// If `is_replaced`, the grid is read but not checked against the drive, and the returned grid is empty.
 pub fn read(table: &mut TomlTable, drives: &Drives, is_replaced: bool) -> Result<Grid> {
-    let mut lists = Vec::new();
-    for key in ["angles", "slides", "times"] {
-        lists.extend(table.optional_si_list(key)?.map(|(family, values)| (key, family, values)));
-    }
+    let [angles, slides, times] = ["angles", "slides", "times"]
+        .map(|key| Ok(table.optional_si_list(key)?.map(|(family, values)| (key, family, values))));
+    let lists: Vec<_> = [angles?, slides?, times?].into_iter().flatten().collect();
     let ranged = table.optional_si_of("from")?;
     let (family, points) = match (ranged, lists.as_slice()) {
         (None, [(key, family, values)]) => {

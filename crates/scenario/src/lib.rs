@@ -186,26 +186,14 @@ impl Scenario {
         Ok(parse(text, path.as_ref(), asked, Lists::No)?.0)
     }
 
-    /// Reads the scenario file at `path` as [`Scenario::load_as`] does, for a list of configurations.
+    /// Reads a scenario from the text of the file as [`Scenario::parse_as`] does, for a list of configurations.
     /// A group that the file leaves undecided is placed in one of its configurations.
     /// Undecided groups are returned with the reason, in the order of the structure.
     ///
     /// # Errors
-    /// The errors of [`Scenario::load_as`]. An undecided group does not cause an error.
-    pub fn load_to_list(path: impl AsRef<Path>, asked: &StartRequest) -> Result<(Scenario, Vec<Undecided>)> {
-        Scenario::parse_to_list(&text_of(path.as_ref())?, path, asked)
-    }
-
-    /// Reads a scenario from the text of the file, for a list of configurations.
-    ///
-    /// # Errors
-    /// The errors of [`Scenario::load_to_list`] that do not come from reading the file.
-    pub fn parse_to_list(
-        text: &str,
-        path: impl AsRef<Path>,
-        asked: &StartRequest,
-    ) -> Result<(Scenario, Vec<Undecided>)> {
-        let (scenario, mut undecided) = parse(text, path.as_ref(), asked, Lists::Undecided)?;
+    /// The errors of [`Scenario::parse_as`]. An undecided group does not cause an error.
+    pub fn parse_to_list(text: &str, path: &Path, asked: &StartRequest) -> Result<(Scenario, Vec<Undecided>)> {
+        let (scenario, mut undecided) = parse(text, path, asked, Lists::Undecided)?;
         undecided.sort_by_key(|undecided| undecided.group);
         Ok((scenario, undecided))
     }

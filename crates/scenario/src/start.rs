@@ -7,6 +7,7 @@ use super::words::{Words, names, suggestion};
 use crate::sentences;
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::Vec2;
+use linkage::math::statistics::distinct;
 use linkage::mechanism::{
     AssemblyMode, DrivenJoint, Group, GroupId, GroupKind, JointSide, LinkId, Mechanism, StartGroup, Structure,
     pose::SidePoint,
@@ -257,12 +258,7 @@ fn side_point(
     match points.clone().find(|&(point, _)| point == name) {
         Some((_, side)) => Ok((SidePoint { name, side }, place)),
         None => {
-            let mut names: Vec<&str> = Vec::new();
-            for (point, _) in points {
-                if !names.contains(&point) {
-                    names.push(point);
-                }
-            }
+            let names = distinct(points.map(|(point, _)| point));
             let message = sentences::no_link_of_the_group_has_a_point(&name);
             table.refuse("point", message, suggestion(&name, names, "\""))
         }

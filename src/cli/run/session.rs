@@ -159,7 +159,7 @@ impl<'a> Session<'a> {
         let Some(pages) = &mut self.pages else { return Ok(()) };
         let path = pages.write(scenario, proof, &metadata(self.args, proof))?;
         if self.tells() {
-            let gap = if self.args.record.is_off() { "\n" } else { "" };
+            let gap = if self.args.record.no_record { "\n" } else { "" };
             output::print(&format!("{gap}page       {}\n", path.display()))?;
         }
         Ok(())
@@ -192,8 +192,8 @@ impl<'a> Session<'a> {
 
 /// Entry about the recording.
 fn recording_told(args: &Args) -> LedgerEntry {
-    let why = if args.record.is_off() { sentences::NOT_ASKED_FOR } else { "written below" };
-    let work = (!args.record.is_off()).then_some(Work::NONE);
+    let why = if args.record.no_record { sentences::NOT_ASKED_FOR } else { "written below" };
+    let work = (!args.record.no_record).then_some(Work::NONE);
     LedgerEntry { part: "recording".into(), why, work }
 }
 

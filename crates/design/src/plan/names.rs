@@ -49,11 +49,9 @@ pub fn places(mechanism: &Mechanism, poles: &[&str]) -> Vec<NamedPoint> {
         taken.push(letter.clone());
         Named { name: name.into(), letter }
     };
-    let mut all: Vec<NamedPoint> = Vec::new();
-    for point in &mechanism.links()[GROUND].points {
-        let side = JointSide { link: GROUND, local: point.local };
-        all.push(NamedPoint { named: named(&point.name), side, fixed: true });
-    }
+    let fixed = mechanism.links()[GROUND].points.iter();
+    let fixed = fixed.map(|point| (&point.name, JointSide { link: GROUND, local: point.local }));
+    let mut all: Vec<_> = fixed.map(|(name, side)| NamedPoint { named: named(name), side, fixed: true }).collect();
     for (name, first) in mechanism.moving_points() {
         let carriers = mechanism.links().entries().skip(1).filter_map(|(link, body)| {
             body.points.iter().find(|point| point.name == name).map(|point| JointSide { link, local: point.local })

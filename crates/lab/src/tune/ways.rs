@@ -27,15 +27,9 @@ pub(super) fn ways(engine: &dyn Engine, case: &Case, options: &Options) -> Vec<S
         None if !engine.controls_error() => vec![1, 0],
         Some(_) | None => vec![extrapolated],
     };
-    let mut ways = Vec::new();
-    for &extrapolated in &extrapolated {
-        for &route in &routes {
-            for &substeps in &substeps {
-                ways.push(Settings { resolution, sweeps, substeps, route, extrapolated });
-            }
-        }
-    }
-    ways
+    let pairs = extrapolated.iter().flat_map(|&times| routes.iter().map(move |&route| (times, route)));
+    let settings = |(extrapolated, route), substeps| Settings { resolution, sweeps, substeps, route, extrapolated };
+    pairs.flat_map(|pair| substeps.iter().map(move |&substeps| settings(pair, substeps))).collect()
 }
 
 /// Numbers of sweeps that are tried, in ascending order.

@@ -6,6 +6,7 @@ use analytic::reduced::means::{self as reduced, Means};
 use formula::Rounded;
 use linkage::case::{Case, Grid, Wanted};
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::statistics::distinct;
 use linkage::mechanism::JointSide;
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
@@ -25,12 +26,7 @@ pub(super) fn claimed(
     case: &Case,
     solvers: EachSide<&dyn Solver>,
 ) -> Result<EachSide<Vec<(MechanismFigure, Rounded)>>> {
-    let mut asked: Vec<MechanismFigure> = Vec::new();
-    for (_, figure) in formulas.claims().flat_map(|(_, claim)| &claim.figures) {
-        if !asked.contains(figure) {
-            asked.push(*figure);
-        }
-    }
+    let asked = distinct(formulas.claims().flat_map(|(_, claim)| &claim.figures).map(|(_, figure)| *figure));
     let mut sides = EachSide::of(|side| Measured::of(case, solvers[side]));
     let mut found = EachSide::<Vec<_>>::default();
     for figure in asked {

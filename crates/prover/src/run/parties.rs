@@ -53,10 +53,8 @@ fn apart(parties: &[Party], periodic: bool) -> Option<(Vec<[&'static str; 2]>, O
         // This form of the comparison counts NaN as a difference.
         !(largest <= a.bound + b.bound)
     };
-    let mut pairs = Vec::new();
-    for (index, a) in parties.iter().enumerate() {
-        pairs.extend(parties[index + 1..].iter().filter(|b| differ(a, b)).map(|b| [a.name, b.name]));
-    }
+    let all = parties.iter().enumerate().flat_map(|(index, a)| parties[index + 1..].iter().map(move |b| (a, b)));
+    let pairs: Vec<_> = all.filter(|(a, b)| differ(a, b)).map(|(a, b)| [a.name, b.name]).collect();
     if pairs.is_empty() {
         return None;
     }

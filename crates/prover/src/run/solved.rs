@@ -133,10 +133,7 @@ pub struct Claimed {
 /// # Errors
 /// [`ErrorKind::Input`] if no formula claims anything, and those of the sides, with the crank angle.
 pub fn judge(scenario: &Scenario) -> Result<Claimed> {
-    let mut asked = Vec::new();
-    for (_, claim) in scenario.formulas.claims() {
-        asked.extend(needed(claim, &scenario.case));
-    }
+    let mut asked: Vec<_> = scenario.formulas.claims().flat_map(|(_, claim)| needed(claim, &scenario.case)).collect();
     if asked.is_empty() {
         let message = sentences::no_formula_of_the_scenario(&scenario.name);
         return Err(Error::new(ErrorKind::Input, message).key("formula").help(sentences::ADD_CHANNEL_TO_A_FORMULA));

@@ -172,13 +172,10 @@ impl Held {
             let claim = claim_of(&mapped.name).map_err(|fault| mapped.wrong(&fault.message, &fault.help))?;
             Ok(PartyColumn { claim, values: reader.column(mapped)?, scale: None, mapped: None })
         };
-        let mut columns = Vec::new();
-        for mapped in &mapping.channels {
-            columns.push(PartyColumn { mapped: Some(mapped.clone()), ..column(mapped)? });
-        }
-        for mapped in &own {
-            columns.push(column(mapped)?);
-        }
+        let given = mapping.channels.iter().map(|mapped| (mapped, Some(mapped.clone())));
+        let all = given.chain(own.iter().map(|mapped| (mapped, None)));
+        let of = |(own, mapped): (&Mapped, _)| Ok(PartyColumn { mapped, ..column(own)? });
+        let columns: Vec<PartyColumn> = all.map(of).collect::<Result<_>>()?;
         if columns.is_empty() {
             let message = sentences::no_column_of_the_table_is_a_channel(&some(&raw.names));
             let help = sentences::MAP_COLUMNS_TO_CHANNELS_SUCH_AS_PHI3;
