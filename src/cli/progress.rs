@@ -9,7 +9,6 @@ use indicatif::{ProgressBar, ProgressStyle};
 const PATIENCE: Duration = Duration::from_millis(700);
 
 /// Bar on standard error (only on a terminal), from 0 to 1.
-#[derive(Debug)]
 pub(super) struct Bar {
     what: String,
     since: Instant,
@@ -44,7 +43,6 @@ impl Drop for Bar {
 }
 
 /// One bar for parallel work on several files.
-#[derive(Debug)]
 pub(super) struct Shared(Mutex<(Bar, Vec<f64>)>);
 
 impl Shared {

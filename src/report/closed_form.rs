@@ -9,7 +9,6 @@ use design::synthesize::slider_crank::SliderCrank;
 use prover::numbers::fixed_in;
 
 /// A result as text and as JSON.
-#[derive(Debug)]
 pub(crate) struct Told {
     /// As text.
     pub(crate) text: String,

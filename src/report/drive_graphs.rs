@@ -10,7 +10,6 @@ use linkage::math::KeepNan;
 use scenario::Scenario;
 
 /// Data of the curves.
-#[derive(Debug)]
 pub(crate) struct Curves {
     /// The crank angle after which the reduced quantities repeat (rad).
     pub(crate) period: f64,

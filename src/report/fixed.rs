@@ -15,7 +15,6 @@ use scenario::Draft;
 const MOST: usize = 1000;
 
 /// A file without a drive whose links cannot move.
-#[derive(Debug)]
 pub(crate) struct FixedStructure<'a> {
     draft: &'a Draft,
     structure: &'a Structure,
@@ -24,7 +23,6 @@ pub(crate) struct FixedStructure<'a> {
 }
 
 /// A configuration of the whole structure.
-#[derive(Debug)]
 struct Configuration {
     /// The modes of its groups that have names.
     modes: Vec<&'static str>,

@@ -12,7 +12,6 @@ use design::synthesize::{Achieved, SearchResult};
 use prover::numbers;
 
 /// A task, its result, and the search that found it.
-#[derive(Debug)]
 pub(crate) struct Story<'a> {
     /// The task.
     pub(crate) task: &'a Task,

@@ -13,7 +13,6 @@ use prover::numbers;
 use scenario::Scenario;
 
 /// The `[engine]` section that a scenario needs for the best settings.
-#[derive(Clone, Copy, Debug)]
 pub(crate) struct Section<'a> {
     /// The section itself.
     pub(crate) text: &'a str,

@@ -7,7 +7,6 @@ use linkage::math::KeepNan;
 use recording::Reel;
 
 /// Position of a viewer in a reel, and how playback continues.
-#[derive(Clone, Copy, Debug)]
 pub(super) struct Player {
     /// Log time (ns).
     position: f64,

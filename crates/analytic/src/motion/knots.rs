@@ -13,7 +13,6 @@ use linkage::math::KeepNan;
 const BEYOND: f64 = 1e-12;
 
 /// Crank angles (rad, as the scenario states them) of all knots of the loads' tables.
-#[derive(Debug)]
 pub(super) struct Knots(Vec<(Vec<f64>, f64)>);
 
 impl Knots {

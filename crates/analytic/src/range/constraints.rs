@@ -13,7 +13,6 @@ use linkage::mechanism::{
 };
 
 /// An equation of coordinates: a drive that is geared to the first drive, or a transmission.
-#[derive(Clone, Debug)]
 pub(super) struct Gearing {
     /// Indices of the coordinates and their factors.
     pub(super) terms: Vec<(usize, f64)>,
@@ -24,7 +23,6 @@ pub(super) struct Gearing {
 }
 
 /// The first member of a transmission, whose coordinate is the argument of the law.
-#[derive(Clone, Debug)]
 pub(super) struct FirstMember {
     transmission: TransmissionId,
     /// Indices of the coordinates and their factors.
@@ -45,11 +43,9 @@ impl Gearing {
 }
 
 /// A joint whose coordinate is an additional coordinate of the equations. It is not the joint of a crank.
-#[derive(Clone, Copy, Debug)]
 pub(super) struct Given(pub(super) JointId);
 
 /// The equations of a mechanism.
-#[derive(Debug)]
 pub(super) struct Constraints<'a> {
     mechanism: &'a Mechanism,
     /// World position of the coordinates' origin (m). It lies near the mechanism, so that no digits are lost far from
@@ -65,7 +61,6 @@ pub(super) struct Constraints<'a> {
 }
 
 /// Residuals and their derivatives by the coordinates.
-#[derive(Debug)]
 pub(super) struct Equations {
     pub(super) residual: ColumnVector,
     pub(super) jacobian: Matrix,

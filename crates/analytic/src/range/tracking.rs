@@ -67,7 +67,6 @@ pub(super) struct Point {
 }
 
 /// How a track ends.
-#[derive(Clone, Debug)]
 pub(super) enum End {
     /// The mechanism is back at its first pose after this number of turns of the crank.
     Closed(i32),
@@ -76,7 +75,6 @@ pub(super) enum End {
 }
 
 /// Poses from the start to an end.
-#[derive(Debug)]
 pub(super) struct Track {
     pub(super) points: Vec<Point>,
     pub(super) end: End,
@@ -99,7 +97,6 @@ const FARTHER: f64 = 1.2;
 const MOST_KNOWN: usize = 9;
 
 /// Follows the curve of one case.
-#[derive(Debug)]
 pub(super) struct Tracker<'a> {
     case: &'a Case,
     constraints: Constraints<'a>,

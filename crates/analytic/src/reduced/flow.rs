@@ -23,7 +23,6 @@ use linkage::work::{Count, WorkTally};
 const FARTHEST: f64 = std::f64::consts::TAU;
 
 /// The evaluation of the forces, which both forms share.
-#[derive(Debug)]
 pub(crate) struct Forces<'m, 'a> {
     pub(crate) model: &'m ReducedModel<'a>,
     poses: RefCell<PoseSolver<'a>>,
@@ -105,7 +104,6 @@ impl<'m, 'a> Forces<'m, 'a> {
 }
 
 /// Crank angle and speed as functions of time.
-#[derive(Debug)]
 pub(crate) struct InTime<'m, 'a>(pub(crate) Forces<'m, 'a>);
 
 impl InTime<'_, '_> {
@@ -148,7 +146,6 @@ impl Flow<2> for InTime<'_, '_> {
 
 /// Kinetic energy, time, and the derivative of the energy with respect to its initial value.
 /// They are functions of the crank angle, which is counted in the sense of motion.
-#[derive(Debug)]
 pub(crate) struct OverAngle<'m, 'a>(pub(crate) Forces<'m, 'a>);
 
 impl OverAngle<'_, '_> {

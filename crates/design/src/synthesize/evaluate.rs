@@ -15,7 +15,6 @@ const PROBES: usize = 8;
 const FOLLOWED: f64 = PI / 90.0;
 
 /// Computes the motion of one candidate after another over a turn. The loop over the poses does not allocate.
-#[derive(Clone, Debug)]
 pub(super) struct Evaluator<'a> {
     task: &'a Task,
     mechanism: Mechanism,

@@ -27,7 +27,6 @@ const BESIDE: f64 = TAU / 1440.0;
 const LIMIT: f64 = 10.0;
 
 /// Computes the cost of outputs that are sampled at certain crank angles.
-#[derive(Clone, Debug)]
 pub(super) struct Rater<'a> {
     timing: &'a Timing,
     /// Crank angles (rad) of the samples, from 0 to a full turn.

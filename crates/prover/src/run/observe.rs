@@ -107,7 +107,6 @@ impl Observed {
 }
 
 /// A run that failed, and its results up to the failure.
-#[derive(Clone, Debug)]
 pub(super) struct Stopped {
     pub(super) error: Error,
     pub(super) kept: Option<Box<Trajectory>>,

@@ -43,7 +43,6 @@ pub(super) struct Place {
 }
 
 /// First and second derivatives of the chain by the driving lead's angle.
-#[derive(Clone, Copy, Debug)]
 pub(super) struct Slopes {
     pub(super) base: [f64; 2],
     pub(super) other: [f64; 2],
