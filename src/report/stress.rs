@@ -2,12 +2,10 @@
 
 mod kept;
 mod map;
-mod page;
 mod summary;
 mod table;
 
 pub(crate) use kept::{is_kept, json, outcomes};
 pub(crate) use map::map;
-pub(crate) use page::page;
-pub(crate) use summary::{Tally, text};
+pub(crate) use summary::{Tally, page, text};
 pub(crate) use table::rows;

@@ -5,7 +5,6 @@
 //! The command line passes the clock in.
 //! See docs/numerics/laboratory.md.
 
-mod effort;
 mod front;
 mod ladder;
 mod measure;
@@ -14,11 +13,10 @@ mod peer;
 mod point;
 mod reference;
 
-pub use effort::RunEffort;
 pub use front::{CostAxis, front};
 pub use options::{BenchOptions, CLEAR, Clock};
 pub use peer::{Answer, Peer, Way};
-pub use point::{AnsweredRun, BenchOutcome, BenchPoint, Errors, MethodOwner};
+pub use point::{AnsweredRun, BenchOutcome, BenchPoint, Errors, MethodOwner, RunEffort};
 pub use reference::Floor;
 
 use linkage::error::Result;

@@ -16,10 +16,8 @@ mod formulas;
 #[cfg(test)]
 mod judging;
 mod kinds;
-mod lost;
 mod mutant;
 mod plan;
-mod planted;
 mod seen;
 mod stage;
 mod tally;

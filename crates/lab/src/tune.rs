@@ -11,7 +11,6 @@ mod candidate;
 mod confirm;
 mod price;
 mod search;
-mod ways;
 
 use crate::sentences;
 pub use candidate::{Candidate, Price};

@@ -8,8 +8,6 @@ mod align;
 mod allowed;
 mod analytic_party;
 mod cause;
-mod instants;
-mod interpolate;
 mod judge;
 mod pair;
 mod scale;

@@ -35,7 +35,6 @@ mod film;
 mod forces;
 mod marks;
 mod messages;
-mod output;
 mod pour;
 mod raw;
 mod read;

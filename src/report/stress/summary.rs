@@ -1,5 +1,6 @@
 //! Results of the stress families as text. The overall verdict comes first.
 //! A table for each family then shows at which parameter values each solver and engine agrees.
+//! The page of the documents has the same tables in Markdown, with their maps.
 
 use crate::sentences;
 use std::collections::BTreeMap;
@@ -8,7 +9,9 @@ use linkage::math::KeepNan;
 use linkage::math::statistics::distinct;
 
 use super::super::chart::label as dial;
-use crate::plain::cells::table;
+use super::super::chart::label;
+use super::super::html::filled;
+use crate::plain::cells::{marked, table};
 use lab::stress::{PointEnd, QuantityGroup, StressFamily, StressOutcome};
 
 /// Counts over all points.
@@ -163,4 +166,34 @@ fn told(outcomes: &[&StressOutcome], name: &str) -> Vec<(&'static str, String, S
 fn refused<'a>(outcomes: &[&'a StressOutcome]) -> Vec<(String, &'a str)> {
     let own = outcomes.iter().filter(|own| !own.refused.is_empty());
     own.map(|own| (dial(own.dial), own.refused.as_str())).collect()
+}
+
+/// The page as Markdown.
+/// `command` generates it; `maps` is the directory of the maps, relative to the page.
+pub(crate) fn page(families: &[(&StressFamily, Vec<&StressOutcome>)], command: &str, maps: &str) -> String {
+    let tally = Tally::of(families.iter().flat_map(|(_, all)| all.iter().copied()));
+    let mut text = filled(include_str!("page.md"), &[("command", command), ("verdict", &tally.verdict())]);
+    for (family, outcomes) in families {
+        put!(
+            text,
+            "\n## {}\n\n{}.\nDial: {}.\n\n| | agrees at | otherwise | positions | rates | forces | over bound | widest bound |\n|---|---|---|---|---|---|---|---|\n",
+            family.name,
+            capital(family.title),
+            family.dial
+        );
+        for name in names(outcomes) {
+            let row = [name.to_string()].into_iter().chain(cells(outcomes, name)).collect::<Vec<_>>();
+            say!(text, "{}", marked(&row));
+        }
+        for own in outcomes.iter().filter(|own| !own.refused.is_empty()) {
+            say!(text, "\nAt {}: {}.", label(own.dial), own.refused);
+        }
+        say!(text, "\n![{}]({maps}/{}.svg)", family.name, family.name);
+    }
+    text
+}
+
+fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().collect::<String>() + letters.as_str())
 }

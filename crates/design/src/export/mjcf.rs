@@ -38,7 +38,6 @@ mod forces;
 mod limits;
 mod model;
 mod names;
-mod shapes;
 mod write;
 mod xml;
 

@@ -8,7 +8,6 @@
 //! This strategy can cross kinks and edges of the cost.
 //! After the evolution strategy, linear approximation within a trust region refines the result (COBYLA, Powell 1994).
 
-mod candidate;
 mod refine;
 
 use crate::sentences;
@@ -18,10 +17,10 @@ use chacha20::rand_core::SeedableRng;
 use super::evaluate::Evaluator;
 use super::rating::Rater;
 use crate::synthesize::task::Task;
-use candidate::{Candidate, even, free_zero, of_share, values};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::solver::Progress;
 use linkage::threads::{cores, made};
+use refine::{Candidate, even, free_zero, of_share, values};
 
 /// Number of equal parts of the turn for the cost of random candidates.
 const COARSE: usize = 72;

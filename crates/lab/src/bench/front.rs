@@ -60,7 +60,7 @@ pub fn front(
 
 #[cfg(test)]
 mod tests {
-    use super::super::effort::RunEffort;
+    use super::super::point::RunEffort;
     use super::super::point::{AnsweredRun, BenchOutcome, Errors, MethodOwner};
     use super::*;
 

@@ -1,10 +1,10 @@
 //! Runs all methods and measures their times, in rounds: every method once, then every method again.
 //! The load of other programs on the machine then affects all methods alike.
 
-use super::effort::RunEffort;
 use super::ladder::{Planned, Runner};
 use super::options::Clock;
 use super::peer::{Answer, Peer};
+use super::point::RunEffort;
 use super::point::{AnsweredRun, BenchOutcome, BenchPoint};
 use super::reference::{Floor, apart};
 use crate::sentences;

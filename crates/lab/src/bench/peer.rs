@@ -1,6 +1,6 @@
 //! Another program that solves the same scenario.
 
-use super::effort::RunEffort;
+use super::point::RunEffort;
 
 /// One method of a peer: a peer chooses its methods and resolutions itself.
 #[derive(Clone, Debug, PartialEq, Eq)]

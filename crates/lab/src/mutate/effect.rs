@@ -1,8 +1,8 @@
 //! Effect of a fault on exact answers. A fault that changes no exact answer is not counted.
 
 use super::kinds::{FaultInstant, Plant};
-use super::planted::{Fault, Planted};
 use super::stage::Stage;
+use super::stage::{Fault, Planted};
 use analytic::AssurSolver;
 use linkage::case::Case;
 use linkage::error::Result;

@@ -5,8 +5,8 @@
 
 use super::kinds::kinds;
 use super::mutant::FaultyParty;
-use super::planted::Fault;
 use super::seen::FaultyProof;
+use super::stage::Fault;
 use super::stage::Stage;
 use linkage::case::Wanted;
 use linkage::math::Vec2;

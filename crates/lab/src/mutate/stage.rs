@@ -1,18 +1,18 @@
 //! One scenario with its correct parties, and proofs with a fault in one party.
+//! A fault is a hook of a solver or an engine.
 
 use crate::sentences;
 use std::sync::OnceLock;
 
-use super::kinds::Plant;
+use super::kinds::{FaultInstant, FaultKind, Plant};
 use super::mutant::FaultyParty;
-use super::planted::{Fault, Planted};
 use super::seen::{Eyes, FaultyProof};
 use analytic::{AssurSolver, NewtonSolver, TIGHT_ASSUR, TIGHT_NEWTON};
 use linkage::case::Case;
-use linkage::engine::{CachedEngine, Engine};
-use linkage::error::Result;
+use linkage::engine::{CachedEngine, Engine, Hook, Wrapped};
+use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
-use linkage::solver::Solver;
+use linkage::solver::{Solver, State};
 use linkage::trajectory::Trajectory;
 use linkage::work::{Count, PLACED, counted, limited};
 use prover::bounds::overall;
@@ -189,4 +189,36 @@ impl<'a> Stage<'a> {
 /// The engine with cached runs. The first engine that is passed in makes these runs.
 fn kept_in(runs: &OnceLock<CachedEngine>, engine: Box<dyn Engine>) -> Box<dyn Engine> {
     runs.get_or_init(|| CachedEngine::new(engine.as_ref())).with(engine.settings())
+}
+
+/// A solver, or an engine, with a fault.
+pub(super) type Planted<S> = Wrapped<Fault, S>;
+
+/// A kind of fault with its size.
+#[derive(Clone, Copy)]
+pub(super) struct Fault {
+    pub(super) kind: &'static FaultKind,
+    pub(super) size: f64,
+}
+
+impl Hook for Fault {
+    fn case(&self, case: &Case) -> Result<Option<Case>> {
+        match self.kind.plant {
+            Plant::Case(change) => {
+                let message = || sentences::the_case_with_the_fault_cannot(&self.kind.name);
+                change(case, self.size).map(Some).ok_or_else(|| Error::new(ErrorKind::Geometry, message()))
+            }
+            Plant::Answer(_) | Plant::Formula(_) => Ok(None),
+        }
+    }
+
+    fn answer(&self, case: &Case, row: usize, state: &mut State) {
+        match self.kind.plant {
+            Plant::Case(_) | Plant::Formula(_) => {}
+            Plant::Answer(change) => {
+                // If the state has no part that the fault affects, the state stays unchanged.
+                let _ = change(FaultInstant { case, row }, state, self.size);
+            }
+        }
+    }
 }

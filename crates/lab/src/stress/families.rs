@@ -3,7 +3,6 @@
 mod chain;
 mod four_bar;
 mod friction;
-mod gears;
 mod long;
 mod rams;
 mod random;
@@ -19,7 +18,7 @@ pub static FAMILIES: &[StressFamily] = &[
     four_bar::TRANSMISSION,
     four_bar::SPEED,
     four_bar::SIZE,
-    gears::GEAR_RATIO,
+    rams::GEAR_RATIO,
     friction::FRICTION,
     rams::RAM,
     rams::CAM,

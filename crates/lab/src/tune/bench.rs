@@ -1,17 +1,17 @@
 //! Runs of one engine against the reference, and its cheapest settings.
+//! The settings that are tried, except the step, are listed here.
 
 use linkage::math::KeepNan;
 use std::f64::consts::PI;
 
 use super::candidate::{Candidate, Measured, Price};
 use super::search::{Found, largest_step};
-use super::ways::{sweeps, ways};
 use crate::steps::work_of_run;
 use linkage::case::Case;
-use linkage::engine::{CachedEngine, Engine, Settings};
+use linkage::engine::{CachedEngine, Engine, Route, Settings};
 use linkage::error::{ErrorKind, Result};
 use linkage::solver::Progress;
-use linkage::trajectory::{Channel, Trajectory};
+use linkage::trajectory::{Channel, Stage, Trajectory};
 use prover::bounds::{Convergence, Ladder, OtherSweeps, residuals};
 use prover::run::Options;
 
@@ -290,5 +290,40 @@ impl Bench<'_> {
             predicted = predicted.larger((found.error + found.iteration) / residual.scale);
         }
         Ok(predicted)
+    }
+}
+
+/// Numbers of sweeps that are tried.
+const SWEEPS: [usize; 11] = [4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096];
+/// Numbers of substeps that are tried.
+const SUBSTEPS: [usize; 2] = [1, 2];
+
+/// All methods of an engine: its settings except sweeps and resolution.
+/// The methods that are usually cheapest come first, so that methods above the known cost are abandoned early.
+pub(super) fn ways(engine: &dyn Engine, case: &Case, options: &Options) -> Vec<Settings> {
+    let Settings { resolution, sweeps, substeps, route, extrapolated } = engine.settings();
+    let forces = case.wanted.deepest() >= Stage::Reactions;
+    let routes: Vec<Route> = match forces && options.settings.route.is_free() {
+        true => engine.routes().to_vec(),
+        false => vec![route],
+    };
+    let substeps = match (options.settings.substeps.get(), substeps) {
+        (None, 1..) if !engine.controls_error() => SUBSTEPS.to_vec(),
+        (Some(_), _) | (None, _) => vec![substeps],
+    };
+    let extrapolated = match options.settings.extrapolated.get() {
+        None if !engine.controls_error() => vec![1, 0],
+        Some(_) | None => vec![extrapolated],
+    };
+    let pairs = extrapolated.iter().flat_map(|&times| routes.iter().map(move |&route| (times, route)));
+    let settings = |(extrapolated, route), substeps| Settings { resolution, sweeps, substeps, route, extrapolated };
+    pairs.flat_map(|pair| substeps.iter().map(move |&substeps| settings(pair, substeps))).collect()
+}
+
+/// Numbers of sweeps that are tried, in ascending order.
+pub(super) fn sweeps(engine: &dyn Engine, options: &Options) -> Vec<usize> {
+    match (options.settings.sweeps.get(), engine.settings().sweeps) {
+        (None, 1..) => SWEEPS.to_vec(),
+        (_, own) => vec![own],
     }
 }

@@ -1,4 +1,4 @@
-//! A cylinder near its dead point, and a cam near its undercut.
+//! A cylinder near its dead point, a cam near its undercut, and a wheel that turns fast.
 
 use linkage::case::Case;
 use linkage::drive::MotionLaw;
@@ -7,6 +7,7 @@ use linkage::math::Vec2;
 use linkage::mechanism::{AssemblyMode, CamContact, CamCurve, CamLaw, CamSegment, TransmissionKind};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
+use super::four_bar::{LENGTHS, SPEED_OF_ALL, builder, rods};
 use crate::stress::{Setup, StressFamily};
 
 /// Distances of the boom's pivot from the foot of the cylinder and from its eye (m).
@@ -83,4 +84,32 @@ pub(super) const CAM: StressFamily = StressFamily {
     quick: &[0.5, 3.0],
     samples: 1,
     setup: |base, _, _| cam(base),
+};
+
+/// Position of the wheel's axle on the ground (m), and pressure angle of the gears (rad).
+const AXLE: [f64; 2] = [-0.1, 0.15];
+const PRESSURE_ANGLE: f64 = 0.35;
+
+/// A crank-rocker with a wheel on the ground that turns `ratio` times as fast as the crank.
+fn geared(ratio: f64) -> Result<Setup> {
+    let kind = TransmissionKind::Gears { teeth: [ratio, 1.0], pressure_angle: PRESSURE_ANGLE };
+    let case = builder(LENGTHS, rods(LENGTHS), SPEED_OF_ALL)
+        .point("ground", "W", AXLE)
+        .link("wheel", &[("W", [0.0, 0.0])])
+        .mass("wheel", 0.1, [1e-3 / ratio, 0.0], 1e-4 / ratio)
+        .pin("W", "ground", "wheel")
+        .transmission("gears", kind, ["crank", "wheel"], "ground", ("W", 0.5))
+        .build()?;
+    Ok(Setup::usual(case))
+}
+
+/// Ratio of the speeds.
+pub(super) const GEAR_RATIO: StressFamily = StressFamily {
+    name: "gear_ratio",
+    dial: "speed of the geared wheel divided by that of the crank",
+    title: "a crank-rocker with a wheel that turns up to 1e4 times as fast as its crank",
+    points: &[1.0, 10.0, 1e2, 1e3, 1e4],
+    quick: &[1.0, 1e2],
+    samples: 1,
+    setup: |ratio, _, _| geared(ratio),
 };
