@@ -137,7 +137,6 @@ pub fn reachable(case: &Case) -> Result<Extent> {
 /// angles, or by the reason why they are unknown.
 /// Any other error stays unchanged.
 /// The solvers must not share the range analysis, so they do not call this function themselves.
-#[must_use]
 pub fn explained(case: &Case, error: Error) -> Error {
     if !error.is_out_of_reach() {
         return error;

@@ -20,6 +20,7 @@ const SEEN: f64 = 1e-2;
 
 /// A mechanism at one instant, whole or in part.
 #[derive(Clone, Debug)]
+#[must_use]
 pub struct Laid {
     /// Where every link is.
     pub places: Vec<LinkPlacement>,
@@ -48,7 +49,6 @@ pub struct GroupPlacement {
 
 impl Laid {
     /// A mechanism in a known pose.
-    #[must_use]
     pub fn whole(pose: impl IntoIterator<Item = LinkPose>) -> Laid {
         let places = pose.into_iter().map(LinkPlacement::Here).collect();
         Laid { places, gaps: Vec::new(), reaches: Vec::new(), faults: Vec::new(), modes: Vec::new(), shape: None }
@@ -111,7 +111,6 @@ impl Laid {
 
 /// Assembles a mechanism with this structure.
 /// Driven joints have these coordinates (rad or m), and `starts` selects the mode of every group.
-#[must_use]
 pub fn lay(mechanism: &Mechanism, structure: &Structure, angles: &[f64], starts: &[StartGroup]) -> Laid {
     let (structure, angles) = (structure.at_start(), &structure.given_at_start(mechanism, angles)[..]);
     let mut laid = Laid::of_structure(mechanism, structure, angles);
@@ -150,7 +149,6 @@ pub fn lay(mechanism: &Mechanism, structure: &Structure, angles: &[f64], starts:
 
 /// Assembles a mechanism that has no structure, because it has too few or too many links or joints.
 /// The function places the dyads that it finds.
-#[must_use]
 pub fn lay_loose(mechanism: &Mechanism, drivers: &[DrivingLink], angles: &[f64], fault: Error) -> Laid {
     let mut laid = Laid::start(mechanism, drivers, angles);
     laid.faults.push(fault);

@@ -205,6 +205,7 @@ pub struct Look {
 
 /// A shape and its meaning.
 #[derive(Clone, Debug, PartialEq)]
+#[must_use]
 pub struct Mark {
     /// The shape, in the frame of the mark's link (m).
     pub shape: MarkShape,
@@ -214,25 +215,21 @@ pub struct Mark {
 
 impl Mark {
     /// An open line.
-    #[must_use]
     pub fn line(role: MarkRole, points: impl Into<Vec<Vec2>>) -> Mark {
         Mark { role, shape: MarkShape::Line { points: points.into(), closed: false } }
     }
 
     /// A polygon.
-    #[must_use]
     pub fn area(role: MarkRole, points: impl Into<Vec<Vec2>>) -> Mark {
         Mark { role, shape: MarkShape::Line { points: points.into(), closed: true } }
     }
 
     /// A circle.
-    #[must_use]
     pub fn circle(role: MarkRole, centre: Vec2, radius: f64) -> Mark {
         Mark { role, shape: MarkShape::Circle { centre, radius } }
     }
 
     /// A part of a circle, with the direction of its first end and the angle from the first end to the last end (rad).
-    #[must_use]
     pub fn arc(role: MarkRole, centre: Vec2, radius: f64, [from, sweep]: [f64; 2]) -> Mark {
         Mark { role, shape: MarkShape::Arc { centre, radius, from, sweep } }
     }

@@ -24,6 +24,7 @@ pub fn unit(mechanism: &Mechanism) -> f64 {
 
 /// The drawing of a mechanism.
 #[derive(Clone, Debug, PartialEq)]
+#[must_use]
 pub struct Sketch {
     /// Unit length (m) of symbols and line widths.
     pub unit: f64,
@@ -75,7 +76,6 @@ pub struct SketchLabel {
 impl Sketch {
     /// The sketch of the links and joints of a mechanism. The guides are as long as these travels.
     /// Symbols are multiples of `unit` (m): see [`unit`](self::unit).
-    #[must_use]
     pub fn of(mechanism: &Mechanism, travels: &Travels, unit: f64) -> Sketch {
         let body = |link| {
             let marks = if link == GROUND { ground(mechanism, unit) } else { body::marks(mechanism, link, unit) };
@@ -90,14 +90,12 @@ impl Sketch {
     }
 
     /// The drawing of a whole case: links, joints, drives and loads.
-    #[must_use]
     pub fn of_case(case: &CaseParts, travels: &Travels, unit: f64) -> Sketch {
         let sketch = Sketch::of(&case.mechanism, travels, unit);
         sketch.with_drives(&case.mechanism, &case.drives).with_loads(&case.mechanism, &case.loads)
     }
 
     /// The sketch with the directions of drives, and with motors.
-    #[must_use]
     pub fn with_drives(mut self, mechanism: &Mechanism, drives: &[Drive]) -> Sketch {
         for drive in drives {
             self.bodies[drive.link].marks.extend(sign::of_drive(mechanism, drive, self.unit));
@@ -110,7 +108,6 @@ impl Sketch {
     }
 
     /// The sketch with loads. Ground points with springs and dampers are drawn as pivots.
-    #[must_use]
     pub fn with_loads(mut self, mechanism: &Mechanism, loads: &[Load]) -> Sketch {
         self.stretched = stretched::of_loads(loads, self.unit);
         self.loads = loads.iter().enumerate().filter_map(|(k, load)| sign::of_load(mechanism, k, load)).collect();
@@ -132,7 +129,6 @@ impl Sketch {
     }
 
     /// The sketch without the marks of some roles.
-    #[must_use]
     pub fn without(mut self, roles: &[MarkRole]) -> Sketch {
         for body in &mut self.bodies {
             body.marks.retain(|mark| !roles.contains(&mark.role));

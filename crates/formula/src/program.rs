@@ -46,7 +46,6 @@ impl Program {
     }
 
     /// The values of the last run.
-    #[must_use]
     pub fn answers(&self) -> &[Rounded] {
         &self.answers
     }

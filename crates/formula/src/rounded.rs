@@ -9,6 +9,7 @@ use crate::tree::{Function, Operator};
 /// Unlike in IEEE 754, `1/(1/0)`, `(0/0)^0` and `atan(1/0)` have no value.
 /// If an argument is outside the domain by less than its error, the end of the domain is used instead.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[must_use]
 pub struct Rounded {
     /// The number; NaN if the number is undefined.
     pub value: f64,
@@ -28,21 +29,18 @@ impl Rounded {
     pub const UNKNOWN: Self = Rounded { value: 0.0, error: f64::INFINITY };
 
     /// A number that is exact.
-    #[must_use]
     pub const fn exact(value: f64) -> Self {
         Rounded { value, error: 0.0 }
     }
 
     /// The double of a decimal number: exact if the number is whole, otherwise with an error of half a unit in the last
     /// place.
-    #[must_use]
     pub fn decimal(value: f64) -> Self {
         let is_whole = value.fract() == 0.0 && value.abs() < 9e15;
         Rounded { value, error: if is_whole { 0.0 } else { HALF * value.abs() } }
     }
 
     /// A number with an error of one unit in the last place.
-    #[must_use]
     pub fn nearly(value: f64) -> Self {
         Rounded { value, error: f64::EPSILON * value.abs() }
     }
@@ -76,13 +74,11 @@ impl Rounded {
     }
 
     /// The negative.
-    #[must_use]
     pub fn negative(self) -> Self {
         Rounded { value: -self.value, error: self.error }
     }
 
     /// Result of an operator on two numbers.
-    #[must_use]
     pub fn pair(operator: Operator, a: Self, b: Self) -> Self {
         if !a.value.is_finite() || !b.value.is_finite() {
             return Rounded::UNDEFINED;
@@ -106,7 +102,6 @@ impl Rounded {
     }
 
     /// Result of a function of its arguments.
-    #[must_use]
     pub fn call(function: Function, arguments: [Self; 2]) -> Self {
         let [x, other] = arguments;
         if !x.value.is_finite() || !other.value.is_finite() {

@@ -157,7 +157,6 @@ impl DerivationSheet {
     }
 
     /// A tree that refers to the unchanged part at a position.
-    #[must_use]
     pub fn placeholder(place: usize) -> FormulaTree {
         FormulaTree::name(format!("{PLACE}{place}"))
     }
@@ -169,7 +168,6 @@ impl DerivationSheet {
     }
 
     /// The value of the unchanged part at an instant.
-    #[must_use]
     pub fn value(&self, place: usize, instant: usize) -> Rounded {
         self.values[instant][place]
     }

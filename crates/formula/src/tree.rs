@@ -63,6 +63,7 @@ pub enum NodeShape {
 
 /// A formula, or a part of one.
 #[derive(Clone, Debug, PartialEq)]
+#[must_use]
 pub struct FormulaTree {
     /// Kind of the part.
     pub shape: NodeShape,
@@ -72,31 +73,26 @@ pub struct FormulaTree {
 
 impl FormulaTree {
     /// A number that does not come from a text.
-    #[must_use]
     pub fn number(value: f64) -> FormulaTree {
         FormulaTree::of(NodeShape::Number(value))
     }
 
     /// A name that does not come from a text.
-    #[must_use]
     pub fn name(name: impl Into<String>) -> FormulaTree {
         FormulaTree::of(NodeShape::Name(name.into()))
     }
 
     /// Two parts and an operator between them.
-    #[must_use]
     pub fn pair(operator: Operator, left: FormulaTree, right: FormulaTree) -> FormulaTree {
         FormulaTree::of(NodeShape::Pair(operator, Box::new([left, right])))
     }
 
     /// A function with its arguments.
-    #[must_use]
     pub fn call(function: Function, arguments: Vec<FormulaTree>) -> FormulaTree {
         FormulaTree::of(NodeShape::Call(function, arguments))
     }
 
     /// The negative of a part. The negative of a negative is the inner part.
-    #[must_use]
     pub fn negative(&self) -> FormulaTree {
         match &self.shape {
             NodeShape::Negative(inner) => (**inner).clone(),
@@ -111,7 +107,6 @@ impl FormulaTree {
     }
 
     /// The same tree with every occurrence of a name replaced by `other`.
-    #[must_use]
     pub fn with_name(&self, name: &str, other: &FormulaTree) -> FormulaTree {
         if matches!(&self.shape, NodeShape::Name(own) if own == name) {
             return other.clone();
@@ -124,7 +119,6 @@ impl FormulaTree {
     }
 
     /// The arguments of the outermost operation.
-    #[must_use]
     pub fn parts(&self) -> &[FormulaTree] {
         match &self.shape {
             NodeShape::Number(_) | NodeShape::Name(_) => &[],

@@ -185,13 +185,11 @@ impl Case {
 
     /// The crank: the driving link whose angle identifies an instant.
     #[inline]
-    #[must_use]
     pub fn crank(&self) -> &Drive {
         self.drives.crank()
     }
 
     /// The input with the value `value`, formatted for messages.
-    #[must_use]
     pub fn told(&self, value: f64) -> InputValue {
         self.crank().told(value)
     }
@@ -207,7 +205,6 @@ impl Case {
     /// Value, rate and acceleration of the input in a state of the mechanism.
     /// The arguments are the same as in [`Case::each_load`].
     #[inline]
-    #[must_use]
     pub fn state_in(&self, motions: &[Motion], angles: &[f64]) -> InputState {
         self.drive_state(self.crank(), motions, angles)
     }
@@ -215,7 +212,6 @@ impl Case {
     /// Value, rate and acceleration of the input of a drive in a state of the mechanism.
     /// The other arguments are the same as in [`Case::each_load`].
     #[inline]
-    #[must_use]
     pub fn drive_state(&self, drive: &Drive, motions: &[Motion], angles: &[f64]) -> InputState {
         let joint = &self.mechanism.joints()[drive.joint];
         let [value, rate, acceleration] = match drive.input {

@@ -131,6 +131,7 @@ impl fmt::Display for RunReached {
 
 /// An error: message, known data, location in the file (if any) and remedy.
 #[derive(Clone, Debug)]
+#[must_use]
 pub struct Error(Box<Inner>);
 
 #[derive(Clone, Debug, Default)]
@@ -152,83 +153,71 @@ struct Inner {
 
 impl Error {
     /// New error of this kind. `message` says what was requested and what was found.
-    #[must_use]
     pub fn new(kind: ErrorKind, message: impl Into<String>) -> Self {
         Error(Box::new(Inner { kind, message: message.into(), ..Inner::default() }))
     }
 
     /// Sets the remedy. An earlier remedy is replaced.
-    #[must_use]
     pub fn help(mut self, advice: impl Into<Advice>) -> Self {
         self.0.advice = vec![advice.into()];
         self
     }
 
     /// Adds an alternative remedy.
-    #[must_use]
     pub fn or_help(mut self, advice: impl Into<Advice>) -> Self {
         self.0.advice.push(advice.into());
         self
     }
 
     /// Replaces every remedy by the result of `change`.
-    #[must_use]
     pub fn map_advice(mut self, change: impl FnMut(Advice) -> Advice) -> Self {
         self.0.advice = std::mem::take(&mut self.0.advice).into_iter().map(change).collect();
         self
     }
 
     /// Rewords the error: `change` turns the old message into the new message. All other parts of the error are kept.
-    #[must_use]
     pub fn map_message(mut self, change: impl FnOnce(&str) -> String) -> Self {
         self.0.message = change(&self.0.message);
         self
     }
 
     /// Sets the time (s) of the error.
-    #[must_use]
     pub fn at_time(mut self, time: f64) -> Self {
         self.0.time = Some(time);
         self
     }
 
     /// Sets the value of the input at which the error occurs.
-    #[must_use]
     pub fn at_input(mut self, at: InputValue) -> Self {
         self.0.input = Some(at);
         self
     }
 
     /// Sets the link that the error is about.
-    #[must_use]
     pub fn of_link(mut self, name: impl Into<String>) -> Self {
         self.0.part = Some(ErrorSubject::Link(name.into()));
         self
     }
 
     /// Sets the joint that the error is about.
-    #[must_use]
     pub fn of_joint(mut self, name: impl Into<String>) -> Self {
         self.0.part = Some(ErrorSubject::Joint(name.into()));
         self
     }
 
     /// Sets the Assur group that the error is about, by the names of its links.
-    #[must_use]
     pub fn of_group(mut self, names: impl Into<String>) -> Self {
         self.0.part = Some(ErrorSubject::Group(names.into()));
         self
     }
 
     /// Sets the number and the bound that it exceeds, both in `unit` (empty for a ratio).
-    #[must_use]
     pub fn beyond(mut self, value: f64, bound: f64, unit: &'static str) -> Self {
         self.0.residual = Some(Excess { value, bound, unit });
         self
     }
 
     /// Sets how far the run got before it failed.
-    #[must_use]
     pub fn after(mut self, reached: RunReached) -> Self {
         self.0.reached = Some(reached);
         self
@@ -236,14 +225,12 @@ impl Error {
 
     /// Marks the error as a pose out of reach on the branch of the case.
     /// A caller that knows the solvers and the range of motion can then add the reachable crank angles.
-    #[must_use]
     pub fn out_of_reach(mut self) -> Self {
         self.0.out_of_reach = true;
         self
     }
 
     /// Removes the out-of-reach mark. Callers use this method after they have explained the error.
-    #[must_use]
     pub fn explained(mut self) -> Self {
         self.0.out_of_reach = false;
         self
@@ -251,14 +238,12 @@ impl Error {
 
     /// Names the scenario key (dotted path) at fault.
     /// The innermost caller sets its key first and knows the fault best, so a key that is already set stays.
-    #[must_use]
     pub fn key(mut self, key: impl Into<KeyPath>) -> Self {
         self.0.key.get_or_insert_with(|| key.into());
         self
     }
 
     /// Adds the location in the file. A location that is already set is kept.
-    #[must_use]
     pub fn at(mut self, place: Place) -> Self {
         self.0.place.get_or_insert(place);
         self

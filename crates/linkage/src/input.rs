@@ -26,7 +26,6 @@ impl Input {
 
     /// The input with the value `value` (in its SI unit), formatted for messages.
     #[inline]
-    #[must_use]
     pub const fn at(self, value: f64) -> InputValue {
         InputValue { input: self, value }
     }
@@ -150,6 +149,7 @@ impl Input {
 
 /// Value of an input. The value is displayed with the input's name and unit: `crank angle 41.0000 deg`.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[must_use]
 pub struct InputValue {
     /// What it measures.
     pub input: Input,

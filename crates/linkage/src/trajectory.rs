@@ -66,7 +66,6 @@ impl Trajectory {
     }
 
     /// The input in one row, formatted for messages.
-    #[must_use]
     pub fn told(&self, row: usize) -> InputValue {
         self.input.at(self.inputs[row])
     }

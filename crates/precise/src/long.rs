@@ -9,6 +9,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A double-double number: the nearest double and the remainder.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+#[must_use]
 pub struct Long(f64, f64);
 
 /// The sum of two doubles without error (Knuth).
@@ -33,7 +34,6 @@ impl Long {
     pub const ONE: Long = Long(1.0, 0.0);
 
     /// Exactly this double.
-    #[must_use]
     pub fn of(value: f64) -> Long {
         Long(value, 0.0)
     }
@@ -45,13 +45,11 @@ impl Long {
     }
 
     /// Absolute value.
-    #[must_use]
     pub fn abs(self) -> Long {
         if self.0 < 0.0 { -self } else { self }
     }
 
     /// Square root of a number that is not negative.
-    #[must_use]
     pub fn sqrt(self) -> Long {
         if self == Long::ZERO {
             return self;
@@ -62,7 +60,6 @@ impl Long {
     }
 
     /// Sine and cosine of an angle (rad) of up to about 1e9.
-    #[must_use]
     pub fn sin_cos(self) -> (Long, Long) {
         let quarter = Long::PI * Long::of(0.5);
         let quarters = (self.rounded() / quarter.rounded()).round();

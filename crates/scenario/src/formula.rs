@@ -282,7 +282,6 @@ pub fn fault_of_claim(
 }
 
 /// An error in a text that does not come from a file, such as an argument; `what` names the text.
-#[must_use]
 pub fn refused(what: &str, text: &str, fault: &FormulaFault) -> Error {
     let place = Place { file: what.into(), text: text.into(), span: fault.at.clone() };
     Error::new(ErrorKind::Input, fault.message.clone()).at(place).help(fault.help.clone())

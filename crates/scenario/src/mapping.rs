@@ -122,7 +122,6 @@ impl Mapped {
     }
 
     /// An error in the arithmetic expression.
-    #[must_use]
     pub fn refused(&self, fault: &FormulaFault) -> Error {
         let span = self.start + fault.at.start..self.start + fault.at.end;
         let place = Place { span, ..self.place.clone() };
@@ -130,7 +129,6 @@ impl Mapped {
     }
 
     /// An error about the channel that this entry names.
-    #[must_use]
     pub fn wrong(&self, message: &str, help: &str) -> Error {
         Error::new(ErrorKind::Input, message).at(self.place.clone()).help(help)
     }

@@ -211,7 +211,6 @@ pub(crate) fn no_turn(kinks: &Kinks) -> Error {
 }
 
 /// The error for a resistance that no speed of the motor balances.
-#[must_use]
 pub fn no_steady_speed(resistance: f64) -> Error {
     let message = sentences::the_motor_has_no_stable_speed(&resistance);
     Error::new(ErrorKind::Numeric, message).help(sentences::CHOOSE_A_STRONGER_MOTOR_OR_A_LARGER)

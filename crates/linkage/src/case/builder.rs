@@ -56,6 +56,7 @@ struct Coupling {
 /// # Ok::<(), linkproof_linkage::Error>(())
 /// ```
 #[derive(Clone, Debug)]
+#[must_use]
 pub struct CaseBuilder {
     links: Vec<Link>,
     masses: Vec<(String, f64, Vec2, f64)>,
@@ -74,7 +75,6 @@ pub struct CaseBuilder {
 
 impl Case {
     /// Returns an empty builder for a case written in code, link by link.
-    #[must_use]
     pub fn builder() -> CaseBuilder {
         CaseBuilder::new()
     }
@@ -100,7 +100,6 @@ impl CaseBuilder {
     }
 
     /// Sets the ground and its points: names and world coordinates (m).
-    #[must_use]
     pub fn ground(mut self, points: &[(&str, [f64; 2])]) -> Self {
         self.links.insert(GROUND.index(), bare("ground", points));
         self
@@ -108,14 +107,12 @@ impl CaseBuilder {
 
     /// Adds a moving link and its points: names and coordinates (m) in the link's frame. The link is massless until
     /// [`CaseBuilder::mass`] sets its mass.
-    #[must_use]
     pub fn link(mut self, name: &str, points: &[(&str, [f64; 2])]) -> Self {
         self.links.push(bare(name, points));
         self
     }
 
     /// Adds a point (m, in the link's frame) to a link that was added before.
-    #[must_use]
     pub fn point(mut self, link: &str, name: &str, at: [f64; 2]) -> Self {
         let own = self.links.iter_mut().filter(|own| own.name == link);
         own.for_each(|own| own.points.push(Point { name: name.into(), local: at.into() }));
@@ -124,21 +121,18 @@ impl CaseBuilder {
 
     /// Sets a link's mass (kg), mass centre in the link's frame (m) and moment of inertia about the mass centre (kg
     /// m^2).
-    #[must_use]
     pub fn mass(mut self, link: &str, mass: f64, centre: [f64; 2], inertia: f64) -> Self {
         self.masses.push((link.into(), mass, centre.into(), inertia));
         self
     }
 
     /// Adds a revolute joint between two links. Both links must have a point called `name`.
-    #[must_use]
     pub fn pin(self, name: &str, first: &str, second: &str) -> Self {
         self.joint(name, [(first, name), (second, name)], None)
     }
 
     /// Adds a prismatic joint: link and point on both sides, and the angles (rad) of its axis in the frames of both
     /// links. The two points must have different names.
-    #[must_use]
     pub fn slider(self, name: &str, first: (&str, &str), second: (&str, &str), axes: [f64; 2]) -> Self {
         self.joint(name, [first, second], Some(axes))
     }
@@ -152,7 +146,6 @@ impl CaseBuilder {
     /// Adds a transmission between two links on the axles or guides of `carrier`.
     /// At t = 0 the joint `start.0` has the coordinate `start.1`: the angle of its second link minus that of its first
     /// link (rad), or the slide (m).
-    #[must_use]
     pub fn transmission(
         mut self,
         name: &str,
@@ -169,13 +162,11 @@ impl CaseBuilder {
     /// Adds a driving link at constant speed (rad/s, counter-clockwise positive).
     /// The driving link is the link that `joint` connects to the ground.
     /// The first driving link is the crank.
-    #[must_use]
     pub fn crank(self, joint: &str, speed: f64) -> Self {
         self.driven(joint, MotionLaw::ConstantSpeed(speed))
     }
 
     /// Adds a driving link that follows a motion law.
-    #[must_use]
     pub fn driven(self, joint: &str, law: MotionLaw) -> Self {
         let start = self.start;
         self.driven_from(joint, start, law)
@@ -183,7 +174,6 @@ impl CaseBuilder {
 
     /// Adds a drive that follows a motion law from the input `start` (rad or m) at t = 0.
     /// The first drive starts at [`CaseBuilder::start`].
-    #[must_use]
     pub fn driven_from(mut self, joint: &str, start: f64, law: MotionLaw) -> Self {
         self.cranks.push((joint.into(), start, DriveMotion::Prescribed { law, motor: None }));
         self
@@ -192,7 +182,6 @@ impl CaseBuilder {
     /// Adds a driving link in free motion, with its speed at t = 0 and its nominal speed, as in [`DriveMotion::Free`].
     /// Both speeds are in rad/s, counter-clockwise positive; the nominal speed is not zero.
     /// The link is hinged to the ground or to a driving link added before.
-    #[must_use]
     pub fn free(mut self, joint: &str, initial_speed: f64, nominal_speed: f64) -> Self {
         let motion = DriveMotion::Free { initial_speed, nominal_speed, motor: None };
         self.cranks.push((joint.into(), self.start, motion));
@@ -200,7 +189,6 @@ impl CaseBuilder {
     }
 
     /// Sets the motor of the crank. Default: no motor.
-    #[must_use]
     pub fn motor(mut self, motor: Motor) -> Self {
         self.motor = Some(motor);
         self
@@ -208,21 +196,18 @@ impl CaseBuilder {
 
     /// Sets the input of the first drive at t = 0: the world angle of the crank's x axis (rad), or a slide (m). Default:
     /// 0.
-    #[must_use]
     pub fn start(mut self, crank: f64) -> Self {
         self.start = crank;
         self
     }
 
     /// Sets the assembly mode of the Assur group with these links.
-    #[must_use]
     pub fn mode(mut self, links: &[&str], mode: AssemblyMode) -> Self {
         self.modes.push((links.iter().map(ToString::to_string).collect(), mode));
         self
     }
 
     /// Sets the acceleration of gravity (m/s^2). Default: no gravity.
-    #[must_use]
     pub fn gravity(mut self, gravity: [f64; 2]) -> Self {
         self.gravity = gravity.into();
         self
@@ -231,7 +216,6 @@ impl CaseBuilder {
     /// Adds a load. In the load, moving links have the numbers 1, 2, ... in the order of the calls to
     /// [`CaseBuilder::link`].
     /// The ground has the number 0.
-    #[must_use]
     pub fn load(mut self, load: Load) -> Self {
         self.loads.push(load);
         self
@@ -239,21 +223,18 @@ impl CaseBuilder {
 
     /// Sets the number of equal intervals between the requested instants in one turn of the crank.
     /// For a free crank the intervals divide the time of one turn at the nominal speed. Default: 360.
-    #[must_use]
     pub fn instants(mut self, parts: usize) -> Self {
         self.instants = parts;
         self
     }
 
     /// Sets the requested instants (s). The given instants replace those of [`CaseBuilder::instants`].
-    #[must_use]
     pub fn times(mut self, times: &[f64]) -> Self {
         self.times = Some(times.to_vec());
         self
     }
 
     /// Sets the requested channels. Default: all.
-    #[must_use]
     pub fn wanted(mut self, wanted: Wanted) -> Self {
         self.wanted = wanted;
         self

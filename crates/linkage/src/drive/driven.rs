@@ -41,6 +41,7 @@ impl DriveMotion {
 
 /// A driving link and the motion of its input. The input is the coordinate of the driven joint.
 #[derive(Clone, Debug, PartialEq)]
+#[must_use]
 pub struct Drive {
     /// Kind of the input.
     pub input: Input,
@@ -61,7 +62,6 @@ pub struct Drive {
 
 impl Drive {
     /// Returns a drive that follows `law` and has no motor. The other arguments are the fields of the same names.
-    #[must_use]
     pub fn prescribed(joint: JointId, link: LinkId, zero: f64, start: f64, law: MotionLaw) -> Self {
         let motion = DriveMotion::Prescribed { law, motor: None };
         Drive { input: Input::Angle, joint, link, zero, start, motion, through: false }
@@ -97,7 +97,6 @@ impl Drive {
     /// State of the driving link at time `t` (s), as in [`MotionLaw::at`]. For a free link, the state in its nominal
     /// motion.
     #[inline]
-    #[must_use]
     pub fn at(&self, t: f64) -> InputState {
         self.by_law(|law| law.at(self.start, t))
     }
@@ -222,7 +221,6 @@ impl Drive {
     }
 
     /// Returns this drive with the given motor, or without a motor.
-    #[must_use]
     pub fn with_motor(&self, motor: Option<Motor>) -> Drive {
         let motion = match &self.motion {
             DriveMotion::Prescribed { law, .. } => DriveMotion::Prescribed { law: law.clone(), motor },
@@ -234,7 +232,6 @@ impl Drive {
     }
 
     /// Returns this drive in its nominal motion. The law of a free link is then constant speed at the nominal speed.
-    #[must_use]
     pub fn nominal(&self) -> Drive {
         let motion = match &self.motion {
             DriveMotion::Prescribed { .. } => self.motion.clone(),
@@ -247,7 +244,6 @@ impl Drive {
 
     /// Returns this drive with the law's top speed at all times.
     /// The drive of a free link is returned unchanged: the speed of its nominal motion is constant.
-    #[must_use]
     pub fn at_top_speed(&self) -> Drive {
         let motion = match &self.motion {
             DriveMotion::Prescribed { law, motor } => {
@@ -287,7 +283,6 @@ impl Drive {
     }
 
     /// The input with the value `value`, formatted for messages.
-    #[must_use]
     pub fn told(&self, value: f64) -> InputValue {
         self.input.at(value)
     }

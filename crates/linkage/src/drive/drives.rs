@@ -23,7 +23,6 @@ impl Drives {
 
     /// The crank.
     #[inline]
-    #[must_use]
     pub fn crank(&self) -> &Drive {
         &self.0[0]
     }
@@ -35,7 +34,6 @@ impl Drives {
 
     /// All drives except the crank.
     #[inline]
-    #[must_use]
     pub fn further(&self) -> &[Drive] {
         &self.0[1..]
     }

@@ -10,6 +10,7 @@ use crate::math::{Curve, root};
 /// The units are rad, rad/s, rad/s^2 for an angle; m, m/s, m/s^2 for a length.
 /// [`Input`](crate::input::Input) defines what the input measures.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[must_use]
 pub struct InputState {
     /// Value in the scenario's convention.
     /// An angle is measured counter-clockwise from the drive's zero direction, and whole turns count.
@@ -99,7 +100,6 @@ impl MotionLaw {
     /// Angle, speed and acceleration at time `t` (s) of a motion with the input `start` (rad) at t = 0.
     /// Beyond the law's end the formula continues smoothly, for callers that approach the end.
     #[inline]
-    #[must_use]
     pub fn at(&self, start: f64, t: f64) -> InputState {
         match *self {
             MotionLaw::ConstantSpeed(omega) => InputState { value: start + omega * t, rate: omega, acceleration: 0.0 },

@@ -82,7 +82,6 @@ impl Error {
     }
 
     /// Applies `change` to every error and sorts the results by their position in the file.
-    #[must_use]
     pub fn each_in_order(mut self, change: impl FnMut(Error) -> Error) -> Error {
         let left_out = std::mem::take(&mut self.0.left_out);
         let further = std::mem::take(&mut self.0.further);

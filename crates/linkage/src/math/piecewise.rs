@@ -8,6 +8,7 @@ const EQUAL: f64 = 1e-12;
 
 /// Cubic pieces between ascending knots.
 #[derive(Clone, Debug, PartialEq)]
+#[must_use]
 pub struct Piecewise {
     /// Knots. There is one more knot than there are pieces.
     knots: Vec<f64>,
@@ -20,7 +21,6 @@ impl Piecewise {
     /// Straight lines through `(x, y)`, repeated with `period`.
     /// The x ascend within one period. At least one point is needed.
     /// At two points with the same x the function jumps. At this x it has the value of the second point.
-    #[must_use]
     pub fn periodic_lines(points: &[(f64, f64)], period: f64) -> Self {
         let (knots, values) = closed(points, period);
         let pieces = (1..knots.len())
@@ -33,7 +33,6 @@ impl Piecewise {
     }
 
     /// The same lines with all jumps moved back by `by`. The line after a jump is extended back to the jump.
-    #[must_use]
     pub fn with_jumps_before(mut self, by: f64) -> Self {
         let last = self.pieces.len();
         let period = self.knots[last] - self.knots[0];
@@ -50,7 +49,6 @@ impl Piecewise {
     /// The periodic cubic spline through `(x, y)`. Its first two derivatives are continuous everywhere.
     /// De Boor, "A practical guide to splines", 1978, chapter IV.
     /// The x ascend within one period. At least one point is needed.
-    #[must_use]
     pub fn periodic_spline(points: &[(f64, f64)], period: f64) -> Self {
         let (knots, values) = closed(points, period);
         let n = points.len();
@@ -66,7 +64,6 @@ impl Piecewise {
     /// The cubic spline through `(x, y)` with given slopes at its ends. Its first two derivatives are continuous.
     /// De Boor, chapter IV, as for the periodic spline.
     /// The x ascend. At least two points are needed. The outer pieces continue beyond the ends.
-    #[must_use]
     pub fn clamped_spline(points: &[(f64, f64)], [first, last]: [f64; 2]) -> Self {
         let (knots, values): (Vec<f64>, Vec<f64>) = points.iter().copied().unzip();
         let (h, slope) = differences(&knots, &values);
@@ -93,7 +90,6 @@ impl Piecewise {
     }
 
     /// The same function multiplied by `factor`.
-    #[must_use]
     pub fn times(&self, factor: f64) -> Self {
         let pieces = self.pieces.iter().map(|piece| piece.map(|coefficient| factor * coefficient)).collect();
         Piecewise { pieces, knots: self.knots.clone(), periodic: self.periodic }

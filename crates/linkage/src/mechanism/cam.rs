@@ -113,7 +113,6 @@ impl Cam {
     }
 
     /// The contact at the coordinates of cam (rad) and follower (rad or m).
-    #[must_use]
     pub fn contact(&self, [q1, q2]: [f64; 2]) -> Contact {
         let ([_, rate, second], [at, along, bend]) = (self.law.at(q1), self.follower.at(q2));
         let reach = at - self.axle[0];

@@ -13,6 +13,7 @@ pub struct LineOfAction {
 
 /// The contact of a transmission in one pose, in the frame of the carrier.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[must_use]
 pub struct Contact {
     /// The lines of action. The first one acts for positive forces, the second one for negative forces.
     pub lines: [LineOfAction; 2],

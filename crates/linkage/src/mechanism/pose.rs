@@ -7,6 +7,7 @@ use crate::mechanism::{LinkId, PerLink};
 
 /// Pose of one link's frame in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[must_use]
 pub struct LinkPose {
     /// World position of the frame's origin (m).
     pub origin: Vec2,
@@ -19,14 +20,12 @@ impl LinkPose {
     pub const GROUND: LinkPose = LinkPose { origin: Vec2::new(0.0, 0.0), angle: 0.0 };
 
     /// The pose at `angle` that puts the body point `local` at the world point `at`.
-    #[must_use]
     pub fn through(local: Vec2, at: Vec2, angle: f64) -> Self {
         LinkPose { origin: at - rotated(unit(angle), local), angle }
     }
 
     /// The pose that puts the body points `local_a` and `local_b` at two world points.
     /// The distance between the world points must equal the distance between the body points.
-    #[must_use]
     pub fn between(local_a: Vec2, local_b: Vec2, a: Vec2, b: Vec2) -> Self {
         let (local, world) = (local_b - local_a, b - a);
         LinkPose::through(local_a, a, cross(local, world).atan2(local.dot(&world)))
@@ -43,7 +42,6 @@ impl Joint {
     /// Pose of `link` that follows from the drive at this joint.
     /// `link` is one of the joint's two links. `base` is the pose of the joint's link other than `link`.
     /// `coordinate` is the coordinate of `input`, as in [`Drive::coordinate`](crate::drive::Drive::coordinate).
-    #[must_use]
     pub fn driven(&self, link: LinkId, base: &LinkPose, input: Input, coordinate: f64) -> LinkPose {
         let local = self.on(link).expect("the driven joint is on the driving link");
         let other = self.other(link);

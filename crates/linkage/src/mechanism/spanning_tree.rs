@@ -28,6 +28,7 @@ pub struct TreeBranch {
 /// Branches from the ground, and the cut joints. The cut joints close the loops. Links without a branch are free
 /// bodies.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[must_use]
 pub struct SpanningTree {
     /// Branches; a parent always comes before its children.
     pub branches: Vec<TreeBranch>,
@@ -37,7 +38,6 @@ pub struct SpanningTree {
 
 impl SpanningTree {
     /// No tree: every link is a free body and every joint is cut.
-    #[must_use]
     pub fn none(mechanism: &Mechanism) -> Self {
         SpanningTree { branches: Vec::new(), cut: mechanism.joints().ids().collect() }
     }
@@ -107,7 +107,6 @@ impl SpanningTree {
 
     /// The spanning tree for runs, built breadth first.
     /// Together with a link, all links that slide on it are added, so that only revolute joints are cut.
-    #[must_use]
     pub fn of(mechanism: &Mechanism) -> Self {
         SpanningTree::with(mechanism, &[])
     }
@@ -118,7 +117,6 @@ impl SpanningTree {
     /// The given joints stay in the tree even if the tree could reach their links through joints that are not given.
     /// In an Oldham coupling, for example, sliding joints alone reach the driven disc.
     /// Without this rule the driven joint would be cut, although it must be a coordinate of the tree.
-    #[must_use]
     pub fn with(mechanism: &Mechanism, joints: &[JointId]) -> Self {
         let mut tree = SpanningTree { branches: Vec::new(), cut: Vec::new() };
         let mut reached = Vec::new();

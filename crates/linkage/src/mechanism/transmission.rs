@@ -248,13 +248,11 @@ impl Transmission {
     }
 
     /// The contact for these coordinates of the members (rad, or rad and m).
-    #[must_use]
     pub fn contact(&self, members: [f64; 2]) -> Contact {
         self.cam.as_ref().map_or(self.fixed, |cam| cam.contact(members))
     }
 
     /// The contact in a pose.
-    #[must_use]
     pub fn contact_in(&self, joints: &PerJoint<Joint>, motions: &[Motion]) -> Contact {
         self.cam.as_ref().map_or(self.fixed, |cam| cam.contact(self.coordinates_in(joints, motions)))
     }

@@ -37,6 +37,7 @@ pub struct Ladder<'a> {
 
 /// Estimate of the error of the middle run in one channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[must_use]
 pub struct Convergence {
     /// Observed order of convergence. NaN if the finer differences are only rounding.
     pub observed: f64,
@@ -54,7 +55,6 @@ pub struct Convergence {
 impl Convergence {
     /// The estimate from the values of one channel at double, single and half step.
     /// Differences below `noise` (in the channel's unit) are rounding errors and show no order.
-    #[must_use]
     pub fn of(double: &[f64], single: &[f64], half: &[f64], periodic: bool, formal: f64, noise: f64) -> Self {
         let coarse = differences(double, single, periodic);
         let fine = differences(single, half, periodic);
@@ -95,7 +95,6 @@ impl Convergence {
     /// Extrapolation does not cancel errors that are not a power series in the step.
     /// Examples are errors near a jump of a load or near a knot of the load's table.
     /// Such errors were measured to be up to ten times the difference of neighbouring runs (`benches/peers`).
-    #[must_use]
     pub fn extrapolated(self, times: usize) -> Self {
         let safety = match times {
             0 => self.safety,
@@ -117,7 +116,6 @@ impl Convergence {
     }
 
     /// Adds the iteration error of the middle run. Differences below `noise` (in the channel's unit) show no trend.
-    #[must_use]
     pub fn with_other_sweeps(self, single: &[f64], others: &OtherSweeps<&[f64]>, noise: f64, periodic: bool) -> Self {
         Convergence { iteration: others.left(single, noise, periodic), ..self }
     }

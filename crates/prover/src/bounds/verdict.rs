@@ -13,6 +13,7 @@ use linkage::math::statistics::share;
 
 /// Outcome of one comparison.
 #[derive(Clone, Debug, PartialEq)]
+#[must_use]
 pub enum Verdict {
     /// The residual is at most its bound.
     Agree {
@@ -60,7 +61,6 @@ impl Verdict {
     }
 
     /// An inconclusive verdict without advice.
-    #[must_use]
     pub fn open(reason: impl Into<String>) -> Self {
         Verdict::Inconclusive { reason: reason.into(), advice: Vec::new() }
     }
@@ -84,7 +84,6 @@ impl Verdict {
 
     /// This verdict, with values to try in its advice.
     /// The values come from the settings of the engine: see [`Advice::from_settings`].
-    #[must_use]
     pub fn from_settings(mut self, resolution: f64, controls_error: bool, sweeps: usize) -> Self {
         if let Verdict::Inconclusive { advice, .. } = &mut self {
             for one in advice {
@@ -95,7 +94,6 @@ impl Verdict {
     }
 
     /// Compares a residual with its bound. The comparison is written so that NaN disagrees.
-    #[must_use]
     pub fn of(residual: f64, bound: f64, place: impl FnOnce() -> String) -> Self {
         if residual <= bound {
             Verdict::Agree { margin: if residual == 0.0 { f64::INFINITY } else { bound / residual } }
@@ -107,7 +105,6 @@ impl Verdict {
     /// Verdict on an engine's channel.
     /// A small residual proves nothing if the engine does not converge.
     /// It also proves nothing if the engine's error may exceed the fraction `wanted` of the channel's scale.
-    #[must_use]
     pub fn of_engine(residual: &Residual, convergence: &Convergence, parts: Parts, wanted: f64) -> Self {
         let place = || {
             let unit = residual.channel.kind.unit.symbol();
@@ -122,7 +119,6 @@ impl Verdict {
     /// channel's scale.
     /// The verdict is inconclusive if the runs do not confirm the bound, or if the bound exceeds the fraction `wanted`
     /// of the scale.
-    #[must_use]
     pub fn of_estimate(
         value: f64,
         scale: f64,
@@ -181,6 +177,7 @@ fn way_out(parts: Parts) -> (&'static str, Vec<Advice>) {
 
 /// A number that must stay below a bound, in addition to the compared channels.
 #[derive(Clone, Debug, PartialEq)]
+#[must_use]
 pub struct Check {
     /// The subject of the check. A report shows the checks of one family on one line.
     pub family: String,
@@ -202,7 +199,6 @@ pub struct Check {
 
 impl Check {
     /// A check of a number against a bound.
-    #[must_use]
     pub fn new(family: impl Into<String>, value: f64, tolerance: Tolerance, unit: &'static str) -> Self {
         let Tolerance { bound, basis } = tolerance;
         let verdict = Verdict::of(value, bound, || beyond(value, bound, unit));
@@ -212,7 +208,6 @@ impl Check {
     /// A check of a relative number whose bound comes from an engine's own runs.
     /// As for channels, the check is inconclusive if the runs do not confirm the bound or if the bound exceeds the
     /// fraction `wanted`.
-    #[must_use]
     pub fn estimated(
         family: impl Into<String>,
         value: f64,
@@ -228,14 +223,12 @@ impl Check {
     }
 
     /// Sets the detail that identifies this check within its family.
-    #[must_use]
     pub fn of(mut self, detail: impl Into<String>) -> Self {
         self.detail = detail.into();
         self
     }
 
     /// Adds the location of the largest residual to the reason of a disagreement.
-    #[must_use]
     pub fn located(mut self, place: impl FnOnce() -> String) -> Self {
         if let Verdict::Disagree { place: reason } = &mut self.verdict {
             *reason = format!("{reason}, {}", place());
@@ -247,7 +240,6 @@ impl Check {
     /// calls wrong.
     /// The printed number must disagree, and the correct number must agree.
     /// The verdict is disagree for NaN and for a number that differs from both the printed and the correct number.
-    #[must_use]
     pub fn expected(mut self, finding: &str, printed: &Check) -> Self {
         self.verdict = match (self.verdict, &printed.verdict) {
             (_, Verdict::Agree { .. }) => {
@@ -284,7 +276,6 @@ fn beyond(value: f64, bound: f64, unit: &str) -> String {
 }
 
 /// Overall verdict. One disagreement makes it disagree. Otherwise one inconclusive verdict makes it inconclusive.
-#[must_use]
 pub fn overall<'a>(verdicts: impl IntoIterator<Item = &'a Verdict>) -> Verdict {
     let mut margin = f64::INFINITY;
     let mut open = None;

@@ -14,6 +14,7 @@ type InputColumns = Vec<(usize, f64)>;
 
 /// A side's trajectory with the error of every value, by column and row (SI units).
 #[derive(Clone)]
+#[must_use]
 pub struct KnownTrajectory<'a> {
     trajectory: &'a Trajectory,
     error: &'a dyn Fn(usize, usize) -> f64,
@@ -94,7 +95,6 @@ fn across(channel: &PrintedChannel) -> Option<Channel> {
 impl<'a> KnownTrajectory<'a> {
     /// Creates the trajectory of a case with known errors. `error` returns the error of a value by column and row (SI
     /// units).
-    #[must_use]
     pub fn new(case: &'a Case, trajectory: &'a Trajectory, error: &'a dyn Fn(usize, usize) -> f64) -> Self {
         let crank = &case.mechanism.links()[case.crank().link].name;
         let channels = trajectory.channels();
@@ -108,13 +108,11 @@ impl<'a> KnownTrajectory<'a> {
     }
 
     /// Adds values of the whole mechanism, in SI units.
-    #[must_use]
     pub fn with_figures(self, figures: &'a [(MechanismFigure, Rounded)]) -> Self {
         KnownTrajectory { figures, ..self }
     }
 
     /// Sets the smallest error assumed for every channel, in its SI unit.
-    #[must_use]
     pub fn known_at_least(&'a self, least: &'a [f64]) -> Self {
         KnownTrajectory { least, ..self.clone() }
     }
@@ -185,7 +183,6 @@ impl<'a> KnownTrajectory<'a> {
     }
 
     /// Crank angle at an instant (rad, in the scenario's convention).
-    #[must_use]
     pub fn crank(&self, row: usize) -> Rounded {
         let mut phi = Rounded::nearly(self.cranks()[row]);
         let columns = self.angle.iter().flatten();

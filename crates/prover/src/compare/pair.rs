@@ -87,7 +87,6 @@ impl SidePair {
     }
 
     /// The verdict on all channels and checks.
-    #[must_use]
     pub fn verdict(&self) -> Verdict {
         let channels = self.channels.iter().map(|channel| &channel.verdict);
         overall(channels.chain(self.checks.iter().map(|check| &check.verdict)))

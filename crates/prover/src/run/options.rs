@@ -13,7 +13,6 @@ use scenario::{EngineSetting, EngineSettings, Scenario};
 macro_rules! setters {
     ($($(#[$doc:meta])* $name:ident: $kind:ty,)*) => {$(
         $(#[$doc])*
-        #[must_use]
         pub fn $name(mut self, value: $kind) -> Self {
             self.settings.$name = EngineSetting::of(value);
             self
@@ -42,6 +41,7 @@ macro_rules! setters {
 /// assert_eq!(options.settings.engines.value().unwrap().len(), 2);
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
+#[must_use]
 pub struct Options {
     /// Analytic side whose trajectory is the reference. The second analytic side checks this trajectory.
     pub reference: Reference,
@@ -78,7 +78,6 @@ impl Chosen {
 
 impl Options {
     /// Adds an engine.
-    #[must_use]
     pub fn engine(mut self, engine: EngineName) -> Self {
         let mut engines = self.settings.engines.value().cloned().unwrap_or_default();
         engines.push(engine);
@@ -93,7 +92,6 @@ impl Options {
     }
 
     /// Adds every engine of this build. The engines are all judged in one proof.
-    #[must_use]
     pub fn every_engine(mut self) -> Self {
         let built = EngineName::ALL.into_iter().filter(|engine| engines::is_built(*engine));
         self.settings.engines = EngineSetting::of(built.collect());
@@ -101,7 +99,6 @@ impl Options {
     }
 
     /// Sets the analytic side whose trajectory is the reference.
-    #[must_use]
     pub fn reference(mut self, side: Reference) -> Self {
         self.reference = side;
         self
@@ -123,14 +120,12 @@ impl Options {
     }
 
     /// Sets the work allowed for finding settings that are not given, in steps without sweeps.
-    #[must_use]
     pub fn budget(mut self, steps: f64) -> Self {
         self.budget = Some(steps);
         self
     }
 
     /// Sets the memory allowed (bytes).
-    #[must_use]
     pub fn memory(mut self, bytes: f64) -> Self {
         self.memory = Some(bytes);
         self

@@ -111,7 +111,6 @@ impl Solved {
     }
 
     /// The checks of the sides on each other.
-    #[must_use]
     pub fn checks(&self) -> &[Check] {
         &self.sides.checks
     }

@@ -89,7 +89,6 @@ fn clearly_nearer(
 
 /// Rewrites `error` so that it names the group to blame.
 /// The old message stays. The new message adds the configuration with which the later group can be placed.
-#[must_use]
 pub fn blamed(mechanism: &Mechanism, structure: &Structure, blame: &Blame, error: &Error) -> Error {
     let (structure, names) = (structure.at_start(), |group: &Group| group.names(mechanism));
     let own = names(&structure.groups[blame.group]);
