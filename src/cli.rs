@@ -182,7 +182,7 @@ fn man(args: &man::Args) -> Result<()> {
 /// Runs the command line and returns its exit code.
 #[must_use]
 pub fn main() -> ExitCode {
-    panics::silence(prover::engines::panic_is_caught);
+    panics::silence(linkage::quiet::is_guarded);
     let cli = Cli::from_arg_matches(&command().get_matches()).unwrap_or_else(|error| error.exit());
     ExitCode::from(cli.command.run())
 }

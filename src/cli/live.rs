@@ -48,15 +48,10 @@ pub(super) struct LiveArgs {
     /// Show the mechanism to Foxglove and Lichtblick while and after it is proven, in a slow loop until Ctrl-C [default
     /// address: 127.0.0.1:8765; port 0 selects a free port]. Needs the cargo feature `live`
     #[arg(long, value_name = "[HOST:]PORT", num_args = 0..=1, require_equals = true, default_missing_value = USUAL)]
-    live: Option<String>,
+    pub(super) live: Option<String>,
 }
 
 impl LiveArgs {
-    /// Whether viewers are served.
-    pub(super) fn is_on(&self) -> bool {
-        self.live.is_some()
-    }
-
     /// Listens for viewers of a scenario, if requested.
     ///
     /// # Errors

@@ -24,7 +24,7 @@ pub(super) use args::Args;
 /// Proves every file. If a file is bad, the remaining files are still proven.
 pub(super) fn run(args: &Args) -> Result<u8> {
     // If nothing is recorded and no viewer is served, options of recordings have no effect and are refused.
-    if !args.live.is_on() {
+    if !args.live.live.is_some() {
         args.record.refuse_idle()?;
     }
     args.record.target()?;

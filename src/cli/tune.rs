@@ -8,11 +8,11 @@ use super::outputs::{Outputs, results};
 use super::progress::Bar;
 use super::{load, number};
 use crate::report::tune as report;
-use lab::tune::{Candidate, WantedAccuracy, by_work, tune};
+use lab::tune::{WantedAccuracy, by_work, tune};
 use linkage::engine::Engine;
 use linkage::error::{Advice, Error, Result};
 use prover::run::Reference;
-use scenario::{EngineSettings, Scenario, edit};
+use scenario::edit;
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = include_str!("help/tune.txt").trim_ascii_end())]
@@ -54,13 +54,14 @@ pub(super) fn run(args: &Args) -> Result<()> {
     let mut price = |engine: &dyn Engine, run: &mut dyn FnMut() -> Result<()>| by_work(&scenario.case, engine, run);
     let found = tune(&scenario, &wish, &options, &mut price, &mut |part| bar.at(part)).map_err(of_argument)?;
     drop(bar);
+    let best_keys = || keys(&scenario, found.best.engine, found.best.settings);
     if args.write {
-        engine_section::write(&args.file, &scenario, best_keys(&scenario, &found.best))?;
+        engine_section::write(&args.file, &scenario, best_keys())?;
     }
     args.outputs.deliver(
         |_| Ok(report::json(&scenario, &found, args.within)),
         |_| {
-            let section = edit::engine_section(best_keys(&scenario, &found.best));
+            let section = edit::engine_section(best_keys());
             let place = report::Section { text: &section, file: load::named(&args.file), is_written: args.write };
             let hints = report::Hints { why: &|engine| format!("`linkproof run --engine {engine}`"), write: "--write" };
             report::text(&scenario, &found, args.within, &place, hints)
@@ -74,8 +75,4 @@ fn of_argument(error: Error) -> Error {
         [Advice::OtherChannel { .. }] => error.key("--channel"),
         _ => error,
     }
-}
-
-fn best_keys(scenario: &Scenario, best: &Candidate) -> EngineSettings {
-    keys(scenario, best.engine, best.settings)
 }

@@ -9,11 +9,11 @@ use linkage::math::KeepNan;
 #[derive(Clone, Copy, Debug)]
 pub struct TableCell {
     /// The number; NaN if the cell does not contain a number.
-    value: f64,
+    pub value: f64,
     /// Number of printed decimals minus the exponent.
-    decimals: i32,
+    pub decimals: i32,
     /// Number of digits, counted from the first nonzero digit.
-    significant: u16,
+    pub(crate) significant: u16,
     /// Number of digits, counted from the first nonzero digit, without the trailing zeros of a whole number.
     /// The trailing zeros are left out because they may replace digits lost in rounding.
     telling: u16,
@@ -77,23 +77,6 @@ impl TableCell {
         let is_missing = text.is_empty() || is(&EMPTY, text);
         let is_word = is_missing || is(&NO_NUMBER, text.strip_prefix(['+', '-']).unwrap_or(text));
         is_word.then_some(TableCell { value: f64::NAN, decimals: 0, significant: 0, telling: 0, is_missing })
-    }
-
-    /// The number; NaN if the cell contains no number.
-    #[must_use]
-    pub fn value(&self) -> f64 {
-        self.value
-    }
-
-    /// Number of printed decimals minus the exponent.
-    #[must_use]
-    pub fn decimals(&self) -> i32 {
-        self.decimals
-    }
-
-    /// Number of printed digits, counted from the first nonzero digit.
-    pub(crate) fn significant(&self) -> u16 {
-        self.significant
     }
 
     /// Whether the cell contains a number other than zero.

@@ -57,7 +57,7 @@ fn vouched(others: impl IntoIterator<Item: AsRef<[TableCell]>>) -> Option<Vouche
         }
         let shown = || cells.iter().filter(|cell| cell.has_digits());
         let (Some(decimals), Some(significant)) =
-            (shown().map(TableCell::decimals).max(), shown().map(TableCell::significant).max())
+            (shown().map(|cell| cell.decimals).max(), shown().map(|cell| cell.significant).max())
         else {
             continue;
         };
@@ -81,12 +81,12 @@ fn vouched(others: impl IntoIterator<Item: AsRef<[TableCell]>>) -> Option<Vouche
 /// In a format with significant digits, a zero is exact even with few digits.
 /// A constant other than zero may have been rounded to fewer digits than the file's other columns have.
 fn is_zero(cells: &[TableCell]) -> bool {
-    is_constant(cells) && cells.iter().any(|cell| cell.value() == 0.0)
+    is_constant(cells) && cells.iter().any(|cell| cell.value == 0.0)
 }
 
 /// Whether all numbers of a column are the same.
 fn is_constant(cells: &[TableCell]) -> bool {
-    let mut shown = cells.iter().map(TableCell::value).filter(|value| !value.is_nan());
+    let mut shown = cells.iter().map(|cell| cell.value).filter(|value| !value.is_nan());
     let Some(first) = shown.next() else { return false };
     shown.all(|value| value == first)
 }
@@ -97,7 +97,7 @@ fn leaves_zeros_out(cells: &[TableCell]) -> bool {
         let first = all.next();
         all.any(|own| Some(own) != first)
     }
-    differ(cells, TableCell::decimals) && differ(cells, TableCell::significant)
+    differ(cells, |cell| cell.decimals) && differ(cells, |cell| cell.significant)
 }
 
 #[cfg(test)]

@@ -12,7 +12,8 @@ pub struct Program {
     /// Positions of the results of the requested nodes.
     results: Vec<usize>,
     values: Vec<Rounded>,
-    answers: Vec<Rounded>,
+    /// The values of the last run.
+    pub answers: Vec<Rounded>,
 }
 
 impl Program {
@@ -42,11 +43,6 @@ impl Program {
         for (answer, &result) in self.answers.iter_mut().zip(&self.results) {
             *answer = self.values[result];
         }
-        &self.answers
-    }
-
-    /// The values of the last run.
-    pub fn answers(&self) -> &[Rounded] {
         &self.answers
     }
 

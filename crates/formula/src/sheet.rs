@@ -29,7 +29,8 @@ pub struct DerivationSheet {
     /// Values after a change, each with the number of the change for which it was calculated.
     changed: Vec<(u32, Rounded)>,
     change: u32,
-    operations: u64,
+    /// Number of evaluations so far, counted per part and instant; what is done outside the sheet may be added.
+    pub operations: u64,
 }
 
 /// Prefix of names such as `#12`. In a tree made for a change, the name `#12` denotes part 12.
@@ -170,17 +171,6 @@ impl DerivationSheet {
     /// The value of the unchanged part at an instant.
     pub fn value(&self, place: usize, instant: usize) -> Rounded {
         self.values[instant][place]
-    }
-
-    /// Number of evaluations so far, counted per part and instant.
-    #[must_use]
-    pub fn operations(&self) -> u64 {
-        self.operations
-    }
-
-    /// Adds operations done outside the sheet to the count, in the same unit.
-    pub fn count(&mut self, operations: u64) {
-        self.operations += operations;
     }
 
     /// The given positions and all positions that depend on them, in the order of evaluation, up to the last formula.

@@ -24,6 +24,6 @@ pub use cause::{Arm, CasePart, Change, DataSlip, DisagreementCause, FrameAxis, O
 pub use configurations::{others, reassembled};
 pub(crate) use derived::even;
 pub use diagnose::{Diagnosis, Since, diagnose, since};
-pub use knobs::{at_speed, changed, driven, recoupled};
+pub use knobs::{at_speed, changed, driven, recoupled, remade};
 pub use nature::ErrorNature;
 pub use question::{DiagnosisInput, SuspectChannel};

@@ -93,10 +93,3 @@ pub fn all(step: f64) -> Vec<Box<dyn Engine>> {
 pub fn named(name: &str, step: f64) -> Option<Box<dyn Engine>> {
     with_step(EngineName::named(name)?, step).ok()
 }
-
-/// Whether the current thread is inside a call whose panics are caught and returned as errors, such as an engine step.
-/// The panic hook of a program can call this function and print nothing if the result is true.
-#[must_use]
-pub fn panic_is_caught() -> bool {
-    linkage::quiet::is_guarded()
-}

@@ -73,7 +73,7 @@ fn difference(path: &Path, text: &str, metadata: &BTreeMap<String, String>) -> O
         Ok(_) | Err(_) => return Some(sentences::IT_IS_NO_FILE.into()),
     }
     let Ok(bytes) = fs::read(path) else { return Some(sentences::IT_CANNOT_BE_READ.into()) };
-    let found = described(&bytes).filter(|_| is_ours(&bytes));
+    let found = described(&bytes).filter(|_| raw::is_by(&bytes, LIBRARY));
     let Some((old_text, old)) = found else { return Some(sentences::IT_IS_NO_RECORDING_OF_A_RUN.into()) };
     let changed = |start: &str| {
         let mut keys =
@@ -87,11 +87,6 @@ fn difference(path: &Path, text: &str, metadata: &BTreeMap<String, String>) -> O
     };
     let told = |all: &BTreeMap<String, String>| all.get(key).map_or("none".into(), |value| format!("\"{value}\""));
     Some(sentences::its_is_not(&key, &told(&old), &told(metadata)))
-}
-
-/// Whether a file is a recording that this program wrote: its header names the library.
-pub(super) fn is_ours(bytes: &[u8]) -> bool {
-    raw::is_by(bytes, LIBRARY)
 }
 
 /// Text of the scenario, and metadata.

@@ -1,9 +1,10 @@
 //! A recording as an MCAP file.
 //! The file itself has options, topics and messages.
 
-use super::beside::{LIBRARY, is_ours};
+use super::beside::LIBRARY;
 use super::forces::Forces;
 use super::pour::{DrawnRecording, SECOND, lasts, pour, start};
+use super::raw;
 use super::recording::{RecordedSide, Recording, Show};
 use super::scene::ViewerScene;
 use super::sink::{MessageKind, Sink};
@@ -36,7 +37,10 @@ const EARLY: f64 = 1e-6;
 #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the MCAP library")]
 pub fn write(recording: &Recording, path: &Path) -> Result<()> {
     check(recording)?;
-    files::replace(&OutputTarget::Made(path, &is_ours), |file| fill(recording, file.try_clone()?)).map_err(|error| {
+    files::replace(&OutputTarget::Made(path, &|bytes| raw::is_by(bytes, LIBRARY)), |file| {
+        fill(recording, file.try_clone()?)
+    })
+    .map_err(|error| {
         let what = sentences::the_recording(&path.display());
         let usual = sentences::CHECK_THAT_THE_DIRECTORY_EXISTS;
         match error {

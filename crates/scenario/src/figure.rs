@@ -136,11 +136,8 @@ fn one(entry: &mut TomlTable, case: &Case) -> Result<OracleFigure> {
     entry.finish()?;
     let unit = LENGTH.unit_of("distance", &name);
     let si = |value: f64| unit.map_or(value, |unit: &NamedUnit| unit.to_si(value));
-    let of_number = |number: &Printed| FigureValue {
-        value: si(number.value),
-        bound: si(number.half_unit()),
-        digits: number.digits,
-    };
+    let of_number =
+        |number: &Printed| FigureValue { value: si(number.value), bound: si(number.half_unit), digits: number.digits };
     let name = if of.is_empty() { name } else { format!("{name} of {of}") };
     let wrong = correction.map(|Correction { finding, right }| (finding, of_number(&right)));
     Ok(OracleFigure { figure, name, printed: of_number(&printed), wrong })

@@ -214,7 +214,7 @@ fn value(entry: &mut TomlTable, at: When, known: &Known) -> Result<OracleSeries>
         at,
         at_error: 0.0,
         value: channel.to_si(number.value),
-        bound: channel.to_si(number.half_unit()),
+        bound: channel.to_si(number.half_unit),
         digits: number.digits,
     };
     let printed = number(entry)?;

@@ -17,7 +17,7 @@ pub struct Printed {
     /// -2).
     pub digits: i32,
     /// Largest distance of the true number from the printed one, in the printed unit.
-    half_unit: f64,
+    pub half_unit: f64,
 }
 
 impl Printed {
@@ -39,13 +39,7 @@ impl Printed {
     #[must_use]
     pub fn cell(text: &str) -> Option<TableCell> {
         let begins = text.strip_prefix(['+', '-']).unwrap_or(text);
-        TableCell::parse(text).filter(|cell| !begins.starts_with('.') && cell.value().is_finite())
-    }
-
-    /// Half a unit of the last printed digit, in the printed unit.
-    #[must_use]
-    pub fn half_unit(&self) -> f64 {
-        self.half_unit
+        TableCell::parse(text).filter(|cell| !begins.starts_with('.') && cell.value.is_finite())
     }
 }
 
@@ -188,7 +182,7 @@ pub(super) fn finding(entry: &mut TomlTable) -> Result<Option<String>> {
 /// Refuses a correct number that is too close to the printed number, because a single number could then agree with both
 /// numbers.
 pub(super) fn check_apart(entry: &TomlTable, printed: &Printed, right: &Printed) -> Result<()> {
-    if (printed.value - right.value).abs() > printed.half_unit() + right.half_unit() {
+    if (printed.value - right.value).abs() > printed.half_unit + right.half_unit {
         return Ok(());
     }
     let message = sentences::with_decimals_is_not_apart(&right.value, &right.digits, &printed.value, &printed.digits);
@@ -214,7 +208,7 @@ mod tests {
 
     #[test]
     fn digits_are_counted_in_the_text() {
-        let digits = |text| Printed::cell(text).map(|cell| cell.decimals());
+        let digits = |text| Printed::cell(text).map(|cell| cell.decimals);
         assert_eq!(digits("-14.890"), Some(3));
         assert_eq!(digits("-0.00"), Some(2));
         assert_eq!(digits("82"), Some(0));
@@ -227,11 +221,11 @@ mod tests {
 
     #[test]
     fn the_bound_is_half_a_unit_of_the_last_digit_of_the_column() {
-        assert_eq!(Printed::with_digits(-14.89, 2).half_unit(), 0.005 * (1.0 + 1e-9));
+        assert_eq!(Printed::with_digits(-14.89, 2).half_unit, 0.005 * (1.0 + 1e-9));
         let cells = ["-14.89", "2.5", "12"].map(|text| Printed::cell(text).unwrap());
         for number in columns::numbers(&cells) {
             let printed = Printed::of_column(&number);
-            assert_eq!((printed.digits, printed.half_unit()), (2, 0.005 * (1.0 + 1e-9)));
+            assert_eq!((printed.digits, printed.half_unit), (2, 0.005 * (1.0 + 1e-9)));
         }
     }
 

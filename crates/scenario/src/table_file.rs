@@ -94,7 +94,7 @@ fn series(
         at: instants[row].0,
         at_error: instants[row].1,
         value: channel.to_si(number.value) - offset,
-        bound: channel.to_si(number.half_unit() + slack),
+        bound: channel.to_si(number.half_unit + slack),
         digits: number.digits,
     };
     // The slack widens the bound of the printed value, but not that of the correct value.
@@ -247,9 +247,7 @@ impl<'a> Rows<'a> {
     fn printed(&self, column: usize, digits: Option<i32>) -> Result<Vec<Printed>> {
         let cells = self.numbers(column)?;
         Ok(match digits {
-            Some(all) => {
-                cells.iter().map(|cell| Printed::with_digits(cell.value(), all.max(cell.decimals()))).collect()
-            }
+            Some(all) => cells.iter().map(|cell| Printed::with_digits(cell.value, all.max(cell.decimals))).collect(),
             None => columns::numbers_beside(&cells, || self.others(column)).iter().map(Printed::of_column).collect(),
         })
     }

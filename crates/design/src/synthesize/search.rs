@@ -130,7 +130,7 @@ impl<'a> Random<'a> {
             evaluator: Evaluator::new(task),
             rater: Rater::even(&task.timing, COARSE),
             zero: free_zero(task),
-            values: vec![0.0; task.freedoms()],
+            values: vec![0.0; task.variables.len()],
         }
     }
 
@@ -140,7 +140,7 @@ impl<'a> Random<'a> {
         let mut rng = ChaCha8Rng::seed_from_u64(effort.seed);
         rng.set_stream(block as u64);
         let (mut best, mut assembled): (Vec<Candidate>, usize) = (Vec::new(), 0);
-        let mut shares = vec![0.0; self.task.freedoms()];
+        let mut shares = vec![0.0; self.task.variables.len()];
         for number in block * BLOCK..((block + 1) * BLOCK).min(effort.candidates) {
             shares.iter_mut().for_each(|share| *share = even(&mut rng));
             let worst = match best.len() < effort.refined {

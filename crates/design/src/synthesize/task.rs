@@ -170,12 +170,6 @@ impl Task {
         Ok(())
     }
 
-    /// Number of variable quantities.
-    #[must_use]
-    pub fn freedoms(&self) -> usize {
-        self.variables.len()
-    }
-
     /// Sense of rotation of the crank: +1 or -1.
     #[must_use]
     pub fn turning(&self) -> f64 {

@@ -28,7 +28,7 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::input::Input;
 use crate::mechanism::{AssemblyMode, GroupId, JointId, LinkId, PerGroup, PerLink, TransmissionId};
 use contour::highest_contour;
-use owners::{Owners, check_sparse};
+use owners::{Owners, Source, check_sparse};
 
 /// Result of the structural analysis of a mechanism.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -143,9 +143,9 @@ impl Structure {
         let mut known = vec![false; mechanism.links().len()];
         known[GROUND] = true;
         for part in owners.parts(mechanism) {
-            let is_owned =
-                |drive: &&DrivenJoint| owners.owner_of_drive(drive.joint).is_some_and(|link| part.contains(&link));
-            let given: Vec<DrivenJoint> = drives.iter().filter(is_owned).copied().collect();
+            let is_owned = |of: Source| owners.owner_of(of).is_some_and(|link| part.contains(&link));
+            let is_given = |drive: &&DrivenJoint| is_owned(Source::Drive(drive.joint));
+            let given: Vec<DrivenJoint> = drives.iter().filter(is_given).copied().collect();
             let in_group =
                 !matches!(given[..], [drive] if part.len() == 1 && carries(mechanism, &drivers, drive.joint, part[0]));
             for DrivenJoint { joint, input } in &given {
@@ -161,9 +161,8 @@ impl Structure {
             let solved = part.clone();
             if in_group {
                 let given = given.iter().map(|drive| drive.joint).collect();
-                let is_owned =
-                    |&id: &TransmissionId| owners.owner_of_transmission(id).is_some_and(|link| part.contains(&link));
-                let trains = mechanism.transmissions().ids().filter(is_owned).collect();
+                let trains = mechanism.transmissions().ids();
+                let trains = trains.filter(|&id| is_owned(Source::Transmission(id))).collect();
                 groups.push(group(mechanism, part, given, trains, &known));
             }
             for link in solved {

@@ -174,7 +174,7 @@ pub fn cause(formulas: &Formulas, name: &str, course: &KnownTrajectory, limit: u
     Ok(CauseSearch {
         is_cut: trial.is_spent() && !found.as_ref().is_some_and(FormulaCause::is_whole),
         cause: found,
-        work: trial.sheet.operations(),
+        work: trial.sheet.operations,
     })
 }
 

@@ -134,7 +134,7 @@ pub fn judge(formulas: &Formulas, course: &KnownTrajectory) -> Result<Vec<Vec<Ju
             claim.at(row);
         });
         for One { judged, claimed, .. } in all.iter_mut().filter(|own| own.formula.holds_at(crank)) {
-            let mechanism = claims[*claimed].program.answers();
+            let mechanism = &claims[*claimed].program.answers;
             judged.iter_mut().zip(mechanism).for_each(|(judged, mechanism)| judged.seen(*mechanism));
         }
     }
@@ -151,7 +151,7 @@ pub fn judge(formulas: &Formulas, course: &KnownTrajectory) -> Result<Vec<Vec<Ju
             if !formula.holds_at(crank) {
                 continue;
             }
-            let both = own.iter().zip(claims[*claimed].program.answers());
+            let both = own.iter().zip(&claims[*claimed].program.answers);
             for (judged, (&formula_value, &mechanism)) in judged.iter_mut().zip(both) {
                 let turn = turn.filter(|_| judged.order == 0);
                 judged.put(formula, turn, Pair { place, input: course.input(), formula: formula_value, mechanism });

@@ -48,7 +48,7 @@ const LONG: f64 = 100.0;
 pub(super) fn missing(trial: &mut Trial, dimensions: &Dimensions) -> Vec<Missing> {
     let dictionary = Dictionary::of(trial);
     let monomials = Monomials::of(&trial.formulas, trial.index, &dictionary.constants, dimensions);
-    trial.sheet.count((30 * dictionary.entries.len() * trial.few.len() + monomials.len()) as u64);
+    trial.sheet.operations += (30 * dictionary.entries.len() * trial.few.len() + monomials.len()) as u64;
     // Units are evidence too if only the missing expression makes them consistent.
     let own = trial.formulas.list[trial.index].tree.clone();
     let units = if dimensions.are_sound(&[(trial.index, own)]) { 1.0 } else { 0.05 };
@@ -76,7 +76,7 @@ pub(super) fn missing(trial: &mut Trial, dimensions: &Dimensions) -> Vec<Missing
                         for (what, weight) in written(&monomials, coefficient, entry, operator) {
                             let Some(own) = Candidate::of(trial, [index, number], operator, &what) else { continue };
                             let is_sound = dimensions.are_sound(&own.changed);
-                            trial.sheet.count(dimensions.work());
+                            trial.sheet.operations += dimensions.work();
                             if !is_sound {
                                 continue;
                             }

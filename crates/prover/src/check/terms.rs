@@ -85,7 +85,7 @@ pub(super) fn of(trial: &mut Trial, course: &KnownTrajectory, dimensions: &Dimen
             whole = Some((weight, terms));
         }
     });
-    trial.sheet.count((bases.len() * bases.len() * trial.few.len() + monomials.len()) as u64);
+    trial.sheet.operations += (bases.len() * bases.len() * trial.few.len() + monomials.len()) as u64;
     whole.map(|(_, terms)| terms)
 }
 

@@ -120,14 +120,14 @@ impl<'a> Trial<'a> {
             own.sheet.add(&step.name, &step.tree).expect("a formula knows what stands before it");
         }
         // The preparation counts as work too: judging, and searching the file.
-        let made = (16 * own.pairs.len() + 8 * index_of_file) as u64 + 8 * own.sheet.operations();
-        own.sheet.count(made);
+        let made = (16 * own.pairs.len() + 8 * index_of_file) as u64 + 8 * own.sheet.operations;
+        own.sheet.operations += made;
         Ok(own)
     }
 
     /// Whether the search has reached its work limit.
     pub(super) fn is_spent(&self) -> bool {
-        self.sheet.operations() >= self.limit
+        self.sheet.operations >= self.limit
     }
 
     /// Whether the mechanism's value is the same at all instants, or there is only one instant.
@@ -162,7 +162,7 @@ impl<'a> Trial<'a> {
     /// `depending` lists the positions that depend on the changed positions.
     pub(super) fn is_promising(&mut self, changes: &[(usize, FormulaTree)], depending: &[usize]) -> bool {
         let claimed = self.formula.error.unwrap_or(0.0);
-        self.sheet.count(EDIT);
+        self.sheet.operations += EDIT;
         (0..self.order.len()).all(|next| {
             let (instant, place) = (self.order[next], self.few[self.order[next]]);
             let found = self.sheet.changed(changes, depending, instant);
@@ -202,7 +202,7 @@ impl<'a> Trial<'a> {
         let is_right = first.since.is_none() && judged(&mut (0..inputs.len())).outcome() == FormulaOutcome::Right;
         let rows = if first.since.is_none() { inputs.len() } else { few.len() };
         let work = (program.len() * (rows + ADDED) + after * ADDED) as u64 + TREE;
-        self.sheet.count(work);
+        self.sheet.operations += work;
         if is_right {
             return Some(0.0);
         }

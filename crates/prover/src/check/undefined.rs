@@ -49,7 +49,7 @@ pub fn undefined(formulas: &Formulas, name: &str, course: &KnownTrajectory) -> R
     let pairs = trial.pairs.iter().enumerate();
     let (without, with): (Vec<_>, Vec<_>) = pairs.partition(|(_, pair)| pair.formula.is_undefined());
     let first = without.into_iter().min_by(|one, other| one.1.place[0].total_cmp(&other.1.place[0]));
-    let work = trial.sheet.operations();
+    let work = trial.sheet.operations;
     let Some((place, pair)) = first else { return Ok((None, work)) };
     let [phi, t, ..] = trial.inputs(place);
     let Some((of, fault)) = formulas.undefined(index, [phi, t]) else { return Ok((None, work)) };

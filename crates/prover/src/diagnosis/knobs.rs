@@ -185,7 +185,7 @@ pub fn recoupled(parts: &mut CaseParts, index: TransmissionId, other: Option<Tra
 }
 
 /// The case with changed parts; `None` if they do not form a case.
-pub(super) fn remade(case: &Case, change: impl FnOnce(&mut CaseParts) -> Option<()>) -> Option<Case> {
+pub fn remade(case: &Case, change: impl FnOnce(&mut CaseParts) -> Option<()>) -> Option<Case> {
     let mut parts = case.clone().into_parts();
     change(&mut parts)?;
     Case::new(parts).ok()

@@ -3,10 +3,9 @@
 use std::f64::consts::{PI, TAU};
 
 use super::kind::kinds;
-use super::touch::parts;
 use linkage::case::{Case, Grid};
 use linkage::drive::{Drive, DriveMotion, MotionLaw};
-use prover::diagnosis::{at_speed, driven, reassembled};
+use prover::diagnosis::{at_speed, driven, reassembled, remade};
 
 kinds! { Drive, Case:
     "start-angle" (1e-2): "the start angle of the crank is off (rad)",
@@ -55,7 +54,7 @@ fn last(case: &Case) -> Option<usize> {
 
 /// The case with one drive changed.
 fn turned(case: &Case, index: usize, change: impl Fn(&mut Drive)) -> Option<Case> {
-    parts(case, |parts| {
+    remade(case, |parts| {
         driven(parts, index, change);
         Some(())
     })
@@ -64,7 +63,7 @@ fn turned(case: &Case, index: usize, change: impl Fn(&mut Drive)) -> Option<Case
 fn started(case: &Case, index: usize, to: impl Fn(f64) -> f64) -> Option<Case> {
     let old = case.drives.get(index)?.start;
     let new = Some(to(old)).filter(|new| *new != old)?;
-    parts(case, |parts| {
+    remade(case, |parts| {
         driven(parts, index, |drive| drive.start = new);
         reassembled(parts)
     })

@@ -1,11 +1,11 @@
 //! Faults in lengths, guides and configurations.
 
 use super::kind::kinds;
-use super::touch::{coupler, crank, ends, move_places, moving_guide, output, parts, placed, slider};
+use super::touch::{coupler, crank, ends, move_places, moving_guide, output, placed, slider};
 use linkage::case::Case;
 use linkage::math::{Vec2, rotated, turned, unit};
 use linkage::mechanism::{GROUND, JointId, JointKind, LinkId, TransmissionDesign, TransmissionId};
-use prover::diagnosis::{others, recoupled};
+use prover::diagnosis::{others, recoupled, remade};
 
 kinds! { Geometry, Case:
     "coupler-longer" (1e-2): "the first link that is not driven is too long by a fraction of its length",
@@ -58,7 +58,7 @@ kinds! { Geometry, Case:
 
 /// Changes the first transmission.
 fn coupled(case: &Case, change: impl Fn(&TransmissionDesign) -> Option<TransmissionDesign>) -> Option<Case> {
-    parts(case, |parts| {
+    remade(case, |parts| {
         let other = change(&parts.mechanism.transmissions().first()?.design);
         recoupled(parts, TransmissionId(0), other)
     })

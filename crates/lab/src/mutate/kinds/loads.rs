@@ -3,11 +3,11 @@
 use std::f64::consts::TAU;
 
 use super::kind::kinds;
-use super::touch::parts;
 use linkage::case::Case;
 use linkage::drive::load::Acts;
 use linkage::drive::{Course, Drive, Load};
 use linkage::mechanism::{Joint, LinkId};
+use prover::diagnosis::remade;
 
 kinds! { Load, Case:
     "load-missing": "the first load is missing", |case, _| times(case, 0, 0.0);
@@ -102,7 +102,7 @@ kinds! { Load, Case:
 
 /// The case with one load multiplied by a factor.
 fn times(case: &Case, index: usize, factor: f64) -> Option<Case> {
-    parts(case, |parts| {
+    remade(case, |parts| {
         let own = parts.loads.get(index)?.times(factor)?;
         parts.loads.splice(index..=index, own);
         Some(())
@@ -112,7 +112,7 @@ fn times(case: &Case, index: usize, factor: f64) -> Option<Case> {
 /// The case with a change to the first load that `change` accepts.
 fn changed(case: &Case, change: &dyn Fn(&Load) -> Option<Load>) -> Option<Case> {
     let (index, wrong) = case.loads.iter().enumerate().find_map(|(index, load)| Some((index, change(load)?)))?;
-    parts(case, |parts| {
+    remade(case, |parts| {
         parts.loads[index] = wrong;
         Some(())
     })

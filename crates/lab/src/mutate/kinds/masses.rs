@@ -1,10 +1,11 @@
 //! Faults in gravity, masses, mass centres and moments of inertia.
 
 use super::kind::kinds;
-use super::touch::{crank, ends, heaviest, output, parts, with};
+use super::touch::{crank, ends, heaviest, output, with};
 use linkage::case::Case;
 use linkage::math::Vec2;
 use linkage::mechanism::{Link, LinkId};
+use prover::diagnosis::remade;
 
 kinds! { Mass, Case:
     "gravity-missing": "gravity is missing", |case, _| gravity(case, |_| Vec2::zeros());
@@ -70,7 +71,7 @@ kinds! { Mass, Case:
 
 fn gravity(case: &Case, to: impl Fn(Vec2) -> Vec2) -> Option<Case> {
     (case.gravity.norm() > 0.0).then_some(())?;
-    parts(case, |parts| {
+    remade(case, |parts| {
         parts.gravity = to(parts.gravity);
         Some(())
     })

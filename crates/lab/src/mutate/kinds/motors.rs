@@ -1,9 +1,9 @@
 //! Faults in motor and reducer of a free crank.
 
 use super::kind::kinds;
-use super::touch::parts;
 use linkage::case::Case;
 use linkage::drive::{Motor, ShaftInertia};
+use prover::diagnosis::remade;
 
 kinds! { Motor, Case:
     "motor-size" (1e-2): "the motor torque is too large by a relative amount",
@@ -34,7 +34,7 @@ fn of(case: &Case, change: impl Fn(&mut Motor)) -> Option<Case> {
     case.crank().is_free().then_some(())?;
     let mut motor = case.crank().moving_motor()?.clone();
     change(&mut motor);
-    parts(case, |parts| {
+    remade(case, |parts| {
         let drive = parts.drives.crank_mut();
         *drive = drive.with_motor(Some(motor));
         Some(())

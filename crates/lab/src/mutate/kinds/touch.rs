@@ -1,30 +1,23 @@
 //! Helpers that select the part in which a fault is planted, and that change this part.
 
-use linkage::case::{Case, CaseParts};
+use linkage::case::Case;
 use linkage::math::statistics::distinct;
 use linkage::math::{Motion, Vec2};
 use linkage::mechanism::{GROUND, Joint, JointId, Link, LinkId};
 use linkage::solver::State;
-use prover::diagnosis::{changed, reassembled};
+use prover::diagnosis::{changed, reassembled, remade};
 
 /// The case with changed links and joints, in the same pose.
 pub(super) fn with(case: &Case, change: impl FnOnce(&mut [Link], &mut [Joint])) -> Option<Case> {
-    parts(case, |parts| changed(parts, change))
+    remade(case, |parts| changed(parts, change))
 }
 
 /// The case with changed links and joints, reassembled.
 pub(super) fn placed(case: &Case, change: impl FnOnce(&mut [Link], &mut [Joint])) -> Option<Case> {
-    parts(case, |parts| {
+    remade(case, |parts| {
         changed(parts, change)?;
         reassembled(parts)
     })
-}
-
-/// The case with changed parts.
-pub(super) fn parts(case: &Case, change: impl FnOnce(&mut CaseParts) -> Option<()>) -> Option<Case> {
-    let mut parts = case.clone().into_parts();
-    change(&mut parts)?;
-    Case::new(parts).ok()
 }
 
 /// The last link, which is mostly the output.

@@ -35,7 +35,7 @@ pub(super) fn check_sparse(mechanism: &Mechanism, drives: &[DrivenJoint]) -> Res
 
 /// What an equation describes.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Source {
+pub(super) enum Source {
     Joint(JointId),
     Drive(JointId),
     Transmission(TransmissionId),
@@ -142,15 +142,7 @@ impl Owners {
         false
     }
 
-    pub(super) fn owner_of_drive(&self, joint: JointId) -> Option<LinkId> {
-        self.owner_of(Source::Drive(joint))
-    }
-
-    pub(super) fn owner_of_transmission(&self, transmission: TransmissionId) -> Option<LinkId> {
-        self.owner_of(Source::Transmission(transmission))
-    }
-
-    fn owner_of(&self, of: Source) -> Option<LinkId> {
+    pub(super) fn owner_of(&self, of: Source) -> Option<LinkId> {
         let index = self.equations.iter().position(|equation| equation.of == of)?;
         self.owner[index]
     }

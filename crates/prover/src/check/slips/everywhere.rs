@@ -87,7 +87,7 @@ impl Search<'_, '_> {
                 let place = numbers.next().map(|number: usize| places[number]);
                 found.extend(place.filter(|_| is_meant(part)).map(|place| (place, part)));
             });
-            self.trial.sheet.count(numbers.start as u64);
+            self.trial.sheet.operations += numbers.start as u64;
         }
         found
     }

@@ -110,7 +110,7 @@ impl Tried {
         slip: FormulaSlip,
     ) {
         let standing = dimensions.standing(changed, changed[0].0, replaced);
-        trial.sheet.count(dimensions.work());
+        trial.sheet.operations += dimensions.work();
         let Some(is_sound) = standing else { return };
         let is_in_step = changed.iter().any(|(own, _)| *own != trial.index);
         let rank = (!is_sound, slip.everywhere, is_in_step, slip.kind);
