@@ -94,10 +94,9 @@ fn read(root: &mut TomlTable, name: &str) -> Result<Accepted> {
         );
     }
     let instants = root.integer("instants")?;
-    let instants = usize::try_from(instants).map_err(|_| {
-        root.wrong(ErrorKind::Input, "instants", sentences::found_instants(&instants))
-            .help(sentences::GIVE_THEIR_NUMBER)
-    })?;
+    let message = || sentences::found_instants(&instants);
+    let instants =
+        usize::try_from(instants).or_else(|_| root.refuse("instants", message(), sentences::GIVE_THEIR_NUMBER))?;
     let times = root.numbers("times_s")?;
     let tables = root.tables("channels")?.into_iter();
     let channels: Vec<AcceptedChannel> = tables.map(|table| kept(table, times.len())).collect::<Result<_>>()?;

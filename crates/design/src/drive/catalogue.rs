@@ -47,14 +47,11 @@ fn motor(mut table: TomlTable) -> Result<CatalogueMotor> {
     let breakdown = table.optional_number("breakdown_ratio")?;
     if !(rated_speed < synchronous_speed) {
         let message = sentences::THE_RATED_SPEED_IS_NOT_BELOW;
-        return Err(table
-            .wrong(ErrorKind::Input, "rated_speed", message)
-            .help(sentences::CHECK_THE_TWO_SPEEDS_AND_THEIR));
+        return table.refuse("rated_speed", message, sentences::CHECK_THE_TWO_SPEEDS_AND_THEIR);
     }
     if breakdown.is_some_and(|ratio| ratio <= 1.0) {
         let message = sentences::THE_BREAKDOWN_TORQUE_IS_NOT_ABOVE;
-        let help = sentences::GIVE_BREAKDOWN_TORQUE_OVER_RATED;
-        return Err(table.wrong(ErrorKind::Input, "breakdown_ratio", message).help(help));
+        return table.refuse("breakdown_ratio", message, sentences::GIVE_BREAKDOWN_TORQUE_OVER_RATED);
     }
     table.finish()?;
     Ok(CatalogueMotor { name, power, rated_speed, synchronous_speed, breakdown })

@@ -75,17 +75,15 @@ fn read(root: &mut TomlTable) -> Result<TaskFile> {
     let (output, forward) = read_output(output, mechanism)?;
     let family = if matches!(output, OutputQuantity::Angle { .. }) { &ANGLE } else { &LENGTH };
     let (stroke, transmission) = read_limits(limits, family)?;
-    let mut variables = Vec::new();
-    let mut places = Vec::new();
+    let (mut variables, mut places) = (Vec::new(), Vec::new());
     for table in vary {
         let found = place(table, mechanism, &mut variables, &places)?;
         places.push(found);
     }
     let zero = match zero {
         None => TaskNumber::Fixed(drawing.case.crank().zero),
-        Some(mut table) => {
-            let bounds = bounds(&mut table, &ANGLE)?;
-            table.finish()?;
+        Some(table) => {
+            let bounds = bounds(table, &ANGLE)?;
             free(&mut variables, Variable { name: "zero".into(), bounds, is_angle: true })
         }
     };
@@ -114,10 +112,9 @@ fn timing(tables: Vec<TomlTable>) -> Result<Timing> {
     for mut table in tables {
         let to = table.quantity("to", &ANGLE, Sign::Positive)?;
         let word = table.string("sense")?;
-        let all = [Sense::Dwell, Sense::Forward, Sense::Back];
-        let Some(&sense) = all.iter().find(|sense| sense.name() == word) else {
-            let error = table.wrong(ErrorKind::Input, "sense", sentences::is_no_sense_of_a_phase(&word));
-            return Err(error.help(suggestion(&word, all.map(Sense::name), "\"")));
+        let Some(sense) = Sense::named(&word) else {
+            let help = suggestion(&word, Sense::ALL.map(Sense::name), "\"");
+            return table.refuse("sense", sentences::is_no_sense_of_a_phase(&word), help);
         };
         let (level, least) = (table.optional_number("level")?, table.optional_number("least")?.unwrap_or(LEAST));
         table.finish()?;
@@ -141,8 +138,8 @@ fn read_output(mut table: TomlTable, mechanism: &Mechanism) -> Result<(OutputQua
         Some("positive") => Some(1.0),
         Some("negative") => Some(-1.0),
         Some(other) => {
-            let error = table.wrong(ErrorKind::Input, "forward", sentences::is_no_sense_of_an_output(&other));
-            return Err(error.help(suggestion(other, ["positive", "negative"], "\"")));
+            let help = suggestion(other, ["positive", "negative"], "\"");
+            return table.refuse("forward", sentences::is_no_sense_of_an_output(&other), help);
         }
     };
     let (of_link, of_point) = (table.optional_string("link")?, table.optional_string("point")?);
@@ -150,8 +147,8 @@ fn read_output(mut table: TomlTable, mechanism: &Mechanism) -> Result<(OutputQua
         (Some(name), None) => {
             let link = link(&mut table, &name, mechanism.links())?;
             if link == GROUND {
-                let error = table.wrong(ErrorKind::Input, "link", sentences::THE_GROUND_DOES_NOT_TURN);
-                return Err(error.help(sentences::NAME_THE_MOVING_LINK_WHOSE));
+                let help = sentences::NAME_THE_MOVING_LINK_WHOSE;
+                return table.refuse("link", sentences::THE_GROUND_DOES_NOT_TURN, help);
             }
             OutputQuantity::Angle { link }
         }
@@ -162,8 +159,8 @@ fn read_output(mut table: TomlTable, mechanism: &Mechanism) -> Result<(OutputQua
                 .find_map(|(link, body)| Some((link, body.points.iter().position(|point| point.name == name)?)));
             let Some((link, point)) = found else {
                 let names = moving().flat_map(|(_, body)| body.points.iter().map(|point| point.name.as_str()));
-                let error = table.wrong(ErrorKind::Input, "point", sentences::no_moving_link_has_a_point(&name));
-                return Err(error.help(suggestion(&name, names, "\"")));
+                let help = suggestion(&name, names, "\"");
+                return table.refuse("point", sentences::no_moving_link_has_a_point(&name), help);
             };
             OutputQuantity::Coordinate { link, point, along }
         }
@@ -182,28 +179,18 @@ fn read_limits(table: Option<TomlTable>, family: &'static UnitFamily) -> Result<
     let transmission = table.optional_quantity("transmission", &ANGLE, Sign::NotNegative)?.unwrap_or(0.0);
     if transmission >= std::f64::consts::FRAC_PI_2 {
         let message = sentences::a_transmission_angle_of_deg(&transmission.to_degrees());
-        return Err(table.wrong(ErrorKind::Input, "transmission", message).help(sentences::GIVE_LESS_THAN_DEG_TO_DEG));
+        return table.refuse("transmission", message, sentences::GIVE_LESS_THAN_DEG_TO_DEG);
     }
-    let stroke = match table.optional_table("stroke")? {
-        None => [0.0, f64::INFINITY],
-        Some(mut stroke) => {
-            let found = bounds(&mut stroke, family)?;
-            stroke.finish()?;
-            found
-        }
-    };
+    let stroke = table.optional_table("stroke")?.map(|stroke| bounds(stroke, family)).transpose()?;
     table.finish()?;
-    Ok((stroke, transmission))
+    Ok((stroke.unwrap_or([0.0, f64::INFINITY]), transmission))
 }
 
 fn read_effort(mut table: TomlTable) -> Result<SearchEffort> {
     let mut count = |key: &str, default: i64| -> Result<u64> {
         let found = table.optional_integer(key)?.unwrap_or(default);
-        u64::try_from(found).map_err(|_| {
-            table
-                .wrong(ErrorKind::Input, key, sentences::found_but_a_count_is_not_negative(&found))
-                .help(sentences::GIVE_A_WHOLE_NUMBER_FROM_ON)
-        })
+        let message = || sentences::found_but_a_count_is_not_negative(&found);
+        u64::try_from(found).or_else(|_| table.refuse(key, message(), sentences::GIVE_A_WHOLE_NUMBER_FROM_ON))
     };
     let seed = count("seed", 1)?;
     let size = |found: u64| usize::try_from(found).unwrap_or(usize::MAX);
@@ -214,12 +201,13 @@ fn read_effort(mut table: TomlTable) -> Result<SearchEffort> {
 }
 
 /// `from` and `to` of a quantity (SI).
-fn bounds(table: &mut TomlTable, family: &'static UnitFamily) -> Result<[f64; 2]> {
+fn bounds(mut table: TomlTable, family: &'static UnitFamily) -> Result<[f64; 2]> {
     let (from, to) = (table.quantity("from", family, Sign::Any)?, table.quantity("to", family, Sign::Any)?);
     if !(from <= to) {
         let error = table.fault(sentences::THE_GREATEST_VALUE_IS_BELOW);
         return Err(error.help(sentences::LET_FROM_BE_THE_SMALLER_OF_THE_TWO));
     }
+    table.finish()?;
     Ok([from, to])
 }
 
@@ -240,19 +228,17 @@ fn place(
     let points = &mechanism.links()[own].points;
     let names = || points.iter().map(|point| point.name.as_str());
     let index = |table: &TomlTable, key: &str, name: &str| {
-        points.iter().position(|point| point.name == name).ok_or_else(|| {
-            let error = table.wrong(ErrorKind::Input, key, sentences::link_has_no_point(&link_name, &name));
-            error.help(suggestion(name, names(), "\""))
-        })
+        let message = || sentences::link_has_no_point(&link_name, &name);
+        let found = points.iter().position(|point| point.name == name);
+        found.map_or_else(|| table.refuse(key, message(), suggestion(name, names(), "\"")), Ok)
     };
     let point = index(&table, "point", &point_name)?;
     let Some(handle) = mechanism.handle(own, point) else {
         let message = sentences::point_of_the_drawing_lies(&point_name);
-        return Err(table.wrong(ErrorKind::Input, "point", message).help(sentences::DRAW_THE_TWO_POINTS_IN_DIFFERENT));
+        return table.refuse("point", message, sentences::DRAW_THE_TWO_POINTS_IN_DIFFERENT);
     };
     if before.iter().any(|place| place.handle == handle) {
-        let message = sentences::THIS_POINT_VARIES_ALREADY;
-        return Err(table.wrong(ErrorKind::Input, "point", message).help(sentences::PUT_ALL_THAT_VARIES_ABOUT));
+        return table.refuse("point", sentences::THIS_POINT_VARIES_ALREADY, sentences::PUT_ALL_THAT_VARIES_ABOUT);
     }
     let from = table.optional_string("from")?.map(|name| index(&table, "from", &name)).transpose()?;
     let drawn = points[point].local;
@@ -262,10 +248,9 @@ fn place(
     };
     let mut entries = drawn.map(TaskNumber::Fixed);
     for (entry, key) in entries.iter_mut().zip(keys) {
-        if let Some(mut own) = table.optional_table(key)? {
+        if let Some(own) = table.optional_table(key)? {
             let is_angle = key == "angle";
-            let bounds = bounds(&mut own, if is_angle { &ANGLE } else { &LENGTH })?;
-            own.finish()?;
+            let bounds = bounds(own, if is_angle { &ANGLE } else { &LENGTH })?;
             let name = format!("{link_name}.{point_name} {key}");
             *entry = free(variables, Variable { name, bounds, is_angle });
         }

@@ -62,15 +62,9 @@ impl<'a> MjcfModel<'a> {
                 .help(sentences::GIVE_A_STEP_SUCH_AS));
         }
         names::check(&case.mechanism)?;
-        for drive in case.drives.iter() {
-            limits::check_drive(drive)?;
-        }
-        for load in &case.loads {
-            limits::check(load)?;
-        }
-        for transmission in case.mechanism.transmissions() {
-            limits::check_transmission(transmission)?;
-        }
+        case.drives.iter().try_for_each(limits::check_drive)?;
+        case.loads.iter().try_for_each(limits::check)?;
+        case.mechanism.transmissions().iter().try_for_each(limits::check_transmission)?;
         let driven = case.drives.joint_ids();
         let mut tree = SpanningTree::of(&case.mechanism);
         if driven.iter().any(|joint| tree.cut.contains(joint)) {
