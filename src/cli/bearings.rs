@@ -34,9 +34,8 @@ results! { BearingResults {
 pub(super) fn bearings(args: &Args) -> Result<()> {
     for (name, value) in [("--lever-mm", args.lever_mm), ("--stress-mpa", args.stress_mpa)] {
         if !(value > 0.0 && value.is_finite()) {
-            return Err(
-                Error::new(ErrorKind::Input, format!("{name} is {value}")).help(sentences::GIVE_A_NUMBER_ABOVE_ZERO)
-            );
+            let error = Error::new(ErrorKind::Input, format!("{name} is {value}"));
+            return Err(error.help(sentences::GIVE_A_NUMBER_ABOVE_ZERO));
         }
     }
     let scenario = plain(&args.file)?.nominal();

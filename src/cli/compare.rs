@@ -165,21 +165,15 @@ fn check_parties(args: &Args) -> Result<()> {
     let has_recording =
         [&args.first, &args.second].iter().any(|path| path.extension().is_some_and(|own| own == "mcap"));
     if !args.map.is_empty() && tables == [false; 2] {
-        return output::refused(
-            "--map",
-            sentences::NEITHER_OF_THE_TWO_IS_A_TABLE,
-            sentences::SCENARIOS_AND_RECORDINGS_HAVE_CHANNELS,
-        );
+        let message = sentences::NEITHER_OF_THE_TWO_IS_A_TABLE;
+        return output::refused("--map", message, sentences::SCENARIOS_AND_RECORDINGS_HAVE_CHANNELS);
     }
     if !args.map_a.is_empty() && !tables[0] {
         return output::refused("--map-a", sentences::A_IS_NO_TABLE, sentences::MAP_IS_FOR);
     }
     if args.interpolate && tables.iter().filter(|is_table| **is_table).count() == 0 && !has_recording {
-        return output::refused(
-            "--interpolate",
-            sentences::BOTH_ARE_SCENARIOS_WHICH_ARE_SOLVED,
-            sentences::LEAVE_IT_OUT,
-        );
+        let message = sentences::BOTH_ARE_SCENARIOS_WHICH_ARE_SOLVED;
+        return output::refused("--interpolate", message, sentences::LEAVE_IT_OUT);
     }
     if args.side.is_some() && !has_recording {
         return output::refused("--side", sentences::NEITHER_OF_THE_TWO_IS_A_RECORDING, sentences::LEAVE_IT_OUT);

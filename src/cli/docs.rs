@@ -36,10 +36,8 @@ pub(super) fn docs(args: &Args) -> Result<()> {
     };
     let name = name.trim_start_matches("docs/").trim_end_matches(".md");
     let Some((_, text)) = PAGES.iter().find(|(own, _)| *own == name) else {
-        let names = PAGES.iter().map(|(own, _)| *own);
-        return Err(
-            Error::new(ErrorKind::Input, sentences::there_is_no_page(&name)).help(suggestion(name, names, "\""))
-        );
+        let help = suggestion(name, PAGES.iter().map(|(own, _)| *own), "\"");
+        return Err(Error::new(ErrorKind::Input, sentences::there_is_no_page(&name)).help(help));
     };
     match section {
         None => output::data(text),

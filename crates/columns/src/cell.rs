@@ -96,11 +96,6 @@ impl TableCell {
         self.decimals += zeros;
         self
     }
-
-    /// Power of ten of the first nonzero digit.
-    fn first_place(&self) -> i32 {
-        i32::from(self.significant) - 1 - self.decimals
-    }
 }
 
 /// The numbers of a column, each with the uncertainty caused by the printing of its digits.
@@ -138,7 +133,7 @@ pub(crate) fn numbers_as(cells: &[TableCell], precision: Precision) -> Vec<Round
             }
             let place = match cell.significant {
                 0 => -decimals,
-                _ => (-decimals).max(cell.first_place() + 1 - significant),
+                _ => (-decimals).max(i32::from(cell.significant) - cell.decimals - significant),
             };
             // The conversion of the decimal to binary rounds the number once more. The margin 1e-9 covers this small
             // rounding error.

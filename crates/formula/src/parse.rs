@@ -209,11 +209,10 @@ fn operand(input: &mut Input<'_>) -> Read<FormulaTree> {
         // No operand begins with this character. The parser then tries the alternative of a minus or plus sign before a
         // part.
         Some('-' | '+') => none(),
-        Some(sign @ (')' | ',' | '=' | '*' | '/' | '^')) => refused(
-            sentences::a_part_is_missing_before(&sign),
-            start..start + 1,
-            sentences::ADD_A_NUMBER_A_NAME_OR_A_CALL,
-        ),
+        Some(sign @ (')' | ',' | '=' | '*' | '/' | '^')) => {
+            let message = sentences::a_part_is_missing_before(&sign);
+            refused(message, start..start + 1, sentences::ADD_A_NUMBER_A_NAME_OR_A_CALL)
+        }
         Some(other) => unknown_sign(other, start),
     }
 }
@@ -257,11 +256,8 @@ fn number(input: &mut Input<'_>, start: usize) -> Read<FormulaTree> {
     }
     let written = &text[..end];
     let Some(value) = written.parse::<f64>().ok().filter(|value| value.is_finite()) else {
-        return refused(
-            sentences::is_no_finite_number(&written),
-            start..start + end,
-            sentences::WRITE_A_NUMBER_SUCH_AS,
-        );
+        let message = sentences::is_no_finite_number(&written);
+        return refused(message, start..start + end, sentences::WRITE_A_NUMBER_SUCH_AS);
     };
     take(input, end);
     Ok(FormulaTree { shape: NodeShape::Number(value), at: start..start + end })
@@ -277,11 +273,10 @@ fn name(input: &mut Input<'_>, start: usize) -> Read<FormulaTree> {
     let is_call = input.starts_with('(');
     match Function::named(name) {
         Some(function) if is_call => call(input, function, at),
-        Some(function) => refused(
-            sentences::the_function_has_no_argument(&function.name()),
-            at,
-            sentences::write_it_with_parentheses_phi(&function.name()),
-        ),
+        Some(function) => {
+            let help = sentences::write_it_with_parentheses_phi(&function.name());
+            refused(sentences::the_function_has_no_argument(&function.name()), at, help)
+        }
         None if is_call => {
             let known = Function::ALL.map(Function::name).join(", ");
             let help = match name {

@@ -273,10 +273,8 @@ impl Mechanism {
                 return wrong(sentences::ITS_AXIS_IS_NO_UNIT_VECTOR.into(), sentences::GIVE_THE_AXIS_BY_ITS_ANGLE);
             }
             if joint.first.link == joint.second.link {
-                return wrong(
-                    sentences::it_joins_with_itself(&self.links[joint.first.link].name),
-                    sentences::NAME_TWO_DIFFERENT_LINKS,
-                );
+                let message = sentences::it_joins_with_itself(&self.links[joint.first.link].name);
+                return wrong(message, sentences::NAME_TWO_DIFFERENT_LINKS);
             }
         }
         Ok(())
@@ -289,19 +287,16 @@ impl Mechanism {
                 let key = || format!("links.{}.points.{}", body.name, point.name);
                 let others = carriers.entry(&point.name).or_default();
                 if others.contains(&link) {
-                    return Err(
-                        Error::new(ErrorKind::Input, sentences::THE_LINK_HAS_TWO_POINTS_OF_THIS_NAME).key(key())
-                    );
+                    let message = sentences::THE_LINK_HAS_TWO_POINTS_OF_THIS_NAME;
+                    return Err(Error::new(ErrorKind::Input, message).key(key()));
                 }
                 if let Some(&other) = others.first()
                     && !self.held_together(&point.name, link, other)
                 {
-                    return Err(Error::new(
-                        ErrorKind::Input,
-                        sentences::links_and_both_have_a_point(&self.links[other].name, &body.name, &point.name),
-                    )
-                    .key(key())
-                    .help(sentences::RENAME_ONE_OF_THE_POINTS));
+                    let other = &self.links[other].name;
+                    let message = sentences::links_and_both_have_a_point(other, &body.name, &point.name);
+                    let error = Error::new(ErrorKind::Input, message).key(key());
+                    return Err(error.help(sentences::RENAME_ONE_OF_THE_POINTS));
                 }
                 others.push(link);
             }
@@ -340,10 +335,8 @@ fn check_masses(link: &Link) -> Result<()> {
         }
     }
     if link.mass == 0.0 && link.inertia > 0.0 {
-        return wrong(
-            sentences::the_link_has_a_moment_of_inertia(&link.inertia),
-            sentences::GIVE_THE_MASS_TOO_OR_LEAVE,
-        );
+        let message = sentences::the_link_has_a_moment_of_inertia(&link.inertia);
+        return wrong(message, sentences::GIVE_THE_MASS_TOO_OR_LEAVE);
     }
     Ok(())
 }

@@ -44,10 +44,8 @@ impl Trajectory {
                 continue;
             }
             if let Some(row) = column.iter().position(|value| !value.is_finite()) {
-                return Err(Error::new(
-                    ErrorKind::Numeric,
-                    sentences::is_at(&channel, &column[row], &times[row], &Input::default().at(inputs[row])),
-                ));
+                let at = Input::default().at(inputs[row]);
+                return Err(Error::new(ErrorKind::Numeric, sentences::is_at(&channel, &column[row], &times[row], &at)));
             }
         }
         Ok(Trajectory { times, input: Input::Angle, inputs, channels, columns })

@@ -46,10 +46,6 @@ fn is_of_joint(kind: &ChannelKind) -> bool {
     kind.subject.word() == ChannelSubject::Joint.word()
 }
 
-fn is_of_friction(kind: &ChannelKind) -> bool {
-    matches!(kind.subject, ChannelSubject::Journal | ChannelSubject::Guide)
-}
-
 /// Name of a channel's error with its small unit, and the number of these units in the SI unit.
 pub fn small_unit(kind: &ChannelKind) -> (String, f64) {
     let (prefix, factor) = match kind.unit {
@@ -152,7 +148,7 @@ pub fn of_subject(subject: ChannelSubject, told: MessageContent, own: &[&Channel
         MessageContent::Values => kind.suffix.to_string(),
         MessageContent::Errors => small_unit(kind).0,
     };
-    let rubs = own.iter().any(|kind| is_of_friction(kind));
+    let rubs = own.iter().any(|kind| matches!(kind.subject, ChannelSubject::Journal | ChannelSubject::Guide));
     let mut name = if rubs { String::from("Rubbing") } else { String::new() };
     name += &(word[..1].to_uppercase() + &word[1..] + suffix);
     let fields: BTreeMap<u32, String> = own.iter().map(|kind| (tag(kind), field(kind))).collect();

@@ -69,11 +69,8 @@ pub(super) fn check(recording: &Recording) -> Result<()> {
     }
     let lasts = slow * lasts(recording);
     if !(lasts <= LONGEST) {
-        return Err(Error::new(
-            ErrorKind::Input,
-            sentences::a_recording_cannot_last_viewers(&format_args!("{lasts:e}")),
-        )
-        .help(sentences::GIVE_A_SMALLER_TIME_SCALE));
+        let message = sentences::a_recording_cannot_last_viewers(&format_args!("{lasts:e}"));
+        return Err(Error::new(ErrorKind::Input, message).help(sentences::GIVE_A_SMALLER_TIME_SCALE));
     }
     Ok(())
 }

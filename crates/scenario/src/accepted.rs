@@ -87,11 +87,8 @@ fn read(root: &mut TomlTable, name: &str) -> Result<Accepted> {
     }
     let verdict = root.string("verdict")?;
     if !["agree", "disagree", "inconclusive"].contains(&verdict.as_str()) {
-        return root.refuse(
-            "verdict",
-            sentences::is_no_verdict(&verdict),
-            sentences::WRITE_AGREE_DISAGREE_OR_INCONCLUSIVE,
-        );
+        let message = sentences::is_no_verdict(&verdict);
+        return root.refuse("verdict", message, sentences::WRITE_AGREE_DISAGREE_OR_INCONCLUSIVE);
     }
     let instants = root.integer("instants")?;
     let message = || sentences::found_instants(&instants);
@@ -109,11 +106,8 @@ fn kept(mut table: TomlTable, count: usize) -> Result<AcceptedChannel> {
     let name = table.string("name")?;
     let bound = table.number("bound")?;
     if bound < 0.0 {
-        return table.refuse(
-            "bound",
-            sentences::the_bound_is_negative(&format_args!("{bound:e}")),
-            sentences::ACCEPT_THE_FIGURES_ANEW,
-        );
+        let message = sentences::the_bound_is_negative(&format_args!("{bound:e}"));
+        return table.refuse("bound", message, sentences::ACCEPT_THE_FIGURES_ANEW);
     }
     let at = table.numbers("at")?;
     if at.len() != count {

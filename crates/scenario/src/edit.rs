@@ -18,9 +18,8 @@ pub fn with_engine(text: &str, engine: EngineSettings) -> Result<String> {
         document.insert("engine", Item::Table(Table::new()));
     }
     let Some(table) = document.get_mut("engine").and_then(Item::as_table_mut) else {
-        return Err(
-            Error::new(ErrorKind::Input, sentences::ENGINE_IS_NOT_A_SECTION).help(sentences::WRITE_IT_AS_ENGINE)
-        );
+        let error = Error::new(ErrorKind::Input, sentences::ENGINE_IS_NOT_A_SECTION);
+        return Err(error.help(sentences::WRITE_IT_AS_ENGINE));
     };
     table.clear();
     fill(table, engine);

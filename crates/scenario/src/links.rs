@@ -99,11 +99,8 @@ fn fill(table: &mut TomlTable, link: &mut Link) -> Result<()> {
         return table.refuse("mass_centre", sentences::THE_LINK_HAS_A_MASS_CENTRE, help);
     }
     if mass.is_some() && centre.is_none() {
-        return table.refuse(
-            "mass",
-            sentences::THE_LINK_HAS_A_MASS_BUT_NO_MASS,
-            sentences::ADD_MASS_CENTRE_IN_THE_LINK,
-        );
+        let message = sentences::THE_LINK_HAS_A_MASS_BUT_NO_MASS;
+        return table.refuse("mass", message, sentences::ADD_MASS_CENTRE_IN_THE_LINK);
     }
     link.mass = mass.unwrap_or(0.0);
     link.mass_centre = centre.unwrap_or_else(Vec2::zeros);

@@ -215,11 +215,8 @@ fn resisting_force(table: &mut TomlTable, mechanism: &Mechanism) -> Result<Load>
     // rounding error would decide the direction of the force.
     let mut pins = mechanism.joints().iter().filter(|joint| joint.is_pin() && joint.on(GROUND).is_some());
     if pins.any(|joint| joint.on(at.link) == Some(at.local)) {
-        return table.refuse(
-            "point",
-            sentences::THE_POINT_DOES_NOT_MOVE_IT_IS_HINGED,
-            sentences::NAME_A_POINT_THAT_MOVES,
-        );
+        let message = sentences::THE_POINT_DOES_NOT_MOVE_IT_IS_HINGED;
+        return table.refuse("point", message, sentences::NAME_A_POINT_THAT_MOVES);
     }
     Ok(Load::ResistingForce { at, force })
 }
@@ -383,11 +380,8 @@ fn pair(table: &mut TomlTable, mechanism: &Mechanism, names: &[String]) -> Resul
     };
     let links = [link(table, first, mechanism.links())?, link(table, second, mechanism.links())?];
     if links[0] == links[1] {
-        return table.refuse(
-            "links",
-            sentences::it_acts_between_and_itself(&first),
-            sentences::NAME_TWO_DIFFERENT_LINKS,
-        );
+        let message = sentences::it_acts_between_and_itself(&first);
+        return table.refuse("links", message, sentences::NAME_TWO_DIFFERENT_LINKS);
     }
     Ok(links)
 }

@@ -108,14 +108,8 @@ impl<'a> Builder<'a> {
             let direction = self.direction(guide, &under.name);
             let meaning =
                 sentences::of_the_point_of_link_under(&word, &under.name, &guide, &slide.place.named.name, &direction);
-            self.push(
-                format!("{symbol}_{}", under.name),
-                VectorKind::Absolute,
-                [pole, &under.letter],
-                value,
-                guide,
-                meaning,
-            );
+            let name = format!("{symbol}_{}", under.name);
+            self.push(name, VectorKind::Absolute, [pole, &under.letter], value, guide, meaning);
         }
     }
 
@@ -204,14 +198,8 @@ impl<'a> Builder<'a> {
                 self.push(format!("a_{of}^n"), VectorKind::Normal, [start, &end], normal, link, meaning);
                 if !uniform {
                     let meaning = sentences::tangential_part_alpha_perpendicular_to(&line);
-                    self.push(
-                        format!("a_{of}^t"),
-                        VectorKind::Tangential,
-                        [&end, &to.letter],
-                        tangential,
-                        link,
-                        meaning,
-                    );
+                    let (name, ends) = (format!("a_{of}^t"), [&*end, &to.letter]);
+                    self.push(name, VectorKind::Tangential, ends, tangential, link, meaning);
                 }
             }
         }

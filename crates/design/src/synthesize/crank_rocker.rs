@@ -80,9 +80,8 @@ impl CrankRocker {
         let told = sentences::is_from_in_one_extreme_position(&distances[0], &distances[1]);
         if !(crank > 1e-9 * coupler) {
             let message = sentences::a_crank_of_no_length_would(&told);
-            return Err(
-                Error::new(ErrorKind::Geometry, message).help(sentences::MOVE_A_PIVOT_OR_TURN_THE_EXTREME_POSITIONS)
-            );
+            let help = sentences::MOVE_A_PIVOT_OR_TURN_THE_EXTREME_POSITIONS;
+            return Err(Error::new(ErrorKind::Geometry, message).help(help));
         }
         let sides = arms.map(|arm| cross(frame, arm));
         if !(sides[0] * sides[1] > 0.0) {
@@ -129,11 +128,8 @@ fn check(wish: &CrankRockerSpec) -> Result<()> {
         return Err(wrong("swing", message, sentences::GIVE_AN_ANGLE_BETWEEN_AND_DEG));
     }
     if !((wish.rocker_pivot - wish.crank_pivot).norm() > 0.0) {
-        return Err(wrong(
-            "pivots",
-            sentences::BOTH_PIVOTS_ARE_ONE_POINT.into(),
-            sentences::GIVE_THE_ROCKER_A_PIVOT_OF_ITS_OWN,
-        ));
+        let message = sentences::BOTH_PIVOTS_ARE_ONE_POINT.into();
+        return Err(wrong("pivots", message, sentences::GIVE_THE_ROCKER_A_PIVOT_OF_ITS_OWN));
     }
     Ok(())
 }

@@ -175,9 +175,8 @@ impl Transmission {
                 let (other, follower) = match slide {
                     Some((joint, line)) => sliding(second, &joints[joint], line, contact.point()),
                     None if matches!(contact, CamContact::Flat(_)) => {
-                        return Err(
-                            design.fault(sentences::THE_FLAT_FOLLOWER_DOES_NOT_SLIDE, sentences::JOIN_THE_FOLLOWER)
-                        );
+                        let message = sentences::THE_FLAT_FOLLOWER_DOES_NOT_SLIDE;
+                        return Err(design.fault(message, sentences::JOIN_THE_FOLLOWER));
                     }
                     None => {
                         let own = second_axle()?;

@@ -87,11 +87,8 @@ impl Timing {
                 return of_one(index, message, sentences::LET_CRANK_ANGLES_ASCEND_FROM_PHASE);
             }
             if phase.level.is_some_and(|level| !(0.0..=1.0).contains(&level)) {
-                return of_one(
-                    index,
-                    sentences::A_LEVEL_IS_A_SHARE_OF_THE_STROKE.into(),
-                    sentences::GIVE_A_NUMBER_FROM_TO,
-                );
+                let message = sentences::A_LEVEL_IS_A_SHARE_OF_THE_STROKE.into();
+                return of_one(index, message, sentences::GIVE_A_NUMBER_FROM_TO);
             }
             if !(phase.least >= 0.0 && phase.least < 1.0) {
                 let message = sentences::THE_LEAST_DISPLACEMENT_IS_A_SHARE.into();
@@ -105,10 +102,8 @@ impl Timing {
         }
         for sense in [Sense::Forward, Sense::Back] {
             if !phases.iter().any(|phase| phase.sense == sense) {
-                return of_all(
-                    sentences::no_phase_goes_the_output(&sense.name()),
-                    sentences::AN_OUTPUT_THAT_ROCKS_GOES,
-                );
+                let message = sentences::no_phase_goes_the_output(&sense.name());
+                return of_all(message, sentences::AN_OUTPUT_THAT_ROCKS_GOES);
             }
         }
         Ok(Timing { levels: levels(&phases), phases, follow: false })

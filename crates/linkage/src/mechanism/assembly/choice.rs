@@ -25,7 +25,7 @@ pub(super) fn place(
         }
         return Ok(choice);
     }
-    let all_known = group.kind != GroupKind::Higher || four_link::is_handled(mechanism, group, pose);
+    let all_known = group.kind != GroupKind::Higher || four_link::Layout::of(mechanism, group, pose).is_some();
     if !all_known && wanted.rank.is_none() && !wanted.near.is_empty() {
         return rough::place(mechanism, group, &wanted.near, pose);
     }
@@ -122,26 +122,18 @@ fn nearest<'a>(
     if let [(first, a), (second, b), ..] = order[..]
         && 2.0 * first > second
     {
-        return Err(Error::new(
-            ErrorKind::Geometry,
-            sentences::from_the_and_from_the_configuration(
-                &rough_places(wanted),
-                &first,
-                &named(a.mode, "nearest"),
-                &second,
-                &named(b.mode, "next"),
-            ),
-        )
-        .help(Advice::Configuration { give: sentences::A_PLACE_NEARER_TO_THE_CONFIGURATION.into() }));
+        let (places, a, b) = (rough_places(wanted), named(a.mode, "nearest"), named(b.mode, "next"));
+        let message = sentences::from_the_and_from_the_configuration(&places, &first, &a, &second, &b);
+        let help = Advice::Configuration { give: sentences::A_PLACE_NEARER_TO_THE_CONFIGURATION.into() };
+        return Err(Error::new(ErrorKind::Geometry, message).help(help));
     }
     let next = order.get(1).map(|&(distance, _)| distance);
     match order[..] {
         [(first, one), ..] if first <= mechanism.size() => Ok((one, first, next)),
-        [(first, _), ..] => Err(Error::new(
-            ErrorKind::Geometry,
-            sentences::from_the_nearest_configuration_farther(&rough_places(wanted), &first),
-        )
-        .help(sentences::CHECK_ITS_COORDINATES_AND_THEIR)),
+        [(first, _), ..] => {
+            let message = sentences::from_the_nearest_configuration_farther(&rough_places(wanted), &first);
+            Err(Error::new(ErrorKind::Geometry, message).help(sentences::CHECK_ITS_COORDINATES_AND_THEIR))
+        }
         [] => unreachable!("a group without configurations is an error before"),
     }
 }

@@ -27,7 +27,7 @@ enum Body {
 
 /// The group as a base on three leads.
 #[derive(Clone, Debug)]
-struct Layout {
+pub(super) struct Layout {
     frame: Body,
     base: LinkId,
     leads: [(Body, PlatformLead); 3],
@@ -35,7 +35,7 @@ struct Layout {
 
 impl Layout {
     /// Assigns the roles of the links; `None` if the group has neither of the two forms.
-    fn of(mechanism: &Mechanism, group: &Group, pose: &Pose) -> Option<Self> {
+    pub(super) fn of(mechanism: &Mechanism, group: &Group, pose: &Pose) -> Option<Self> {
         if group.links.len() != 4 {
             return None;
         }
@@ -105,11 +105,6 @@ impl Layout {
         };
         Some(group.links.iter().map(pose).collect())
     }
-}
-
-/// Whether this module can find all real configurations of the group.
-pub(super) fn is_handled(mechanism: &Mechanism, group: &Group, pose: &Pose) -> bool {
-    Layout::of(mechanism, group, pose).is_some()
 }
 
 /// All real configurations of the group, sorted by the angle of its base.

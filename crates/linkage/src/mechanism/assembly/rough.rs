@@ -41,11 +41,9 @@ pub(super) fn place(mechanism: &Mechanism, group: &Group, near: &Near, pose: &mu
         let distance = (drawn.0[point.side.link].point(point.side.local) - guess).norm();
         let half = half_link(mechanism, group, &point.name);
         if !(distance <= half) {
-            return Err(Error::new(
-                ErrorKind::Geometry,
-                sentences::the_configuration_found_from_the_rough(&point.name, &distance, &half),
-            )
-            .help(sentences::GIVE_PLACES_NEARER_TO_THE_CONFIGURATION));
+            let message = sentences::the_configuration_found_from_the_rough(&point.name, &distance, &half);
+            let error = Error::new(ErrorKind::Geometry, message);
+            return Err(error.help(sentences::GIVE_PLACES_NEARER_TO_THE_CONFIGURATION));
         }
         farthest = farthest.larger(distance);
     }
