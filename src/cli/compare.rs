@@ -126,16 +126,18 @@ pub(super) fn compare(args: &Args) -> Result<u8> {
         output::apart(&args.outputs.named().into_iter().chain(path).collect::<Vec<_>>())?;
     }
     check_parties(args)?;
-    let mut mapping = mapping(&args.map, "--map")?;
-    mapping.allowed.extend(args.rel.iter().chain(&args.rel_value).chain(&args.abs).cloned());
-    let first_mapping = mapping_of_first(args, &mapping)?;
-    let second = party(args, &args.second, &args.first, &mapping)?;
+    let mut second_mapping = mapping(&args.map, "--map")?;
+    second_mapping.allowed.extend(args.rel.iter().chain(&args.rel_value).chain(&args.abs).cloned());
+    // The first party has a separate mapping, or the command's mapping if only the first party is a table.
+    let has_own = !args.map_a.is_empty() || is_table(&args.second);
+    let first_mapping = if has_own { mapping(&args.map_a, "--map-a")? } else { second_mapping.clone() };
+    let second = party(args, &args.second, &args.first, &second_mapping)?;
     let first = party(args, &args.first, &args.second, &first_mapping)?;
     if let Some(to) = &args.write_map {
-        output::write(&mapping.text(), to)?;
+        output::write(&second_mapping.text(), to)?;
     }
     let how = ComparisonRule {
-        allowed: mapping.allowed,
+        allowed: second_mapping.allowed,
         by: args.by,
         interpolates: args.interpolate,
         side: args.side.clone(),
@@ -184,16 +186,6 @@ fn check_parties(args: &Args) -> Result<()> {
 /// Whether a path names a table: neither a scenario nor a recording.
 fn is_table(path: &Path) -> bool {
     !path.extension().is_some_and(|ending| ending == "toml" || ending == "mcap")
-}
-
-/// The mapping for the first party.
-/// This mapping is the separate mapping of the first party, or the command's mapping if only the first party is a
-/// table.
-fn mapping_of_first(args: &Args, mapping: &Mapping) -> Result<Mapping> {
-    match args.map_a.is_empty() && !is_table(&args.second) {
-        true => Ok(mapping.clone()),
-        false => self::mapping(&args.map_a, "--map-a"),
-    }
 }
 
 /// The mapping given by lines and files.

@@ -24,7 +24,7 @@ pub(super) use args::Args;
 /// Proves every file. If a file is bad, the remaining files are still proven.
 pub(super) fn run(args: &Args) -> Result<u8> {
     // If nothing is recorded and no viewer is served, options of recordings have no effect and are refused.
-    if !args.live.live.is_some() {
+    if args.live.live.is_none() {
         args.record.refuse_idle()?;
     }
     args.record.target()?;

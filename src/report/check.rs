@@ -150,7 +150,7 @@ fn reasons(lines: &[Line], claimed: &Claimed, tell: Tell, width: usize, text: &m
             continue;
         }
         let mut below = |told: &str| say!(text, "{}", wrapped(told, Some(width), INDENT));
-        let (undefined, is_cut) = (claimed.judgement.undefined(name), claimed.judgement.unsought.contains(name));
+        let (undefined, is_cut) = (claimed.judgement.undefined.get(name), claimed.judgement.unsought.contains(name));
         if let Some(undefined) = undefined {
             below(&format!("  but    {undefined}."));
         }
@@ -283,7 +283,7 @@ pub fn json(scenario: &Scenario, claimed: &Claimed, tell: Tell) -> String {
     };
     let (causes, formulas) = (causes(claimed), formulas(scenario));
     let no_value = |judged: &JudgedFormula| {
-        claimed.judgement.undefined(&judged.name).map(|undefined| {
+        claimed.judgement.undefined.get(&judged.name).map(|undefined| {
             json!({
                 "in": undefined.formula, "written": undefined.written, "from": undefined.fault.at.start,
                 "to": undefined.fault.at.end, undefined.input.shown_in().1: undefined.input.shown(undefined.crank),

@@ -95,7 +95,7 @@ fn operations_outside_their_domain_disagree_with_a_position() {
             let outcomes: Vec<FormulaOutcome> = all.iter().map(|orders| orders[0].outcome()).collect();
             assert_eq!(outcomes, [FormulaOutcome::Wrong, FormulaOutcome::Right], "{text}");
         }
-        let undefined = found.judgement.undefined("formula").unwrap();
+        let undefined = found.judgement.undefined.get("formula").unwrap();
         let (formula, operation, at) = (&undefined.formula, &undefined.written, undefined.crank);
         assert_eq!((formula.as_str(), operation.as_str(), at.to_degrees().round()), (of, written, crank), "{text}");
     }
@@ -112,7 +112,7 @@ fn poles_between_instants_and_poles_that_rounding_hides() {
         let mut scenario = scenario.clone();
         scenario.formulas.add("formula", text).unwrap().claim = Some(claim.clone());
         let found = super::judged(&scenario);
-        assert!(found.judgement.undefined("formula").is_none(), "{text}");
+        assert!(found.judgement.undefined.get("formula").is_none(), "{text}");
         found.judgement.sides[Reference::Assur][0][0].clone()
     };
     // The instants are at whole degrees; the divisor of this formula is zero between 57 and 58 deg.

@@ -30,11 +30,11 @@ pub struct Solid {
     pub link: LinkId,
     /// Rounding radius (m).
     pub radius: f64,
-    pieces: Vec<Piece>,
+    pub(super) pieces: Vec<Piece>,
     scale: f64,
 }
 
-struct Piece {
+pub(super) struct Piece {
     corners: Vec<Vec2>,
     centre: Vec2,
     reach: f64,
@@ -74,12 +74,6 @@ impl Solid {
     pub fn new(link: LinkId, outline: &Outline, scale: f64) -> Self {
         let pieces = outline.parts().iter().map(|part| Piece::new(part, scale)).collect();
         Solid { link, radius: outline.radius(), pieces, scale }
-    }
-
-    /// Number of convex parts.
-    #[must_use]
-    pub fn pieces(&self) -> usize {
-        self.pieces.len()
     }
 
     /// Computes the solid's pose at the middle of a part of the range, and the motion of its corners over the part.

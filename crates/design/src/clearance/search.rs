@@ -73,7 +73,7 @@ impl DistanceSearch<'_, '_> {
     }
 
     fn between(&mut self, bodies: [&Solid; 2], places: [&PlacedSolid; 2], slice: &Slice, enough: f64) -> Gap {
-        self.budget = self.budget.saturating_sub(bodies[0].pieces() * bodies[1].pieces());
+        self.budget = self.budget.saturating_sub(bodies[0].pieces.len() * bodies[1].pieces.len());
         gap(bodies, places, slice, self.tubes.rounding(), enough, &mut self.asked)
     }
 
@@ -150,9 +150,9 @@ impl DistanceSearch<'_, '_> {
 
     /// Searches for a smaller distance near the crank angle of the smallest distance found so far.
     fn refine(&mut self, own: &mut Smallest, pair: [usize; 2]) -> Result<()> {
-        let [from, to] = self.tubes.range();
+        let [from, to] = self.tubes.range;
         let (low, high) = (from.smaller(to), from.larger(to));
-        let wide = (self.tolerance / self.tubes.scale()).sqrt();
+        let wide = (self.tolerance / self.tubes.scale).sqrt();
         for _ in 0..STRIDES {
             let begun = own.crank;
             let ends = [(begun - wide).larger(low), (begun + wide).smaller(high)];

@@ -210,7 +210,7 @@ impl<'a, 'c> Sweep<'a, 'c> {
     }
 
     fn window(&mut self, part: RangePart) -> Result<Window> {
-        let ([from, to], range) = (self.tubes.ends(part), self.tubes.range());
+        let ([from, to], range) = (self.tubes.ends(part), self.tubes.range);
         let (middle, half) = (f64::midpoint(from, to), WINDOW * (to - from).abs() / 2.0);
         let low = (middle - half).larger(range[0].smaller(range[1]));
         let high = (middle + half).smaller(range[0].larger(range[1]));

@@ -155,10 +155,11 @@ pub struct Tubes<'a> {
     case: &'a Case,
     solver: PoseSolver<'a>,
     centres: Vec<Vec2>,
-    from: f64,
-    to: f64,
+    /// Both ends of the range (rad), in the direction of motion.
+    pub range: [f64; 2],
     first: u64,
-    scale: f64,
+    /// Size of the mechanism including its distance from the world origin (m).
+    pub scale: f64,
     kept: BTreeMap<RangePart, Rc<Slice>>,
     /// Number of poses computed by side 1.
     pub poses: usize,
@@ -171,20 +172,19 @@ impl<'a> Tubes<'a> {
     ///
     /// # Errors
     /// Those of [`PoseSolver::new`].
-    pub fn new(case: &'a Case, [from, to]: [f64; 2], extent: f64) -> Result<Self> {
+    pub fn new(case: &'a Case, range: [f64; 2], extent: f64) -> Result<Self> {
         let mechanism = &case.mechanism;
         let centre = |link: LinkId| {
             let places: Vec<Vec2> = mechanism.joints().iter().filter_map(|joint| joint.on(link)).collect();
             places.iter().sum::<Vec2>() / (places.len() as f64).larger(1.0)
         };
-        let first = ((to - from).abs() / FIRST - 1e-9).ceil().larger(1.0) as u64;
+        let first = ((range[1] - range[0]).abs() / FIRST - 1e-9).ceil().larger(1.0) as u64;
         let ground = mechanism.links()[GROUND].points.iter().map(|point| point.local.norm()).fold(0.0, f64::larger);
         Ok(Tubes {
             case,
             solver: PoseSolver::new(case)?,
             centres: mechanism.links().ids().map(centre).collect(),
-            from,
-            to,
+            range,
             first,
             scale: mechanism.size() + ground + extent,
             kept: BTreeMap::new(),
@@ -201,19 +201,8 @@ impl<'a> Tubes<'a> {
     #[must_use]
     pub fn ends(&self, part: RangePart) -> [f64; 2] {
         let count = self.first as f64 * f64::from(part.halvings).exp2();
-        [0, 1].map(|end| self.from + (self.to - self.from) * ((part.index + end) as f64 / count))
-    }
-
-    /// Both ends of the range (rad), in the direction of motion.
-    #[must_use]
-    pub fn range(&self) -> [f64; 2] {
-        [self.from, self.to]
-    }
-
-    /// Size of the mechanism including its distance from the world origin (m).
-    #[must_use]
-    pub fn scale(&self) -> f64 {
-        self.scale
+        let [from, to] = self.range;
+        [0, 1].map(|end| from + (to - from) * ((part.index + end) as f64 / count))
     }
 
     /// Rounding error of positions (m).

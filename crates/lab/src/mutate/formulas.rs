@@ -28,7 +28,7 @@ pub(super) struct Planting {
 impl Stage<'_> {
     /// Names of the formulas that both sides judge.
     fn judged_formulas(&self) -> BTreeSet<&str> {
-        let judged = self.sides.judgement().into_iter().flat_map(|own| &own.sides[Reference::Assur]);
+        let judged = self.sides.judgement.iter().flat_map(|own| &own.sides[Reference::Assur]);
         judged.filter_map(|all| Some(all.first()?.name.as_str())).collect()
     }
 

@@ -253,7 +253,7 @@ fn sought(trial: &mut Trial, claim: &Claim, course: &KnownTrajectory) -> Option<
     // An approximation is not examined for this cause: it is right by chance at the instants at which it crosses the
     // exact curve.
     let is_exact = trial.formula.error.is_none();
-    if let Some(found) = leaves(&rows, course.input()).filter(|_| is_exact) {
+    if let Some(found) = leaves(&rows, course.trajectory.input()).filter(|_| is_exact) {
         return Some(found);
     }
     // Largest remainder that counts as evidence for a slip.

@@ -4,7 +4,6 @@ use crate::sentences;
 use formula::{Function, Operator, Rounded};
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::input::Input;
 use linkage::math::KeepNan;
 use linkage::trajectory::{Channel, OfJoint, OfLink, OfPoint, Reading, Trajectory};
 use scenario::{Claim, Formula, MechanismFigure, PrintedChannel};
@@ -16,7 +15,7 @@ type InputColumns = Vec<(usize, f64)>;
 #[derive(Clone)]
 #[must_use]
 pub struct KnownTrajectory<'a> {
-    trajectory: &'a Trajectory,
+    pub(super) trajectory: &'a Trajectory,
     error: &'a dyn Fn(usize, usize) -> f64,
     crank_name: &'a str,
     /// Columns whose signed sums are the rate and the acceleration of the input. `None` if the side does not have them.
@@ -121,21 +120,9 @@ impl<'a> KnownTrajectory<'a> {
         self.trajectory.times().len()
     }
 
-    pub(super) fn times(&self) -> &[f64] {
-        self.trajectory.times()
-    }
-
-    pub(super) fn cranks(&self) -> &[f64] {
-        self.trajectory.inputs()
-    }
-
-    pub(super) fn input(&self) -> Input {
-        self.trajectory.input()
-    }
-
     /// Rows at which a formula is claimed to hold.
     pub(super) fn rows(&self, formula: &Formula) -> Vec<usize> {
-        (0..self.len()).filter(|&row| formula.holds_at(self.cranks()[row])).collect()
+        (0..self.len()).filter(|&row| formula.holds_at(self.trajectory.inputs()[row])).collect()
     }
 
     /// Links other than the crank with known angle (rad), angular velocity and angular acceleration, by name.
@@ -179,12 +166,12 @@ impl<'a> KnownTrajectory<'a> {
             Some(sum)
         };
         let [omega, alpha] = self.crank.each_ref().map(|columns| of(columns).unwrap_or(Rounded::exact(f64::NAN)));
-        [self.crank(row), Rounded::nearly(self.times()[row]), omega, alpha]
+        [self.crank(row), Rounded::nearly(self.trajectory.times()[row]), omega, alpha]
     }
 
     /// Crank angle at an instant (rad, in the scenario's convention).
     pub fn crank(&self, row: usize) -> Rounded {
-        let mut phi = Rounded::nearly(self.cranks()[row]);
+        let mut phi = Rounded::nearly(self.trajectory.inputs()[row]);
         let columns = self.angle.iter().flatten();
         phi.error += columns.map(|&(column, _)| (self.error)(column, row)).sum::<f64>();
         phi

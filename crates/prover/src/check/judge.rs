@@ -62,8 +62,8 @@ pub(super) fn pairs(
     let mut claimed = Claimed::of(claim, 0, course)?;
     let mut own = Program::of(&formulas.graph, &[formula.id]);
     let mut at = |row: usize| Pair {
-        place: [course.times()[row], course.cranks()[row]],
-        input: course.input(),
+        place: [course.trajectory.times()[row], course.trajectory.inputs()[row]],
+        input: course.trajectory.input(),
         formula: own.run(&course.inputs(row))[0],
         mechanism: claimed.at(row)[0],
     };
@@ -129,7 +129,7 @@ pub fn judge(formulas: &Formulas, course: &KnownTrajectory) -> Result<Vec<Vec<Ju
     // The scale is determined first, because the largest value of the claim decides how accurately a formula must be
     // known.
     for row in 0..course.len() {
-        let crank = course.cranks()[row];
+        let crank = course.trajectory.inputs()[row];
         claims.iter_mut().for_each(|claim| {
             claim.at(row);
         });
@@ -140,7 +140,7 @@ pub fn judge(formulas: &Formulas, course: &KnownTrajectory) -> Result<Vec<Vec<Ju
     }
     let mut program = Program::of(&derived.graph, &nodes);
     for row in 0..course.len() {
-        let place @ [_, crank] = [course.times()[row], course.cranks()[row]];
+        let place @ [_, crank] = [course.trajectory.times()[row], course.trajectory.inputs()[row]];
         claims.iter_mut().for_each(|claim| {
             claim.at(row);
         });
@@ -154,7 +154,8 @@ pub fn judge(formulas: &Formulas, course: &KnownTrajectory) -> Result<Vec<Vec<Ju
             let both = own.iter().zip(&claims[*claimed].program.answers);
             for (judged, (&formula_value, &mechanism)) in judged.iter_mut().zip(both) {
                 let turn = turn.filter(|_| judged.order == 0);
-                judged.put(formula, turn, Pair { place, input: course.input(), formula: formula_value, mechanism });
+                let input = course.trajectory.input();
+                judged.put(formula, turn, Pair { place, input, formula: formula_value, mechanism });
             }
         }
     }
@@ -171,7 +172,7 @@ impl KnownTrajectory<'_> {
         for row in 0..self.len() {
             let values = program.run(&self.inputs(row));
             for ((own, value), (formula, _)) in all.iter_mut().zip(values).zip(formulas.claims()) {
-                if formula.holds_at(self.cranks()[row]) {
+                if formula.holds_at(self.trajectory.inputs()[row]) {
                     own.push(*value);
                 }
             }

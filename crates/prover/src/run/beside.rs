@@ -138,7 +138,7 @@ fn deviations(truth: &Trajectory, own: &Trajectory, known: &Known) -> Result<Vec
         let (scale, stage) = (scales[index], channel.kind.stage);
         let mut found = Deviation { channel: channel.clone(), error: 0.0, bound: 0.0, used: 0.0 };
         for (row, value) in values.iter().enumerate() {
-            let bound = known.apart(stage, index, row) * known.magnitude(index);
+            let bound = known.apart(stage, index, row) * known.magnitudes[index];
             let error = share(value.abs(), scale);
             if row == 0 || !(error <= found.error) {
                 (found.error, found.bound) = (error, share(bound, scale));

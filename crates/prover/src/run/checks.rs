@@ -83,7 +83,7 @@ fn worst_instants<'a>([reference, other]: [&'a Trajectory; 2], known: &Known) ->
         let at = |(row, &value): (usize, &f64)| Worst {
             channel,
             row,
-            relative: share(value.abs(), known.magnitude(index)),
+            relative: share(value.abs(), known.magnitudes[index]),
             allowed: known.apart(channel.kind.stage, index, row),
         };
         values.iter().enumerate().map(at).max_by(|a, b| a.used().total_cmp(&b.used())).expect("there is an instant")
@@ -112,7 +112,7 @@ pub(super) fn beyond(sides: EachSide<&Observed>, known: &Known) -> Vec<Beyond> {
         let values = errors.column_near(worst.channel, index)?;
         // This form of the comparison counts NaN as beyond.
         let is_beyond = |row: &&usize| {
-            let relative = share(values[**row].abs(), known.magnitude(index));
+            let relative = share(values[**row].abs(), known.magnitudes[index]);
             !(relative <= known.apart(worst.channel.kind.stage, index, **row))
         };
         let first = *rows.iter().find(is_beyond)?;

@@ -73,7 +73,7 @@ pub struct ObservedSides {
     /// Figures that formulas claim.
     figures: EachSide<Vec<(MechanismFigure, Rounded)>>,
     /// Judgement of the formulas; `None` if no formula claims anything.
-    pub(super) judgement: Option<Judgement>,
+    pub judgement: Option<Judgement>,
 }
 
 impl ObservedSides {
@@ -207,11 +207,6 @@ impl ObservedSides {
             self.known.at(side, trajectory.channels()[column].kind.stage, column, row)
         };
         then(&KnownTrajectory::new(case, trajectory, &error).with_figures(&self.figures[side]))
-    }
-
-    /// Judgement of the formulas; `None` if no formula claims anything.
-    pub fn judgement(&self) -> Option<&Judgement> {
-        self.judgement.as_ref()
     }
 
     /// Observations of the reference.

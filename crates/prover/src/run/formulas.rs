@@ -29,12 +29,6 @@ impl Judgement {
     pub fn of(sides: EachSide<Vec<Vec<JudgedFormula>>>) -> Self {
         Judgement { sides, causes: Vec::new(), undefined: BTreeMap::new(), unsought: BTreeSet::new(), work: 0 }
     }
-
-    /// The operation that makes a formula undefined, if there is one.
-    #[must_use]
-    pub fn undefined(&self, name: &str) -> Option<&Undefined> {
-        self.undefined.get(name)
-    }
 }
 
 /// One check for every claim, and for every derivative that could be judged, for each side.
@@ -54,7 +48,8 @@ pub fn checks(judgement: &Judgement) -> Vec<Check> {
         .collect();
     let of_side = |(side, all): (Reference, &Vec<Vec<JudgedFormula>>)| -> Vec<Check> {
         let words = |judged: &JudgedFormula| {
-            let undefined = judgement.undefined(&judged.name).filter(|_| judged.order == 0).map(ToString::to_string);
+            let undefined =
+                judgement.undefined.get(&judged.name).filter(|_| judged.order == 0).map(ToString::to_string);
             let all: Vec<String> = undefined.into_iter().chain(causes.get(judged.name.as_str()).cloned()).collect();
             all.join("; ")
         };

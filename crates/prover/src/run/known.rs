@@ -103,7 +103,7 @@ fn placed(case: &Case, groups: &[GroupId]) -> [f64; 2] {
 /// So a dead centre of one group does not enlarge the errors of other groups.
 pub(super) struct Known {
     /// Size of the numbers in every channel, in its unit.
-    magnitudes: Vec<f64>,
+    pub(super) magnitudes: Vec<f64>,
     /// The side that serves as the reference.
     reference: Reference,
     /// Sensitivity of a motion under forces to these forces, channel by channel. It also multiplies the forces'
@@ -229,11 +229,6 @@ impl Known {
         Ok(())
     }
 
-    /// Size of the numbers in a channel of the reference, in its unit.
-    pub(super) fn magnitude(&self, channel: usize) -> f64 {
-        self.magnitudes[channel]
-    }
-
     /// Integration error of a side in a channel, in its unit; zero in a prescribed motion.
     pub(super) fn integration(&self, side: Reference, channel: usize) -> f64 {
         self.integration[side][channel]
@@ -310,7 +305,7 @@ mod tests {
         for (channel, kind) in own.channels().iter().map(|channel| channel.kind).enumerate() {
             let [first, second] = Reference::ALL.map(|side| known.integration(side, channel));
             let rounding = known.at(Reference::Assur, kind.stage, channel, 0) - first;
-            let apart = known.apart(kind.stage, channel, 0) * known.magnitude(channel);
+            let apart = known.apart(kind.stage, channel, 0) * known.magnitudes[channel];
             let wanted = rounding + first + second;
             assert!((apart - wanted).abs() <= 1e-9 * wanted, "{}: {apart:e} {wanted:e}", own.channels()[channel]);
             seen += usize::from(first + second > 1e-3 * rounding && first > 0.0 && second > 0.0);
@@ -413,7 +408,7 @@ mod tests {
             for (index, channel) in own.channels().iter().enumerate() {
                 let (stage, values) = (channel.kind.stage, [&own, &other].map(|of| of.column(channel).unwrap()[1]));
                 let apart = known.apart(stage, index, 1);
-                let relative = share((values[0] - values[1]).abs(), known.magnitude(index));
+                let relative = share((values[0] - values[1]).abs(), known.magnitudes[index]);
                 assert!(relative <= apart, "{count} from {from} m, {channel}: {relative:e} {apart:e}");
                 beyond += usize::from(relative > usual(stage));
                 // A fault of a ten-millionth is found at any distance. The last digit of a position is 1.5e-11 m.

@@ -119,12 +119,6 @@ impl<'a> MjcfModel<'a> {
         (own_or(link.mass, light), own_or(link.inertia, light * radius * radius))
     }
 
-    /// Whether MuJoCo gets a mass or inertia that the link does not have.
-    pub(super) fn is_lent(&self, link: LinkId) -> bool {
-        let link = &self.case.mechanism.links()[link];
-        !(link.mass > 0.0 && link.inertia > 0.0)
-    }
-
     /// Index of the branch that carries `link`.
     pub(super) fn branch_of(&self, link: LinkId) -> Option<usize> {
         self.tree.branches.iter().position(|branch| branch.link == link)

@@ -9,17 +9,13 @@ use crate::mechanism::{LinkId, Mechanism};
 pub(super) fn highest_contour(mechanism: &Mechanism, group: &Group) -> usize {
     let leads = group.leads(mechanism);
     let body = |link: LinkId| leads[group.links.iter().position(|&own| own == link).expect("the joint is inner")];
-    let pairs: Vec<[LinkId; 2]> = free_pairs(mechanism, group).map(|pair| pair.map(body)).collect();
+    let free = group.inner.iter().filter(|joint| !group.given.contains(joint));
+    let free = free.map(|&joint| &mechanism.joints()[joint]);
+    let pairs: Vec<[LinkId; 2]> = free.map(|joint| [joint.first.link, joint.second.link].map(body)).collect();
     let pairs_on = |link: &LinkId| pairs.iter().filter(|pair| pair.contains(link)).count();
     let rigid = leads.iter().map(pairs_on).max().unwrap_or(0);
     let loops = (0..pairs.len()).filter_map(|index| shortest_loop(&pairs, index)).max().unwrap_or(0);
     rigid.max(loops).max(2)
-}
-
-/// The two links of every inner joint without a given coordinate.
-fn free_pairs(mechanism: &Mechanism, group: &Group) -> impl Iterator<Item = [LinkId; 2]> {
-    let free = group.inner.iter().filter(|joint| !group.given.contains(joint));
-    free.map(|&joint| &mechanism.joints()[joint]).map(|joint| [joint.first.link, joint.second.link])
 }
 
 /// Number of bodies in the shortest loop of inner joints through the pair `through`; `None` if there is no loop.

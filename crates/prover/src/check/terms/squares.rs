@@ -138,14 +138,14 @@ pub fn bases(course: &KnownTrajectory, wrong: &Wrong) -> Vec<TermBasis> {
         let values: Vec<f64> = rows.iter().map(|&row| of(row)).collect();
         all.push(TermBasis { text: text.into(), unit, values });
     };
-    let crank = |row: usize| course.cranks()[row];
+    let crank = |row: usize| course.trajectory.inputs()[row];
     put("", "rad", &|_| 1.0);
     for (text, function) in [("cos", f64::cos as fn(f64) -> f64), ("sin", f64::sin)] {
         put(&format!("{text}(phi)"), "rad", &|row| function(crank(row)));
         put(&format!("{text}(2*phi)"), "rad", &|row| function(2.0 * crank(row)));
     }
     put("phi", "rad", &crank);
-    put("t", "s", &|row| course.times()[row]);
+    put("t", "s", &|row| course.trajectory.times()[row]);
     for (name, [angle, omega, alpha]) in course.links() {
         for (text, function) in [("cos", f64::cos as fn(f64) -> f64), ("sin", f64::sin)] {
             let turned = |row: usize| function(angle[row]);
