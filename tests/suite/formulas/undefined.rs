@@ -112,7 +112,7 @@ fn poles_between_instants_and_poles_that_rounding_hides() {
         let mut scenario = scenario.clone();
         scenario.formulas.add("formula", text).unwrap().claim = Some(claim.clone());
         let found = super::judged(&scenario);
-        assert!(found.judgement.undefined.get("formula").is_none(), "{text}");
+        assert!(!found.judgement.undefined.contains_key("formula"), "{text}");
         found.judgement.sides[Reference::Assur][0][0].clone()
     };
     // The instants are at whole degrees; the divisor of this formula is zero between 57 and 58 deg.
