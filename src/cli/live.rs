@@ -21,8 +21,6 @@ mod stage;
 #[cfg(feature = "live")]
 mod viewer;
 #[cfg(feature = "live")]
-mod wants;
-
 use crate::sentences;
 use std::path::PathBuf;
 

@@ -12,7 +12,6 @@
 //! A driving link stands on the ground or on an earlier driving link. Any other given joint belongs to a group.
 //! Two links on a given joint are one rigid body at every instant, so the group is classified by its bodies.
 
-mod contour;
 mod driven;
 mod group;
 mod owners;
@@ -27,7 +26,7 @@ use super::{GROUND, LinkPose, Mechanism, Pose};
 use crate::error::{Error, ErrorKind, Result};
 use crate::input::Input;
 use crate::mechanism::{AssemblyMode, GroupId, JointId, LinkId, PerGroup, PerLink, TransmissionId};
-use contour::highest_contour;
+use group::highest_contour;
 use owners::{Owners, Source, check_sparse};
 
 /// Result of the structural analysis of a mechanism.
