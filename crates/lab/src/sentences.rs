@@ -22,12 +22,11 @@ linkage::sentences! {
     planting_faults_takes_the_work(scenario, faults, work, budget) = "{scenario}: planting {faults} faults costs about as much as {work} engine steps of a four-bar; the work limit is {budget}";
     PROVE_IT_WITHOUT_A_FAULT = "prove it without a fault, and correct what disagrees";
     disagrees_without_a_fault_so(scenario) = "{scenario} disagrees without a fault, so every fault would count as found";
-    // mutate/planted.rs
-    the_case_with_the_fault_cannot(kind) = "the case with the fault {kind} cannot be built";
     // mutate/seen.rs
     own_forces(name) = "forces that {name} itself exerts";
     assur_against_newton_2(channel) = "{channel} (assur against newton)";
     // mutate/stage.rs
+    the_case_with_the_fault_cannot(kind) = "the case with the fault {kind} cannot be built";
     THE_CASE_CANNOT_BE_PUT_TOGETHER = "the case cannot be built";
     MISTAKES_OF_FORMULAS_ARE_PLANTED = "mistakes of formulas can only be planted in formulas";
     // outside/answer.rs

@@ -4,28 +4,40 @@
 use crate::sentences;
 use std::fmt;
 
-linkage::words! {
-    /// Origin of a bound, or of the reference number.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-    pub enum BoundOrigin: word {
-        /// Claimed by the formula that is judged.
-        Claimed = "claimed",
-        /// Derived from given data by a formula.
-        Derived = "derived",
-        /// Estimated from an engine's own runs at several resolutions.
-        Estimated = "estimated",
-        /// Measured on similar cases, with a margin added.
-        Measured = "measured",
-        /// Chosen: a limit that the number is required to keep.
-        Wanted = "wanted",
-        /// Recomputed by this project's solvers from data that others published.
-        Recomputed = "recomputed",
-        /// Printed in a source.
-        Published = "published",
-    }
+/// Origin of a bound, or of the reference number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BoundOrigin {
+    /// Claimed by the formula that is judged.
+    Claimed,
+    /// Derived from given data by a formula.
+    Derived,
+    /// Estimated from an engine's own runs at several resolutions.
+    Estimated,
+    /// Measured on similar cases, with a margin added.
+    Measured,
+    /// Chosen: a limit that the number is required to keep.
+    Wanted,
+    /// Recomputed by this project's solvers from data that others published.
+    Recomputed,
+    /// Printed in a source.
+    Published,
 }
 
-impl BoundOrigin {}
+impl BoundOrigin {
+    /// Word for reports and scenario files, such as `measured`.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            BoundOrigin::Claimed => "claimed",
+            BoundOrigin::Derived => "derived",
+            BoundOrigin::Estimated => "estimated",
+            BoundOrigin::Measured => "measured",
+            BoundOrigin::Wanted => "wanted",
+            BoundOrigin::Recomputed => "recomputed",
+            BoundOrigin::Published => "published",
+        }
+    }
+}
 
 /// Basis of a bound.
 #[derive(Clone, Debug, PartialEq)]
