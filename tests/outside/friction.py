@@ -1,4 +1,4 @@
-"""Friction of joints for newton_euler.py, contact by contact, iterated in 40 digits."""
+"""Friction of joints and losses of transmissions for newton_euler.py, contact by contact, iterated in 40 digits."""
 
 from mpmath import mp, mpf
 
@@ -7,7 +7,7 @@ SETTLED = mpf(10) ** -35
 
 
 def of(m, q, v, f, quantity, signs=None):
-    """Frictions for the reactions f: the joint, its friction on the second link, and the actions link, force, place, moment."""
+    """Frictions for the reactions f: the joint (None for a transmission), its friction on the second link, and the actions link, force, place, moment."""
     found = []
     for number, load in enumerate(m.loads):
         if load["type"] != "friction":
@@ -30,6 +30,10 @@ def of(m, q, v, f, quantity, signs=None):
             at = m.at(q, *m.sides(joint)[1])
             actions = [(link, (sign * size * axis[0], sign * size * axis[1]), at, mpf(0)) for link, sign in ((second, 1), (first, -1))]
         found.append((joint, size, actions))
+    for t, own in enumerate(m.transmissions):
+        force = f[3 * len(m.joints) + len(m.drives) + t]
+        if actions := own.losses(q, v, force):
+            found.append((None, actions[0][3], actions))
     return found
 
 

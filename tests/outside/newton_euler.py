@@ -645,6 +645,8 @@ def print_oracle(m, where, key, source, q, v, a, f, loads, want):
         if joint["type"] == "prismatic":
             add("reactions", f"joint.{joint['name']}.moment_N_m", "moment", f[3 * j + 2])
     for joint, size, _ in friction.of(m, q, v, f, quantity):
+        if joint is None:
+            continue
         suffix, kind = ("friction_N_m", "moment") if joint["type"] == "revolute" else ("friction_N", "force")
         add("reactions", f"joint.{joint['name']}.{suffix}", kind, size)
     for t, own in enumerate(m.transmissions):

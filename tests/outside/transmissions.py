@@ -137,6 +137,28 @@ class Transmission:
         return self.both((c * tx + s * away[0], c * ty + s * away[1]), at)
 
 
+    def losses(self, q, v, force):
+        """Moments on the first member and its carrier that take the lost part of the power: link, force, place, moment."""
+        forward = mpf(str(self.table.get("efficiency", 1)))
+        back = mpf(str(self.table.get("efficiency_back", forward)))
+        if forward == back == 1:
+            return []
+        def velocity(link, at):
+            if link == "ground":
+                return mpf(0), mpf(0), mpf(0)
+            k = 3 * (self.m.links.index(link) - 1)
+            return v[k] - v[k + 2] * (at[1] - q[k + 1]), v[k + 1] + v[k + 2] * (at[0] - q[k]), v[k + 2]
+        power = mpf(0)
+        for link, (x, y), at in self.efforts(q):
+            if link == self.second:
+                (ux, uy, _), (cx, cy, _) = velocity(link, at), velocity(self.carrier, at)
+                power += force * (x * (ux - cx) + y * (uy - cy))
+        lost = power * (1 / forward - 1) if power > 0 else -power * (1 - back)
+        spin = velocity(self.first, (0, 0))[2] - velocity(self.carrier, (0, 0))[2]
+        moment = -lost / spin if spin else mpf(0)
+        return [(self.first, (mpf(0), mpf(0)), (mpf(0), mpf(0)), moment), (self.carrier, (mpf(0), mpf(0)), (mpf(0), mpf(0)), -moment)]
+
+
 class Cam(Transmission):
     """A cam: the follower's coordinate against the carrier is a lift over the cam's angle, and a constant."""
 

@@ -83,6 +83,7 @@ linkage::sentences! {
     a_load_of_type_that_acts(sort) = "a load of type \"{sort}\" that acts in one sense or on one side only";
     a_load_of_type_with_a_table(sort) = "a load of type \"{sort}\" with a table over the crank angle";
     LEAVE_IT_OUT_OF_THE_SCENARIO = "leave it out of the scenario, and add it to the model by hand";
+    the_losses_of(name) = "the efficiency of \"{name}\"";
     a_cam(name) = "cam \"{name}\"";
     cannot_be_written_to_a_model(what) = "{what} cannot be written to a model for MuJoCo";
     // export/mjcf/model.rs

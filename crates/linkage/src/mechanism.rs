@@ -25,7 +25,7 @@ pub use placing::Handle;
 pub use pose::{LinkPose, Pose};
 pub use spanning_tree::{SpanningTree, TreeBranch};
 pub use structure::{DrivenJoint, DrivingLink, Group, GroupKind, Structure};
-pub use transmission::{Coordinate, Transmission, TransmissionDesign, TransmissionKind};
+pub use transmission::{Coordinate, Losses, Transmission, TransmissionDesign, TransmissionKind};
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;

@@ -100,7 +100,7 @@ impl InverseDynamics {
         let (n, mut last) = (self.normals.len(), f64::INFINITY);
         for _ in 0..MOST {
             self.react(case, state, t, sense)?;
-            read(case, state, &mut self.now);
+            read(case, state, sense, &mut self.now);
             let largest = self.now.iter().chain(&self.normals).fold(0.0f64, |most, own| most.larger(*own));
             let off =
                 self.now.iter().zip(&self.normals).fold(0.0f64, |most, (now, own)| most.larger((now - own).abs()));
@@ -115,7 +115,7 @@ impl InverseDynamics {
                 self.normals[i] += more;
                 self.react(case, state, t, sense)?;
                 self.normals[i] = own;
-                read(case, state, &mut self.beside);
+                read(case, state, sense, &mut self.beside);
                 for j in 0..n {
                     self.matrix.add(j, i, (self.now[j] - self.beside[j]) / more + if i == j { 1.0 } else { 0.0 });
                 }
@@ -158,9 +158,9 @@ impl InverseDynamics {
 }
 
 /// Writes the normal forces of a state's reactions.
-fn read(case: &Case, state: &State, normals: &mut [f64]) {
-    for (normal, friction) in normals.iter_mut().zip(case.frictions()) {
-        *normal = friction.normal(state.forces[friction.joint], state.moments[friction.joint]);
+fn read(case: &Case, state: &State, sense: &dyn Fn(usize) -> f64, normals: &mut [f64]) {
+    for (k, (normal, friction)) in normals.iter_mut().zip(case.frictions()).enumerate() {
+        *normal = friction.normal(friction.reaction(state.reactions()), sense(k));
     }
 }
 

@@ -131,7 +131,7 @@ fn val_a_wedge_locks_below_twice_the_angle_of_friction() {
 }
 
 /// Largest difference of two solvers in any channel, over the largest value of its unit.
-fn apart(case: &Case, solvers: [&dyn Solver; 2]) -> f64 {
+pub(super) fn apart(case: &Case, solvers: [&dyn Solver; 2]) -> f64 {
     let [a, b] = solvers.map(|solver| solver.solve(case).unwrap());
     let largest = |unit: &str| {
         let own = a.channels().iter().filter(|channel| channel.kind.unit.symbol() == unit);

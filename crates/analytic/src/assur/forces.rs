@@ -45,9 +45,9 @@ pub(super) struct Kinetostatics {
     parts: Vec<Part>,
     /// The driving links, outermost link first.
     drivers: Vec<Driving>,
-    /// Loads on every link; empty if the case has no loads.
+    /// Loads on every link; empty if the case has neither loads nor friction.
     loads: Vec<Wrench>,
-    /// One load per loaded link, if all loads are moments of resistance; otherwise `None`.
+    /// One load per loaded link, if all loads are moments of resistance and there is no friction; otherwise `None`.
     /// Moments of resistance do not depend on the link's position.
     resistances: Option<Vec<(LinkId, Load)>>,
     /// Whether any drive moves a joint that is not that of a crank.
@@ -78,9 +78,11 @@ impl Kinetostatics {
             drivers.push(Driving::of(case, driver.link, driver.joint, index, &settled));
             settled.add(driver.joint);
         }
-        let loads = if case.loads.is_empty() { 0 } else { case.mechanism.links().len() };
-        let resistances = case.loads.iter().map(Load::resistance).collect::<Option<Vec<_>>>().map(merged);
+        let is_loaded = !case.loads.is_empty() || case.has_friction();
+        let loads = if is_loaded { case.mechanism.links().len() } else { 0 };
         let dry = Dry::of(case).map(|dry| Box::new((dry, vec![Wrench::ZERO; loads])));
+        let resistances = case.loads.iter().map(Load::resistance).collect::<Option<Vec<_>>>().map(merged);
+        let resistances = resistances.filter(|_| dry.is_none());
         Kinetostatics {
             parts,
             drivers,

@@ -188,7 +188,7 @@ impl System<'_> {
 
     /// Computes motions and angles of all links from the coordinates, and calls `of` to find their loads.
     pub(super) fn find_loads(&mut self, of: impl FnOnce(&Case, &[Motion], &[f64], &mut [Wrench])) {
-        if !self.case.loads.is_empty() {
+        if !self.case.loads.is_empty() || self.has_friction {
             for link in self.case.mechanism.links().ids().skip(1) {
                 (self.motions[link], self.angles[link]) = self.motion(link);
             }

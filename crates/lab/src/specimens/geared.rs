@@ -51,7 +51,15 @@ pub fn geared(random: &mut RandomSource, case: &Case) -> Option<Case> {
     let [one, other] = [JointSide { link: carrier, local }, JointSide { link: wheel, local: Vec2::zeros() }];
     all.push(Joint { name: WHEEL.into(), kind: JointKind::Revolute, first: one, second: other, drawn: None });
     let joint = JointId(joints.len());
-    let design = TransmissionDesign { name: "pair".into(), kind, links: [first, wheel], carrier, joint, start };
+    let design = TransmissionDesign {
+        name: "pair".into(),
+        kind,
+        links: [first, wheel],
+        carrier,
+        joint,
+        start,
+        efficiency: [1.0; 2],
+    };
     let mechanism = Mechanism::new(links, all).ok()?.with_transmissions(vec![design]).ok()?;
     let mut pose = case.start.clone();
     let placed = mechanism.joints()[joint].driven(wheel, &pose.0[carrier], Input::Turn, start);

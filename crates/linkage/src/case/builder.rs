@@ -29,6 +29,7 @@ struct Coupling {
     kind: TransmissionKind,
     links: [String; 3],
     start: (String, f64),
+    efficiency: [f64; 2],
 }
 
 /// Builds a [`Case`] from names and numbers (SI units).
@@ -162,7 +163,15 @@ impl CaseBuilder {
         start: (&str, f64),
     ) -> Self {
         let links = [first, second, carrier].map(ToString::to_string);
-        self.transmissions.push(Coupling { name: name.into(), kind, links, start: (start.0.into(), start.1) });
+        let start = (start.0.into(), start.1);
+        self.transmissions.push(Coupling { name: name.into(), kind, links, start, efficiency: [1.0; 2] });
+        self
+    }
+
+    /// Gives the last transmission its efficiencies: if power flows from the first member to the second, and back.
+    #[must_use]
+    pub fn efficiency(mut self, efficiency: [f64; 2]) -> Self {
+        self.transmissions.iter_mut().next_back().into_iter().for_each(|own| own.efficiency = efficiency);
         self
     }
 
@@ -331,6 +340,7 @@ impl CaseBuilder {
             carrier: self.link_of(carrier, &key)?,
             joint: joint.ok_or_else(|| unknown("joint", &own.start.0, &key, known))?,
             start: own.start.1,
+            efficiency: own.efficiency,
         })
     }
 

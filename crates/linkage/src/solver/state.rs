@@ -90,10 +90,10 @@ impl State {
         (force, moment)
     }
 
-    /// Forces (N) and moments (N m) of all joints.
+    /// Forces (N) and moments (N m) of all joints, and forces of all transmissions (N).
     #[must_use]
     pub fn reactions(&self) -> JointReactions<'_> {
-        JointReactions { forces: &self.forces, moments: &self.moments }
+        JointReactions { forces: &self.forces, moments: &self.moments, transmitted: &self.transmitted }
     }
 
     /// Power of all drives on their links (W).
