@@ -126,7 +126,7 @@ impl Range {
 /// [`Range::of`] also computes these angles, before its other results.
 ///
 /// # Errors
-/// Those of [`Range::of`].
+/// The errors of [`Range::of`].
 pub fn reachable(case: &Case) -> Result<Extent> {
     let (tracker, start) = Tracker::new(case)?;
     Ok(both_ways(&tracker, &start)?.1)

@@ -180,7 +180,7 @@ pub struct DistanceCurve {
 /// Computes the distances of all pairs at the instants of the case's grid.
 ///
 /// # Errors
-/// Those of [`find`].
+/// The errors of [`find`].
 pub fn course(case: &Case, question: &ClearanceQuestion) -> Result<DistanceCurve> {
     let cranks = cranks(case)?;
     let case = &case.nominal();
@@ -204,7 +204,7 @@ pub fn course(case: &Case, question: &ClearanceQuestion) -> Result<DistanceCurve
 /// Computes the poses of all links at the crank angles `cranks` (rad), for drawings.
 ///
 /// # Errors
-/// Those of [`PoseSolver::solve`].
+/// The errors of [`PoseSolver::solve`].
 pub fn poses(case: &Case, cranks: &[f64]) -> Result<Vec<Vec<Motion>>> {
     let case = &case.nominal();
     let mut solver = PoseSolver::new(case)?;

@@ -67,7 +67,7 @@ impl ComparedParty {
     /// As [`ComparedParty::table`], but calls `may` before memory is allocated.
     ///
     /// # Errors
-    /// Those of [`ComparedParty::table`], and those of `may`.
+    /// The errors of [`ComparedParty::table`], and those of `may`.
     pub fn table_within(path: impl AsRef<Path>, mapping: &Mapping, may: May) -> Result<ComparedParty> {
         let path = path.as_ref();
         let held = Held::of_table(&load_within(path, may)?, mapping)?;

@@ -56,7 +56,7 @@ pub(super) struct Acting {
 
 impl Acting {
     /// # Errors
-    /// Those of [`check_inertias`].
+    /// The errors of [`check_inertias`].
     pub(super) fn new(case: &Case, precision: Precision, worlds: &[Guard]) -> Result<Self> {
         if precision != Precision::Double {
             // In single precision, second differences of positions are only rounding noise and cannot compensate an
@@ -84,7 +84,7 @@ impl Acting {
     /// The newest state of the window is the start of the step.
     ///
     /// # Errors
-    /// Those of [`Braking::add`].
+    /// The errors of [`Braking::add`].
     pub(super) fn act(&mut self, case: &Case, window: &Window, worlds: &mut [Guard], ends: [f64; 2]) -> Result<()> {
         for (before, motion) in self.before.iter_mut().zip(&self.state.motions) {
             *before = if window.newest() > 0 { motion.omega } else { f64::NAN };
@@ -244,7 +244,7 @@ impl Acting {
 /// In the trial step, such a load does not act, and power flows from the motor.
 ///
 /// # Errors
-/// Those of [`Guard::step`].
+/// The errors of [`Guard::step`].
 pub(super) fn begin(case: &Case, acting: &mut Acting, worlds: &mut [Guard], settings: &Settings) -> Result<Window> {
     let step = settings.resolution;
     settle(case, worlds, step)?;

@@ -74,7 +74,7 @@ impl InverseDynamics {
     /// `sense` returns the sense of the sliding of a joint: 1, -1, or a mean if the sense changes within a step.
     ///
     /// # Errors
-    /// Those of [`NewtonEuler::solve`]; [`ErrorKind::Numeric`] if the friction locks the mechanism.
+    /// The errors of [`NewtonEuler::solve`]; [`ErrorKind::Numeric`] if the friction locks the mechanism.
     fn solve(&mut self, case: &Case, state: &mut State, t: f64, sense: &dyn Fn(usize) -> f64) -> Result<&[f64]> {
         self.normals.fill(0.0);
         let (mut share, mut part) = (0.0, 1.0);
@@ -144,7 +144,7 @@ impl InverseDynamics {
     /// Fills in the reactions of a sample.
     ///
     /// # Errors
-    /// Those of [`InverseDynamics::solve`].
+    /// The errors of [`InverseDynamics::solve`].
     pub(super) fn sample(&mut self, case: &Case, state: &mut State, t: f64) -> Result<()> {
         if self.normals.is_empty() {
             self.equations.solve(case, state, t)?;
@@ -196,7 +196,7 @@ impl Braking {
     /// (s).
     ///
     /// # Errors
-    /// Those of [`InverseDynamics::solve`].
+    /// The errors of [`InverseDynamics::solve`].
     pub(super) fn add(
         &mut self,
         case: &Case,

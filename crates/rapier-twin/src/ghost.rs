@@ -51,7 +51,7 @@ impl Ghost {
     /// Subtracts the contribution of the stand-ins from reactions and moments.
     ///
     /// # Errors
-    /// Those of [`NewtonEuler::solve`].
+    /// The errors of [`NewtonEuler::solve`].
     pub(super) fn take_off(&mut self, case: &Case, state: &mut State, t: f64) -> Result<()> {
         self.state.motions.clone_from(&state.motions);
         self.state.angles.clone_from(&state.angles);

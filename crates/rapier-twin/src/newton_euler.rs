@@ -157,7 +157,7 @@ impl NewtonEuler {
     /// Like [`NewtonEuler::solve`], with the given loads on all links.
     ///
     /// # Errors
-    /// Those of [`NewtonEuler::solve`].
+    /// The errors of [`NewtonEuler::solve`].
     pub(super) fn solve_under(&mut self, loads: &[Wrench], case: &Case, state: &mut State, t: f64) -> Result<()> {
         self.loads.copy_from_slice(loads);
         self.balance(case, state, t)

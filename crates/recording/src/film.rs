@@ -204,7 +204,7 @@ pub struct Numbers {
 /// Lists the numbers that a recording contains.
 ///
 /// # Errors
-/// Those of [`load`](super::load).
+/// The errors of [`load`](super::load).
 pub fn numbers(path: &Path) -> Result<Numbers> {
     let bytes = read::bytes(path)?;
     let sides = read::read_bytes(&bytes, path)?;

@@ -61,7 +61,7 @@ impl<'a> Batch<'a> {
     /// Starts at the start pose of the case, which fixes the branch.
     ///
     /// # Errors
-    /// Those of [`PoseSolver::new`].
+    /// The errors of [`PoseSolver::new`].
     pub fn of(case: &'a Case) -> Result<Self> {
         let poses = PoseSolver::new(case)?;
         // A case that passes change points is not vectorised.
@@ -269,7 +269,7 @@ mod tests {
         Mechanism::new(links, mechanism.joints().to_vec()).unwrap()
     }
 
-    /// The class IV group of reference 7, with masses.
+    /// The class IV group of `scenarios/fourth_class.toml`, with masses.
     fn quadrilateral() -> Case {
         let first = StartGroup { rank: Some(1), ..StartGroup::default() };
         turning_from(with_masses(&class_four(1.0, -1.0)), 70f64.to_radians(), &first)

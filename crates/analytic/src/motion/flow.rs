@@ -258,7 +258,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
     fn go_on(&self, work: &mut Work, place: &Place<N>, stood: &[Sensed]) -> Result<()> {
         self.origin.set(place.y);
         let ends = self.knots.around(self.crank(place.x, &place.y));
-        // At its upper end a table may already have the value after a jump.
+        // At the upper end of a piece, a table may already have the value after a jump.
         work.held.piece = [ends[0], just_below(ends[1])];
         self.smooth.set(knots::beyond(ends));
         match stood.is_empty() {

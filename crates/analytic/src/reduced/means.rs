@@ -180,7 +180,7 @@ const PANEL: f64 = PI / 90.0;
 /// kinks.
 ///
 /// # Errors
-/// Those of the solver, [`ErrorKind::Geometry`] for mechanisms whose crank cannot turn fully.
+/// The errors of the solver, [`ErrorKind::Geometry`] for mechanisms whose crank cannot turn fully.
 pub fn means_over_turn(case: &Case, solver: &dyn Solver) -> Result<Means> {
     let found = kinks(case)?;
     let Some(period) = found.period else { return Err(no_turn(&found)) };

@@ -270,7 +270,7 @@ impl RunUp {
     /// Kinetostatics uses the true speed and acceleration.
     ///
     /// # Errors
-    /// Those of [`motion`].
+    /// The errors of [`motion`].
     pub fn of(model: &ReducedModel, omega: f64, times: &[f64], accuracy: f64) -> Result<Self> {
         let (motion, end) = motion(model, omega, times, accuracy)?;
         let grid = Grid {

@@ -42,7 +42,7 @@ pub struct Regime {
     pub start_speed: f64,
     /// The largest speed of the crank and its crank angle.
     pub fastest: SpeedAtCrank,
-    /// Where it is slowest.
+    /// The smallest speed of the crank and its crank angle.
     pub slowest: SpeedAtCrank,
     /// Ratio of a small deviation of the energy at the end of a period to the deviation at the beginning.
     /// It is below 1; otherwise the motion would not be stable.
@@ -103,7 +103,7 @@ impl ReducedModel<'_> {
     /// The motion is followed over one more period; it is not searched for again.
     ///
     /// # Errors
-    /// Those of [`ReducedModel::regime`].
+    /// The errors of [`ReducedModel::regime`].
     pub fn regime_at(&self, found: &Regime, cranks: &[f64], accuracy: f64) -> Result<Regime> {
         let Some(period) = self.kinks().period else { return Err(no_turn(self.kinks())) };
         Turn::of(self, period)?.described(found.energy, found.multiplier, cranks, accuracy)

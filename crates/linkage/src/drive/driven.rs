@@ -69,8 +69,8 @@ impl Drive {
 
     /// Input and driving link of a drive at `joint`.
     /// A prismatic joint has its slide as input.
-    /// A revolute joint on the ground has the world angle of its moving link as input. So has the joint of a free link
-    /// on the link of one of the drives `before`.
+    /// A revolute joint on the ground has the world angle of its moving link as input.
+    /// The same holds for the joint between a free link and the link of a drive in `before`.
     /// Any other revolute joint has the angle between its two links as input.
     #[must_use]
     pub fn of_joint(joint: &Joint, before: &[Drive], is_free: bool) -> (Input, LinkId) {

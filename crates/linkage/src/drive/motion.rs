@@ -25,7 +25,7 @@ pub struct InputState {
 #[derive(Clone, Debug, PartialEq)]
 pub enum MotionLaw {
     /// Constant angular velocity (rad/s), counter-clockwise positive.
-    /// It may be 0 in a drive that is not the first one: the drive then holds its joint.
+    /// Only a further drive may have the speed 0: it then holds its joint.
     ConstantSpeed(f64),
     /// Constant acceleration from rest to a final speed. After the acceleration the speed is constant.
     Ramp {

@@ -44,8 +44,8 @@ pub enum TransmissionKind {
         pressure_angle: f64,
     },
     /// A screw, the first member, and a nut that slides in the carrier.
-    /// In the plane it is a pinion of the radius lead / (2 pi) and a rack without pressure angle. The axial force acts this
-    /// far beside the axle of the screw.
+    /// In the plane it is a rack without pressure angle and a pinion of the radius lead / (2 pi).
+    /// The axial force acts at this distance from the axle of the screw.
     Screw {
         /// Slide of the nut along the axis for a turn of the screw counter-clockwise (m), not zero.
         lead: f64,
@@ -63,7 +63,7 @@ pub enum TransmissionKind {
     Cam {
         /// Lift of the follower as a function of the cam's angle relative to the carrier.
         law: CamLaw,
-        /// What touches the cam.
+        /// The part of the follower that touches the cam.
         contact: CamContact,
     },
 }
@@ -95,7 +95,7 @@ pub struct TransmissionDesign {
     pub carrier: LinkId,
     /// The joint whose coordinate at t = 0 fixes the phase.
     pub joint: JointId,
-    /// That coordinate: the angle of the joint's second link minus that of its first link (rad), or the slide (m).
+    /// Coordinate of `joint` at t = 0: the angle of its second link minus that of its first (rad), or the slide (m).
     pub start: f64,
 }
 

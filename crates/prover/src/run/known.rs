@@ -134,7 +134,7 @@ impl Known {
     /// Known errors of both sides' trajectories, with side 1 as the reference.
     ///
     /// # Errors
-    /// Those of the tighter runs.
+    /// The errors of the tighter runs.
     #[cfg(test)]
     pub(super) fn of(case: &Case, [first, second]: [&Trajectory; 2]) -> Result<Self> {
         let sides: EachSide<(&dyn Solver, &Trajectory)> =
@@ -146,7 +146,7 @@ impl Known {
     /// Each trajectory comes with the solver of its tighter run. `solver` is the solver of the reference.
     ///
     /// # Errors
-    /// Those of the tighter runs.
+    /// The errors of the tighter runs.
     pub(super) fn beside(
         case: &Case,
         reference: Reference,
@@ -203,7 +203,7 @@ impl Known {
     /// The measurement is needed if the errors of a trajectory exceed those of well-conditioned poses.
     ///
     /// # Errors
-    /// Those of the solver.
+    /// The errors of the solver.
     pub(super) fn measure(&mut self, case: &Case, solver: &dyn Solver) -> Result<()> {
         let sets = &self.dependence.sets;
         let mut worst = vec![1.0; sets.len()];

@@ -18,7 +18,7 @@ const CHANGE: f64 = 1e-6;
 /// Empty for a motion that does not depend on forces.
 ///
 /// # Errors
-/// Those of the solver.
+/// The errors of the solver.
 pub(super) fn of(case: &Case, solver: &dyn Solver, reference: &Trajectory) -> Result<Vec<f64>> {
     if !case.is_free() {
         return Ok(Vec::new());

@@ -77,7 +77,7 @@ impl Solved {
     /// Solves the channels that some claims of a scenario need, at the instants of a grid.
     ///
     /// # Errors
-    /// Those of the sides, with the crank angle.
+    /// The errors of the sides, with the crank angle.
     /// Also if the drive does not reach an instant of the grid.
     pub fn of<'a>(scenario: &Scenario, grid: Grid, claims: impl IntoIterator<Item = &'a Claim>) -> Result<Self> {
         let asked: Vec<Channel> = claims.into_iter().flat_map(|claim| asked(claim, &scenario.case)).collect();
@@ -99,7 +99,7 @@ impl Solved {
     /// Calls `then` with the results of the reference and their errors.
     ///
     /// # Errors
-    /// Those of `then`.
+    /// The errors of `then`.
     pub fn on_course<T>(&self, then: impl FnOnce(&KnownTrajectory) -> Result<T>) -> Result<T> {
         self.sides.on_course(&self.case, Reference::Assur, |course| then(&course.known_at_least(&self.least)))
     }

@@ -92,7 +92,7 @@ impl Dry {
 
     /// Finds the reactions with friction.
     /// `react` receives the friction of each joint on its second link (N m or N) and writes the reactions to the state.
-    /// They must be linear in the friction while no transmission changes its line of action.
+    /// The reactions must be linear in the friction while no transmission changes its line of action.
     ///
     /// # Errors
     /// Those of `react`; [`ErrorKind::Numeric`] if the friction locks the mechanism, or if several states of the forces
@@ -133,7 +133,7 @@ impl Dry {
         Err(stuck(case, state, &Stuck::Locked))
     }
 
-    /// Finds the reactions for the normal forces `self.at`; `more` (N) is added to the one with the number `index`.
+    /// Finds the reactions for the normal forces `self.at`; `more` (N) is added to the normal force number `index`.
     fn react(
         &mut self,
         case: &Case,

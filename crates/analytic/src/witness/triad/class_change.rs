@@ -262,7 +262,7 @@ impl ClassChange {
 struct Ended;
 
 /// The zero next to `guess` (rad) of a function, found by Newton's method with bisection between bounds.
-/// `gap` returns the function and its derivative.
+/// `gap` returns the value of the function and its derivative.
 /// `None` if there is no zero within [`MAX_TURN`], or if the function is undefined before the zero.
 fn zero(gap: impl Fn(f64) -> Option<(f64, f64)>, guess: f64) -> Option<f64> {
     let (value, slope) = gap(guess)?;

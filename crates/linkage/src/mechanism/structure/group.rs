@@ -26,7 +26,7 @@ pub enum GroupKind {
 }
 
 impl GroupKind {
-    /// The assembly modes of a dyad with two configurations, that with the positive sine first; `None` for other kinds.
+    /// The assembly modes of a dyad with two configurations, the mode with positive sine first; `None` for other kinds.
     #[must_use]
     pub const fn modes(self) -> Option<&'static [AssemblyMode; 2]> {
         match self {

@@ -41,7 +41,7 @@ enum Source {
     Transmission(TransmissionId),
 }
 
-/// One scalar equation and the links that it concerns. One of these links will own it.
+/// One scalar equation and the links that it concerns. One of these links becomes its owner.
 #[derive(Clone, Copy)]
 struct Equation {
     of: Source,
