@@ -42,7 +42,7 @@ pub struct Peaks {
     pub shaking_force: Peak,
     /// Magnitude of the balancing moment on the crank (N m), or of the driving force of a slide (N).
     pub balancing_moment: Peak,
-    /// The same for every further drive.
+    /// Magnitude of the moment or force of every further drive.
     pub further_drives: Vec<Peak>,
     /// Magnitude of the force of each transmission along its line of action (N).
     pub transmissions: Vec<Peak>,

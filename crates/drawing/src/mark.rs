@@ -149,13 +149,13 @@ roles! {
 /// The colour of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ink {
-    /// That of the link.
+    /// The colour of the link.
     Link,
-    /// That of text.
+    /// The colour of text.
     Text,
     /// A pale colour for the background.
     Quiet,
-    /// That of loads.
+    /// The colour of loads.
     Load,
 }
 
@@ -176,7 +176,7 @@ pub enum Fill {
 /// link.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Layer {
-    /// What stands still.
+    /// Marks that stand still.
     Ground,
     /// Links.
     Links,
@@ -208,7 +208,7 @@ pub struct Look {
 pub struct Mark {
     /// The shape, in the frame of the mark's link (m).
     pub shape: MarkShape,
-    /// What it stands for.
+    /// The role of the mark.
     pub role: MarkRole,
 }
 

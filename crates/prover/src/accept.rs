@@ -255,7 +255,7 @@ fn pairs(kept: &AcceptedChannel, found: &AcceptedChannel, times: &[f64]) -> Vec<
     at.chain(ends).chain(rms).collect()
 }
 
-/// Returns the values to store after the run `found`.
+/// Returns the values to store after a run with the values `found`.
 /// Channels without moved values and without a much wider or narrower bound keep their accepted values.
 /// So the file changes only where the comparison reports a change. On another grid all values are new.
 #[must_use]

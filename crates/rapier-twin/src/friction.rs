@@ -240,7 +240,7 @@ impl Braking {
     }
 
     /// Stores the accelerations of a trial step from the start of the motion.
-    /// Returns their largest change divided by the largest of them.
+    /// Returns their largest change divided by the largest acceleration.
     pub(super) fn guess(&mut self, case: &Case, mut of: impl FnMut(usize) -> [f64; 3]) -> f64 {
         let size = case.mechanism.size();
         let length = |own: [f64; 3]| Vec2::new(own[0], own[1]).norm().larger(own[2].abs() * size);

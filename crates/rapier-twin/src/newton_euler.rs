@@ -17,7 +17,7 @@
 //! Driven joints are in the tree, and the remainder of a driven joint's equation is the driving moment or force.
 //! The moment of a crank acts from the frame. Any other driving moment or force also acts on the inner link.
 //! The number of the remaining equations equals the number of components in cut joints.
-//! A four-bar has two such equations; the equations of all its links together are nine.
+//! A four-bar has two such equations, while all its links together have nine equations of motion.
 //! A transmission is a cut joint with one component: the force in its first line of action.
 
 mod seam;

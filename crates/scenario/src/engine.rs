@@ -89,7 +89,7 @@ macro_rules! settings {
 }
 
 settings! {
-    /// Engines that judge.
+    /// Engines of the proof.
     engines: Vec<EngineName>,
     /// Time step (s) of engines with a fixed step.
     step: f64,
@@ -250,7 +250,7 @@ impl EngineSettings {
     }
 }
 
-/// What the section says.
+/// Reads the settings of the section.
 pub fn read(table: &mut TomlTable, drive: &Drive) -> Result<EngineSettings> {
     let mut own = EngineSettings::default();
     let (time, angle) = (table.optional_si("dt")?, table.optional_si("step")?);

@@ -53,7 +53,7 @@ impl Planned {
         }
     }
 
-    /// A peer's own way.
+    /// A method that a peer offers.
     pub(super) fn of_peer(index: usize, name: &str, way: Way) -> Self {
         let words = way.name.clone();
         let mut planned = Planned::new(name, MethodOwner::Peer, way.resolution.clone(), Runner::Peer(index, way));

@@ -158,7 +158,7 @@ impl<'a> Trial<'a> {
     }
 
     /// Whether a change of the sheet is worth examining at all instants.
-    /// At each instant of `few` the change must make the formula right or leave only little of the difference.
+    /// At each instant of `few`, the change must make the formula right or leave only a small part of the difference.
     /// `depending` lists the positions that depend on the changed positions.
     pub(super) fn is_promising(&mut self, changes: &[(usize, FormulaTree)], depending: &[usize]) -> bool {
         let claimed = self.formula.error.unwrap_or(0.0);

@@ -146,7 +146,7 @@ impl Allowances<'_> {
     }
 }
 
-/// Allowed difference by all of `own`, with absolute sizes in `unit`.
+/// Allowed difference by all allowances in `own`, with absolute sizes in `unit`.
 /// If several allowances are of the same kind, the last one counts.
 fn allowance<'a>(own: impl Iterator<Item = &'a Allowed>, scale: f64, unit: f64) -> Option<Allowance> {
     let mut sizes: [Option<f64>; 3] = [None; 3];
@@ -192,7 +192,7 @@ mod tests {
         ] {
             assert_eq!(how(&said).allowances().of(&claim, 4.0), allowed, "{said:?}");
         }
-        // The crank accepts an allowance in degrees or as a fraction of its range. It ignores an allowance for another
+        // The crank accepts an allowance in degrees or as a fraction of its range, and ignores an allowance for another
         // channel.
         let crank = |said: &[(Option<&str>, Size)]| how(said).allows_crank(4.0, Input::Angle).map(|own| own.fixed);
         assert_eq!(crank(&[(Some("crank"), absolute(180.0))]), Some(std::f64::consts::PI));

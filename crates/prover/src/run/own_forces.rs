@@ -72,8 +72,8 @@ pub(super) fn judged(
 }
 
 /// A result without comparison.
-/// If the only reason is too little work, `work` is the amount that was needed so far. The advice then names a
-/// sufficient amount.
+/// If the only reason is too little work, `work` is the work that was needed so far.
+/// The advice then names a sufficient amount of work.
 fn failed(engine: &dyn Engine, failure: Error, work: Option<f64>) -> EngineProof {
     // A power of ten that is certainly enough for the next attempt.
     let advice = work.map(|work| Advice::MoreWork { to: 10f64.powf((work / SHARE).log10().ceil()) });

@@ -27,7 +27,7 @@ pub fn known_at_least(trajectory: &Trajectory) -> Vec<f64> {
 }
 
 /// Smallest errors of an analytic side's trajectory that has all channels of a case.
-/// The error of a channel follows from the numbers of the groups on which the channel depends.
+/// The error of a channel follows from the size of the numbers in the groups on which the channel depends.
 #[must_use]
 pub fn known_of_complete(case: &Case, trajectory: &Trajectory) -> Vec<f64> {
     let depends = Dependence::of(case, trajectory.channels());
@@ -78,7 +78,7 @@ impl Solved {
     ///
     /// # Errors
     /// The errors of the sides, with the crank angle.
-    /// Also if the drive does not reach an instant of the grid.
+    /// An error also if the drive does not reach an instant of the grid.
     pub fn of<'a>(scenario: &Scenario, grid: Grid, claims: impl IntoIterator<Item = &'a Claim>) -> Result<Self> {
         let asked: Vec<Channel> = claims.into_iter().flat_map(|claim| asked(claim, &scenario.case)).collect();
         let (case, sides) = of_asked(scenario, &scenario.case.on(grid)?, &asked, &Formulas::over(Vec::new()))?;

@@ -135,7 +135,7 @@ impl Held {
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for an unknown column or channel, with its location.
-    /// Also if nothing states the instants of the rows or the meaning of a column.
+    /// The same error if nothing states the instants of the rows or the meaning of a column.
     pub fn of_table(raw: &Raw, mapping: &Mapping) -> Result<Held> {
         let mut reader = Reader::of(raw);
         let mut at = Instants::default();
