@@ -15,7 +15,7 @@ use prover::numbers::significant;
 use recording::{MessageKind, Reel, ReelMessage};
 
 linkage::words! {
-    /// A name of the protocol. Viewers offer the names that they know.
+    /// Name of the protocol of live views. A viewer offers the protocol names that it supports.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub(crate) enum Dialect: name {
         /// Current Foxglove.

@@ -88,7 +88,7 @@ pub fn journal_diameter(force: f64, lever: f64, stress: f64) -> f64 {
 ///
 /// # Errors
 /// [`ErrorKind::Unsupported`] if the law of the drive has no unique time for a crank angle of the grid.
-/// Those of [`PoseSolver::solve`], for crank angles that the mechanism cannot reach.
+/// The errors of [`PoseSolver::solve`], for crank angles that the mechanism cannot reach.
 pub fn over_range(case: &Case) -> Result<Peaks> {
     if case.grid.inputs.iter().any(|&crank| case.crank().time_of(crank).is_nan()) {
         let message = sentences::PEAKS_ARE_LOOKED_FOR_OVER;

@@ -122,7 +122,7 @@ impl ClearanceResult {
 ///
 /// # Errors
 /// [`ErrorKind::Unsupported`] for a free motion with several degrees of freedom.
-/// Those of [`analytic::PoseSolver::solve`] for crank angles that the mechanism cannot reach.
+/// The errors of [`analytic::PoseSolver::solve`] for crank angles that the mechanism cannot reach.
 pub fn find(case: &Case, question: &ClearanceQuestion, progress: &mut dyn FnMut(f64)) -> Result<ClearanceResult> {
     let range = range(case)?;
     let case = &case.nominal();

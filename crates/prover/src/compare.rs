@@ -111,7 +111,7 @@ const REFERENCE: &str = "reference";
 ///
 /// # Errors
 /// [`ErrorKind::Input`] if the parties have no instant or no channel in common.
-/// Also the errors of the sides.
+/// The errors of the analytic sides.
 pub fn compare(parties: [ComparedParty; 2], how: &ComparisonRule) -> Result<PartyComparison> {
     let names = parties.each_ref().map(|party| party.name.clone());
     let [first, second] = parties.map(|party| party.holds);

@@ -296,7 +296,7 @@ fn guess(case: &Case, acting: &mut Acting, window: &Window, worlds: &mut [Guard]
     Ok(())
 }
 
-/// Mean rates of the joints with friction in a trial step from the start. Rates of rounding size are zero.
+/// Mean rates of the joints with friction in a trial step from the start. Rates as small as rounding errors become 0.
 fn set_off(case: &Case, guard: &Guard, step: f64) -> Vec<f64> {
     let mut motions = vec![Motion::REST; case.mechanism.links().len()];
     for (link, body) in case.mechanism.links().entries().skip(1) {

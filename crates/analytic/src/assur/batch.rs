@@ -110,8 +110,8 @@ impl<'a> Batch<'a> {
     /// Between rows more than 15 degrees apart, intermediate poses are solved too.
     ///
     /// # Errors
-    /// Those of [`PoseSolver::solve`] at the first crank angle that cannot be reached. `out` then contains the poses
-    /// before it.
+    /// The errors of [`PoseSolver::solve`] at the first crank angle that cannot be reached. `out` then contains the
+    /// poses before this angle.
     pub fn solve(&mut self, cranks: &[f64], omega: f64, alpha: f64, deepest: Stage, out: &mut Poses) -> Result<()> {
         out.prepare(self.layout, cranks.len());
         if let Some(groups) = &self.groups {

@@ -97,8 +97,8 @@ impl Reach {
 /// Kinks of the reduced quantities of a case.
 ///
 /// # Errors
-/// Those of [`Range::of`]; [`ErrorKind::Unsupported`] for loads against the motion of a point, and for tables whose
-/// common period exceeds a thousand turns.
+/// The errors of [`Range::of`]; [`ErrorKind::Unsupported`] for loads against the motion of a point, and for tables
+/// whose common period exceeds a thousand turns.
 pub fn kinks(case: &Case) -> Result<Kinks> {
     if case.crank().input != Input::Angle {
         let message = sentences::the_drive_moves_no_crank(&case.crank().input.noun());

@@ -41,7 +41,7 @@ struct Mass {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Piece {
     index: i64,
-    /// Crank angles (rad) at its ends.
+    /// Crank angles (rad) at the ends of the piece.
     pub(crate) ends: [f64; 2],
 }
 

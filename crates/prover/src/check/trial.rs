@@ -56,7 +56,7 @@ impl<'a> Trial<'a> {
     /// Prepares the trial of a formula and its claim on a course.
     ///
     /// # Errors
-    /// If the course lacks a channel of the claim.
+    /// A course that lacks a channel of the claim.
     pub(super) fn of(
         formulas: &'a Formulas,
         index: usize,

@@ -15,8 +15,8 @@ use columns::Allowance;
 /// How two parties are compared.
 #[derive(Clone, Debug, Default)]
 pub struct ComparisonRule {
-    /// Allowed differences. If a channel has several of one kind, the last one counts. The kinds are: absolute,
-    /// relative to the scale, and relative to the value.
+    /// Allowed differences, of three kinds: absolute, relative to the scale, and relative to the value. If a channel
+    /// has several of one kind, the last one counts.
     pub allowed: Vec<Allowed>,
     /// Quantity by which rows are matched. `None`: times if both parties have times, otherwise crank angles.
     pub by: Option<By>,

@@ -416,7 +416,7 @@ mod tests {
                 let relative = share((values[0] - values[1]).abs(), known.magnitude(index));
                 assert!(relative <= apart, "{count} from {from} m, {channel}: {relative:e} {apart:e}");
                 beyond += usize::from(relative > usual(stage));
-                // A fault of a ten-millionth is found at any distance. The last digit of a position is 1.5e-11 m.
+                // A relative fault of 1e-7 is found at any distance. The last digit of a position is 1.5e-11 m.
                 assert!(apart < 1e-7, "{count} from {from} m, {channel}: {apart:e}");
                 // The bound on a coordinate is its last digit only: the distance from the origin is not counted twice.
                 let coordinate = channel.kind.unit == Unit::Metre;

@@ -93,7 +93,7 @@ pub struct Held {
 }
 
 /// Indices of a party's columns, by the text of the column and by its channel. If several columns match, the first one
-/// counts. Expressions have no entry by channel. A magnitude is a separate channel.
+/// counts. An expression is not found by its channel. A magnitude is a separate channel.
 /// The maps are needed for speed: a party has as many columns as a mapping has lines, and each column is looked up.
 #[derive(Clone, Debug, Default)]
 struct Places {

@@ -95,8 +95,8 @@ impl Dry {
     /// The reactions must be linear in the friction while no transmission changes its line of action.
     ///
     /// # Errors
-    /// Those of `react`; [`ErrorKind::Numeric`] if the friction locks the mechanism, or if several states of the forces
-    /// are in equilibrium.
+    /// The errors of `react`; [`ErrorKind::Numeric`] if the friction locks the mechanism, or if several states of the
+    /// forces are in equilibrium.
     pub(crate) fn settle(
         &mut self,
         case: &Case,

@@ -48,7 +48,7 @@ struct Equation {
     ends: [LinkId; 3],
 }
 
-/// The links of an equation of a joint, the second one twice.
+/// The links of a joint's equation; the second link is repeated to fill the array.
 fn joined([first, second]: [LinkId; 2]) -> [LinkId; 3] {
     [first, second, second]
 }

@@ -107,7 +107,7 @@ pub(in crate::assur) struct Stretch {
     /// Index in [`Contours::arrows`], and the sign of the arrow on this path.
     pub(in crate::assur) arrow: usize,
     pub(in crate::assur) sign: f64,
-    /// As in [`Arrow`].
+    /// Carrier and spin of the arrow, as in [`Arrow`].
     pub(super) carrier: LinkId,
     pub(super) spin: Option<usize>,
     /// The node whose slide is this arrow; `None` for a vector fixed to a link.
