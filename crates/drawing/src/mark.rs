@@ -12,23 +12,23 @@ const CORNERS: f64 = 32.0;
 pub enum MarkShape {
     /// A line through points, or a polygon.
     Line {
-        /// Its corners.
+        /// Corners of the line or polygon.
         points: Vec<Vec2>,
         /// Whether the last corner is joined to the first corner.
         closed: bool,
     },
     /// A circle.
     Circle {
-        /// Its centre.
+        /// Centre of the circle.
         centre: Vec2,
-        /// Its radius.
+        /// Radius of the circle.
         radius: f64,
     },
     /// A part of a circle.
     Arc {
         /// Centre of the circle.
         centre: Vec2,
-        /// Its radius.
+        /// Radius of the circle.
         radius: f64,
         /// Direction of the first end from the centre (rad), counter-clockwise from the frame's x axis.
         from: f64,

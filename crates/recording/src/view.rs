@@ -40,7 +40,7 @@ pub struct View {
 pub struct Plot {
     /// The plotted quantity and its unit.
     pub title: String,
-    /// Its lines.
+    /// Lines of the plot.
     pub lines: Vec<Line>,
 }
 

@@ -12,7 +12,7 @@ use linkage::trajectory::Channel;
 /// A channel, a figure, or an arithmetic expression of channels and figures, in the units of their names.
 #[derive(Clone, Debug)]
 pub struct Claim {
-    /// Its text.
+    /// Text of the claim.
     pub text: String,
     /// The text as parsed. Its names are those of the channels and figures.
     /// A quantity reduced to the crank is replaced by its arithmetic expression of channels.

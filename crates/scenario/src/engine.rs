@@ -127,13 +127,13 @@ pub struct SettingRow {
     /// Key of the setting in [`SECTIONS`]. If two keys can state the setting, the first key is given. `None` if no file
     /// can state the setting.
     pub key: Option<&'static str>,
-    /// Its argument.
+    /// Command-line argument of the setting.
     pub argument: &'static str,
     /// Name of the argument's value in the help.
     pub value: &'static str,
     /// Description of the argument in the help.
     pub help: &'static str,
-    /// Its place.
+    /// Returns the place of the setting in the engine's settings.
     pub slot: fn(&mut EngineSettings) -> Slot<'_>,
 }
 

@@ -54,7 +54,7 @@ pub struct Formulas {
 pub struct Formula {
     /// Name of the formula. Later formulas may use it.
     pub name: String,
-    /// Its text.
+    /// Text of the formula.
     pub text: String,
     /// The text of the formula as a tree.
     pub tree: FormulaTree,

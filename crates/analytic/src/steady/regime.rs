@@ -25,7 +25,7 @@ pub struct SpeedAtCrank {
     pub crank: f64,
     /// Angular velocity of the crank (rad/s).
     pub omega: f64,
-    /// Its angular acceleration (rad/s^2).
+    /// Angular acceleration of the crank (rad/s^2).
     pub alpha: f64,
 }
 

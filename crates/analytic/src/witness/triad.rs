@@ -27,7 +27,7 @@ use linkage::solver::State;
 pub struct TriadLead {
     /// The link.
     pub link: LinkId,
-    /// Its outer joint.
+    /// Outer joint of the lead.
     pub outer: JointId,
     /// Joint of the lead with the base link.
     pub inner: JointId,

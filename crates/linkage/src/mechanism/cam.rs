@@ -26,9 +26,9 @@ const INSTANTS: usize = 720;
 pub enum CamContact {
     /// A roller, or a knife edge if its radius is 0.
     Roller {
-        /// Its centre in the follower's frame (m).
+        /// Centre of the roller in the follower's frame (m).
         centre: Vec2,
-        /// Its radius (m), not negative.
+        /// Radius of the roller (m), not negative.
         radius: f64,
     },
     /// A flat face across the axis of a sliding follower, through this point of the follower's frame (m).

@@ -16,7 +16,7 @@ const STEPS: usize = 60;
 #[derive(Clone, Debug)]
 pub(super) struct Entry {
     pub(super) tree: FormulaTree,
-    /// Its complexity.
+    /// Complexity of the expression.
     pub(super) weight: usize,
     /// Values of the expression at the few instants of the trial.
     pub(super) values: Vec<f64>,

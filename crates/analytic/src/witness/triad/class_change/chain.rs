@@ -8,7 +8,7 @@ use linkage::math::{Vec2, cross, rotated, turned};
 pub(super) struct Grounded {
     /// Foot of the lead (m, world axes).
     pub(super) foot: Vec2,
-    /// Its length (m).
+    /// Length of the lead (m).
     pub(super) length: f64,
     /// Head of the lead in the base link's frame (m).
     pub(super) on_base: Vec2,
