@@ -72,7 +72,7 @@ impl Room {
 
 /// Does `work` on all items, on `threads` threads, with `most` bytes of memory for all items in progress.
 /// `give` receives the results in the order of the items.
-/// It receives each result as soon as all earlier results are available.
+/// `give` receives each result as soon as all earlier results are available.
 /// If `work` panics, the result is an error.
 ///
 /// `work` gets the index of its item, and the [`Room`] in which it reserves memory once, before it allocates.

@@ -134,7 +134,7 @@ pub struct FigureComparison {
     /// Verdict words of the accepted and the found proof; `None` if both are `agree`.
     pub proof: Option<[String; 2]>,
     /// The verdict.
-    /// It is disagree if the found proof disagrees, or if values, channels or the grid have changed.
+    /// The verdict is disagree if the found proof disagrees, or if values, channels or the grid have changed.
     /// Otherwise it is inconclusive if a bound has changed much, if one of the two proofs does not agree, or if the run
     /// has no channel.
     pub verdict: Verdict,

@@ -56,7 +56,7 @@ use linkage::trajectory::Trajectory;
 use linkage::work::limited;
 use scenario::Scenario;
 
-/// Work that the analytic sides may always do, whatever the budget. It takes a second or two.
+/// Work that the analytic sides may always do, whatever the budget. This work takes a second or two.
 /// Without the analytic sides there is no result.
 pub const SIDES: f64 = 1e6;
 /// A diagnosis may use at most this multiple of the proof's budget.

@@ -47,7 +47,7 @@ pub(super) struct Acting {
     jumps: Option<Jumps>,
     branch: Option<MotorBranch>,
     /// Moment of the motor on the crank (N m) that acts as a load in this step.
-    /// It acts as a load because Rapier's motor cannot apply it.
+    /// Rapier's motor cannot apply this moment.
     direct: f64,
     /// One for each world.
     added: Vec<Option<Added>>,

@@ -26,7 +26,7 @@ const LEAST_TURN: f64 = 3.0 * std::f64::consts::PI;
 /// The rounding error of a unit vector is up to a whole epsilon, whatever the size of the angle.
 const MEAN_HALF_ULP: f64 = 0.25;
 /// Rounding error of the speed change due to an impulse, in units in the last place.
-/// It is the rounding error of a speed times the condition number of the loop that determines the impulse.
+/// This is the rounding error of a speed times the condition number of the loop that determines the impulse.
 /// On the crank-rocker in f32, 3100 and 3570 units were measured at time steps of 1e-3 s and 2.5e-4 s.
 /// In the impulse build, 557 and 570 units were measured at these time steps.
 /// The bound is about twice as large as the largest measured value.

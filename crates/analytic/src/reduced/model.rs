@@ -54,7 +54,7 @@ impl Piece {
 
 /// A mechanism of one degree of freedom under forces.
 /// The model contains the coefficients of the equation of motion `omega^2 / 2 dI*/dphi + I* domega/dt = M`.
-/// It also contains the crank angles at which these coefficients have kinks.
+/// The model also contains the crank angles at which these coefficients have kinks.
 #[derive(Clone, Debug)]
 pub struct ReducedModel<'a> {
     pub(crate) case: &'a Case,

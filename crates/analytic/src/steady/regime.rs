@@ -13,7 +13,7 @@ use crate::reduced::model::{Piece, ReducedModel};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::root;
 
-/// Largest number of Newton steps of the shooting method. It usually needs three to six.
+/// Largest number of Newton steps of the shooting method. The method usually needs three to six.
 const MOST_SHOTS: usize = 60;
 /// If the relative change of the energy over a period is at most this value, it counts as zero.
 const CLOSED: f64 = 2e-14;
@@ -45,7 +45,7 @@ pub struct Regime {
     /// The smallest speed of the crank and its crank angle.
     pub slowest: SpeedAtCrank,
     /// Ratio of a small deviation of the energy at the end of a period to the deviation at the beginning.
-    /// It is below 1; otherwise the motion would not be stable.
+    /// The ratio is below 1; otherwise the motion would not be stable.
     pub multiplier: f64,
     /// Speeds of the crank at the requested crank angles.
     pub samples: Vec<SpeedAtCrank>,
@@ -65,7 +65,7 @@ impl ReducedModel<'_> {
     /// The steady periodic motion in the motor's sense.
     /// Newton's method finds the energy at the start of a period; its derivative is integrated along with the motion.
     /// `cranks` are the crank angles (rad) at which the crank's speed is requested.
-    /// They lie in one period from the start of the case, in the order of the motion.
+    /// These angles lie in one period from the start of the case, in the order of the motion.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] without a motor, [`ErrorKind::Geometry`] if the crank does not turn fully,

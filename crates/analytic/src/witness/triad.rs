@@ -102,7 +102,7 @@ impl Triad {
     }
 
     /// The known forces on each link before the group's reactions.
-    /// They are gravity and inertia m (g - a) at the mass centre, the moment -J alpha, and loads.
+    /// These forces are gravity and inertia m (g - a) at the mass centre, the moment -J alpha, and loads.
     /// The forces in the joints with later groups are taken from the state.
     #[must_use]
     pub fn known(&self, case: &Case, state: &State) -> [KnownResultant; 4] {

@@ -1,5 +1,5 @@
 //! The methods that are measured.
-//! They cover steps, sweeps, routes and extrapolations of every engine, and accuracies of the sides.
+//! The methods cover steps, sweeps, routes and extrapolations of every engine, and accuracies of the sides.
 
 use super::options::BenchOptions;
 use super::peer::Way;

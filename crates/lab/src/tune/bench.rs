@@ -262,7 +262,7 @@ impl Bench<'_> {
         let at = |factor: f64| Settings { resolution: settings.resolution * factor, ..settings };
         let mut rungs = vec![at(2.0), settings, at(0.5)];
         // The comparison run has twice the sweeps.
-        // Its iteration error is small compared with that of the run at `settings`.
+        // The iteration error of the comparison run is small compared with that of the run at `settings`.
         // The difference of the two runs is therefore the iteration error at `settings`.
         // (A proof compares with a run with half of the sweeps. That run costs a quarter of a run with twice the
         // sweeps, but its comparison overestimates the error.)

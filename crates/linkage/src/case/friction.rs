@@ -4,7 +4,7 @@
 //! Its size is the coefficient of friction mu times the sum of the normal forces of the joint's contacts.
 //! A journal of the radius r has one contact, with the force R of the joint: the moment is mu r |R|.
 //! A guide of the length l carries the force N and the moment M by contacts at its two ends.
-//! Their forces are N/2 + M/l and N/2 - M/l; the sum of the absolute values is the larger of |N| and 2 |M| / l.
+//! The contact forces are N/2 + M/l and N/2 - M/l; the sum of the absolute values is the larger of |N| and 2 |M| / l.
 //! See docs/numerics/friction.md.
 //! J. L. Meriam, L. G. Kraige, Engineering Mechanics: Statics, 7th ed., Wiley 2012, sections 6/3 and 6/6.
 //! The radius of the friction circle is mu r here. The forces of the two contacts follow from equilibrium.
@@ -115,7 +115,7 @@ impl Friction<'_> {
     }
 
     /// Friction on the second link (N m or N) for these reactions, positive if it increases the joint's coordinate.
-    /// It is zero at standstill.
+    /// The friction is zero at standstill.
     #[must_use]
     pub fn effort(&self, motions: &[Motion], reactions: JointReactions) -> f64 {
         let (rate, joint) = (self.rate(motions), self.joint.index());

@@ -35,7 +35,7 @@ pub enum MotionLaw {
         time: f64,
     },
     /// Cycloidal motion from rest to rest: rise (s - sin(2 pi s) / 2 pi) with s = t / time.
-    /// Its acceleration, 2 pi rise / time^2 sin(2 pi s), begins and ends with zero.
+    /// The acceleration, 2 pi rise / time^2 sin(2 pi s), begins and ends with zero.
     /// Background: I. I. Artobolevsky, Theory of Mechanisms and Machines, 4th ed., Nauka 1988, on laws of motion of
     /// followers.
     Cycloidal {

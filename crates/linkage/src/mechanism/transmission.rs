@@ -1,7 +1,7 @@
 //! Transmissions: gear pairs, racks, screws, belts and cams that couple the coordinates of two members of one carrier.
 //!
 //! A member turns about an axle of the carrier, or slides in a guide of the carrier.
-//! The force between the members acts along a line of action. It is fixed in the carrier, except for cams.
+//! The force between the members acts along a line of action. This line is fixed in the carrier, except for cams.
 //! The line has the unit vector w. The force acts on each member at a point of the line, the member's foot.
 //! Along the line both members have the same speed: w . (v2 - v1) = 0 at the feet.
 //! With the coordinates q1 and q2 of the members relative to the carrier, q2' = f'(q1) q1', so q2 - f(q1) is constant.
@@ -273,7 +273,7 @@ impl Transmission {
     }
 
     /// Time (s) from a pose to the nearest end of a piece of a cam's law, before or after it, at the present speed.
-    /// It is infinite for other transmissions, and if the cam stands still.
+    /// The time is infinite for other transmissions, and if the cam stands still.
     #[must_use]
     pub fn time_to_knot(&self, joints: &PerJoint<Joint>, motions: &[Motion]) -> f64 {
         let Some(cam) = &self.cam else { return f64::INFINITY };

@@ -179,7 +179,7 @@ impl<'a> Trial<'a> {
     }
 
     /// Fraction of the difference that remains if the trees `changed` replace those of the file.
-    /// It is zero if the formula is right at every instant.
+    /// The fraction is zero if the formula is right at every instant.
     /// Otherwise it is the largest remaining difference at the instants of `few`, divided by the largest difference
     /// before.
     /// `None` if the changed formula has no value.

@@ -179,7 +179,7 @@ impl EngineProof {
     /// The part of the verdict that comes from the forces that the engine itself exerts.
     /// If they are inconclusive, they are reported but do not change the verdict, because the motion and its forces are
     /// judged without them.
-    /// Impulses converge with a lower order than the motion. They need the true masses and many sweeps.
+    /// Impulses converge with a lower order than the motion. Impulses need the true masses and many sweeps.
     #[must_use]
     pub fn added(&self) -> Option<&Verdict> {
         let own = self.own_forces.as_ref().map(|own| &own.verdict);

@@ -53,7 +53,7 @@ pub(super) fn of_condition(stage: Stage, condition: f64) -> f64 {
 }
 
 /// Factor on rounding errors due to distant mass centres, at least 1.
-/// It is the largest distance between points of a link, mass centre included, divided by the largest distance without
+/// This is the largest distance between points of a link, mass centre included, divided by the largest distance without
 /// the mass centre.
 /// Side 2 calculates with the positions of mass centres.
 /// So a joint is as uncertain as the last digit of its distance from the mass centre.

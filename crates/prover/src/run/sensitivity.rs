@@ -14,7 +14,7 @@ use linkage::trajectory::Trajectory;
 const CHANGE: f64 = 1e-6;
 
 /// Sensitivity of every channel of `reference`, in its order and in the channel's unit.
-/// It is the largest change of the channel's values over the run, per relative change of gravity and motor torque.
+/// This is the largest change of the channel's values over the run, per relative change of gravity and motor torque.
 /// Empty for a motion that does not depend on forces.
 ///
 /// # Errors

@@ -239,7 +239,7 @@ impl Held {
     }
 
     /// The party's numbers for a claim, in the claim's unit.
-    /// They come from a column with the same text, or with the same channel in another unit.
+    /// The numbers come from a column with the same text, or with the same channel in another unit.
     #[must_use]
     pub fn values_of(&self, claim: &Claim) -> Option<Cow<'_, [Rounded]>> {
         match self.column_of(claim)? {

@@ -51,7 +51,7 @@ pub(crate) struct Dry {
     /// Sense of the sliding of every joint: +1, -1, or 0 at standstill.
     pub(crate) senses: Vec<f64>,
     /// Sense of sliding that is assumed for a joint at standstill: 0 for no friction.
-    /// It differs from 0 only while the interval of the driving force is computed.
+    /// The sense differs from 0 only while the interval of the driving force is computed.
     pub(crate) at_rest: Vec<f64>,
     normals: Vec<f64>,
     /// Normal forces at which the reactions are linearised.

@@ -21,7 +21,7 @@ pub enum GroupKind {
     /// Any group with more than two rigid bodies, and any group of several links with a transmission.
     Higher,
     /// A link whose pose follows from a given joint on a link of an earlier group, or from a transmission between earlier
-    /// links. It is a driving link (class I).
+    /// links. Such a link is a driving link (class I).
     Driven,
 }
 

@@ -8,7 +8,7 @@ use linkage::math::KeepNan;
 
 /// Largest number of angles whose sines and cosines are included.
 const ANGLES: usize = 10;
-/// Largest number of steps tried. They are the last steps before the formula.
+/// Largest number of steps tried. These are the last steps before the formula.
 /// The number of products of two steps grows with the square of this number.
 const STEPS: usize = 60;
 
