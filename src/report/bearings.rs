@@ -88,7 +88,7 @@ fn frictions(peaks: &Peaks, width: Option<usize>) -> String {
     text
 }
 
-/// What a drive with this input exerts: name and unit.
+/// Name and unit of the moment or force of a drive with this input.
 fn effort(input: Input) -> (&'static str, &'static str) {
     match input {
         Input::Angle | Input::Turn => ("balancing moment", "N m"),

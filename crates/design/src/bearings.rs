@@ -41,7 +41,7 @@ pub struct Peaks {
     pub shaking_force: Peak,
     /// Magnitude of the balancing moment on the crank (N m), or of the driving force of a slide (N).
     pub balancing_moment: Peak,
-    /// The same for every further drive.
+    /// Magnitude of the moment or force of every further drive.
     pub further_drives: Vec<Peak>,
     /// Magnitude of the force of each transmission along its line of action (N).
     pub transmissions: Vec<Peak>,
@@ -91,7 +91,7 @@ pub fn journal_diameter(force: f64, lever: f64, stress: f64) -> f64 {
 ///
 /// # Errors
 /// [`ErrorKind::Unsupported`] if the law of the drive has no unique time for a crank angle of the grid.
-/// Those of [`PoseSolver::solve`], for crank angles that the mechanism cannot reach.
+/// The errors of [`PoseSolver::solve`], for crank angles that the mechanism cannot reach.
 pub fn over_range(case: &Case) -> Result<Peaks> {
     if case.grid.inputs.iter().any(|&crank| case.crank().time_of(crank).is_nan()) {
         let message = sentences::PEAKS_ARE_LOOKED_FOR_OVER;

@@ -122,7 +122,7 @@ impl ClearanceResult {
 ///
 /// # Errors
 /// [`ErrorKind::Unsupported`] for a free motion with several degrees of freedom.
-/// Those of [`analytic::PoseSolver::solve`] for crank angles that the mechanism cannot reach.
+/// The errors of [`analytic::PoseSolver::solve`] for crank angles that the mechanism cannot reach.
 pub fn find(case: &Case, question: &ClearanceQuestion, progress: &mut dyn FnMut(f64)) -> Result<ClearanceResult> {
     let range = range(case)?;
     let case = &case.nominal();
@@ -180,7 +180,7 @@ pub struct DistanceCurve {
 /// Computes the distances of all pairs at the instants of the case's grid.
 ///
 /// # Errors
-/// Those of [`find`].
+/// The errors of [`find`].
 pub fn course(case: &Case, question: &ClearanceQuestion) -> Result<DistanceCurve> {
     let cranks = cranks(case)?;
     let case = &case.nominal();
@@ -204,7 +204,7 @@ pub fn course(case: &Case, question: &ClearanceQuestion) -> Result<DistanceCurve
 /// Computes the poses of all links at the crank angles `cranks` (rad), for drawings.
 ///
 /// # Errors
-/// Those of [`PoseSolver::solve`].
+/// The errors of [`PoseSolver::solve`].
 pub fn poses(case: &Case, cranks: &[f64]) -> Result<Vec<Vec<Motion>>> {
     let case = &case.nominal();
     let mut solver = PoseSolver::new(case)?;

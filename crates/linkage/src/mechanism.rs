@@ -96,7 +96,7 @@ impl Mechanism {
     /// This mechanism with the given transmissions in place of its own.
     ///
     /// # Errors
-    /// Those of [`Transmission::of`]; [`ErrorKind::Input`] for two transmissions of one name.
+    /// The errors of [`Transmission::of`]; [`ErrorKind::Input`] for two transmissions of one name.
     pub fn with_transmissions(mut self, designs: Vec<TransmissionDesign>) -> Result<Self> {
         let mut taken = BTreeSet::new();
         let mut all = Vec::with_capacity(designs.len());

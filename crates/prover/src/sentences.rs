@@ -124,7 +124,7 @@ linkage::sentences! {
     a_millionth_more_of_gravity(share) = "; increasing gravity and motor torque by a millionth changes the channel by {share:.2} millionths of its scale";
     AT_THE_PACE_OF_ITS_ROUNDS = "at this rate of progress the work limit would not be enough";
     THE_WORK_THAT_WAS_ALLOWED = "the work limit was reached";
-    A_FINER_STEP_ADDS_MORE_ROUNDING = "a finer step adds more rounding error than it removes";
+    A_FINER_STEP_ADDS_MORE_ROUNDING = "a finer step adds more rounding error than it removes truncation error";
     // run/engines.rs
     leave_the_step_to_the_proof(error, sweeps, combined, outcome) = "let the proof choose the step: it chooses {error} s and {sweeps} sweeps, {combined}, and {outcome}";
     extrapolated_times(times) = "extrapolated {times} times";

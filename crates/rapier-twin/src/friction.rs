@@ -74,7 +74,7 @@ impl InverseDynamics {
     /// `sense` returns the sense of the sliding of a joint: 1, -1, or a mean if the sense changes within a step.
     ///
     /// # Errors
-    /// Those of [`NewtonEuler::solve`]; [`ErrorKind::Numeric`] if the friction locks the mechanism.
+    /// The errors of [`NewtonEuler::solve`]; [`ErrorKind::Numeric`] if the friction locks the mechanism.
     fn solve(&mut self, case: &Case, state: &mut State, t: f64, sense: &dyn Fn(usize) -> f64) -> Result<&[f64]> {
         self.normals.fill(0.0);
         let (mut share, mut part) = (0.0, 1.0);
@@ -144,7 +144,7 @@ impl InverseDynamics {
     /// Fills in the reactions of a sample.
     ///
     /// # Errors
-    /// Those of [`InverseDynamics::solve`].
+    /// The errors of [`InverseDynamics::solve`].
     pub(super) fn sample(&mut self, case: &Case, state: &mut State, t: f64) -> Result<()> {
         if self.normals.is_empty() {
             self.equations.solve(case, state, t)?;
@@ -196,7 +196,7 @@ impl Braking {
     /// (s).
     ///
     /// # Errors
-    /// Those of [`InverseDynamics::solve`].
+    /// The errors of [`InverseDynamics::solve`].
     pub(super) fn add(
         &mut self,
         case: &Case,
@@ -240,7 +240,7 @@ impl Braking {
     }
 
     /// Stores the accelerations of a trial step from the start of the motion.
-    /// Returns their largest change divided by the largest of them.
+    /// Returns their largest change divided by the largest acceleration.
     pub(super) fn guess(&mut self, case: &Case, mut of: impl FnMut(usize) -> [f64; 3]) -> f64 {
         let size = case.mechanism.size();
         let length = |own: [f64; 3]| Vec2::new(own[0], own[1]).norm().larger(own[2].abs() * size);

@@ -211,7 +211,7 @@ impl Scenario {
     }
 
     /// The scenario of a case that was built in code. The scenario has no file and no published numbers.
-    /// Its engine settings are free: the proof finds them. `name` must be usable in file names.
+    /// The engine settings are free: the proof finds them. `name` must be usable in file names.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for a name with characters other than lower-case letters, digits and `_`.

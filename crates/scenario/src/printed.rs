@@ -132,7 +132,7 @@ impl PrintedChannel {
         self.channel.kind.periodic.then_some(if is_degrees { 360.0 } else { std::f64::consts::TAU })
     }
 
-    /// Symbol of its unit.
+    /// Symbol of the channel's unit.
     #[must_use]
     pub fn unit_symbol(&self) -> &'static str {
         self.unit.map_or(self.channel.kind.unit.symbol(), |unit| unit.suffix)

@@ -50,7 +50,7 @@ pub(super) struct Kinetostatics {
     /// One load per loaded link, if all loads are moments of resistance and there is no friction; otherwise `None`.
     /// Moments of resistance do not depend on the link's position.
     resistances: Option<Vec<(LinkId, Load)>>,
-    /// Whether any drive moves a joint that is not that of a crank.
+    /// Whether any drive moves a joint other than that of a crank.
     drives_joints: bool,
     /// The joints with friction, if there are any, and the loads without friction.
     dry: Option<Box<(Dry, Vec<Wrench>)>>,
@@ -100,7 +100,7 @@ impl Kinetostatics {
     /// The pose must be the last one that `plan` has solved. Loads may use the state's angles.
     ///
     /// # Errors
-    /// Those of [`Dry::settle`].
+    /// The errors of [`Dry::settle`].
     pub(super) fn solve(&mut self, case: &Case, plan: &SolutionPlan, state: &mut State) -> Result<()> {
         if let Some(resistances) = &self.resistances {
             // The loads on links without a moment of resistance stay zero.

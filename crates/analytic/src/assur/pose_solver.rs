@@ -104,7 +104,7 @@ impl<'a> PoseSolver<'a> {
     /// Like [`PoseSolver::new`], and counts the turns of all links.
     ///
     /// # Errors
-    /// Those of [`PoseSolver::new`].
+    /// The errors of [`PoseSolver::new`].
     pub fn counting_turns(case: &'a Case) -> Result<Self> {
         let mut solver = PoseSolver::new(case)?;
         solver.turns = Some(Turns::from(&case.start, &solver.state.motions));
@@ -298,7 +298,7 @@ impl<'a> PoseSolver<'a> {
     /// The state at an instant of the case's grid. The arguments and errors are those of [`PoseSolver::solve`].
     ///
     /// # Errors
-    /// Those of [`PoseSolver::solve`].
+    /// The errors of [`PoseSolver::solve`].
     pub fn solve_row(&mut self, row: usize, deepest: Stage) -> Result<&State> {
         let grid = &self.case.grid;
         self.solve_when(grid.times[row], grid.inputs[row], deepest)
@@ -308,7 +308,7 @@ impl<'a> PoseSolver<'a> {
     /// must reach the input at a unique time.
     ///
     /// # Errors
-    /// Those of [`PoseSolver::solve`].
+    /// The errors of [`PoseSolver::solve`].
     pub fn solve_at(&mut self, input: f64, deepest: Stage) -> Result<&State> {
         self.solve_when(self.case.crank().time_of(input), input, deepest)
     }

@@ -259,7 +259,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
     fn go_on(&self, work: &mut Work, place: &Place<N>, stood: &[Sensed]) -> Result<()> {
         self.origin.set(place.y);
         let ends = self.knots.around(self.crank(place.x, &place.y));
-        // At its upper end a table may already have the value after a jump.
+        // At the upper end of a piece, a table may already have the value after a jump.
         work.held.piece = [ends[0], just_below(ends[1])];
         self.smooth.set(knots::beyond(ends));
         match stood.is_empty() {
@@ -295,7 +295,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
     }
 
     /// The entries of `sensed` that stand still at the end of a piece.
-    /// They are the entry of the bound, and every further entry that stops at the same instant.
+    /// These are the entry of the bound, and every further entry that stops at the same instant.
     /// A point that has only changed its direction is not at rest.
     fn stopped(&self, work: &mut Work, place: &Place<N>, bound: usize) -> Result<Vec<Sensed>> {
         self.put(&mut work.inputs, place.x, &place.y);
@@ -332,7 +332,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
         let begun: Vec<Vec2> = stood.iter().map(|&own| work.second(own)).collect();
         let ahead = self.ahead(work, place, stood);
         // A link or point at its dead centre is idle: it has no acceleration, and its load does no work at first.
-        // Its sense is taken from its velocity after a short time.
+        // The sense of this motion is taken from the velocity after a short time.
         let idle =
             |second: Vec2, k: usize, (after, rates): &(f64, Vec<Vec2>)| second.norm() * after < 0.5 * rates[k].norm();
         let is_idle = |k: usize| ahead.as_ref().is_some_and(|found| idle(begun[k], k, found));

@@ -32,7 +32,7 @@ pub(crate) struct Held {
     /// standstill). Other entries are unused.
     pub(crate) senses: Vec<f64>,
     /// For every load against the motion of a point: direction of this motion at the beginning of the present step.
-    /// It is a unit vector, or zero for standstill. Entries of other loads are unused.
+    /// The direction is a unit vector, or zero for standstill. Entries of other loads are unused.
     pub(crate) ways: Vec<Vec2>,
     /// Crank angles (rad) between which the loads' tables are smooth.
     pub(crate) piece: [f64; 2],

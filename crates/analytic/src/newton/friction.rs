@@ -19,8 +19,7 @@ use linkage::mechanism::{GROUND, LinkId};
 
 /// Largest number of Newton's steps.
 const MOST: usize = 40;
-/// If the method does not converge, the friction is increased in steps. This is the smallest step, as a fraction of the
-/// friction.
+/// Smallest step, as a fraction of the friction, in which the friction is increased if the method does not converge.
 const LEAST: f64 = 1e-3;
 /// The multipliers are settled if they change by less than this fraction of the largest one.
 const SETTLED: f64 = 1e-14;

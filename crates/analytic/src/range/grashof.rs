@@ -53,7 +53,7 @@ impl FourBarType {
 pub struct FourBar {
     /// Lengths of frame, driving link, coupler and output link (m).
     pub lengths: [f64; 4],
-    /// Its type.
+    /// Type of the four-bar.
     pub of_type: FourBarType,
 }
 

@@ -170,7 +170,7 @@ impl<'a> Tubes<'a> {
     /// The bound on rounding errors grows with `extent`.
     ///
     /// # Errors
-    /// Those of [`PoseSolver::new`].
+    /// The errors of [`PoseSolver::new`].
     pub fn new(case: &'a Case, [from, to]: [f64; 2], extent: f64) -> Result<Self> {
         let mechanism = &case.mechanism;
         let centre = |link: LinkId| {
@@ -225,7 +225,7 @@ impl<'a> Tubes<'a> {
     /// Returns the enclosures of all links over a part.
     ///
     /// # Errors
-    /// Those of [`PoseSolver::solve`].
+    /// The errors of [`PoseSolver::solve`].
     pub fn at(&mut self, part: RangePart) -> Result<Rc<Slice>> {
         if let Some(slice) = self.kept.get(&part) {
             return Ok(Rc::clone(slice));
@@ -241,7 +241,7 @@ impl<'a> Tubes<'a> {
     /// Computes the enclosures of all links within `half` (rad) of a crank angle (rad).
     ///
     /// # Errors
-    /// Those of [`PoseSolver::solve`].
+    /// The errors of [`PoseSolver::solve`].
     pub fn slice(&mut self, crank: f64, half: f64) -> Result<Slice> {
         self.poses += 1;
         let case = self.case;

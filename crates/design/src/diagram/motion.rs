@@ -163,7 +163,7 @@ impl MotionDiagram {
     /// # Errors
     /// [`ErrorKind::Input`] for a number of divisions outside [`DIVISIONS`].
     /// [`ErrorKind::Unsupported`] if a drive has no constant speed, or if the solver does not provide a channel.
-    /// Those of the solver, if the crank cannot turn fully.
+    /// The errors of the solver, if the crank cannot turn fully.
     pub fn of(case: &Case, solver: &dyn Solver, course: &MotionCurve, divisions: usize) -> Result<Self> {
         if !DIVISIONS.contains(&divisions) {
             let (least, most) = DIVISIONS.into_inner();

@@ -17,7 +17,7 @@ use super::sketch::RandomSource;
 const WHEEL: &str = "wheel";
 
 /// The mechanism of `case` with a wheel on one of its links, the carrier.
-/// The wheel is coupled to a link that is hinged to the carrier. Its mass centre is off its axle.
+/// The wheel is coupled to a link that is hinged to the carrier. The wheel's mass centre is off its axle.
 /// `None` if the structure does not allow the wheel.
 pub fn geared(random: &mut RandomSource, case: &Case) -> Option<Case> {
     let (joints, size) = (case.mechanism.joints(), case.mechanism.size());
@@ -32,7 +32,7 @@ pub fn geared(random: &mut RandomSource, case: &Case) -> Option<Case> {
     let local = joints[pin].on(carrier)? + unit(away) * distance;
     let kind = kind(random, distance);
     // The arm of a follower is half the distance of the axles.
-    // It is perpendicular to the line from the cam's axle to the roller's centre.
+    // The arm is perpendicular to the line from the cam's axle to the roller's centre.
     let start = if let TransmissionKind::Cam { .. } = kind { away + PI + FRAC_PI_3 } else { start };
     let wheel = LinkId(case.mechanism.links().len());
     let mut links = case.mechanism.links().to_vec();

@@ -22,7 +22,7 @@ struct Wish {
     axes: Option<[f64; 2]>,
 }
 
-/// A transmission given by names: of itself, of its members and carrier, and of the joint that gives its start.
+/// A transmission by names: those of the transmission, its members, its carrier and the joint that sets its start.
 #[derive(Clone, Debug)]
 struct Coupling {
     name: String,

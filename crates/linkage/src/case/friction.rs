@@ -4,7 +4,7 @@
 //! Its size is the coefficient of friction mu times the sum of the normal forces of the joint's contacts.
 //! A journal of the radius r has one contact, with the force R of the joint: the moment is mu r |R|.
 //! A guide of the length l carries the force N and the moment M by contacts at its two ends.
-//! Their forces are N/2 + M/l and N/2 - M/l; the sum of the absolute values is the larger of |N| and 2 |M| / l.
+//! The contact forces are N/2 + M/l and N/2 - M/l; the sum of the absolute values is the larger of |N| and 2 |M| / l.
 //! A transmission with an efficiency loses a fraction of its power, which depends on the sense of the power.
 //! The loss acts like friction: a moment between carrier and first member, proportional to the force F of the transmission.
 //! See docs/numerics/friction.md.
@@ -208,7 +208,7 @@ impl Friction<'_> {
     }
 
     /// Friction for these reactions (N m or N), positive if it increases the joint's coordinate.
-    /// For a joint, it acts on the second link. It is zero at standstill.
+    /// The friction of a joint is that on its second link. Friction is zero at standstill.
     #[must_use]
     pub fn effort(&self, motions: &[Motion], reactions: JointReactions) -> f64 {
         let rate = self.rate(motions);

@@ -9,7 +9,7 @@ use crate::math::{Piecewise, just_below};
 /// At the stated crank angle, all solvers therefore find the value after the jump.
 const BEFORE: f64 = 4e-9;
 
-/// Values beside a jump are equal within this share.
+/// If the values on both sides of a knot differ relatively by no more than twice this number, there is no jump.
 const EQUAL: f64 = 1e-12;
 
 /// A constant, or a table of values against the crank angle.

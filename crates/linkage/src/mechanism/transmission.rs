@@ -1,7 +1,7 @@
 //! Transmissions: gear pairs, racks, screws, belts and cams that couple the coordinates of two members of one carrier.
 //!
 //! A member turns about an axle of the carrier, or slides in a guide of the carrier.
-//! The force between the members acts along a line of action. It is fixed in the carrier, except for cams.
+//! The force between the members acts along a line of action. This line is fixed in the carrier, except for cams.
 //! The line has the unit vector w. The force acts on each member at a point of the line, the member's foot.
 //! Along the line both members have the same speed: w . (v2 - v1) = 0 at the feet.
 //! With the coordinates q1 and q2 of the members relative to the carrier, q2' = f'(q1) q1', so q2 - f(q1) is constant.
@@ -44,8 +44,8 @@ pub enum TransmissionKind {
         pressure_angle: f64,
     },
     /// A screw, the first member, and a nut that slides in the carrier.
-    /// In the plane it is a pinion of the radius lead / (2 pi) and a rack without pressure angle. The axial force acts this
-    /// far beside the axle of the screw.
+    /// In the plane it is a rack without pressure angle and a pinion of the radius lead / (2 pi).
+    /// The axial force acts at this distance from the axle of the screw.
     Screw {
         /// Slide of the nut along the axis for a turn of the screw counter-clockwise (m), not zero.
         lead: f64,
@@ -63,7 +63,7 @@ pub enum TransmissionKind {
     Cam {
         /// Lift of the follower as a function of the cam's angle relative to the carrier.
         law: CamLaw,
-        /// What touches the cam.
+        /// The part of the follower that touches the cam.
         contact: CamContact,
     },
 }
@@ -95,7 +95,7 @@ pub struct TransmissionDesign {
     pub carrier: LinkId,
     /// The joint whose coordinate at t = 0 fixes the phase.
     pub joint: JointId,
-    /// That coordinate: the angle of the joint's second link minus that of its first link (rad), or the slide (m).
+    /// Coordinate of `joint` at t = 0: the angle of its second link minus that of its first (rad), or the slide (m).
     pub start: f64,
     /// Efficiency if power flows from the first member to the second, above 0 and at most 1, and if it flows back, at most 1.
     /// If the second efficiency is not positive, the transmission is self-locking: both members must be driven.
@@ -326,7 +326,7 @@ impl Transmission {
     }
 
     /// Time (s) from a pose to the nearest end of a piece of a cam's law, before or after it, at the present speed.
-    /// It is infinite for other transmissions, and if the cam stands still.
+    /// The time is infinite for other transmissions, and if the cam stands still.
     #[must_use]
     pub fn time_to_knot(&self, joints: &PerJoint<Joint>, motions: &[Motion]) -> f64 {
         let Some(cam) = &self.cam else { return f64::INFINITY };

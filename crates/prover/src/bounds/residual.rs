@@ -155,8 +155,8 @@ fn is_coordinate(channel: &Channel) -> bool {
 }
 
 /// Size of the numbers in every channel, to which the rounding error is proportional.
-/// It is the largest absolute value among the channels of the quantity.
-/// It is at least the value that follows from a rotation of one radian and the largest coordinates and forces.
+/// The size is the largest absolute value among the channels of the quantity.
+/// The size is at least the value that follows from a rotation of one radian and the largest coordinates and forces.
 #[must_use]
 pub fn magnitudes(trajectory: &Trajectory) -> Vec<f64> {
     let sizes = largest_sizes(trajectory);
@@ -235,7 +235,7 @@ impl Sizes {
     }
 
     /// The largest size of the channel's quantity.
-    /// It is at least the value that follows from the crank's speed, its rotation `turn` (rad) and the sizes of
+    /// This size is at least the value that follows from the crank's speed, its rotation `turn` (rad) and the sizes of
     /// coordinates and forces.
     fn natural(&self, channel: &Channel, turn: f64) -> f64 {
         let own = self.of_quantity.get(channel.kind.quantity).copied().unwrap_or(0.0);

@@ -31,7 +31,7 @@ pub(super) struct Observed {
     /// Largest opening of a joint (m) at every instant: the distance between the joint's positions on its two links.
     pub(super) opening: Vec<f64>,
     /// For every instant and load, the velocity that determines the direction of the load.
-    /// It is the angular velocity of a link (rad/s, as x) or the velocity of a point (m/s).
+    /// This velocity is the angular velocity of a link (rad/s, as x) or the velocity of a point (m/s).
     pub(super) senses: Senses,
     /// Largest distance of a joint from the origin (m).
     pub(super) reach: f64,
@@ -246,7 +246,7 @@ fn reduced_torque(case: &Case, state: &State) -> f64 {
 }
 
 /// A vector that reverses only where the crank passes a jump of a table.
-/// Its length is the distance of the crank from the nearest jump (rad).
+/// The length of the vector is the distance of the crank from the nearest jump (rad).
 fn beside(crank: f64, [jump, period]: [f64; 2]) -> Vec2 {
     let share = ((crank - jump) / period).rem_euclid(1.0);
     unit(PI * share) * (period * share.smaller(1.0 - share))

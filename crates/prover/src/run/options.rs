@@ -156,7 +156,7 @@ impl Options {
     /// A setting is free if it is given neither by the options nor by the scenario's settings `own`.
     ///
     /// # Errors
-    /// Those of [`Options::set_engines`].
+    /// The errors of [`Options::set_engines`].
     pub fn chosen(&self, own: &EngineSettings, case: &Case) -> Result<Vec<Chosen>> {
         self.chosen_at(own, engines::coarse_step(case))
     }

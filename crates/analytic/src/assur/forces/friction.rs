@@ -51,7 +51,7 @@ pub(crate) struct Dry {
     /// Sense of the sliding of every joint: +1, -1, or 0 at standstill.
     pub(crate) senses: Vec<f64>,
     /// Sense of sliding that is assumed for a joint at standstill: 0 for no friction.
-    /// It differs from 0 only while the interval of the driving force is computed.
+    /// The sense differs from 0 only while the interval of the driving force is computed.
     pub(crate) at_rest: Vec<f64>,
     normals: Vec<f64>,
     /// Normal forces at which the reactions are linearised.
@@ -92,11 +92,11 @@ impl Dry {
 
     /// Finds the reactions with friction.
     /// `react` receives the friction of each joint on its second link (N m or N) and writes the reactions to the state.
-    /// They must be linear in the friction while no transmission changes its line of action.
+    /// The reactions must be linear in the friction while no transmission changes its line of action.
     ///
     /// # Errors
-    /// Those of `react`; [`ErrorKind::Numeric`] if the friction locks the mechanism, or if several states of the forces
-    /// are in equilibrium.
+    /// The errors of `react`; [`ErrorKind::Numeric`] if the friction locks the mechanism, or if several states of the
+    /// forces are in equilibrium.
     pub(crate) fn settle(
         &mut self,
         case: &Case,
@@ -133,7 +133,7 @@ impl Dry {
         Err(stuck(case, state, &Stuck::Locked))
     }
 
-    /// Finds the reactions for the normal forces `self.at`; `more` (N) is added to the one with the number `index`.
+    /// Finds the reactions for the normal forces `self.at`; `more` (N) is added to the normal force number `index`.
     fn react(
         &mut self,
         case: &Case,

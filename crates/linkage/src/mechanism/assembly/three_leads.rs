@@ -74,7 +74,7 @@ impl Conditions {
     }
 
     /// p and q of two conditions, measured from the centre of the circle of the third condition.
-    /// The third condition is that of the longest lead. Also returns that centre and the radius.
+    /// The third condition is that of the longest lead. Also returns centre and radius of this circle.
     fn reduced(&self, b: Vec2) -> ([(f64, Vec2); 2], Vec2, f64) {
         let length = |one: &Condition| if let Condition::Circle { length, .. } = one { *length } else { -1.0 };
         let pivot = (0..3).max_by(|&i, &j| length(&self.all[i]).total_cmp(&length(&self.all[j]))).unwrap_or(0);
