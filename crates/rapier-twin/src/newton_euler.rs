@@ -215,7 +215,7 @@ impl NewtonEuler {
         true
     }
 
-    /// Adds to the needs of every link the needs of the links beyond this link. The leaves are treated first.
+    /// Adds to `needs` of every link the needs of the links that it carries. The leaves are treated first.
     fn pass_on(&mut self) {
         let width = self.components.len() + 1;
         for (number, limb) in self.tree.iter().enumerate().rev() {

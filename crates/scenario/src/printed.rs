@@ -13,8 +13,7 @@ use linkage::trajectory::{self, CHANNELS, Channel, ChannelKind};
 pub struct Printed {
     /// The number, in the printed unit.
     pub value: f64,
-    /// Number of printed decimals. The number is negative if digits before the decimal point are missing (1.5e3 has
-    /// -2).
+    /// Number of printed decimals; negative if the last printed digit lies before the decimal point (1.5e3 has -2).
     pub digits: i32,
     /// Largest distance of the true number from the printed one, in the printed unit.
     half_unit: f64,

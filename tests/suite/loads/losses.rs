@@ -14,7 +14,7 @@ fn parsed(text: &str) -> Case {
     Scenario::parse(text, Path::new("test.toml")).unwrap_or_else(|error| panic!("{error}")).case
 }
 
-/// The shipped file without formulas and numbers, and without gravity.
+/// The text of a shipped scenario without formulas, published numbers and gravity.
 fn plain(text: &str) -> String {
     text.split("[[formula]]")
         .next()
@@ -109,7 +109,7 @@ efficiency = 0.9
 efficiency_back = 0.8
 "#;
 
-/// A pendulum that swings through gears loses the energy that its gears lose, and both sides agree.
+/// A pendulum that swings through gears loses the energy that the gears dissipate, and both sides agree.
 #[test]
 fn losses_of_a_swinging_pendulum_take_its_energy() {
     let case = parsed(PENDULUM);
@@ -147,7 +147,7 @@ fn a_self_locking_transmission_holds_a_mechanism_at_rest() {
     }
 }
 
-/// Wrong efficiencies are refused with the key.
+/// Invalid efficiencies are refused, and the error names the key.
 #[test]
 fn wrong_efficiencies_are_refused() {
     for (from, to, key) in [

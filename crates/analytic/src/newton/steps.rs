@@ -70,7 +70,7 @@ impl System<'_> {
         };
         let turn = self.case.drives.iter().map(turned).fold(0.0, f64::larger);
         // Refuse too many turns. With a varying speed, `turn` is computed from the top speed and may be much larger
-        // than the real angle. Only this check limits it.
+        // than the real angle. No other check limits `turn`.
         if !(turn <= 2.0 * Grid::MOST_TURNS * TAU) {
             let turns = turn / TAU;
             return Err(self.lost(&sentences::up_to_turns_on_the_way_to_are_too(&format_args!("{turns:.1e}"), &t)));

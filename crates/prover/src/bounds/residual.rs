@@ -79,7 +79,7 @@ pub fn scales(trajectory: &Trajectory) -> Vec<f64> {
 /// The scale of such a channel is a tenth of the natural size of its quantity.
 /// This scale corresponds to that of a constant channel, which is a tenth of the channel's value.
 ///
-/// If every quantity of the trajectory is rounding, the natural size is the size in `built`.
+/// If the whole trajectory consists of rounding errors, the natural sizes are those in `built`.
 /// Examples are a balanced rotor without gravity and a mechanism in equilibrium.
 #[must_use]
 pub(crate) fn scales_beyond(errors: &[f64], trajectory: &Trajectory, built: &Built) -> Vec<f64> {

@@ -53,10 +53,10 @@ pub(super) struct Trial<'a> {
 }
 
 impl<'a> Trial<'a> {
-    /// Prepares the trial of a formula and its claim on a course.
+    /// Prepares a wrong formula for trying changes against the values of `course`.
     ///
     /// # Errors
-    /// A course that lacks a channel of the claim.
+    /// `course` lacks a channel of the claim.
     pub(super) fn of(
         formulas: &'a Formulas,
         index: usize,

@@ -69,7 +69,7 @@ impl Chosen {
         Chosen { engine: around(self.engine), ..self }
     }
 
-    /// This choice, without the forces that the engine itself exerts.
+    /// This choice with the default route as a given one, so that forces that the engine itself exerts are not judged.
     pub(crate) fn by_motion_alone(mut self) -> Self {
         self.given.route = EngineSetting::of(self.engine.settings().route);
         self
