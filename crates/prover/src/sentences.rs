@@ -248,7 +248,7 @@ linkage::sentences! {
     A_COLUMN_HAS_FEWER_VALUES = "a column has fewer values than it announces";
     A_COLUMN_HAS_FEWER_VALUES_THAN_THERE = "a column has fewer values than there are rows";
     it_has_values_more_than(values, most) = "it has {values} values, more than {most}";
-    ITS_GROUPS_HAVE_OTHER_ROWS = "its row groups have another number of rows than the file announces";
+    ITS_GROUPS_HAVE_OTHER_ROWS = "the row groups have a different number of rows than the file announces";
     its_columns_are_compressed_with_which_is_not_read(name) = "its columns are compressed with {name}, which is not read here";
     the_table(path, message) = "the table {path}: {message}";
     ITS_PARTS_CONTRADICT_EACH_OTHER = "its parts contradict each other";

@@ -7,8 +7,8 @@ linkage::sentences! {
     // lib.rs
     a_table_of_a_load_is_over_the_crank(sort, noun) = "a load of type {sort} is a table over the crank angle, but the input of the first drive is a {noun}";
     GIVE_THE_LOAD_A_CONSTANT = "give the load a constant value, or drive the mechanism at a crank";
-    THE_START_OF_TRANSMISSIONS_IS_THAT_OF_THE_FILE = "the starts of the transmissions belong to the start of the first drive that the file states";
-    CHANGE_THE_STARTS_IN_THE_FILE = "change both in the file, or ask for a grid from another input";
+    THE_START_OF_TRANSMISSIONS_IS_THAT_OF_THE_FILE = "the starts of the transmissions are valid only at the file's start of the first drive";
+    CHANGE_THE_STARTS_IN_THE_FILE = "change both starts in the file, or keep the start and request a grid that begins at the other input";
     // motion.rs
     a_motor_needs_a_crank(noun) = "the motor drives a crank, but the input of the first drive is a {noun}";
     TAKE_MOTOR_OUT_OR_DRIVE = "remove `[motor]`, or drive the mechanism at a crank";
