@@ -108,7 +108,7 @@ class Transmission:
         return [(self.second, force, at), (self.first, (-force[0], -force[1]), at)]
 
     def known(self, q):
-        """Forces that do not depend on the transmitted force: the initial tension of both strands."""
+        """Forces that do not depend on the transmitted force: the tension of the slack strand, in both strands."""
         if self.kind != "belt":
             return []
         slack = self.quantity(self.table, "slack", mpf(0))
