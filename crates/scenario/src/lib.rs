@@ -86,7 +86,7 @@ use linkage::mechanism::{GroupId, Mechanism, StartGroup, Structure};
 pub struct Scenario {
     /// Short name, usable in file names: lower-case letters, digits and `_`.
     pub name: String,
-    /// One line for people.
+    /// Title in one line, for readers.
     pub title: String,
     /// Source of the dimensions, if the file states one.
     pub source: Option<String>,

@@ -123,7 +123,7 @@ pub struct Transmission {
 /// The force of the transmission is then that on the second member.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Losses {
-    /// A joint of the carrier with a member. Its coordinate shows the sense of the motion.
+    /// A joint of the carrier with a member. The rate of the joint's coordinate gives the sense of the motion.
     pub joint: JointId,
     /// Rate of the first member relative to the carrier, divided by the rate of this joint's coordinate (1, or 1/m).
     pub per: f64,

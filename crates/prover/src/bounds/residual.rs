@@ -165,8 +165,8 @@ pub fn magnitudes(trajectory: &Trajectory) -> Vec<f64> {
 }
 
 /// As `magnitudes`, but by sets of channels.
-/// `sets[channel]` is the set of a channel. Its numbers are computed from all channels whose set feeds that set.
-/// `feeds(from, to)` tells whether set `from` feeds set `to`.
+/// `sets[channel]` is the set of a channel. `feeds(from, to)` tells whether numbers of the set `to` are computed from
+/// channels of the set `from`.
 pub(crate) fn magnitudes_by(trajectory: &Trajectory, sets: &[usize], feeds: &dyn Fn(usize, usize) -> bool) -> Vec<f64> {
     let largest = largest_sizes(trajectory);
     let count = 1 + sets.iter().copied().max().unwrap_or(0);

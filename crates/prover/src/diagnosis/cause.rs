@@ -225,7 +225,7 @@ pub enum PartChange {
     Twice,
     /// Half of the part counts.
     Half,
-    /// The part is multiplied by a number with a meaning. The text states the meaning.
+    /// The part is multiplied by a number; the text says what the number means.
     Times(f64, &'static str),
     /// The part is at a joint.
     AtJoint(String),

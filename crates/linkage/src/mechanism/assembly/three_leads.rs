@@ -186,7 +186,7 @@ impl Conditions {
         (0..8).map(|k| of(f64::from(k) * std::f64::consts::FRAC_PI_4)).fold(0.0, f64::larger)
     }
 
-    /// Refines a candidate to rounding error. Adds it if it satisfies the conditions and was not found before.
+    /// Refines a candidate to rounding error, and adds the result if it is a new solution of the conditions.
     /// If Newton's method fails because the base can move, adds a nearby pose that satisfies the conditions.
     fn keep(&self, found: &mut Vec<Found>, candidate: Found) {
         let apart = |known: &Found, one: &Found| {
