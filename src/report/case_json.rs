@@ -112,7 +112,8 @@ fn motor_of(motor: &Motor) -> Value {
 fn course(course: &Course) -> Value {
     match course {
         Course::Constant(value) => json!(value),
-        Course::Table { turns, .. } => json!({ "table_over_turns": turns }),
+        Course::Table { turns: Some(turns), .. } => json!({ "table_over_turns": turns }),
+        Course::Table { turns: None, .. } => json!({ "table_over": "slide" }),
     }
 }
 

@@ -312,6 +312,14 @@ def course(load, stem, crank):
         return quantity(load, stem)
     period = 2 * mp.pi * load.get("turns", 1)
     points = [(quantity(row, "crank"), quantity(row, stem)) for row in load["table"]]
+    if any(key in ("crank_m", "crank_mm") for key in load["table"][0]):
+        # Over a slide: lines, and constant values beyond the ends.
+        after = [k for k, (x, _) in enumerate(points) if x <= crank]
+        k = after[-1] if after else 0
+        if not after or k + 1 == len(points):
+            return points[k][1]
+        (x, y), (xx, yy) = points[k], points[k + 1]
+        return y + (yy - y) * (crank - x) / (xx - x)
     if load.get("interpolation", "linear") == "smooth":
         return spline(points, period, crank)
     n = len(points)

@@ -132,7 +132,7 @@ pub fn kinks(case: &Case) -> Result<Kinks> {
     }
     let tables = || case.loads.iter().flat_map(Load::courses).filter_map(Course::knots);
     let mut all = turns;
-    for (_, own) in tables() {
+    for own in case.loads.iter().flat_map(Load::courses).filter_map(Course::turns).flatten() {
         all = all.map(|all| all.lcm(&own));
         if let Some(turns) = all.filter(|&turns| turns > MOST_TURNS) {
             let message = sentences::mechanism_and_tables_of_loads(&turns, &MOST_TURNS);
@@ -146,7 +146,6 @@ pub fn kinks(case: &Case) -> Result<Kinks> {
     }
     let period = all.map(|all| TAU * f64::from(all));
     for (knots, own) in tables() {
-        let own = TAU * f64::from(own);
         let Some([from, to]) = period.map(|period| [start, start + period]).or(limits) else { continue };
         for &knot in &knots[1..] {
             let first = knot + ((from - knot) / own).ceil() * own;
