@@ -40,7 +40,7 @@ linkage::sentences! {
     CHORDS_WHOSE_SLOPES_GIVE_THE_VELOCITY = "chords whose slopes give the velocity";
     EXACT_BY_THE_SOLVER = "exact, by the solver";
     scale_factor_2(channel, sub, scale, per) = "{channel}, scale factor μ{sub} = {scale} {per}";
-    chord_method_and_graphical_integration(divisions) = "chord method and graphical integration, {divisions} divisions of the turn; errors as fractions of half the range of the exact curve";
+    chord_method_and_graphical_integration(divisions) = "chord method and graphical integration, {divisions} divisions; errors as fractions of half the range of the exact curve";
     // draw/plan_sheet.rs
     FROM_TO = "from → to";
     scale_factor_3(symbol, sub, scale, scripted) = "scale factor {symbol}{sub} = {scale} {scripted}";
