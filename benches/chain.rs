@@ -1,7 +1,7 @@
 //! Cost of a chain of four-bars as a function of its length.
 //! The cost is measured for building the case, for each analytic side, for the double-double solution, and for both
 //! sides with their judgement.
-//! The cost divided by that of the chain before it in the list is printed beside the same ratios of n and n log n.
+//! The growth of each cost from the previous chain in the list is printed beside the growth of n and of n log n.
 //!
 //! `cargo bench --bench chain [-- N..]`
 

@@ -162,7 +162,7 @@ fn main() {
     let crank = boom.mechanism.joint_named("O").expect("the boom is hinged at O");
     let inputs = |case: &Case| case.grid.inputs.clone();
     let of_ram = shortest(swing_of(&boom, &inputs(&boom)));
-    // The same mechanism over the same motion, driven at the boom's hinge.
+    // The same mechanism and motion, but driven at the boom's hinge.
     let angles = angles_of(&boom);
     let rise = angles[angles.len() - 1] - angles[0];
     let law = |_| MotionLaw::Cycloidal { rise, time: 1.0 };
@@ -176,7 +176,7 @@ fn main() {
     );
 }
 
-/// Returns a function that solves as many poses as a revolution, forwards and back through these inputs.
+/// Returns a function that solves `POSES` poses, forwards and back between the first and the last of `inputs`.
 fn swing_of<'a>(case: &'a Case, inputs: &[f64]) -> Box<dyn FnMut() + 'a> {
     let (from, to) = (inputs[0], inputs[inputs.len() - 1]);
     let at = |k: usize| from + (to - from) * (1.0 - (angle(k)).cos()) / 2.0;

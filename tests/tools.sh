@@ -1,6 +1,6 @@
-# What scripts that try the command share; to be sourced, with the top of the repository in `top`.
+# Common part of scripts that test the command; to be sourced, with the root of the repository in `top`.
 
-# The command: LINKPROOF, or what is built now.
+# The command: LINKPROOF, or a new build.
 linkproof() {
     if [ -n "${LINKPROOF:-}" ]; then
         realpath "$LINKPROOF"
@@ -10,7 +10,7 @@ linkproof() {
     fi
 }
 
-# python_with ENVIRONMENT REQUIREMENTS: an environment of Python with these packages, made anew where they have changed.
+# python_with ENVIRONMENT REQUIREMENTS: a Python environment with these packages, created again if the list has changed.
 python_with() {
     if ! cmp -s "$2" "$1/installed.txt"; then
         python3 -m venv "$1"

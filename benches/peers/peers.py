@@ -4,9 +4,9 @@
     python3 -m venv /tmp/peers && /tmp/peers/bin/pip install -r benches/peers/requirements.txt
     /tmp/peers/bin/python benches/peers/peers.py
 
-Every engine answers at the scenario's instants with the crank angle and the reaction in B. An error is the largest
-difference to `linkproof solve --with assur` over these instants, divided by the range of the channel.
-Times are processor time, the shortest of some runs in one process, without building the model and without writing.
+Every engine gives the crank angle and the reaction in B at the scenario's instants. The error is the largest difference
+from `linkproof solve --with assur` over these instants, divided by the range of the channel.
+Times are the shortest processor times of several runs in one process, without building the model and without writing.
 """
 
 import argparse
@@ -32,20 +32,20 @@ SCENARIOS = [ROOT / "scenarios/crank_rocker_runup.toml", HERE / "crank_rocker_ba
 WANTED = 1e-6
 LINKS = ("crank", "coupler", "rocker")
 JOINTS = {"O": ("ground", "crank"), "A": ("crank", "coupler"), "B": ("coupler", "rocker"), "C": ("ground", "rocker")}
-# The load opposes the rocker's rotation. The peers have it as a friction that is proportional to the speed below
-# ZONE (rad/s); the crank starts at START (rad/s) instead of 0, so that the sense is right from the first instant.
+# The load opposes the rocker's rotation. For the peers it is a friction that is proportional to the speed below ZONE
+# (rad/s). The crank starts at START (rad/s) instead of 0, so that the load has the right sense from the first instant.
 ZONE, START = 1e-8, 1e-7
 STEPS = (500, 1000, 2000, 4000, 5000, 7000, 10000, 12000, 20000)
 
 
 def place(point):
-    """A point or vector of a scenario file, in metres."""
+    """A point or vector of a scenario file (m)."""
     return np.array([point.get(c + "_m", point.get(c + "_mm", 0) * 1e-3) for c in "xy"], float)
 
 
 @dataclass
 class Case:
-    """What the engines are given, and the exact solution."""
+    """Data for the engines, and the exact solution."""
 
     name: str
     links: dict
@@ -60,7 +60,7 @@ class Case:
         return self.exact[f"link{link}{what}"]
 
     def errors(self, crank, force):
-        """Shares of the range: crank angle, reaction; the instant of the latter. A reaction's sign is a convention."""
+        """Errors of crank angle and reaction as fractions of their ranges, and the instant of the latter; the reaction may have either sign."""
         exact = np.c_[self.exact["jointBfx_N"], self.exact["jointBfy_N"]]
         if np.abs(exact + force).max() < np.abs(exact - force).max():
             force = -force
@@ -82,7 +82,7 @@ def read(path, linkproof):
 
 
 def exudyn_model(case):
-    """Plane rigid bodies and revolute joints; motor and load are elements of Exudyn's own, without Python calls."""
+    """Plane rigid bodies and revolute joints; motor and load are elements of Exudyn, without Python callbacks."""
     system = exudyn.SystemContainer().AddSystem()
     ground = system.AddObject(exu.ObjectGround())
     bodies, nodes = {"ground": ground}, {}
@@ -150,7 +150,7 @@ def run_exudyn(case, settings, steps):
 
 
 def mujoco_model(case, integrator, step, softness):
-    """Crank and coupler, and the rocker, as two trees; B closes the loop as a `connect`."""
+    """Two trees: crank with coupler, and rocker. Joint B closes the loop as a `connect`."""
     angle = {name: float(case.of(name, "angle_rad")[0]) for name in LINKS}
     text = lambda values: " ".join(repr(float(value)) for value in values)
     local = lambda link, point: text([*place(case.links[link]["points"][point]), 0])
@@ -158,7 +158,7 @@ def mujoco_model(case, integrator, step, softness):
     mass = lambda name: (f'<inertial pos="{text([*place(case.links[name]["mass_centre"]), 0])}" '
                          f'mass="{case.links[name]["mass_kg"]}" diaginertia="{text([case.links[name]["inertia_kg_m2"]] * 3)}"/>')
     rotor = case.inertia["crank"] - case.links["crank"]["inertia_kg_m2"]
-    # The problem of one equality is quadratic: one iteration of Newton's method solves it.
+    # With a single equality constraint the problem is quadratic, so one iteration of Newton's method solves it.
     # 0.9999 is the hardest impedance that MuJoCo accepts.
     return mujoco.MjModel.from_xml_string(f"""<mujoco><compiler angle="radian"/>
 <option timestep="{step!r}" gravity="0 -9.81 0" integrator="{integrator}" solver="Newton" iterations="1" tolerance="0"
@@ -191,7 +191,7 @@ def run_mujoco(case, settings, steps):
     for row in range(len(times)):
         if row:
             mujoco.mj_step(model, data, every)
-        # Forces belong to the state before the last step: they are computed again.
+        # Forces belong to the state before the last step, so they are computed again.
         mujoco.mj_forward(model, data)
         crank[row], force[row] = data.qpos[0], data.efc_force[:2]
     return time.process_time() - since, crank, force
@@ -210,7 +210,7 @@ def measure(case, engine, settings, run, repeats):
 
 
 def rapier(repeats):
-    """Rows of Rapier, which a bench of the workspace measures."""
+    """Rows of Rapier, measured by `cargo bench --bench peers_rapier`."""
     command = ["cargo", "bench", "--quiet", "--bench", "peers_rapier", "--", str(repeats), *map(str, SCENARIOS)]
     found = subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True)
     for row in csv.DictReader(found.stdout.splitlines()):
@@ -223,7 +223,7 @@ def rapier(repeats):
 
 
 def front(rows):
-    """The rows that no other beats in both time and reaction."""
+    """The Pareto front of time and error of the reaction."""
     best = math.inf
     for row in sorted(rows, key=lambda row: row["ms"]):
         if row["reaction"] < best:

@@ -1,6 +1,6 @@
 """The documents as a site: Sphinx with MyST, which reads Markdown as the repository's web page does and checks every link and anchor.
 
-docs/site/build makes it. Sources are where they are; nothing is copied, so that one link serves both.
+docs/site/build makes the site from the original files, so that each link works in the repository and on the site.
 """
 
 import re
@@ -17,7 +17,7 @@ html_static_path = ["static"]
 html_extra_path = ["extra"]
 templates_path = ["templates"]
 html_css_files = ["site.css"]
-# The theme's own sidebar, and the API below it, which docs/site/build brings.
+# The theme's sidebar, with the API below it, which docs/site/build adds.
 html_sidebars = {
     "**": [
         "sidebar/brand.html",
@@ -31,11 +31,11 @@ html_sidebars = {
 root_doc = "README"
 include_patterns = ["*.md", "docs/*.md", "docs/*/*.md", "crates/*/README.md", "examples/*/README.md", "benches/peers/README.md"]
 exclude_patterns = ["target", "**/.*"]
-# Anchors as the repository's web page makes them.
+# Anchors with the same names as on the repository's web page.
 myst_heading_anchors = 4
-# Pictures with a width.
+# Pictures may have a width.
 myst_enable_extensions = ["html_image"]
-# Blocks of TOML, shell and others are coloured as far as Pygments knows them; "..." in one is no fault of a document.
+# A code block with "..." is not valid TOML or shell; this is not a fault of the document.
 suppress_warnings = ["misc.highlighting_failure"]
 
 CONTENTS = {
@@ -49,7 +49,7 @@ CONTENTS = {
 
 
 def contents():
-    """Tables of contents, which only the site has; every page that none of them names is found by links alone."""
+    """Tables of contents, which only the site has; pages not listed in CONTENTS form the last table."""
     named = [page for pages in CONTENTS.values() for page in pages]
     others = sorted(str(path.relative_to(TOP).with_suffix("")) for pattern in include_patterns[1:] for path in TOP.glob(pattern))
     groups = {**CONTENTS, "Crates and examples": [page for page in others if page not in named]}
@@ -59,7 +59,7 @@ def contents():
 
 
 def read(_app, page, source):
-    """Adds the contents to the first page, and leads links to folders to what can be opened there."""
+    """Adds the contents to the first page, and redirects links to folders to the README or manifest in them."""
     folder = (TOP / page).parent
 
     def opened(match):

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Why the errors are what they are: the measurements that docs/foreign.md rests on beside the tables of orders.py.
+"""Causes of the errors: the measurements of docs/foreign.md that are not in the tables of orders.py.
 
     python causes.py [LINKPROOF]      default: target/release/linkproof
 """

@@ -1,8 +1,8 @@
-"""The crank-rocker as its drawing gives it (m, kg, kg m2, N m), and its pose when the crank lies along +x."""
+"""Data of the crank-rocker (m, kg, kg m2, N m), and its pose with the crank along +x."""
 
 import math
 
-GROUND = (0.15, 0.015)  # pivot C of the rocker, seen from pivot O of the crank
+GROUND = (0.15, 0.015)  # pivot C of the rocker, relative to pivot O of the crank
 CRANK, COUPLER, ROCKER = 0.025995627740337, 0.34707193189181, 0.25
 MASS = {"crank": 2.6, "coupler": 34.7, "rocker": 33.3}
 INERTIA = {"crank": 0.00014641741001640535, "coupler": 0.8356, "rocker": 0.74}

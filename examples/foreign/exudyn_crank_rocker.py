@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """The crank-rocker in Exudyn: plane rigid bodies, revolute joints, a prescribed crank angle.
 
-    python exudyn_crank_rocker.py STEP FILE      joins what the sensors have written, every 4 ms of one turn
+    python exudyn_crank_rocker.py STEP FILE      joins the tables of the sensors, every 4 ms of one turn
 
-Sensors of joints say what the second marker's body exerts on the first. The rotation of a plane body counts from its
-reference pose, its position does not.
+Sensors of joints give the force of the second marker's body on the first. The rotation of a plane body is measured from
+its reference pose; its position is not.
 """
 
 import math
@@ -33,7 +33,7 @@ from exudyn.utilities import (
 from crank_rocker import COUPLER, CRANK, GROUND, INERTIA, MASS, RESISTANCE, ROCKER, SPEED, start_angles, start_speeds
 
 EVERY, END = 4e-3, 0.46
-# Exudyn's own is 0.9: forces then ring for a quarter of a turn after the start.
+# With Exudyn's default of 0.9, forces oscillate for a quarter of a turn after the start.
 RADIUS = 0.6
 KINDS = exu.OutputVariableType
 BODY = {"Rot": KINDS.Rotation, "Omega": KINDS.AngularVelocity, "Alpha": KINDS.AngularAcceleration}
@@ -45,13 +45,13 @@ def turned(length, angle):
 
 
 def model(folder, inertia=None):
-    """The system, and the files of its sensors with the names of their columns."""
+    """The system, and the sensor files with the names of their columns."""
     inertia = inertia or INERTIA
     mbs = exu.SystemContainer().AddSystem()
     ground = mbs.AddObject(ObjectGround())
     still = mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=mbs.AddNode(NodePointGround()), coordinate=0))
     coupler, rocker = start_angles()
-    places = {  # where a body begins, its length to the mass centre, its angle
+    places = {  # start of a body, distance of its mass centre, angle
         "crank": (np.zeros(2), CRANK / 2, 0.0), "coupler": (turned(CRANK, 0.0), COUPLER / 2, coupler),
         "rocker": (np.array(GROUND), ROCKER, rocker)}
     speeds = dict(zip(places, (SPEED, *start_speeds(SPEED))))
@@ -86,7 +86,7 @@ def model(folder, inertia=None):
 
     for name, body in bodies.items():
         for what, kind in BODY.items():
-            # A plane body's rotation is one number, its angular velocity and acceleration are vectors.
+            # The rotation of a plane body is one number; its angular velocity and acceleration are vectors.
             columns = [f"{name}{what}"] if what == "Rot" else [None, None, f"{name}{what}"]
             sensor(SensorBody, name + what, columns, bodyNumber=body, outputVariableType=kind)
     for what, kind in POINT.items():
@@ -101,7 +101,7 @@ def model(folder, inertia=None):
 
 
 def run(mbs, step, end, every, radius=RADIUS, solution=""):
-    """`solution`: a file for all coordinates."""
+    """Runs the simulation; all coordinates go to the file `solution`."""
     asked = exu.SimulationSettings()
     asked.timeIntegration.numberOfSteps, asked.timeIntegration.endTime = round(end / step), end
     asked.timeIntegration.generalizedAlpha.spectralRadius = radius
@@ -113,7 +113,7 @@ def run(mbs, step, end, every, radius=RADIUS, solution=""):
 
 
 def simulate(step, path, radius=RADIUS, inertia=None):
-    """The first sensor's comments, a line of names, and a row for each instant."""
+    """Writes the comments of the first sensor, a line of names, and a row for each instant."""
     with tempfile.TemporaryDirectory() as folder:
         mbs, files = model(pathlib.Path(folder), inertia)
         run(mbs, step, END, EVERY, radius)

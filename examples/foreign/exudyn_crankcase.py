@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """A slider-crank with counterweight in Exudyn, one turn at 600 rpm.
 
-    python exudyn_crankcase.py STEPS FILE      keeps Exudyn's own solution file: comments, no names, all coordinates
+    python exudyn_crankcase.py STEPS FILE      writes Exudyn's solution file: comments, no names, all coordinates
 
 Columns: time; displacements (from the reference pose), velocities and accelerations of crank, rod and piston, each
 x, y, rotation; the multipliers of the joints O, A, B, of the bore and of the motor, in the order in which they were added.
@@ -37,7 +37,7 @@ def model(gravity=9.81):
     mbs = exu.SystemContainer().AddSystem()
     ground = mbs.AddObject(ObjectGround())
     still = mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=mbs.AddNode(NodePointGround()), coordinate=0))
-    # The crank lies along +x, its pin and the piston rise together: the rod does not turn at this instant.
+    # With the crank along +x, crank pin and piston have the same velocity, so the rod does not rotate at this instant.
     height, up = math.sqrt(ROD**2 - CRANK**2), SPEED * CRANK
     c, s = -CRANK / ROD, height / ROD
     bodies = []

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The crank-rocker in MuJoCo, drawn in MuJoCo's x-z plane and driven by a velocity servo.
 
-    python mujoco_crank_rocker.py STEP FILE      writes what the sensors say, every 4 ms of one turn
+    python mujoco_crank_rocker.py STEP FILE      writes the values of the sensors, every 4 ms of one turn
 
 Hinges turn about +y, which points into the drawing: positive is clockwise. Their coordinates are relative to the parent
 body and zero in the pose in which the model is drawn.
@@ -15,15 +15,15 @@ import numpy as np
 
 from crank_rocker import COUPLER, CRANK, GROUND, INERTIA, MASS, RESISTANCE, ROCKER, SPEED, start_angles, start_speeds
 
-# Forces of the first steps are not those of the motion: constraints do not know its centripetal part until a gap tells them.
+# Forces of the first steps are wrong: constraints lack the centripetal part of the motion until a gap has opened.
 EVERY, SETTLED, END = 4e-3, 20e-3, 0.48
-# A loop as stiff as a step allows: MuJoCo raises the time constant to two steps.
+# A loop as stiff as the step allows: MuJoCo raises the time constant to two steps.
 HARD = 'solref="1e-9 0.5" solimp="0.9999 0.9999 1"'
 SENSORS = ("F_O", "T_O", "F_A", "F_C", "B", "vB", "aB")
 
 
 def friction_of(loop):
-    """The same stiffness for dry friction, which is a constraint of its own in MuJoCo."""
+    """The same stiffness for dry friction, which is a separate constraint in MuJoCo."""
     return loop.replace("solref", "solreffriction").replace("solimp", "solimpfriction")
 
 
@@ -32,7 +32,7 @@ def inertial(name, at):
 
 
 def model(step, loop=HARD, gain=1e6, integrator="discrete", rotor=0.0):
-    """`gain` of the servo (N m s/rad); 0: none, the crank is kept turning by a `rotor` (kg m2)."""
+    """`gain` of the servo (N m s/rad). With gain 0 there is no servo; the inertia `rotor` (kg m2) keeps the speed of the crank."""
     coupler, rocker = (math.degrees(angle) for angle in start_angles())
     servo = f'<actuator><velocity name="motor" joint="crank" kv="{gain}"/></actuator>' if gain else ""
     return f"""
@@ -72,7 +72,7 @@ def start(step, **choices):
 
 
 def read(m, d):
-    """One row: coordinates, sensors, force in the loop and of the servo."""
+    """One row: coordinates, sensors, force in the loop, and force of the servo."""
     row = {"time": d.time}
     for what, values in (("q", d.qpos), ("qd", d.qvel), ("qdd", d.qacc)):
         row |= {f"{what}_{m.joint(j).name}": values[j] for j in range(m.njnt)}
@@ -87,7 +87,7 @@ def read(m, d):
 
 
 def simulate(step, late=False, since=SETTLED, **choices):
-    """Rows every 4 ms. `late`: read right after mj_step; sensors are then one step old."""
+    """Rows every 4 ms. If `late`, values are read right after mj_step, when the sensors are one step old."""
     m, d = start(step, **choices)
     rows = []
     for instant in range(round(END / EVERY) + 1):

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""The crank-rocker in MuJoCo, going from rest by its motor; drawn in the x-y plane, seen from above.
+"""Run-up of the crank-rocker in MuJoCo from rest by its motor; drawn in the x-y plane, seen from above.
 
     python mujoco_crank_rocker_runup.py STEP FILE      writes a table in ms, degrees, rpm and N, every 2 ms of half a second
 
-The motor's straight line is a constant moment and a damping of the hinge; rotor, reducer and flywheel are its armature.
+The linear motor law is a constant moment and a damping of the hinge; rotor, reducer and flywheel are its armature.
 """
 
 import math
@@ -22,7 +22,7 @@ ARMATURE = 9e-4 * RATIO**2 + 1.6
 
 
 def model(step, integrator="RK4", stiffness=4, impedance=0.9999):
-    """`stiffness`: time constant of loop and friction in steps. RK4 needs four to see them move. 0: one step."""
+    """`stiffness` is the time constant of loop and friction in steps. RK4 needs four steps to resolve it; 0 means one step."""
     loop = f'solref="{stiffness * step} 1" solimp="{impedance} {impedance} 1"' if stiffness else HARD
     coupler, rocker = (math.degrees(angle) for angle in start_angles())
     return f"""
@@ -50,7 +50,7 @@ def model(step, integrator="RK4", stiffness=4, impedance=0.9999):
 
 
 def read(m, d):
-    """One row, as for a report: forces turned into the drawing's axes."""
+    """One row in the units of a report; forces are in the drawing's axes."""
     crank, coupler, rocker = np.degrees(d.qpos)
     row = {"t [ms]": 1e3 * d.time, "crank [deg]": crank, "coupler to crank [deg]": coupler, "rocker [deg]": rocker}
     row |= {"speed [rpm]": d.qvel[0] * 30 / math.pi, "rocker speed [deg/s]": math.degrees(d.qvel[2])}

@@ -3,8 +3,8 @@
 
     python orders.py [LINKPROOF]      default: target/release/linkproof
 
-Every run is made again in a temporary directory. Errors come from `linkproof solve` and numpy: this is a second way,
-beside `linkproof compare`, to the same numbers.
+Every run is repeated in a temporary directory. Errors are computed from `linkproof solve` with numpy, independently of
+`linkproof compare`.
 """
 
 import math
@@ -23,7 +23,7 @@ from tables import KINDS, errors
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 STEPS = (4e-3, 2e-3, 1e-3, 5e-4, 2.5e-4)
-# Steps that say whether a choice costs a power of the step, or something that no step mends.
+# Steps that show whether the error of a choice falls with a power of the step, or not at all.
 PAIR, FINE = (1e-3, 2.5e-4), (1e-3, 2.5e-4, 3.125e-5)
 TURN = exudyn_crankcase.END
 
@@ -39,7 +39,7 @@ def exudyn(module, **settings):
 NAMES = [name for name, _ in KINDS]
 ROTOR = dict(gain=0, rotor=1e10, integrator="implicitfast")
 CIRCLE = [TURN / parts for parts in (180, 360, 720, 1440, 2880)]
-# What is run, its scenario and mapping, how a run is made, its steps; without a step: closed formulas.
+# Name, scenario, mapping, function that makes a run, and steps; closed formulas have no step.
 CASES = (
     ("MuJoCo, loop of one step, servo of 1e6 N m s/rad", "crank_rocker", "mujoco_crank_rocker", mujoco(four_bar), STEPS),
     ("MuJoCo, RK4, loop of four steps", "crank_rocker_runup", "mujoco_crank_rocker_runup", mujoco(runup), STEPS[1:]),
@@ -49,7 +49,7 @@ CASES = (
     ("pylinkage", "crank_rocker", "pylinkage_crank_rocker", lambda _, path: pylinkage_crank_rocker.simulate(path), [None]),
     ("pylinkage", "six_bar_slider", "pylinkage_six_bar", lambda _, path: pylinkage_six_bar.simulate(path), [None]),
 )
-# What a choice costs: other runs by the same mappings.
+# Runs with other choices, by the same mappings.
 CHOICES = (
     (*CASES[0][:4], PAIR),
     ("servo of 1e4", *CASES[0][1:3], mujoco(four_bar, gain=1e4), PAIR),
@@ -66,7 +66,7 @@ CHOICES = (
 
 
 def runs(linkproof, case, folder):
-    """Step and errors by kind, of every step of a case."""
+    """For every step of a case: the step, and the errors by kind."""
     _, scenario, mapping, make, steps = case
     for step in steps:
         path = pathlib.Path(folder) / "table.csv"
@@ -79,7 +79,7 @@ def short(number):
 
 
 def cells(found, pick):
-    """Errors at falling steps, each with its order to the one before; those of printed digits have none."""
+    """Errors at decreasing steps, each with the order from the previous step; errors of printed digits have no order."""
     last = None
     for step, by in found:
         now = pick(by)
@@ -105,7 +105,7 @@ def tables(linkproof, folder):
             worst = found[-1][1][name]
             row([name, *cells(found, lambda by: by[name].share), f"{short(worst.error)} in `{worst.channel}`"])
             late = list(cells(found, lambda by: by[name].later))
-            # Where the start decides: what is left in the second half.
+            # If the errors are largest at the start, the errors of the second half are listed too.
             if any(1e-8 < 4 * by[name].later < by[name].share for _, by in found):
                 row([f"{name}, second half", *late, ""])
 

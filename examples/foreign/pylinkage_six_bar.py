@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The six-bar with a slider in pylinkage, with the crank as the unit of length and no unit of time.
 
-    python pylinkage_six_bar.py FILE      writes positions, and their first and second derivatives by the crank angle
+    python pylinkage_six_bar.py FILE      writes positions, and their first and second derivatives with respect to the crank angle
 """
 
 import math
@@ -14,7 +14,7 @@ STEPS = 240
 
 
 def stepped(linkage):
-    """The same by step_with_derivatives(); NaN where it gives none."""
+    """The same table by step_with_derivatives(); NaN for missing derivatives."""
     rows = [[[pair or (math.nan, math.nan) for pair in what] for what in step] for step in linkage.step_with_derivatives(STEPS)]
     return np.array(rows).transpose(1, 0, 2, 3)
 
@@ -26,8 +26,8 @@ def simulate(path, compiled=True):
     c = PointTracker(o2, b, distance=6, angle=0)
     d = RRPDyad(c, o2, above, distance=8, x=0, y=13)
     linkage = Linkage([o1, o2, above, a, b, c, d])
-    linkage.set_input_velocity(a, omega=1.0)  # derivatives by the crank angle
-    # The compiled path: step_with_derivatives() has no velocity of a PointTracker, and 0 for what hangs on it.
+    linkage.set_input_velocity(a, omega=1.0)  # derivatives with respect to the crank angle
+    # The compiled path is used, because step_with_derivatives() has no velocity of a PointTracker, and 0 for joints attached to it.
     every = linkage.step_fast_with_kinematics(STEPS) if compiled else stepped(linkage)
     phi = np.arange(1, STEPS + 1) * math.tau / STEPS
     columns, names = [phi], ["phi"]

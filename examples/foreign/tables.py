@@ -1,4 +1,4 @@
-"""A table of another program read by its mapping, and its errors against `linkproof solve`, without `linkproof compare`."""
+"""Reads a table of a foreign program by its mapping, and computes its errors against `linkproof solve` with numpy."""
 
 import io
 import math
@@ -11,7 +11,7 @@ import numpy as np
 
 FUNCTIONS = {name: getattr(np, name) for name in ("sin", "cos", "tan", "sqrt", "exp", "abs", "sign")}
 FUNCTIONS |= {"asin": np.arcsin, "acos": np.arccos, "atan": np.arctan, "atan2": np.arctan2, "ln": np.log, "pi": math.pi}
-# What a unit in a channel's name makes of the channel in SI.
+# Unit in a channel's name: the SI unit, and the number of units in it.
 UNITS = {"mm": ("m", 1e3), "deg": ("rad", 180 / math.pi)}
 KINDS = (
     ("position", r"(^|\.)([xy]|slide)_m$"),
@@ -47,7 +47,7 @@ def value(arithmetic, columns):
 
 
 def mapped(path, mapping):
-    """How the instants are given, the instants, and the channels in SI."""
+    """Key of the instants, the instants, and the channels in SI."""
     mapping, columns = tomllib.loads(open(mapping).read()), read(path)
     (how, at), = mapping["at"].items()
     channels = {}
@@ -59,7 +59,7 @@ def mapped(path, mapping):
 
 
 def exact(linkproof, scenario, how, at):
-    """What the analytic side has at the same instants."""
+    """Analytic solution at the same instants."""
     option, factor = {"time_s": ("--times", 1.0), "crank_deg": ("--crank-deg", 1.0),
                       "crank_rad": ("--crank-deg", 180 / math.pi)}[how]
     listed = ",".join(repr(float(instant) * factor) for instant in at)
@@ -74,7 +74,10 @@ def kind(channel):
 
 
 def scales(found, names):
-    """Half the range; of what has a zero of its own also a tenth of the largest value; a thousandth of its neighbours'."""
+    """Scales of channels: half the range, but at least a thousandth of the largest scale with the same unit.
+
+    For all quantities except positions and angles, the scale is also at least a tenth of the largest value.
+    """
     scale = {name: np.ptp(found[name]) / 2 for name in names}
     for name in names:
         if kind(name) not in ("position", "angle"):
@@ -86,7 +89,7 @@ def scales(found, names):
 
 @dataclass
 class Worst:
-    """The worst channel of a kind: largest error in its unit, as a share of its scale, and the share in the second half."""
+    """The worst channel of a kind: largest error, its fraction of the scale, and this fraction in the second half."""
 
     channel: str
     error: float

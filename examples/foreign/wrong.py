@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tables with one thing wrong each, as they happen to users: README.md says what. Writes data/wrong_*."""
+"""Writes tables with one typical mistake each to data/wrong_*; README.md lists the mistakes."""
 
 import contextlib
 import pathlib
@@ -35,5 +35,5 @@ def write():
 
 
 if __name__ == "__main__":
-    with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):  # MuJoCo leaves its log where it runs
+    with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):  # MuJoCo writes its log to the working directory
         write()

@@ -3,7 +3,7 @@
 
     linkproof bench scenarios/crank_rocker.toml -o bench --peer exudyn='python3 examples/peers/exudyn_peer.py'
 
-Timed is the solver alone, without building the model and without writing.
+The time is that of the solver alone, without building the model and without writing.
 """
 
 import math
@@ -22,7 +22,7 @@ SETTINGS = {
     "alpha, radius 0.5, full Newton": dict(spectralRadius=0.5),
     "Newmark, index 2": dict(useNewmark=True, useIndex2Constraints=True),
 }
-# Steps in an interval of the grid.
+# Numbers of steps in an interval of the grid.
 PARTS = (1, 2, 4, 8, 16)
 REPEATS = 3
 # A resistance is proportional to the speed below ZONE (rad/s); from rest, links start with START (rad/s).
@@ -31,7 +31,7 @@ KINDS = exudyn.OutputVariableType
 
 
 def check(case):
-    """Refuses what this peer has no model for."""
+    """Refuses cases that this peer cannot model."""
     for joint in case.joints:
         if joint["type"] != "revolute":
             raise Refused(f"joint {joint['name']} is {joint['type']}: this peer has revolute joints only")
@@ -62,7 +62,7 @@ def ways(request, case):
 
 
 def law(motion, t):
-    """Turn from the start and speed of a prescribed drive at a time."""
+    """Rotation from the start, and speed, of a prescribed drive at a time."""
     if motion["law"] == "constant":
         return motion["speed_rad_s"] * t, motion["speed_rad_s"]
     time, s = motion["time_s"], t / motion["time_s"]
@@ -74,7 +74,7 @@ def law(motion, t):
 
 
 class Model:
-    """A system of Exudyn's with the sensors that are read."""
+    """A system of Exudyn with its sensors."""
 
     def __init__(self, case):
         self.case, self.system = case, exudyn.SystemContainer().AddSystem()
@@ -136,7 +136,7 @@ class Model:
         return self.system.AddMarker(exu.MarkerNodeCoordinate(nodeNumber=self.nodes[link], coordinate=2))
 
     def drive(self, drive):
-        """The constraint of a prescribed drive; a motor has none."""
+        """The constraint of a prescribed drive; None for a motor."""
         pair, motion = [self.still, self.angle(drive["link"])], drive["motion"]
         if motion["law"] != "free":
             return self.system.AddObject(exu.CoordinateConstraint(
@@ -150,7 +150,7 @@ class Model:
 
     @staticmethod
     def line(motion):
-        """Moment on the crank: a constant, less a damping times its speed."""
+        """The motor's moment on the crank: a constant minus a damping times the crank's speed."""
         motor = motion["motor"]
         torque, ratio = motor["torque"], motor["ratio"]
         if torque["law"] == "constant":
@@ -174,7 +174,7 @@ class Model:
             system.AddObject(exu.SpringDamper(markerNumbers=[self.place(end) for end in load["ends"]], **spring))
 
     def run(self, way, every):
-        """Seconds and steps of a simulation over the grid."""
+        """Simulates over the grid; returns seconds and steps."""
         end = float(self.case.times[-1])
         asked = exudyn.SimulationSettings()
         own = asked.timeIntegration
@@ -194,7 +194,7 @@ class Model:
         return time.process_time() - since, steps
 
     def read(self, sensor):
-        """A sensor's columns at the instants."""
+        """Columns of a sensor at the instants."""
         data, times = self.system.GetSensorStoredData(sensor), self.case.times
         rows = np.searchsorted(data[:, 0], times - 1e-3 * times[1])
         if rows.max() >= len(data):
@@ -228,7 +228,7 @@ def solve(request, case, way):
         motion.velocity[name] = speed[:, :2] - across * speed[:, 2:]
         motion.acceleration[name] = rate[:, :2] - across * rate[:, 2:] + arm * speed[:, 2:] ** 2
     if "reactions" in case.stages:
-        # Exudyn's force acts from the second marker on the first; ours is that of the first link on the second.
+        # Exudyn gives the force of the second marker on the first; ours is that of the first link on the second.
         motion.force = {name: -model.read(sensor)[:, :2] for name, sensor in model.forces.items()}
         if all(load["type"] in ("resistance", "moment") for load in case.loads):
             motion.torque = [torque(case, model, motion, drive, sensor) for drive, sensor in zip(case.drives, model.torques)]
@@ -237,11 +237,11 @@ def solve(request, case, way):
 
 def torque(case, model, motion, drive, sensor):
     if sensor is not None:
-        # The force of the constraint is that on its first marker.
+        # The force of the constraint acts on its first marker.
         return -model.read(sensor)[:, 0]
     if not drive["motion"]["motor"]:
         return np.zeros(len(case.times))
-    # What the shaft passes on: less what accelerates rotor and reducer.
+    # The moment that the shaft transmits: without the part that accelerates rotor and reducer.
     constant, damping = model.line(drive["motion"])
     inertia = drive["motion"]["motor"]["inertia_on_crank_kg_m2"]
     return constant - damping * motion.omega[drive["link"]] - inertia * motion.alpha[drive["link"]]

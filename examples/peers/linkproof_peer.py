@@ -1,8 +1,8 @@
-"""What a peer of `linkproof bench` in Python needs: docs/peers.md is the protocol.
+"""Common part of peers of `linkproof bench` in Python; docs/peers.md describes the protocol.
 
 A peer calls `main(ways, solve)`. `ways(request, case)` returns a list of dictionaries with a name and a resolution;
 `solve(request, case, way)` returns a `Motion`, the seconds it took (a list) and its counts of work.
-Either may raise `Refused` with a reason: it is shown on the diagram.
+Both functions may raise `Refused` with a reason, which the diagram shows.
 """
 
 import csv
@@ -15,7 +15,7 @@ import numpy as np
 
 
 class Refused(Exception):
-    """What the peer cannot do, in words."""
+    """The reason why the peer cannot run the case."""
 
 
 class Case:
@@ -41,9 +41,9 @@ class Case:
 
 @dataclass
 class Motion:
-    """Rows over the instants. `origin`, `angle`, ... are by link; x and y are the last axis. Forces by joint, of the first
-    link on the second, moments about the place on the second; torques in the order of drives. What a peer does not
-    know stays empty, and its channels are left out."""
+    """Arrays with one row for each instant; x and y are the last axis. `origin`, `angle`, ... are by link. Forces are by
+    joint, of the first link on the second; moments are about the joint's point on the second link. Torques are in the order
+    of drives. Channels of an empty quantity are left out."""
 
     origin: dict
     angle: dict
@@ -110,7 +110,7 @@ def columns(case, motion):
 
 
 def slide(case, motion, joint, found):
-    """Slide with its derivatives, along the axis on the first link, and the moment."""
+    """Adds the slide along the axis on the first link, its derivatives, and the moment."""
     name, (first, second) = joint["name"], (joint["first"], joint["second"])
     one, two = (motion.point(side["link"], side["at_m"]) for side in (first, second))
     angle = motion.angle.get(first["link"], np.zeros(len(case.times))) + np.arctan2(*joint["axes"][0][::-1])
@@ -127,7 +127,7 @@ def slide(case, motion, joint, found):
 
 
 def shaking(case, motion, found):
-    """Force and moment on the frame: of the joints on the ground, and of the drives."""
+    """Adds force and moment on the frame, from the joints on the ground and the drives."""
     if len(motion.torque) < len(case.drives) or any(joint["name"] not in motion.force for joint in case.joints):
         return
     force, moment = np.zeros((len(case.times), 2)), -sum(motion.torque)
@@ -146,7 +146,7 @@ def shaking(case, motion, found):
 
 
 def main(ways, solve, version):
-    """Answers the request that the command line names."""
+    """Answers the request named on the command line."""
     what, path = sys.argv[1:3]
     request = json.loads(pathlib.Path(path).read_text())
     case = Case(json.loads(pathlib.Path(request["case"]).read_text()))

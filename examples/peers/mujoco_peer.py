@@ -3,8 +3,8 @@
 
     linkproof bench scenarios/crank_rocker.toml -o bench --peer mujoco='python3 examples/peers/mujoco_peer.py'
 
-Timed are the steps and one forward computation at every instant, without building the model and without reading:
-velocities, accelerations and forces are read afterwards from the states that were kept.
+The time is that of the steps and of one forward computation at every instant, without building the model. Velocities,
+accelerations and forces are read afterwards from stored states, which is not timed.
 """
 
 import math
@@ -15,13 +15,13 @@ import numpy as np
 
 from linkproof_peer import Motion, Refused, main
 
-# Turn of the fastest drive in a step (deg), and steps of a motion under forces.
+# Rotation of the fastest drive in a step (deg), and numbers of steps of a motion under forces.
 TURNS = (4.0, 2.0, 1.0, 0.5, 0.25, 0.1, 0.05, 0.02)
 COUNTS = (250, 500, 1000, 2000, 4000, 8000, 16000)
-# Time constant of the loops, in steps. None: as in the file, whose constraints close a gap in one step.
+# Time constant of the loops, in steps. With None, as in the file, constraints close a gap in one step.
 LOOPS = {"implicitfast": None, "RK4": None, "RK4, loops of 3 steps": 3.0}
 REPEATS = 3
-# Start of a motion under forces from rest (rad/s): loads then oppose the right sense at t = 0.
+# Start speed of a motion under forces from rest (rad/s), so that loads oppose the right sense at t = 0.
 START = 1e-7
 
 
@@ -47,7 +47,7 @@ def model_of(request, case, way):
 
 
 def harden(model, way):
-    """Loops with a time constant of their own, in steps of the present size."""
+    """Sets the time constant of the loops, in present steps."""
     softness = LOOPS[way["name"]]
     if softness is not None:
         model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_REFSAFE
@@ -72,7 +72,7 @@ def start(case, model):
 
 
 def run(case, model, way):
-    """States at the instants, time and steps."""
+    """Simulates; returns states at the instants, time and steps."""
     data, kept, count = start(case, model), [], 0
     since, now = time.process_time(), 0.0
     for t in case.times:
@@ -82,17 +82,17 @@ def run(case, model, way):
             harden(model, way)
             mujoco.mj_step(model, data, steps)
             now, count = t, count + steps
-        # Forces belong to the state before the last step: they are computed again.
+        # Forces belong to the state before the last step, so they are computed again.
         mujoco.mj_forward(model, data)
         kept.append((model.opt.timestep, data.qpos.copy(), data.qvel.copy()))
     return kept, time.process_time() - since, count
 
 
 def moment_of(case, model, data, joint):
-    """Moment on the body that a joint of the tree carries, about its place, in world axes."""
+    """Moment on the body that a joint of the tree carries, about the joint's point, in world axes."""
     read = data.sensor(f"{joint}.moment").data[2]
     carried = model.jnt_bodyid[model.joint(joint).id]
-    # Sensors compute backwards from the motion: they do not know of loads on links farther out.
+    # Sensors compute backwards from the motion, and ignore loads on links farther out.
     for load in case.loads:
         body = model.body(load["link"]).id
         while body not in (0, carried):
@@ -105,11 +105,11 @@ def moment_of(case, model, data, joint):
 
 
 def reaction(case, model, data, joint):
-    """Force and moment of a joint's first link on its second, about its place there, in world axes."""
+    """Force and moment of a joint's first link on its second, about the joint's point on the second, in world axes."""
     name = joint["name"]
     sensor = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_SENSOR, f"{name}.force")
     if sensor < 0:
-        # A loop: rows of its connect. They pull the first site to the second.
+        # A joint that closes a loop: the rows of its `connect` are forces that pull the first site to the second.
         rows = (data.efc_id[: data.nefc] == model.equality(name).id) & (
             data.efc_type[: data.nefc] == mujoco.mjtConstraint.mjCNSTR_EQUALITY)
         return -data.efc_force[: data.nefc][rows][:2], None
@@ -120,7 +120,7 @@ def reaction(case, model, data, joint):
         return force, None
     moment = moment_of(case, model, data, name) * sense
     if sense < 0.0:
-        # The sensor's place is that on the body that is carried.
+        # The sensor's point is that of the carried body.
         first, second = (data.site(f"{name}.{side}").xpos for side in ("first", "second"))
         arm = first - second
         moment += arm[0] * force[1] - arm[1] * force[0]
@@ -139,7 +139,7 @@ def solve(request, case, way):
     table = lambda: {name: np.zeros((rows, 2)) for name in names}
     line = lambda: {name: np.zeros(rows) for name in names}
     motion = Motion(table(), line(), table(), line(), table(), line())
-    # Forces of springs and on points are not in what the sensors read.
+    # Sensors do not include forces of springs, and forces on points.
     forces = "reactions" in case.stages and all(load["type"] in ("resistance", "moment") for load in case.loads)
     if forces:
         motion.force = {joint["name"]: np.zeros((rows, 2)) for joint in case.joints}
@@ -160,7 +160,7 @@ def solve(request, case, way):
             mujoco.mj_objectVelocity(model, data, kind, body, six, 0)
             motion.omega[name][row], motion.velocity[name][row] = six[2], six[3:5]
             mujoco.mj_objectAcceleration(model, data, kind, body, six, 0)
-            # Gravity counts as an acceleration there.
+            # MuJoCo's accelerations contain gravity, which is removed here.
             motion.alpha[name][row], motion.acceleration[name][row] = six[2], six[3:5] + case.gravity
         if forces:
             for joint in case.joints:
@@ -175,7 +175,7 @@ def solve(request, case, way):
 
 
 def angle(case, model, data, body):
-    """Angle of a body, turns kept: the sum of the coordinates of its hinges."""
+    """Angle of a body including whole turns: the sum of the coordinates of its hinges."""
     total = 0.0
     while body:
         name, parent = model.body(body).name, model.body_parentid[body]

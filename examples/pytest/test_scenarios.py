@@ -1,4 +1,4 @@
-"""Proves every linkproof scenario of a folder as a pytest case of its own. Standard library and pytest only.
+"""Proves every linkproof scenario of a folder as a separate pytest case. Standard library and pytest only.
 
 LINKPROOF names the command (default: `linkproof`), SCENARIOS the folder (default: `scenarios` beside this file).
 """
@@ -14,7 +14,7 @@ LINKPROOF = os.environ.get("LINKPROOF", "linkproof")
 FOLDER = pathlib.Path(os.environ.get("SCENARIOS", pathlib.Path(__file__).parent / "scenarios"))
 FILES = sorted(FOLDER.glob("*.toml"))
 
-# Of what is wrong or open, so much is shown.
+# Largest number of wrong or open entries shown.
 SHOWN = 5
 
 
@@ -36,18 +36,18 @@ def test_proven(file):
 
 
 def failure(error):
-    """What is wrong with a scenario that cannot be read or solved, where, and the way out."""
+    """Message, location and remedy for a scenario that cannot be read or solved."""
     place = error["scenario"] if error["line"] is None else f"{error['scenario']}:{error['line']}"
     return f"{place}: {error['message']}" + (f"\nhelp: {error['help']}" if error["help"] else "")
 
 
 def report(proof):
-    """Verdict, worst channel or check, cause, and what else is wrong or open."""
+    """Verdict, worst channel or check, cause, and further channels that disagree or are open."""
     lines = [f"{proof['verdict'].upper()}: {proof['scenario']}, {proof['title']}"]
     found = sorted(not_agreeing(proof), key=used, reverse=True)
     if found:
         worst = found[0]
-        # JSON has no numbers that are not finite.
+        # JSON has no infinite numbers and no NaN.
         bound = "a bound that is no number" if worst["bound"] is None else f"its bound {worst['bound']:.3e} {worst['unit']}"
         lines.append(f"worst: {worst['name']}, {used(worst):.3g} times {bound}")
     diagnosis = proof.get("diagnosis") or {}
@@ -73,6 +73,6 @@ def not_agreeing(proof):
 
 
 def used(own):
-    """Value over bound; what has no number comes first."""
+    """Ratio of value to bound; entries without a number come first."""
     value, bound = own["value"], own["bound"]
     return value / bound if value is not None and bound else float("inf")

@@ -22,7 +22,7 @@ pub(super) struct Args {
     /// Position or angle, named as in `linkproof list --channels`
     #[arg(long, value_name = "NAME")]
     channel: String,
-    /// Number of equal divisions of one crank turn
+    /// Number of equal divisions of one crank turn, or of the stroke of a slide
     #[arg(long, value_name = "N", default_value_t = 12, allow_hyphen_values = true, value_parser = number::count)]
     divisions: usize,
     /// Analytic solver

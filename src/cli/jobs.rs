@@ -39,7 +39,7 @@ impl Room {
     /// Items reserve memory in their order.
     /// If no item other than this one has reserved memory, this item always gets its memory.
     /// The first item without a result therefore never waits for a later item.
-    /// `tell` is called when the item gets its memory.
+    /// `tell` is called when the item's memory has been reserved.
     pub(super) fn take(&self, index: usize, bytes: f64, tell: impl FnOnce()) {
         let full = |held: &mut Held| held.next != index || (held.bytes > 0.0 && held.bytes + bytes > self.most);
         let mut held = self.freed.wait_while(self.lock(), full).unwrap_or_else(PoisonError::into_inner);
@@ -72,7 +72,7 @@ impl Room {
 
 /// Does `work` on all items, on `threads` threads, with `most` bytes of memory for all items in progress.
 /// `give` receives the results in the order of the items.
-/// It receives each result as soon as all earlier results are available.
+/// `give` receives each result as soon as all earlier results are available.
 /// If `work` panics, the result is an error.
 ///
 /// `work` gets the index of its item, and the [`Room`] in which it reserves memory once, before it allocates.

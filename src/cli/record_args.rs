@@ -54,9 +54,9 @@ pub(super) struct RecordArgs {
 
 /// A recording that was written.
 pub(super) struct Recorded {
-    /// Its file.
+    /// Path of the recording.
     pub path: PathBuf,
-    /// Its layout.
+    /// Path of the viewer layout; `None` without a layout.
     pub layout: Option<PathBuf>,
     /// Message about the recording: its path, its size, and a suitable viewer.
     pub told: String,

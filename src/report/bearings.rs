@@ -58,27 +58,27 @@ pub(crate) fn text(journals: Journals, scenario: &Scenario, peaks: &Peaks, width
     }
     say!(text, sentences::journals_lever_mm_bending_stress(&journals.lever_mm, &journals.stress_mpa));
     if !peaks.frictions.is_empty() {
-        text += &frictions(scenario, peaks, width);
+        text += &frictions(peaks, width);
     }
     text
 }
 
-/// The friction of every joint, its work over the grid, and the efficiency.
-fn frictions(scenario: &Scenario, peaks: &Peaks, width: Option<usize>) -> String {
+/// The friction of every joint and transmission, its work over the grid, and the efficiency.
+fn frictions(peaks: &Peaks, width: Option<usize>) -> String {
     let lost: f64 = peaks.frictions.iter().map(|own| own.work).sum();
     let rows = peaks.frictions.iter().map(|own| {
-        let joint = &scenario.case.mechanism.joints()[own.joint];
-        let unit = if joint.slides() { "N" } else { "N m" };
+        let unit = if own.is_force { "N" } else { "N m" };
         let share = if lost > 0.0 { 100.0 * own.work / lost } else { 0.0 };
         [
-            joint.name.clone(),
+            own.name.clone(),
             numbers::quantity(own.largest, unit),
             numbers::quantity(own.work, "J"),
             numbers::fixed_in(share, 1, "%"),
             numbers::quantity(own.pressure_speed, "W"),
         ]
     });
-    let header = "joint | largest\nfriction> | work over\nthe grid> | share> | largest force\nx sliding speed>";
+    let header =
+        "joint or\ntransmission | largest\nfriction> | work over\nthe grid> | share> | largest force\nx sliding speed>";
     let mut text = format!("\n{}\n\n", trimmed(fitted(header, width).add_rows(rows)));
     let [drive, lost] = [peaks.drive_work, lost].map(|work| numbers::quantity(work, "J"));
     say!(text, sentences::work_of_the_drives(&drive, &lost));
@@ -88,7 +88,7 @@ fn frictions(scenario: &Scenario, peaks: &Peaks, width: Option<usize>) -> String
     text
 }
 
-/// What a drive with this input exerts: name and unit.
+/// Name and unit of the moment or force of a drive with this input.
 fn effort(input: Input) -> (&'static str, &'static str) {
     match input {
         Input::Angle | Input::Turn => ("balancing moment", "N m"),
@@ -123,8 +123,9 @@ pub(crate) fn json(journals: Journals, scenario: &Scenario, peaks: &Peaks) -> St
         "transmissions": list(transmissions, |(own, &peak)| json!({"name": own.name(), "force": whole(peak, "N")})),
         "drive_work_J": peaks.drive_work, "efficiency": peaks.efficiency(),
         "friction": list(&peaks.frictions, |own| json!({
-            "joint": scenario.case.mechanism.joints()[own.joint].name, "work_J": own.work, "pressure_speed_W": own.pressure_speed,
-            (if scenario.case.mechanism.joints()[own.joint].slides() { "largest_N" } else { "largest_N_m" }): own.largest,
+            (if own.is_mesh { "transmission" } else { "joint" }): own.name, "work_J": own.work,
+            "pressure_speed_W": own.pressure_speed,
+            (if own.is_force { "largest_N" } else { "largest_N_m" }): own.largest,
         })),
     }))
 }

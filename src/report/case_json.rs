@@ -15,7 +15,7 @@ use linkage::solver::State;
 const FORMAT: u32 = 1;
 
 /// The case called `name`, as JSON.
-/// It includes the poses, velocities and accelerations of `start`, the state at t = 0.
+/// The JSON includes the poses, velocities and accelerations of `start`, the state at t = 0.
 pub(crate) fn text(name: &str, case: &Case, start: &State) -> String {
     let links = case.mechanism.links().iter().zip(&start.motions).zip(&start.angles);
     let links = links.map(|((link, motion), angle)| {
@@ -112,7 +112,8 @@ fn motor_of(motor: &Motor) -> Value {
 fn course(course: &Course) -> Value {
     match course {
         Course::Constant(value) => json!(value),
-        Course::Table { turns, .. } => json!({ "table_over_turns": turns }),
+        Course::Table { turns: Some(turns), .. } => json!({ "table_over_turns": turns }),
+        Course::Table { turns: None, .. } => json!({ "table_over": "slide" }),
     }
 }
 

@@ -17,7 +17,7 @@ pub(super) const SMALL: f64 = 3.0;
 /// How a mark is filled.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Filling {
-    /// With its colour.
+    /// The mark is filled with its colour.
     Full,
     /// Not at all.
     Hollow,

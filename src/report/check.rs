@@ -75,7 +75,7 @@ pub fn verdict_line(scenario: &Scenario, claimed: &Claimed) -> String {
 }
 
 /// The short report, in lines of at most `width` columns.
-/// It has the verdict, the formulas with the largest errors relative to their bounds, and the faults.
+/// The report has the verdict, the formulas with the largest errors relative to their bounds, and the faults.
 #[must_use]
 pub fn brief(scenario: &Scenario, claimed: &Claimed, tell: Tell, width: usize) -> String {
     let lines = lines(scenario, claimed);

@@ -130,7 +130,7 @@ fn sentence(paths: [&Path; 2], pair: &SidePair) -> String {
     format!("{}: {told} at {by}, {values}: {}", style::verdict(&pair.verdict()), who(paths, pair))
 }
 
-/// What the rows are matched by.
+/// The quantity by which the rows are matched.
 fn matched_by(pair: &SidePair) -> &'static str {
     if pair.by_crank { pair.input.noun() } else { "time" }
 }

@@ -12,7 +12,8 @@ use scenario::Scenario;
 /// The diagram as text: the largest error, the rms error and the observed orders of every method.
 pub(crate) fn text(scenario: &Scenario, diagram: &MotionDiagram) -> String {
     let mut text = String::new();
-    say!(text, sentences::over_one_turn_in_divisions(&scenario.name, &diagram.course.0[0], &diagram.divisions));
+    let range = if diagram.is_closed { "one turn" } else { "the stroke" };
+    say!(text, sentences::over_one_turn_in_divisions(&scenario.name, &diagram.course.0[0], &range, &diagram.divisions));
     for (which, channel) in diagram.course.0.iter().enumerate() {
         let half = significant(diagram.half_range(which));
         say!(text, sentences::half_range(&channel.to_string(), &half, &channel.kind.unit));

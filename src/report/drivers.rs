@@ -30,7 +30,7 @@ impl Drivers {
         text
     }
 
-    /// The same as JSON.
+    /// The structures as JSON.
     pub(crate) fn json(&self, case: &Case) -> Value {
         list(&self.0, |(joint, structure)| match structure {
             Ok(own) => json!({

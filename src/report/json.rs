@@ -108,7 +108,7 @@ rows! {
         reason: Option<String> = proof.verdict.reason(tell),
         channels: Vec<Channel> = proof.channels.iter().map(|own| Channel::of(info, own, tell)).collect(),
         /// Forces that the engine itself exerts.
-        /// They are judged in addition to the forces among the channels, which follow from the engine's motion.
+        /// These forces are judged in addition to the forces among the channels, which follow from the engine's motion.
         own_forces["Option::is_none"]: Option<OwnForcesRow> = own.map(|own| OwnForcesRow::of(proof, own, tell)),
         checks: Vec<CheckRow> = proof.checks.iter().map(|own| CheckRow::of(own, tell)).collect(),
         failure["Option::is_none"]: Option<String> = proof.failure.as_ref().map(|error| error.message().to_string()),

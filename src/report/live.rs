@@ -15,7 +15,7 @@ use prover::numbers::significant;
 use recording::{MessageKind, Reel, ReelMessage};
 
 linkage::words! {
-    /// A name of the protocol. Viewers offer the names that they know.
+    /// Name of the protocol of live views. A viewer offers the protocol names that it supports.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub(crate) enum Dialect: name {
         /// Current Foxglove.
@@ -71,7 +71,7 @@ pub(crate) struct State {
 }
 
 /// Playback speed: log time that passes per second of the clock.
-/// It is the playback speed of the layout, reduced if a revolution would be too fast to follow.
+/// This is the playback speed of the layout, reduced if a revolution would be too fast to follow.
 pub(crate) fn pace(reel: &Reel) -> f64 {
     let usual = speed(reel.slow, reel.turn);
     if reel.slow == 1.0 && reel.turn > 0.0 { usual.smaller(reel.turn / TURN) } else { usual }

@@ -25,7 +25,7 @@ pub(crate) fn csv<R: IntoIterator<Item = String>>(rows: impl IntoIterator<Item =
 /// The profiles of all cams of a case.
 ///
 /// # Errors
-/// Those of [`cam::table`], and [`Io`](linkage::error::ErrorKind::Io) if the table cannot be written.
+/// The errors of [`cam::table`], and [`Io`](linkage::error::ErrorKind::Io) if the table cannot be written.
 pub(crate) fn cams(case: &Case) -> linkage::error::Result<String> {
     csv(cam::table(case)?)
 }

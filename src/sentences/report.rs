@@ -232,7 +232,7 @@ linkage::sentences! {
     orders_of_the_rms_error_from_to_and_from_to_divisions(n, n_2, n_3, n_4) = "\norder: observed order of convergence of the rms error, from {n} to {n_2} and from {n_3} to {n_4} divisions";
     OF_HALF_RANGE = "of half range";
     half_range(channel, half, unit) = "  {channel:28} half range {half:>10} {unit}";
-    over_one_turn_in_divisions(scenario, course, divisions) = "{scenario}: {course} over one turn in {divisions} divisions";
+    over_one_turn_in_divisions(scenario, course, range, divisions) = "{scenario}: {course} over {range} in {divisions} divisions";
     // report/drive.rs
     motor_against_reactions_of_the_largest(error) = "; motor moment and moment from the reactions differ by {error} of the largest moment";
     run_up_at_a_limit_of_rotation(t, degrees) = "run-up: ends at a limit of rotation at {t:.6} s, crank angle {degrees}";

@@ -1,8 +1,8 @@
 """Opens pages of `linkproof run --html` in headless Chromium: check.py LINKPROOF CHROMIUM DIRECTORY some|everything SCENARIO...
 
-For every page: no message on the console, no request, links where the solution has them, loads where the scenario and the
-solution have them, plans as `linkproof plan` has them, keyboard, pointer, printing, names of everything that can be seen,
-contrast, no width that does not fit. Screenshots at three widths, light and dark, go to DIRECTORY.
+Every page is checked for console messages and network requests; for positions of links, loads and plans against the output
+of `linkproof`; for keyboard, pointer and printing; and for names of visible elements, contrast and overflow.
+Screenshots at three widths, light and dark, go to DIRECTORY.
 """
 
 import csv
@@ -20,7 +20,7 @@ from wrong import GO_TO, WITHIN, Wrong, need
 
 WIDTHS = [360, 800, 1400]
 MOST_BYTES = 3_000_000
-# Places of all mass centres and angles of a side, in metres, from what is drawn.
+# Transforms of all drawn links of a side.
 READ = """
 (side) => [...document.querySelectorAll(`#picture .${side} [data-link]`)].map((part) => ({
     link: Number(part.dataset.link), matrix: part.getAttribute('transform').match(/-?[\\d.]+(?:e[-+]?\\d+)?/g).map(Number),
@@ -35,7 +35,7 @@ UNNAMED = """
 TOO_WIDE = "() => document.documentElement.scrollWidth - document.documentElement.clientWidth"
 
 
-# Texts whose contrast to what is behind them is below what WCAG 2 asks for at level AA.
+# Texts whose contrast to their background is below the minimum of WCAG 2, level AA.
 PALE = """
 () => {
     const parts = (colour) => (colour.match(/[\\d.]+/g) || []).map(Number);
@@ -115,7 +115,7 @@ def check_motion(tab, data, rows):
 
 
 def check_keys(tab, count):
-    """Works without a mouse."""
+    """Checks that the page works without a mouse."""
     at = lambda: int(tab.evaluate("() => document.getElementById('slider').value"))
     tab.evaluate("() => document.activeElement.blur()")
     for key, row in [("Home", 0), ("ArrowRight", min(1, count - 1)), ("ArrowLeft", 0), ("End", count - 1), ("Home", 0), ("Shift+ArrowRight", min(10, count - 1))]:
@@ -139,7 +139,7 @@ def check_keys(tab, count):
     tab.keyboard.press("n")
     need(tab.evaluate(named), "N does not hide names")
     tab.keyboard.press("n")
-    # From the top, the tabulator reaches the first control.
+    # From the top of the page, the tab key reaches the first control.
     tab.evaluate("() => document.activeElement.blur()")
     tab.keyboard.press("Tab")
     for own in ["play", "back", "on", "slider", "speed", "loop"]:
@@ -149,7 +149,7 @@ def check_keys(tab, count):
 
 
 def check_pointer(tab, count):
-    """A click on a chart goes to its instant, and what is pointed at is read."""
+    """Checks that a click on a chart selects the instant, and that the values under the pointer are shown."""
     if count < 10:
         return
     # Charts are drawn when they come near the window.
@@ -168,7 +168,7 @@ def check_pointer(tab, count):
 
 
 def check_play(browser, path):
-    """Plays by itself and in a loop where nobody asked for less motion."""
+    """Checks that the page plays in a loop, unless the browser requests reduced motion."""
     tab = browser.new_page(reduced_motion="no-preference")
     tab.goto(path.as_uri())
     at = lambda: tab.evaluate("() => shown.time")
@@ -239,7 +239,7 @@ def check_page(browser, linkproof, scenario, path, rows, pictures):
 
 
 def chain(dyads):
-    """A crank and so many dyads behind each other."""
+    """A crank and a chain of dyads."""
     ends = lambda of: "\n".join(f"{name} = {{ x_mm = {x}, y_mm = {y} }}" for name, x, y in of)
     links = {"crank": [("O", 0, 0), ("B0", 30, 0)]}
     joints = [("O", "ground", "crank")]
@@ -265,7 +265,7 @@ def special(scenarios, directory):
     """Runs whose pages differ in kind: scenario, name of the page, options."""
     at = lambda name: str(scenarios / f"{name}.toml")
     hostile = directory / "hostile.toml"
-    # Names of links are words; titles, names of published numbers and comments are any text.
+    # Names of links are single words, but titles, names of published numbers and comments may be any text.
     bad = "</script><b>&'<!-- <script>console.log(1)</script>"
     text = Path(at("pendulum")).read_text()
     formulas = Path(at("formulas/slider_crank_centric")).read_text()

@@ -1,4 +1,4 @@
-"""Loads and plans of a page against what the scenario says, `linkproof solve` and `linkproof plan`."""
+"""Compares loads and plans of a page with the scenario, `linkproof solve` and `linkproof plan`."""
 
 import json
 import math
@@ -9,7 +9,7 @@ from pathlib import Path
 
 from wrong import GO_TO, WITHIN, need
 
-# Hollow arrows that are drawn now: name and path.
+# Hollow arrows at the instant shown: name and path.
 ARROWS = """
 () => [...document.querySelectorAll('#loads > g:not(.hidden)')].map((own) => [own.dataset.name, own.querySelector('path').getAttribute('d')])
 """
@@ -20,7 +20,7 @@ VECTORS = """
     return now.vectors.map(([name, part, from, to]) => [name, part, now.at[to][0] - now.at[from][0], now.at[to][1] - now.at[from][1]]);
 }
 """
-# What is drawn of it: name and line.
+# Drawn vectors of the plan: name and line.
 DRAWN = """
 (number) => [...document.querySelectorAll('#plan-list svg')[number].querySelectorAll('.vector')].map((own) =>
     [own.querySelector('title').textContent.split(':')[0], own.querySelector('path').getAttribute('d').match(/-?[\\d.]+/g).map(Number)])
@@ -30,7 +30,7 @@ NUMBER = r"-?[\d.]+(?:e[-+]?\d+)?"
 
 
 def show(tab, what):
-    """Brings a part of the page into the window: what is far from it is not drawn anew at every instant."""
+    """Scrolls a part of the page into the window, because parts outside it are not redrawn at every instant."""
     if tab.locator(what).count():
         tab.locator(what).scroll_into_view_if_needed()
         tab.wait_for_timeout(100)
@@ -46,14 +46,14 @@ UNITS |= {own: 1.0 for own in ("m", "rad", "kg", "kg_m2", "N", "N_m", "m_s2", "m
 
 
 def split(key):
-    """Name and size of the unit of a key; a key without a unit has the size 0."""
+    """Name of a key without its unit, and size of the unit in SI; 0 if the key has no unit."""
     ends = [own for own in UNITS if key.endswith(f"_{own}")]
     longest = max(ends, key=len, default=None)
     return (key, 0.0) if longest is None else (key[: -len(longest) - 1], UNITS[longest])
 
 
 def given_in(scenario):
-    """The tables of a scenario file; numbers that it computes from parameters are numbers here."""
+    """The tables of a scenario file, with expressions of parameters replaced by their values."""
     read = tomllib.loads(Path(scenario).read_text())
     known = {}
 
@@ -80,7 +80,7 @@ def given_in(scenario):
 
 
 def place_of(row, scenario, link, local):
-    """World place (m) of a place of a link, from the solution's angle and mass centre."""
+    """World position (m) of a point of a link, from the angle and mass centre in the solution."""
     if link == "ground":
         return local
     centre = vector(scenario["links"][link].get("mass_centre", {"x_m": 0, "y_m": 0}))
@@ -93,7 +93,7 @@ def place_of(row, scenario, link, local):
 
 
 def vector(given):
-    """A place in metres, however it is given."""
+    """A position in metres, given in any of the forms of a scenario."""
     return tuple(given[f"{axis}_m"] if f"{axis}_m" in given else given[f"{axis}_mm"] / 1e3 for axis in "xy")
 
 
@@ -103,7 +103,7 @@ def point_of(row, scenario, link, name):
 
 
 def forces_of(row, scenario):
-    """By name: foot (m) and force (N) of everything that the scenario gives as numbers."""
+    """By name: point of application (m) and vector (N) of all forces that the scenario gives as numbers."""
     found = {}
     gravity = scenario.get("gravity", {})
     gravity = (gravity.get("x_m_s2", 0), gravity.get("y_m_s2", 0))
@@ -123,7 +123,7 @@ def forces_of(row, scenario):
 
 
 def springs_of(row, scenario):
-    """By name: the size of the force (N) of springs between points."""
+    """By name: magnitude of the force (N) of each spring between points."""
     found = {}
     for load in scenario.get("loads", []):
         if load["type"] != "spring" or "stiffness_N_m" not in load or "free_length_mm" not in load:
@@ -136,7 +136,7 @@ def springs_of(row, scenario):
 
 
 def check_loads(tab, data, scenario, rows):
-    """Every load is drawn where the solution has its place, along its force, as long as the scale says."""
+    """Checks that every load is drawn at its point, along its force, with its length by the scale."""
     if "loads" not in data:
         return
     given = given_in(scenario)
@@ -169,7 +169,7 @@ def check_loads(tab, data, scenario, rows):
             name = data["loads"]["drives"][0]["name"]
             need(name in drawn, f"{name} is not drawn")
             told = numbers(drawn[name])
-            # M x y A r r 0 long way x y: from 45 deg below to where the moment ends.
+            # The path is `M x y A r r 0 long way x y`: an arc from 45 deg below to the tip of the moment's arrow.
             start, end, clockwise = told[:2], told[7:9], told[6]
             link, *local = data["loads"]["drives"][0]["on"]
             where = place_of(row, given, motion["links"][link - 1]["name"], local)
@@ -187,7 +187,7 @@ def check_loads(tab, data, scenario, rows):
 
 
 def check_plans(tab, data, linkproof, scenario):
-    """Vectors are those of `linkproof plan`, and what is drawn is to one scale."""
+    """Checks that vectors equal those of `linkproof plan`, and that all are drawn to one scale."""
     plans = data.get("plans", {}).get("plans", [])
     given = tomllib.loads(Path(scenario).read_text())
     drives = given["drive"] if isinstance(given["drive"], list) else [given["drive"]]

@@ -2,7 +2,7 @@
 # Opens pages of `linkproof run --html` in headless Chromium: tests/html/run.sh [SCENARIO...]
 #
 # Default: all of scenarios/*.toml, and runs whose pages differ in kind (one that disagrees, several engines, ...). Pages and screenshots stay in target/html-pages.
-# Python packages go into target/html-venv. LINKPROOF names a command that is built already, CHROMIUM a browser.
+# Python packages go into target/html-venv. LINKPROOF names the built command, CHROMIUM a browser.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 top=$(cd "$here/../.." && pwd)

@@ -1,6 +1,6 @@
-"""What the checks of pages share."""
+"""Common parts of the checks of pages."""
 
-# Of the mechanism's size, or of the largest number of its kind.
+# Tolerance, as a fraction of the mechanism's size or of the largest number of the kind.
 WITHIN = 1e-6
 GO_TO = """
 (row) => { const slider = document.getElementById('slider'); slider.value = row; slider.dispatchEvent(new Event('input')); }
@@ -8,7 +8,7 @@ GO_TO = """
 
 
 class Wrong(Exception):
-    """A page that is not as it must be."""
+    """A fault of a page."""
 
 
 def need(holds, what):

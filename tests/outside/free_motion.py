@@ -1,10 +1,9 @@
 """Motions under forces for newton_euler.py: double precision, numpy, no code of this project.
 
-The state is the angles and slides of the free drives and their rates. The pose is closed by Newton's method, and the
-accelerations come from one linear system in the coordinates of the links' own frames, with a multiplier for every
-joint and for every drive that is not free: other coordinates than those in which newton_euler.py takes the forces
-afterwards. Modified midpoint steps are extrapolated to order 12 (Gragg, Bulirsch, Stoer). Where a link turns back under
-a resistance, a step ends.
+The state consists of the inputs of the free drives and their rates. Newton's method closes the pose. The accelerations
+come from one linear system in the coordinates of the links' frames, with multipliers for every joint and for every
+prescribed drive. newton_euler.py computes the forces afterwards in other coordinates. Modified midpoint steps are
+extrapolated to order 12 (Gragg, Bulirsch, Stoer). A step ends where a link under a resistance reverses.
 """
 
 import numpy as np
@@ -14,7 +13,7 @@ COUNTS = (2, 4, 6, 8, 10, 12)
 
 
 def motor(m, quantity, speed):
-    """Static torque on the crank, the inertia that turns with it, and the torque of the motor itself."""
+    """Static torque on the crank, inertia of motor and reducer reduced to the crank, and torque on the motor shaft."""
     motor = m.file.get("motor")
     if motor is None or m.drives[0].get("motion") != "free":
         return 0.0, 0.0, 0.0
@@ -71,7 +70,7 @@ class Motion:
         self.motor_least = np.inf
 
     def rows(self, q, v):
-        """Closure, its derivatives by all coordinates, and its second derivative where no link accelerates."""
+        """Residuals of the joints, their Jacobian, and their second time derivatives for zero accelerations."""
         value, jacobian, bias = [], [], []
         spin = lambda link: (q[3 * link + 2], v[3 * link + 2]) if link >= 0 else (0.0, 0.0)
         for (i, a, j, b), axes, turns in self.joints:
@@ -110,7 +109,7 @@ class Motion:
         return np.array(value), np.vstack(jacobian), np.array(bias)
 
     def sliding(self, q, v, index):
-        """Rate of a joint's coordinate, its axis, and the place of the second link; the last two for a slide."""
+        """Rate of a joint's coordinate; for a prismatic joint also its axis and the joint's point on the second link."""
         (i, a, j, b), axes, _ = self.joints[index]
         spin = lambda link: (q[3 * link + 2], v[3 * link + 2]) if link >= 0 else (0.0, 0.0)
         (angle, omega), (other, turning) = spin(i), spin(j)
@@ -125,7 +124,7 @@ class Motion:
         return (along.conjugate() * speed).real, along, at
 
     def friction(self, q, v, multipliers):
-        """Forces of all frictions on the links, for the multipliers of the joints: a force across, and a moment or a force."""
+        """Forces of all joint frictions on the links, from the multipliers (reactions) of the joints."""
         force = np.zeros(self.n)
         for number, index, coefficient, length in self.rubbed:
             one, other = multipliers[2 * index:2 * index + 2]
@@ -149,7 +148,7 @@ class Motion:
         return force
 
     def inputs(self, q, v):
-        """What the drives measure, its derivatives by all coordinates, and its second derivative where no link accelerates."""
+        """Inputs of the drives, their Jacobian, and their second time derivatives for zero accelerations."""
         value, jacobian, bias = [], np.zeros((len(self.kind), self.n)), []
         spin = lambda link: (q[3 * link + 2], v[3 * link + 2]) if link >= 0 else (0.0, 0.0)
         for kind, link, row, ((i, a, j, b), axes, turns) in zip(self.kind, self.link, jacobian, self.driven):
@@ -162,7 +161,7 @@ class Motion:
                 value.append(q[3 * j + 2] - q[3 * i + 2] - turns)
                 bias.append(0.0)
             else:
-                # The gap between both places is seen from the first link, which turns.
+                # The slide is measured in the axes of the first link, which rotates.
                 angle, omega = spin(i)
                 along, gap, rate, second = np.exp(1j * (angle + axes[0])), 0j, 0j, 0j
                 dot = lambda p: (along.conjugate() * p).real
@@ -180,7 +179,7 @@ class Motion:
         return np.array(value), jacobian, np.array(bias)
 
     def drives(self, t, y):
-        """Coordinates, rates and second derivatives (of those that are prescribed) of the drives."""
+        """Inputs of the drives and their rates; second derivatives for prescribed drives, otherwise zero."""
         count, out = len(self.free), []
         for d, drive in enumerate(self.m.drives):
             if d in self.free:
@@ -189,7 +188,7 @@ class Motion:
             elif drive.get("law", "constant") == "constant":
                 out.append((float(self.m.law(d, mpf(0))) + float(self.quantity(drive, "speed")) * t, float(self.quantity(drive, "speed")), 0.0))
             else:
-                # 40 digits leave enough of the differences.
+                # With 40 digits, the differences keep enough digits.
                 h = mpf(10) ** -9
                 before, now, after = (self.m.law(d, mpf(t) + k * h) for k in (-1, 0, 1))
                 out.append((float(now), float((after - before) / (2 * h)), float((before - 2 * now + after) / h**2)))
@@ -245,7 +244,7 @@ class Motion:
         wanted = np.array([second for _, _, second in self.drives(t, y)])
         jacobian, bias = np.vstack([jacobian, extra[held]]), np.concatenate([bias, (own - wanted)[held]])
         c = len(bias)
-        # Multipliers are forces of the size of the loads: rows of both halves are of one size in SI for these machines.
+        # Multipliers are forces as large as the loads: in SI, all rows are of similar size for these machines.
         full = np.block([[mass, jacobian.T], [jacobian, np.zeros((c, c))]])
         a = np.linalg.solve(full, np.concatenate([force, -bias]))
         for _ in range(100 if self.rubbed else 0):
@@ -286,11 +285,11 @@ class Motion:
             if any(speeds):
                 first = v
             elif "motor" in self.m.file:
-                # From rest the motor moves the links in its own sense.
+                # A motor that starts from rest moves the links in its driving sense.
                 ahead = np.array(list(y[:len(self.free)]) + [float(self.quantity(self.m.drives[d], "speed")) for d in self.free])
                 _, first = self.pose(t, ahead, q)
             else:
-                # From rest everything moves as it is accelerated without resistances.
+                # From rest, the motion begins in the direction of the accelerations without resistances.
                 self.signs = {number: 0.0 for number in self.sense}
                 _, _, first = self.solved(t, y, q)
             self.signs = {number: float(np.sign(own(q, first))) for number, own in self.sense.items()}
@@ -328,7 +327,7 @@ class Motion:
 
 
 def at(m, quantity, actions, twists, start, end, rate):
-    """Coordinates, rates and accelerations at a time, how far half the step changes them, and the senses of loads."""
+    """Coordinates, rates and accelerations at a time, their relative change with half the step, and the senses of loads."""
     results = []
     for steps in (rate, 2 * rate):
         motion = Motion(m, quantity, actions, twists, steps)

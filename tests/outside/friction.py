@@ -1,4 +1,4 @@
-"""Friction of joints for newton_euler.py, contact by contact, iterated in 40 digits."""
+"""Friction of joints and losses of transmissions for newton_euler.py: fixed-point iteration in 40 digits."""
 
 from mpmath import mp, mpf
 
@@ -7,7 +7,10 @@ SETTLED = mpf(10) ** -35
 
 
 def of(m, q, v, f, quantity, signs=None):
-    """Frictions for the reactions f: the joint, its friction on the second link, and the actions link, force, place, moment."""
+    """Frictions for the reactions f: the joint (None for a transmission), its friction on the second link, and the actions.
+
+    An action is a link, a force, its point of application, and a moment.
+    """
     found = []
     for number, load in enumerate(m.loads):
         if load["type"] != "friction":
@@ -30,6 +33,10 @@ def of(m, q, v, f, quantity, signs=None):
             at = m.at(q, *m.sides(joint)[1])
             actions = [(link, (sign * size * axis[0], sign * size * axis[1]), at, mpf(0)) for link, sign in ((second, 1), (first, -1))]
         found.append((joint, size, actions))
+    for t, own in enumerate(m.transmissions):
+        force = f[3 * len(m.joints) + len(m.drives) + t]
+        if actions := own.losses(q, v, force):
+            found.append((None, actions[0][3], actions))
     return found
 
 
@@ -45,7 +52,7 @@ def rate(m, q, v, joint, quantity):
     first, second = joint["links"]
     if joint["type"] == "revolute":
         return spin(second) - spin(first)
-    # Both velocities at the block's place: the velocity of the block against the guide.
+    # Velocity of the block relative to the guide, at the block's point.
     at = m.at(q, *m.sides(joint)[1])
     along = m.angle(q, first) + quantity(joint, "axis")
     one, other = velocity(first, at), velocity(second, at)
@@ -53,7 +60,7 @@ def rate(m, q, v, joint, quantity):
 
 
 def settled(m, q, v, loads, quantity, forces, signs=None):
-    """The loads with friction, and the reactions that belong to them; `forces` finds the reactions for loads."""
+    """The loads with friction, and the reactions that they cause; `forces` computes reactions from loads."""
     f = forces(loads)
     for _ in range(400):
         actions = [own for _, _, all in of(m, q, v, f, quantity, signs) for own in all]

@@ -1,17 +1,17 @@
-"""Numbers for [[oracle]] tables from a program of its own: mpmath, 40 digits, no code of this project.
+"""Numbers for [[oracle]] tables from an independent program: mpmath, 40 digits, no code of this project.
 
     python3 tests/outside/newton_euler.py BINARY scenarios/NAME.toml INSTANT [INSTANT ...]
 
 An instant is a crank angle in degrees (70), the slide of the first drive in millimetres with its unit (120mm), or a
-time in seconds with its unit (0.35s). With --all there are numbers of points, sliders and the frame too.
+time in seconds with its unit (0.35s). With --all the program also prints numbers of points, sliders and the frame.
 
-It reads the scenario file by itself (tomllib), with units of its own. It closes all joints by Newton's method, follows
-the motion from the start in small steps, differentiates the closed poses by differences in 40 digits, and solves the
-equations of Newton and Euler of all links at once. A drive prescribes the coordinate of its joint, one more equation, and
-its force or moment is one more unknown; transmissions.py has the equations of gears, racks, belts and cams, friction.py
-the friction of joints. The binary (`linkproof solve`) only gives a first guess of the pose at the
-start; assembly modes are checked against docs/scenario.md. At a crank angle a free motion has its nominal speed; at a
-time it is integrated by free_motion.py, in double precision, with a step that is halved until nothing printed moves.
+The program reads the scenario file (tomllib) and has a separate table of units. It closes all joints by Newton's method,
+follows the motion from the start in small steps, differentiates the closed poses by differences in 40 digits, and solves
+the Newton-Euler equations of all links at once. Each drive adds an equation for the coordinate of its joint, and its
+force or moment as an unknown. transmissions.py has the equations of gears, racks, belts and cams, friction.py those of
+friction. The binary (`linkproof solve`) only gives a first guess of the start pose; assembly modes are checked against
+docs/scenario.md. Numbers at a crank angle use the nominal speed of a free motion. For numbers at a time, free_motion.py
+integrates the motion in double precision, and halves the step until no printed digit changes.
 """
 
 import re
@@ -36,7 +36,7 @@ UNITS = {
 
 
 def quantity(table, stem, default=None):
-    """A number with its unit: the key is the stem and the unit."""
+    """The number under the key `stem` + `_` + unit, in SI."""
     for key, value in table.items():
         if key.startswith(stem + "_") and key[len(stem) + 1:] in UNITS:
             return mpf(str(value)) * UNITS[key[len(stem) + 1:]]
@@ -44,7 +44,7 @@ def quantity(table, stem, default=None):
 
 
 def value(formula, **variables):
-    """A formula, with Python's arithmetic of 40 digits."""
+    """The value of a formula, in 40 digits."""
     names = {name: getattr(mp, name) for name in ("sin", "cos", "tan", "sqrt", "exp", "pi")}
     digits = re.sub(r"(?<![\w.])\d+(\.\d*)?(e-?\d+)?", lambda own: f"mpf('{own[0]}')", formula)
     return eval(digits.replace("^", "**"), {"mpf": mpf, **names, **variables})
@@ -85,7 +85,7 @@ class Mechanism:
         return next(joint for joint in self.joints if joint["name"] == drive["joint"])
 
     def carriers(self, drive):
-        """From the ground outwards: what an earlier drive moves carries this one."""
+        """Links that may carry the drive: the ground, and the links that earlier drives move."""
         index = next(index for index, own in enumerate(self.drives) if own is drive)
         return {"ground"} | {self.driven(own) for own in self.drives[:index]}
 
@@ -94,7 +94,7 @@ class Mechanism:
         return next(link for link in self.joint(drive)["links"] if link not in carriers)
 
     def kind(self, drive):
-        """What a drive measures: a slide, a link's angle in the world, or the turn of the second link against the first."""
+        """Kind of a drive's input: a slide, a link's angle in the world, or the angle of the second link minus the first."""
         joint = self.joint(drive)
         if joint["type"] == "prismatic":
             return "slide"
@@ -102,7 +102,7 @@ class Mechanism:
         return "angle" if carried & set(joint["links"]) else "turn"
 
     def coordinate(self, q, index):
-        """What a drive measures, from the pose."""
+        """Input of a drive in a pose."""
         drive = self.drives[index]
         joint, kind = self.joint(drive), self.kind(drive)
         first, second = joint["links"]
@@ -117,7 +117,7 @@ class Mechanism:
         return mp.cos(along) * (b[0] - a[0]) + mp.sin(along) * (b[1] - a[1])
 
     def efforts(self, q, index):
-        """What a unit of a drive's force or moment exerts: link, force, place, moment."""
+        """Actions of a unit force or moment of a drive: link, force, place, moment."""
         drive = self.drives[index]
         joint, kind, zero = self.joint(drive), self.kind(drive), (mpf(0), mpf(0))
         first, second = joint["links"]
@@ -138,7 +138,7 @@ class Mechanism:
         return quantity(drive, "start")
 
     def law(self, index, t):
-        """What a drive prescribes: an angle in the world, a turn, or a slide."""
+        """Prescribed input of a drive at a time."""
         drive = self.drives[index]
         start = self.start_of(index)
         zero = quantity(drive, "zero", mpf(0))
@@ -185,7 +185,7 @@ class Mechanism:
         return mpf(0) if link == "ground" else q[3 * (self.links.index(link) - 1) + 2]
 
     def rows(self, q, t):
-        """What is not closed."""
+        """Residuals of joints, transmissions and drives."""
         rows = []
         for joint in self.joints:
             (first, a), (second, b) = self.sides(joint)
@@ -219,7 +219,7 @@ class Mechanism:
 
 
 def first_guess(binary, path, mechanism):
-    """Pose at t = 0 as the project has it, in double precision."""
+    """Pose at t = 0 from `linkproof solve`, in double precision."""
     command = [binary, "solve", path, "--with", "assur", "--times", "0"]
     out = subprocess.run(command, check=True, capture_output=True, text=True).stdout
     row = next(csv.DictReader(io.StringIO("".join(line + "\n" for line in out.splitlines() if not line.startswith("#")))))
@@ -232,7 +232,7 @@ def first_guess(binary, path, mechanism):
 
 
 def check_modes(m, q):
-    """The assembly modes of docs/scenario.md, of dyads. Links that a driven joint joins count as one."""
+    """Checks the modes of dyads by docs/scenario.md. Links that a driven joint connects count as one body."""
     driven = {drive["joint"] for drive in m.drives}
     for group in m.file["start"].get("groups", []):
         mode, parts = group.get("mode"), [[link] for link in group["links"]]
@@ -267,7 +267,7 @@ def check_modes(m, q):
 
 
 def clamped(points, x):
-    """Cubic spline with horizontal ends, by its slopes at the points."""
+    """Cubic spline with zero slope at both ends, computed from its slopes at the points."""
     n = len(points)
     xs, ys = [p[0] for p in points], [p[1] for p in points]
     a, r = mp.matrix(n, n), mp.matrix(n, 1)
@@ -312,6 +312,14 @@ def course(load, stem, crank):
         return quantity(load, stem)
     period = 2 * mp.pi * load.get("turns", 1)
     points = [(quantity(row, "crank"), quantity(row, stem)) for row in load["table"]]
+    if any(key in ("crank_m", "crank_mm") for key in load["table"][0]):
+        # Over a slide: lines, and constant values beyond the ends.
+        after = [k for k, (x, _) in enumerate(points) if x <= crank]
+        k = after[-1] if after else 0
+        if not after or k + 1 == len(points):
+            return points[k][1]
+        (x, y), (xx, yy) = points[k], points[k + 1]
+        return y + (yy - y) * (crank - x) / (xx - x)
     if load.get("interpolation", "linear") == "smooth":
         return spline(points, period, crank)
     n = len(points)
@@ -392,10 +400,9 @@ def actions(m, q, v, twists, crank, sense=lambda number, omega: mp.sign(omega)):
 
 
 def forces(m, q, v, a, loads):
-    """Newton and Euler: forces of the first link on the second, moments in sliders, forces and moments of drives.
+    """Solves the Newton-Euler equations for joint forces (first link on second), slider moments, drives, transmissions.
 
-    The last unknowns are the forces of transmissions. Flanks push and strands pull: a force of the wrong sign takes the
-    other flank or strand.
+    A flank can only push and a strand can only pull: if a force is negative, the other flank or strand is loaded.
     """
     for own in m.transmissions:
         own.sense = 1
@@ -479,7 +486,7 @@ def main():
         if load["type"] == "torsion_spring":
             begun = m.angle(start, load["links"][1]) - m.angle(start, load["links"][0])
             twists[number] = -2 * mp.pi * mp.ceil((begun - mp.pi) / (2 * mp.pi))
-    # "[want]" leaves out what is not asked for.
+    # Channels that `want` does not request are not printed.
     want = m.file.get("channels", {}).get("want", ["positions", "velocities", "accelerations", "reactions", "balancing_moment"])
     print_start(m, start)
     for instant in instants:
@@ -514,13 +521,13 @@ def main():
         print_oracle(m, where, key, SOURCE + ", 40 digits", q, v, a, f, loads, want)
 
 
-# Points, sliders and frame besides links, joints and drives: for tests/outside/scenarios.
+# If true, points, sliders and the frame are printed too, as in tests/outside/scenarios.
 ALL = False
 SOURCE = "tests/outside/newton_euler.py: a reader, a closure and equations of its own"
 
 
 def print_timed(m, start, twists, instant, want):
-    """Numbers at a time. A motion under forces is integrated, and its forces are taken in 40 digits after that."""
+    """Prints numbers at a time. The motion under forces is integrated; its reactions are then solved in 40 digits."""
     t = mpf(instant[:-1])
     source = f"{SOURCE}, integrated by tests/outside/free_motion.py"
     for rate in (100, 200, 400, 800, 1600):
@@ -534,7 +541,7 @@ def print_timed(m, start, twists, instant, want):
     crank = m.coordinate(q, 0) - quantity(m.drives[0], "zero", mpf(0))
     loads = list(actions(m, q, v, twists, crank, lambda number, _: signs[number]))
     loads, f = friction.settled(m, q, v, loads, quantity, lambda own: forces(m, q, v, a, own), signs)
-    # What drives a free joint is known: its forces, taken in other coordinates, must come to that.
+    # The effort of a free drive is known. The Newton-Euler equations, in other coordinates, must give the same effort.
     largest = max(abs(value) for value in f)
     for d, drive in enumerate(m.drives):
         if drive.get("motion") == "free":
@@ -547,7 +554,7 @@ def print_timed(m, start, twists, instant, want):
 
 
 def print_start(m, q):
-    """The distance of the driven link's end from a pivot of the ground at t = 0, which the start of the drive decides."""
+    """Prints a distance at t = 0 between the driven link and the ground, which depends on the start of the drive."""
     link, joint = m.driven(m.drives[0]), m.joint(m.drives[0])
     turning = dict(m.sides(joint)) if m.kind(m.drives[0]) == "angle" else {}
     end = next((name for name, at in m.points[link].items() if at != turning.get(link) and name not in m.points["ground"]), None)
@@ -563,7 +570,7 @@ def print_start(m, q):
 
 
 def place_of(m, q, v, a, link, local):
-    """Place, velocity and acceleration of a place on a link."""
+    """Position, velocity and acceleration of a point of a link."""
     x, y = m.at(q, link, local)
     if link == "ground":
         return (x, y), (mpf(0), mpf(0)), (mpf(0), mpf(0))
@@ -577,7 +584,7 @@ def place_of(m, q, v, a, link, local):
 
 
 def shaking(m, q, f, loads):
-    """What joints, drives and loads exert on the frame: force, and moment about the origin."""
+    """Shaking force, and shaking moment about the origin, from joints, drives and loads."""
     x, y, moment = mpf(0), mpf(0), mpf(0)
     for j, joint in enumerate(m.joints):
         if "ground" in joint["links"]:
@@ -645,6 +652,8 @@ def print_oracle(m, where, key, source, q, v, a, f, loads, want):
         if joint["type"] == "prismatic":
             add("reactions", f"joint.{joint['name']}.moment_N_m", "moment", f[3 * j + 2])
     for joint, size, _ in friction.of(m, q, v, f, quantity):
+        if joint is None:
+            continue
         suffix, kind = ("friction_N_m", "moment") if joint["type"] == "revolute" else ("friction_N", "force")
         add("reactions", f"joint.{joint['name']}.{suffix}", kind, size)
     for t, own in enumerate(m.transmissions):

@@ -1,8 +1,8 @@
-"""Gear pairs, racks, belts and cams for newton_euler.py, from rolling pitch circles, strands, and lifts of followers.
+"""Gear pairs, racks, belts and cams for newton_euler.py: pitch circles that roll, strands, and lifts of followers.
 
-A wheel turns against its carrier. What rolls off on one pitch circle rolls off on the other: that is one equation more
-for the pose. Its force is one unknown more: a tangential force at the pitch point with the radial force of the flank
-that carries it, or the pull of the strand that is tight. Which flank or strand that is follows from the sign.
+Wheels turn relative to their carrier. Equal arcs roll off on both pitch circles, which is one more equation for the
+pose. The transmitted force is one more unknown: a tangential force at the pitch point with the radial force of the
+loaded flank, or the tension of the tight strand. The sign of the force tells which flank or strand is loaded.
 """
 
 from mpmath import mp, mpf
@@ -24,7 +24,7 @@ class Transmission:
         self.begun, self.sense = None, 1
 
     def begin(self, q):
-        """Takes the phase, and the axles in the carrier, from the closed start pose."""
+        """Determines the phase and the positions of the axles on the carrier from the closed start pose."""
         m = self.m
         spots = [(joint, link, m.at(q, link, local)) for joint in m.joints if joint["type"] == "revolute" for link, local in m.sides(joint)]
         def axle(link):
@@ -69,14 +69,14 @@ class Transmission:
         return gx + way * ex, gy + way * ey
 
     def rolled(self, q):
-        """Arc on the second pitch circle or line that has not rolled off on the first."""
+        """Difference of the arcs on the second pitch circle or line and on the first."""
         turn = self.relative(q, self.first)
         if self.kind in ("rack", "screw"):
             (ex, ey), (x, y), (px, py) = self.axis(q), self.m.at(q, self.carrier, self.a), self.foot(q)
             (fx, fy), (sx, sy) = (self.m.at(q, *side) for side in self.m.sides(self.guide))
             slide = (sx - fx) * ex + (sy - fy) * ey
             moved = slide if self.guide["links"][1] == self.second else -slide
-            # The pitch point of the pinion has the speed -(py - y), px - x for a unit turn.
+            # The velocity of the pinion at the pitch point is (-(py - y), px - x) per unit of angular velocity.
             return moved - turn * (-(py - y) * ex + (px - x) * ey)
         same = self.inside if self.kind == "gears" else self.table.get("strands") != "crossed"
         return self.radii[1] * self.relative(q, self.second) + (-1 if same else 1) * self.radii[0] * turn
@@ -94,7 +94,7 @@ class Transmission:
         return turn - 2 * mp.pi * mp.nint(turn / (2 * mp.pi))
 
     def pull(self, q, side):
-        """A strand: where it leaves the first wheel, and its direction from the second wheel to the first."""
+        """A strand: the point where it leaves the first wheel, and its direction from the second wheel to the first."""
         a, b = self.m.at(q, self.carrier, self.a), self.m.at(q, self.carrier, self.b)
         (ux, uy), distance = unit(b[0] - a[0], b[1] - a[1]), mp.hypot(b[0] - a[0], b[1] - a[1])
         crossed = self.table.get("strands") == "crossed"
@@ -108,7 +108,7 @@ class Transmission:
         return [(self.second, force, at), (self.first, (-force[0], -force[1]), at)]
 
     def known(self, q):
-        """Forces that do not depend on what is transmitted: the tension of both strands."""
+        """Forces that do not depend on the transmitted force: the tension of the slack strand, in both strands."""
         if self.kind != "belt":
             return []
         slack = self.quantity(self.table, "slack", mpf(0))
@@ -116,7 +116,7 @@ class Transmission:
         return [own for at, (x, y) in pulls for own in self.both((slack * x, slack * y), at)]
 
     def efforts(self, q):
-        """Forces for a unit of what is transmitted, along the flank or strand that carries it: link, force, place."""
+        """Forces for a unit of the transmitted force, along the loaded flank or strand: link, force, place."""
         if self.kind == "belt":
             at, (x, y) = self.pull(q, self.sense)
             return self.both((self.sense * x, self.sense * y), at)
@@ -128,7 +128,7 @@ class Transmission:
         else:
             b = self.m.at(q, self.carrier, self.b)
             ux, uy = unit(b[0] - a[0], b[1] - a[1])
-            # A wheel in a ring touches it on the side of the other axle, or beyond its own.
+            # A wheel touches its ring gear on the side away from the ring's axle. Seen from the ring, this is the wheel's side.
             far = self.inside and self.radii[0] < self.radii[1]
             reach = -self.radii[0] if far else self.radii[0]
             at, (tx, ty) = (a[0] + reach * ux, a[1] + reach * uy), (-uy, ux)
@@ -137,8 +137,30 @@ class Transmission:
         return self.both((c * tx + s * away[0], c * ty + s * away[1]), at)
 
 
+    def losses(self, q, v, force):
+        """Moments on the first member and the carrier that dissipate the lost power: link, force, place, moment."""
+        forward = mpf(str(self.table.get("efficiency", 1)))
+        back = mpf(str(self.table.get("efficiency_back", forward)))
+        if forward == back == 1:
+            return []
+        def velocity(link, at):
+            if link == "ground":
+                return mpf(0), mpf(0), mpf(0)
+            k = 3 * (self.m.links.index(link) - 1)
+            return v[k] - v[k + 2] * (at[1] - q[k + 1]), v[k + 1] + v[k + 2] * (at[0] - q[k]), v[k + 2]
+        power = mpf(0)
+        for link, (x, y), at in self.efforts(q):
+            if link == self.second:
+                (ux, uy, _), (cx, cy, _) = velocity(link, at), velocity(self.carrier, at)
+                power += force * (x * (ux - cx) + y * (uy - cy))
+        lost = power * (1 / forward - 1) if power > 0 else -power * (1 - back)
+        spin = velocity(self.first, (0, 0))[2] - velocity(self.carrier, (0, 0))[2]
+        moment = -lost / spin if spin else mpf(0)
+        return [(self.first, (mpf(0), mpf(0)), (mpf(0), mpf(0)), moment), (self.carrier, (mpf(0), mpf(0)), (mpf(0), mpf(0)), -moment)]
+
+
 class Cam(Transmission):
-    """A cam: the follower's coordinate against the carrier is a lift over the cam's angle, and a constant."""
+    """A cam: the follower's coordinate on the carrier is the lift at the cam's angle plus a constant."""
 
     def begin(self, q):
         self.flat = self.table.get("follower") == "flat"
@@ -174,7 +196,7 @@ class Cam(Transmission):
         return self.coordinate(q) - self.lift(self.relative(q, self.first))
 
     def way(self, q):
-        """Motion of the follower's point against the carrier for a unit of its coordinate."""
+        """The follower's point, and its velocity relative to the carrier per unit rate of the follower's coordinate."""
         at = self.m.at(q, self.second, self.m.points[self.second][self.table["point"]])
         sense = 1 if self.joint["links"][1] == self.second else -1
         if self.slides:
@@ -192,12 +214,12 @@ class Cam(Transmission):
             nx, ny = unit(wx, wy)
             if nx * (x - ax) + ny * (y - ay) < 0:
                 nx, ny = -nx, -ny
-            # The face touches where the cam's own point has the speed of the face along its normal.
+            # At the contact point, cam and face have equal velocities along the normal of the face.
             side = -rate * (nx * wx + ny * wy)
             reach = nx * (x - ax) + ny * (y - ay)
             at = ax + reach * nx - side * ny, ay + reach * ny + side * nx
             return self.both((nx, ny), at)
-        # The path of the point in the cam: its tangent, and the normal away from the axle.
+        # Tangent of the path that the point describes on the cam, and its normal away from the axle.
         tx, ty = unit(rate * wx + (y - ay), rate * wy - (x - ax))
         nx, ny = (ty, -tx) if ty * (x - ax) - tx * (y - ay) > 0 else (-ty, tx)
         return self.both((nx, ny), (x, y))

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Runs examples/pytest on a scenario that agrees and on three that do not: tests/pytest/run.sh
 #
-# Packages go into target/pytest-venv. LINKPROOF names a command that is built already.
+# Packages go into target/pytest-venv. LINKPROOF names the built command.
 set -eu
 top=$(cd "$(dirname "$0")/../.." && pwd)
 . "$top/tests/tools.sh"
@@ -43,7 +43,7 @@ for line in \
     '^INCONCLUSIVE: pendulum' 'choose a smaller time step' 'broken.toml:[0-9]*: .*"Q"' '^help: '; do
     grep -q "$line" "$told" || fail "no line like $line"
 done
-# An empty folder is no success.
+# An empty folder must not count as success.
 SCENARIOS="$place/empty"
 if "$environment/bin/python" -m pytest -p no:cacheprovider -q "$top/examples/pytest" >"$told" 2>&1; then
     fail "nothing was proven, and it passed"

@@ -1,8 +1,8 @@
-//! The architecture as a test.
-//! The test checks which crate may use which other crate, and which module may use which other module.
-//! No files may depend on each other in a circle.
+//! Tests of the architecture.
+//! They check which crate may use which other crate, and which module may use which other module.
+//! Files must not depend on each other in a circle.
 //! The two analytic sides may share only their common base.
-//! The test also checks a few rules that apply to every file.
+//! They also check a few rules that apply to every file.
 
 mod graph;
 

@@ -90,10 +90,10 @@ fn claimed(sample: &Sample, all: &mut Numbers) {
 type Numbers = BTreeMap<(String, String), Vec<f64>>;
 
 /// The parts of all bounds of a proof, grouped by subject.
-/// Channels of a quantity: the widest parts, as fractions of the channel's scale, and the largest number of omitted
-/// instants; in the reference, the widest bound.
-/// Checks of a family: the narrowest and the widest bound of both sides.
-/// Formulas: the same for each formula.
+/// Engine, for each quantity: the widest parts, as fractions of the channel's scale, and the largest number of omitted
+/// instants.
+/// Reference, for each quantity: the widest bound.
+/// Checks, for each family or formula: the narrowest and the widest bound of both sides.
 fn parts(sample: &Sample, proof: &Proof, all: &mut Numbers) {
     let mut widen = |what: String, values: &[f64]| {
         let own = all.entry((sample.0.into(), what)).or_insert_with(|| vec![0.0; values.len()]);

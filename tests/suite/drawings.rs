@@ -284,7 +284,7 @@ fn wrong_input_is_refused_with_a_remedy() {
     }
 }
 
-/// A pin that joins three links has a ring, and loads have a colour of their own.
+/// A pin that joins three links has a ring, and loads have a separate colour.
 #[test]
 fn marks_distinguish_pins_and_loads() {
     let rings = |name: &str| {

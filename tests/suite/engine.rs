@@ -81,8 +81,8 @@ fn has_formal_order(case: &Case, engines: impl Iterator<Item = Box<dyn Engine>>,
             }
         }
         // Crank angles are exact; in a Scotch yoke all angles and speeds are exact.
-        // In single precision almost every error is rounding.
-        // So it suffices that more than a third of the channels show an order. In single precision none need to.
+        // It therefore suffices that more than a third of the channels show an order.
+        // In single precision almost every error is rounding, so no channel needs to show an order.
         assert!(
             single(engine.as_ref()) || seen > reference.channels().len() / 3,
             "only {seen} channels have more than rounding errors"

@@ -251,7 +251,7 @@ fn names_that_mujoco_does_not_take_are_refused() {
     refused(&renamed(["ground", "crank", "world", "rocker"], "A"), &["world", "links.world"]);
 }
 
-/// A mechanism refuses names with characters that could end an attribute or a file name, so none is ever exported.
+/// A mechanism refuses names with characters that could end an attribute or a file name, so no such name is exported.
 #[test]
 fn names_with_special_meaning_are_refused() {
     let links = crate::common::shipped("crank_rocker.toml").case.mechanism.links().to_vec();

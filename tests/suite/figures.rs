@@ -46,7 +46,7 @@ fn val_ov7_base_every_printed_number_by_both_sides() {
     // The first three entries count positions, velocities and accelerations: five points, two directions, 13 crank
     // angles.
     // The next three count seven angles at each crank angle, and their first and second derivatives.
-    // The last two entries are not published numbers: a distance at the start, and one pose with its forces.
+    // The last two entries are not published: a distance at the start, and one pose with its forces.
     assert_eq!(cells, [130, 130, 130, 91, 91, 91, 0, 84]);
     assert!(
         scenario.oracles.iter().all(|oracle| oracle.series.iter().all(|s| s.expected.is_empty() && s.wrong.is_none()))
@@ -142,7 +142,7 @@ fn val_crank_rocker_mean_reduced_inertia_and_resistance() {
 }
 
 /// Effect of the crank's printed mass and inertia on the mean reduced inertia (docs/findings.md).
-/// The solvers do not compute masses, but this mean depends on the mass.
+/// No solver computes a mass, but a wrong mass or inertia changes this mean.
 #[test]
 fn val_crank_rocker_printed_mass_and_inertia_show_in_the_mean_reduced_inertia() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker.toml");

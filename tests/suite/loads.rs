@@ -4,5 +4,6 @@ mod closed_form;
 mod engines;
 mod friction;
 mod jumps;
+mod losses;
 mod random;
 mod reduced;

@@ -80,7 +80,8 @@ fn never_disagree(sorts: &[[bool; 3]], count: usize) {
 }
 
 /// Mechanisms with the drive at any other joint: slides, and angles between moving links.
-/// Half of them have a wheel on gears or a belt; half of these keep their crank. Half of all have friction.
+/// Half of the mechanisms get a wheel on gears or a belt; half of the mechanisms with a wheel are driven at the crank.
+/// Half of all mechanisms have friction.
 #[test]
 fn random_mechanisms_driven_at_any_joint_never_disagree() {
     let mut random = RandomSource::from_seed(31);

@@ -26,7 +26,7 @@ fn scenarios() -> Vec<String> {
     let directory = concat!(env!("CARGO_MANIFEST_DIR"), "/scenarios");
     let names = std::fs::read_dir(directory).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
     let mut names: Vec<String> = names.filter(|name| name.ends_with(".toml")).collect();
-    // The engine refuses motion laws other than constant speed; free motions have a test of their own.
+    // The engine refuses motion laws other than constant speed; free motions have a separate test.
     // It refuses transmissions and friction too.
     names.retain(|name| {
         let case = shipped(name).case;

@@ -38,7 +38,7 @@ fn run(line: &str, place: &Path) -> String {
 
 /// The page with the current outputs of its commands.
 /// The text before a block of TOML names its file: `<!-- the file arm.toml -->` for a new file,
-/// `<!-- at the end of four_bar.toml -->` for one that the block is added to.
+/// `<!-- at the end of four_bar.toml -->` for a file to which the block is added.
 fn followed(page: &str, place: &Path) -> (String, usize) {
     let mut text = page.to_string();
     let (mut printed, mut count) = (String::new(), 0);

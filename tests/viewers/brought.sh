@@ -1,9 +1,9 @@
 #!/bin/sh
-# Shows recordings in viewers that no package registry has: LICHTBLICK=DIRECTORY PLOTJUGGLER=COMMAND tests/viewers/brought.sh [FILE.mcap...]
+# Shows recordings in viewers that are in no package registry: LICHTBLICK=DIRECTORY PLOTJUGGLER=COMMAND tests/viewers/brought.sh [FILE.mcap...]
 #
-# LICHTBLICK is the directory of Lichtblick's web page, ready made (index.html is in it). PLOTJUGGLER is the installed command.
-# Either may be left out. Default: recordings/*.mcap. Pictures stay in target/viewers-pictures, to be looked at.
-# Needs chromium for the one, Xvfb for the other. LINKPROOF names a command that is built already.
+# LICHTBLICK is the directory of Lichtblick's built web page, with index.html. PLOTJUGGLER is the installed command.
+# Either may be left out. Default: recordings/*.mcap. Pictures stay in target/viewers-pictures for inspection.
+# Lichtblick needs chromium, PlotJuggler needs Xvfb. LINKPROOF names the built command.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 top=$(cd "$here/../.." && pwd)

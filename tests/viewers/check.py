@@ -1,4 +1,4 @@
-"""Opens recordings with readers that are not ours, and judges what they see.
+"""Opens recordings with foreign readers, and checks what they read.
 
 usage: check.py FILE...
 """
@@ -17,7 +17,7 @@ import numpy as np
 from mcap.reader import make_reader
 from mcap_protobuf.decoder import DecoderFactory
 
-# Texts of robots' programs: four bytes of encoding, a length, the text, a zero.
+# Text messages of robotics programs: four bytes of encoding, the length, the text, a zero byte.
 TEXT = {"/robot_description": "std_msgs/msg/String"}
 OWN = {"grid": "Grid", "link": "Link", "point": "Point", "joint": "Joint", "transmission": "Transmission", "frame": "Frame", "drive": "Drive"}
 FOXGLOVE = {
@@ -39,10 +39,10 @@ def check(what, passed, found=""):
 
 
 class Texts:
-    """Decodes the texts."""
+    """Decoder of text messages."""
 
     def decoder_for(self, encoding, schema):
-        """What takes a text out of a message, if it is one."""
+        """A function that reads the text of a message; None for other messages."""
         if encoding == "cdr" and schema.name == "std_msgs/msg/String":
             return lambda data: data[8:-1].decode()
         return None
@@ -54,7 +54,7 @@ def values(message):
 
 
 def expected_schema(topic):
-    """Name of the schema that a topic must have, or None for a topic that should not be there."""
+    """Name of the schema that a topic must have; None for an unexpected topic."""
     if topic in TEXT:
         return TEXT[topic]
     if topic in FOXGLOVE:
@@ -66,7 +66,7 @@ def expected_schema(topic):
 
 
 def load(path):
-    """Schemas and messages (log time, sequence, decoded) by topic, and the summary's records."""
+    """Schemas and messages (log time, sequence, decoded) by topic, attachments and metadata."""
     schemas, messages = {}, defaultdict(list)
     with open(path, "rb") as stream:
         reader = make_reader(stream, validate_crcs=True, decoder_factories=[DecoderFactory(), Texts()])
@@ -79,8 +79,8 @@ def load(path):
 
 
 def check_numbers(schemas, messages, slow):
-    """The topics of every sample; log times run `slow` times slower than the simulation."""
-    # Joints that slide or have friction have more fields, and slides are driven by forces.
+    """Checks the topics with samples; log times are `slow` times the simulated times."""
+    # Prismatic joints and joints with friction have more fields, and a drive of a slide has a force.
     plain = lambda schema: schema.replace("Slider", "Joint").replace("Rubbing", "").replace("Thrust", "")
     wrong = [f"{t} is {s}" for t, s in schemas.items() if plain(s) != expected_schema(t)]
     check("every topic has the schema of its name", not wrong, ", ".join(wrong) or f"{len(schemas)} topics")
@@ -117,7 +117,7 @@ def placed(transform, point):
 
 
 def check_scene(path, schemas, messages, sides):
-    """Frames, links and what is beside them for other viewers."""
+    """Checks frames, links, and the messages for other viewers."""
     if "/tf" not in messages:
         positions = [t for t in messages if "/link/" in t and "x_m" in values(messages[t][0][2])]
         check("there is no scene only where there are no positions", not positions)
@@ -163,7 +163,7 @@ def check_scene(path, schemas, messages, sides):
 
 
 def check_layout(path, schemas, messages, frames):
-    """The layout beside a recording names what is there, and shows all of it."""
+    """Checks that the layout beside a recording refers to recorded topics, and shows all links."""
     beside = Path(path).with_suffix(".foxglove.json")
     if not beside.exists():
         print(f"  --     no layout: {beside.name} is not kept")
@@ -185,7 +185,7 @@ def check_layout(path, schemas, messages, frames):
 
 
 def check_forces(messages, metadata):
-    """Arrows."""
+    """Checks the arrows of forces and moments."""
     if "/mechanism/forces" not in messages:
         return
     updates = [m for _, _, m in messages["/mechanism/forces"]]
@@ -209,7 +209,7 @@ def check_forces(messages, metadata):
 
 
 def run(what, *command):
-    """A check by another program, passed over where that is not installed."""
+    """Runs a check by a foreign program; skipped if this program is not installed."""
     if shutil.which(command[0]) is None:
         print(f"  --     {what}: {command[0]} is not installed")
         return
@@ -223,7 +223,7 @@ def check_file(path):
     print(path)
     try:
         schemas, messages, attachments, metadata = load(path)
-    except Exception as error:  # whatever a foreign reader stumbles over is a finding
+    except Exception as error:  # any error of a foreign reader is a finding
         check("the Python reader opens it", False, repr(error))
         return
     check("the Python reader opens it", messages, f"{sum(map(len, messages.values()))} messages")

@@ -1,8 +1,8 @@
-"""What a recording costs: processor time of a run with and without, one turn at 1 kHz, both in turn.
+"""Cost of a recording: processor time of alternate runs with and without a recording, one turn at 1 kHz.
 
 usage: cost.py LINKPROOF [ROUNDS]
 
-The least time of either counts. The exit code is 1 above 1.3 times.
+The shortest time of each counts. The exit code is 1 if the ratio exceeds 1.3.
 """
 
 import resource
@@ -26,7 +26,7 @@ def spent(command):
 
 
 def main(linkproof, rounds="15"):
-    """Measures, and says the ratio."""
+    """Measures and prints the ratio."""
     with tempfile.TemporaryDirectory() as own:
         run = [linkproof, "run", str(SCENARIO), *GRID, "--quiet", "--jobs", "1"]
         pairs = [(spent([*run, "--record", own]), spent([*run, "--no-record"])) for _ in range(int(rounds))]

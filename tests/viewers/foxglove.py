@@ -1,9 +1,9 @@
-"""Opens a recording with its layout in the open-source Foxglove Studio 1.48, in headless Chromium, and looks at the picture.
+"""Opens a recording with its layout in the open-source Foxglove Studio 1.48, in headless Chromium, and checks the picture.
 
 usage: foxglove.py PACKAGES RECORDING.mcap OUT.png    (with RECORDING.foxglove.json beside it)
 
 PACKAGES is a directory in which `npm install @foxglove/studio-base@1.48.0 react@17.0.2 react-dom@17.0.2` was run.
-The layout shows the mechanism from above. So every place on a link has its place in the picture, and its colour there.
+The layout shows the mechanism from above, so the recording gives the pixel and the colour of every point of a link.
 """
 
 import asyncio
@@ -32,14 +32,14 @@ from PIL import Image
 
 SIZE = (1500, 900)
 LIMIT = 240.0
-# Where the player stands when it has opened a file (ns).
+# Time of the player after it has opened a file (ns).
 START = 99_000_000
-# Chromium's own drawing, where there is no graphics card.
+# Software rendering, for machines without a graphics card.
 FLAGS = ["--headless=new", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--remote-debugging-port=0"]
 
 
 class Files(http.server.SimpleHTTPRequestHandler):
-    """Files of a directory, also a range of their bytes, as the player asks for them."""
+    """Serves files of a directory, also ranges of their bytes, which the player requests."""
 
     def log_message(self, *_):
         pass
@@ -81,7 +81,7 @@ CANVAS = """(() => {
 
 
 async def show(port, address, judge):
-    """Opens a page, or stays where it is, and photographs it until the judge is content. Returns canvas and picture."""
+    """Opens a page, if an address is given, and takes screenshots until `judge` accepts one. Returns canvas and picture."""
     with urllib.request.urlopen(f"http://127.0.0.1:{port}/json") as answer:
         page = next(own for own in json.load(answer) if own["type"] == "page")
     async with websockets.connect(page["webSocketDebuggerUrl"], max_size=None) as socket:
@@ -97,7 +97,7 @@ async def show(port, address, judge):
 
 
 def poses(recording):
-    """What the links look like, and all messages of their frames with their times (ns)."""
+    """Shapes of the links, and all messages of their frames with their times (ns)."""
     with open(recording, "rb") as stream:
         reader = make_reader(stream, decoder_factories=[DecoderFactory()])
         found = {"/mechanism/links": [], "/tf": []}
@@ -107,7 +107,7 @@ def poses(recording):
 
 
 def places(drawing, transforms):
-    """World places on the links of the last side, with their colours."""
+    """World positions of points on the links of the last side, with their colours."""
     frames = {own.child_frame_id: own for own in transforms.transforms}
     links = [own for own in drawing.entities if own.frame_id in frames]
     last = links[-1].frame_id.split("/")[0]
@@ -125,12 +125,12 @@ def places(drawing, transforms):
 
 
 def pixels(png):
-    """A picture as numbers."""
+    """A picture as an array."""
     return np.asarray(Image.open(io.BytesIO(png)).convert("RGB")).astype(int)
 
 
 def seen(canvas, picture, camera, wanted):
-    """Places on links whose colour is seen where the numbers say."""
+    """For every point: its frame, and whether its colour is at the computed pixel."""
     left, top, width, height = canvas
     scale = height / camera["distance"]
     good = []
@@ -138,14 +138,14 @@ def seen(canvas, picture, camera, wanted):
         x, y = (at - np.array(camera["targetOffset"][:2])) * scale
         column, row = round(left + width / 2 + x), round(top + height / 2 - y)
         near = picture[max(row - 2, 0) : row + 3, max(column - 2, 0) : column + 3].reshape(-1, 3)
-        # The same hue: light may change the brightness.
+        # The hue is compared, because lighting may change the brightness.
         hues = near / np.maximum(np.linalg.norm(near, axis=1, keepdims=True), 30.0)
         good.append((name, len(near) and float(np.min(np.linalg.norm(hues - color / np.linalg.norm(color), axis=1))) < 0.15))
     return good
 
 
 def page(packages, layout):
-    """What puts Studio with a layout into a directory, and returns the page's name there."""
+    """A function that writes Studio with a layout into a directory, and returns the name of the page."""
 
     def put(root):
         (root / "node_modules").symlink_to((Path(packages) / "node_modules").resolve())
@@ -158,7 +158,7 @@ def page(packages, layout):
 
 @contextlib.contextmanager
 def studio(put, files):
-    """A viewer in a browser: the port that the browser is debugged by, and the address of the page, with files beside it."""
+    """Runs a viewer in a browser: debugging port of the browser, and address of the page beside the served files."""
     chromium = shutil.which("chromium") or shutil.which("google-chrome")
     with tempfile.TemporaryDirectory() as own:
         root = Path(own) / "root"
@@ -167,7 +167,7 @@ def studio(put, files):
         for name, file in files.items():
             shutil.copy(file, root / name)
         server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Files, directory=root))
-        # A browser that ends leaves answers unread.
+        # A browser that is ending does not read its answers.
         server.handle_error = lambda *_: None
         threading.Thread(target=server.serve_forever, daemon=True).start()
         profile = Path(own) / "profile"
@@ -189,7 +189,7 @@ def studio(put, files):
 
 
 def shown(viewer, source, recording, out):
-    """Shows a recording with its layout, and judges the picture. `source` ends the page's address, `{origin}` being where files are."""
+    """Shows a recording with its layout, and checks the picture. `source` is the end of the page's address; `{origin}` is the file server."""
     recording = Path(recording)
     layout = json.loads(recording.with_suffix(".foxglove.json").read_text())
     camera = layout["configById"]["3D!mechanism"]["cameraState"]

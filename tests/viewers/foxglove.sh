@@ -1,7 +1,7 @@
 #!/bin/sh
 # Shows recordings with their layouts in the open-source Foxglove Studio: tests/viewers/foxglove.sh PICTURES FILE.mcap...
 #
-# The last open version is on npm as a library; foxglove.html makes a page of it. Python must have what requirements.txt lists.
+# The last open-source version is a library on npm, and foxglove.html is a page that uses it. Python needs the packages of requirements.txt.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 packages="$here/../../target/foxglove"

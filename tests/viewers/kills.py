@@ -1,9 +1,9 @@
-"""Kills `linkproof run` at random moments, and opens whatever is left.
+"""Kills `linkproof run` at random moments, and opens the recordings that remain.
 
 usage: kills.py LINKPROOF [COUNT]
 
-Half of the kills begin without a recording, half beside an older one. Every file called `.mcap` must then open: with the
-Python reader, checksums and all, and with our own. The moments are spread over the whole run, most of them over its end,
+Half of the killed runs start without a recording, half beside an older one. Every file called `.mcap` must then open with
+the Python reader, which checks the checksums, and with linkproof. The moments cover the whole run; most are near its end,
 when the recording is written.
 """
 
@@ -20,7 +20,7 @@ from mcap.reader import make_reader
 
 TOP = Path(__file__).resolve().parents[2]
 SCENARIO = TOP / "scenarios" / "crank_rocker.toml"
-# Enough instants that writing takes a fair part of the run.
+# So many instants that writing takes a considerable part of the run.
 GRID = ["--crank-deg", "0:360:0.5"]
 
 
@@ -54,7 +54,7 @@ def main(linkproof, count="300"):
             began = time.monotonic()
             try:
                 child.wait(lasts * (1.1 - 1.1 * dice.random() ** 1.5))
-                # It ended before: where the machine has other work, the run that was timed may have waited.
+                # The run ended before the kill: the timed run may have been slower because of other work on the machine.
                 lasts = min(lasts, time.monotonic() - began)
             except subprocess.TimeoutExpired:
                 child.send_signal(signal.SIGKILL)
@@ -64,7 +64,7 @@ def main(linkproof, count="300"):
                 whole += 1
                 try:
                     good = opens(linkproof, path)
-                except Exception as error:  # whatever a foreign reader stumbles over is a finding
+                except Exception as error:  # any error of a foreign reader is a finding
                     print(f"{path.name} after kill {number}: {error!r}")
                     good = False
                 broken += not good

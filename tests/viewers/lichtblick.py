@@ -2,7 +2,7 @@
 
 usage: lichtblick.py WEB RECORDING.mcap OUT.png    (with RECORDING.foxglove.json beside it)
 
-WEB is the directory of Lichtblick's web page, ready made.
+WEB is the directory of Lichtblick's built web page.
 """
 
 import functools
@@ -12,12 +12,12 @@ from pathlib import Path
 
 from foxglove import shown
 
-# What Lichtblick's own container puts a layout in place of.
+# Placeholder that Lichtblick's container replaces by a layout.
 PLACE = "/*LICHTBLICK_SUITE_DEFAULT_LAYOUT_PLACEHOLDER*/"
 
 
 def page(web, layout):
-    """What puts Lichtblick with a layout into a directory, and returns the page's name there."""
+    """A function that writes Lichtblick with a layout into a directory, and returns the name of the page."""
 
     def put(root):
         for file in Path(web).resolve().iterdir():

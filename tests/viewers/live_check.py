@@ -1,9 +1,9 @@
-"""Looks on at `linkproof run --live` with a client of our own, and with the open-source Foxglove Studio 1.48.
+"""Checks `linkproof run --live` with a test client, and with the open-source Foxglove Studio 1.48.
 
 usage: live_check.py LINKPROOF PICTURES [PACKAGES]
 
-What arrives must be what is recorded, and where a link is must be where `linkproof solve` has it. PACKAGES is as in
-foxglove.py; where it is not there, Studio is left out. Its pictures, of two moments, must each show one pose of the recording, and not the same.
+The received messages must equal the recorded ones, and positions of links those of `linkproof solve`. PACKAGES is as in
+foxglove.py; without it, Studio is skipped. Two pictures of Studio must show two different poses of the recording.
 """
 
 import asyncio
@@ -31,13 +31,13 @@ import foxglove
 TOP = Path(__file__).resolve().parents[2]
 SCENARIO = TOP / "scenarios" / "crank_rocker.toml"
 NAMES = ["foxglove.websocket.v1", "foxglove.sdk.v1"]
-# What a client may wait for anything (s).
+# Longest wait of the client (s).
 LIMIT = 60.0
 
 
 @contextlib.contextmanager
 def serving(linkproof, out, *options):
-    """A live server: the address, once all is proven."""
+    """Runs a live server; gives its address when the proof is finished."""
     command = [linkproof, "run", str(SCENARIO), "--record", str(out), "--live=127.0.0.1:0", *options]
     child = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     try:
@@ -59,7 +59,7 @@ def serving(linkproof, out, *options):
 
 
 def decoder(channel):
-    """What reads the messages of a channel in protobuf."""
+    """Decoder of the Protobuf messages of a channel."""
     pool = descriptor_pool.DescriptorPool()
     files = descriptor_pb2.FileDescriptorSet.FromString(base64.b64decode(channel["schema"]))
     for file in files.file:
@@ -103,7 +103,7 @@ def recorded(path):
 
 
 def same_as_recorded(address, recording):
-    """Whether both dialects bring what the recording has, and nothing else; returns the channels and messages of the last."""
+    """Checks that both protocols send exactly the recorded messages; returns channels and messages of the last protocol."""
     kinds, expected = recorded(recording)
     for name in NAMES:
         channels, messages = asyncio.run(lap(address, name))
@@ -120,7 +120,7 @@ def same_as_recorded(address, recording):
 
 
 def where_solve_has_it(linkproof, channels, messages):
-    """Compares places of links, as numbers and as frames, with the solution as `solve` writes it."""
+    """Compares positions of links, from samples and from frames, with the output of `solve`."""
     table = subprocess.run([linkproof, "solve", str(SCENARIO), "--with", "assur"], check=True, capture_output=True, text=True).stdout
     rows = {round(float(row["t_s"]) * 1e9): row for row in csv.DictReader(io.StringIO(table))}
     readers = {channel["topic"]: decoder(channel) for channel in channels.values() if channel["encoding"] == "protobuf"}
@@ -157,7 +157,7 @@ async def two_pictures(port, page, judge):
 
 
 def in_studio(address, recording, packages, pictures):
-    """Whether Studio shows a pose of the recording, and later another."""
+    """Checks that Studio shows a pose of the recording, and later a different pose."""
     layout = json.loads(recording.with_suffix(".foxglove.json").read_text())
     camera = layout["configById"]["3D!mechanism"]["cameraState"]
     drawing, frames = foxglove.poses(recording)
@@ -179,7 +179,7 @@ def in_studio(address, recording, packages, pictures):
 
 
 def main(linkproof, pictures, packages=None):
-    """Serves, looks on, ends it."""
+    """Starts the server, runs the checks, and ends the server."""
     linkproof = str(Path(linkproof).resolve())
     with tempfile.TemporaryDirectory() as own:
         recording = Path(own) / "crank_rocker.mcap"

@@ -2,12 +2,12 @@
 
 usage: mujoco_check.py LINKPROOF [--singular] SCENARIO...
 
-Each is simulated over one turn of its crank (or to the end of its grid) at four time steps, each half of the one before. A channel passes if
-the two finest runs differ from each other as much as its order says, and from the analytic solution by no more than they differ from each
-other: MuJoCo's own error, estimated without the solution it is compared with. Then the same model is falsified a little: that must be found.
+Each scenario is simulated over one turn of its crank, or to the end of its grid, at four time steps that are successively halved.
+Positions must converge with order 2, and the error of every channel against the analytic solution must be within MuJoCo's error.
+MuJoCo's error is estimated from the differences of its runs, without the analytic solution. Small faults planted in the model must be found.
 
---singular: for mechanisms that come near a singular pose, where accelerations peak and steps as large as these are not in the range of any order yet.
-Their errors are judged by MuJoCo's own, but nothing is promised of their size, and a mass has to be farther off to be found.
+--singular: for mechanisms near a singular pose, where accelerations peak and these steps are too large to show an order of convergence.
+Errors are then compared only with MuJoCo's error, not with fixed limits, and no fault in a mass is planted.
 """
 
 import contextlib
@@ -25,29 +25,30 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
-# Steps in the interval; and instants that are compared, which all of them hit.
+# Numbers of steps in the interval, and number of compared instants, which lie on steps of every run.
 STEPS = (720, 1440, 2880, 5760)
 ROWS = 36
-# Orders: positions are of second order, forces of first (MuJoCo's velocities belong to the middle of the step before, and enter inertia
-# forces as if they did not); forces extrapolated from two runs are of second order.
+# Formal orders: positions have order 2, forces order 1, because inertia forces use velocities of the middle of the previous step.
+# Forces extrapolated from two runs have order 2.
 POSITION, FORCE = 2, 1
-# An observed order of positions must be the formal one within this.
+# Largest difference of the observed order of positions from the formal order.
 ORDER = 0.1
-# Safety factors on the estimated error: 1.25 where the order is as it should be, 3 for forces, whose order is not watched. Both after Roache.
+# Safety factors on the estimated error (Roache): 1.25 if the observed order is checked, 3 for forces, whose order is not checked.
 CLEAR, DOUBTFUL = 1.25, 3.0
-# Errors, over half the range, that are none of the step's: the rotor that drives is held to 1e-9 of its speed and turns by 2 pi, and forces
-# carry the rounding of a constraint problem with inertias twelve orders apart.
+# Errors that do not depend on the step, as fractions of half the range: the rotor keeps its speed to 1e-9 over 2 pi, and forces have the
+# rounding error of a constraint problem with inertias twelve decades apart.
 REST = {POSITION: 2e-8, FORCE: 1e-6}
-# What is promised of the finest run, over half the range of the channel.
+# Limits of the errors of the finest run, as fractions of half the range of the channel.
 PROMISED = {"positions": 1e-5, "forces": 1e-2, "positions extrapolated": 1e-6, "forces extrapolated": 1e-3}
-# Half the range counts for at least this share of the largest of its unit: a coordinate that hardly changes takes its errors from its neighbours.
+# The half range of a channel counts as at least this fraction of the largest half range with the same unit: a coordinate that hardly changes
+# has the errors of its neighbours.
 LEAST = 0.1
-# Falsifications: a place on a link by this share of the mechanism's size, and the heaviest link's mass by this share of it.
+# Planted faults: a point of a link is displaced by this fraction of the mechanism's size; the heaviest mass is increased by this fraction.
 WRONG_LENGTH, WRONG_MASS = 1e-4, 1e-3
 
 results = []
 warnings = []
-# Else MuJoCo writes them to a file beside whoever calls.
+# Otherwise MuJoCo writes warnings to a file in the working directory.
 mujoco.set_mju_user_warning(warnings.append)
 
 
@@ -58,7 +59,7 @@ def check(what, passed, found=""):
 
 
 def told(*command):
-    """What a command writes to standard output."""
+    """Standard output of a command."""
     return subprocess.run(command, capture_output=True, text=True, check=True).stdout
 
 
@@ -91,7 +92,7 @@ class Scenario:
         self.solution = columns(told(linkproof, "solve", path, "--with", "assur", "--times", times))
 
     def drift(self, model, solution):
-        """Largest angle (rad) by which its torque may turn the rotor that drives."""
+        """Largest angle (rad) by which the driving torque may displace the rotor."""
         armature = model.dof_armature[model.joint(self.drives[0]).dofadr[0]]
         return float(np.abs(solution["drive.torque_N_m"]).max()) * self.interval**2 / (2.0 * armature)
 
@@ -101,10 +102,10 @@ class Scenario:
 
 
 def loads_beyond(scenario, model, data, name):
-    """Force (N) and moment (N m) about the joint's place, in world axes, of loads on the body that a joint of the tree carries and on those farther out.
+    """Force (N) and moment (N m) about the joint's point, in world axes, of loads on the body that a joint of the tree carries and on bodies beyond it.
 
-    Sensors work backwards from motion, forces in loops and gravity: they know of no other load. An actuator on a joint turns the two bodies of
-    this joint against each other: no other joint of the tree carries it. A transmission does the same with all its joints.
+    Sensors compute backwards from motion, loop forces and gravity, and ignore other loads. The moment of an actuator on a joint acts between the
+    two bodies of this joint, so no other joint of the tree transmits it. The moments of a transmission act in the same way in its joints.
     """
     force, moment = np.zeros(2), 0.0
     joint = model.joint(name)
@@ -139,20 +140,20 @@ def loads_beyond(scenario, model, data, name):
 
 
 def moment_of(scenario, model, data, name):
-    """Moment on the body that a joint of the tree carries, about the joint's place on it, in world axes."""
+    """Moment on the body that a joint of the tree carries, about the joint's point on this body, in world axes."""
     return data.sensor(f"{name}.moment").data[2] - loads_beyond(scenario, model, data, name)[1]
 
 
 def reaction(scenario, model, data, name):
-    """Force and moment of a joint's first link on its second, about its place there, in world axes."""
+    """Force and moment of a joint's first link on its second, about the joint's point on the second, in world axes."""
     sensor = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_SENSOR, f"{name}.force")
     if sensor < 0:
-        # A loop: rows of its connect. They pull the first site to the second.
+        # A joint that closes a loop: the rows of its `connect` are forces that pull the first site to the second.
         loop = model.equality(name).id
         rows = (data.efc_id[: data.nefc] == loop) & (data.efc_type[: data.nefc] == mujoco.mjtConstraint.mjCNSTR_EQUALITY)
         return -data.efc_force[: data.nefc][rows][:2], None
     site = model.sensor_objid[sensor]
-    # Sensors read what acts on the body that is carried.
+    # Sensors give the force on the carried body.
     sense = 1.0 if model.site(site).name == f"{name}.second" else -1.0
     force = (data.site_xmat[site].reshape(3, 3) @ data.sensor(f"{name}.force").data)[:2]
     force = (force - loads_beyond(scenario, model, data, name)[0]) * sense
@@ -171,25 +172,25 @@ def sample(scenario, model, data):
     for table in scenario.toml["joints"]:
         name = table["name"]
         force, moment = reaction(scenario, model, data, name)
-        # MuJoCo couples joints by moments alone: its axles carry no tooth and strand forces.
+        # MuJoCo couples joints by moments alone, so its axles carry no tooth or strand forces.
         if "transmissions" not in scenario.toml:
             found[f"joint.{name}.fx_N"], found[f"joint.{name}.fy_N"] = force
         if table["type"] == "prismatic" and moment is not None:
             found[f"joint.{name}.slide_m"] = data.joint(name).qpos[0]
-            # The sensor's moment is about the joint's place on the body that is carried; the channel's about that on the second.
+            # The sensor's moment is about the joint's point on the carried body, the channel's moment about that on the second link.
             if model.site(f"{name}.second").bodyid[0] != model.jnt_bodyid[model.joint(name).id]:
                 first, second = (data.site(f"{name}.{side}").xpos for side in ("first", "second"))
                 moment += np.cross(first - second, [*force, 0.0])[2]
             found[f"joint.{name}.moment_N_m"] = moment
     for index, name in enumerate(scenario.drives):
         channel = "drive.torque_N_m" if index == 0 else f"drive.{name}.torque_N_m"
-        # What drives the link, whichever link the joint names first.
+        # The moment on the driven link, whichever link the joint names first.
         found[channel] = moment_of(scenario, model, data, name)
     return found
 
 
 def simulate(scenario, model, steps):
-    """Columns of all channels at the instants that are compared, and the crank's way."""
+    """Columns of all channels at the compared instants."""
     model.opt.timestep = scenario.interval / steps
     data = mujoco.MjData(model)
     mujoco.mj_resetDataKeyframe(model, data, model.key("start").id)
@@ -208,7 +209,7 @@ def order_of(channel):
 
 
 def gap(channel, a, b):
-    """Differences of two columns; of angles the shorter way round."""
+    """Differences of two columns; for angles within half a turn."""
     if channel.endswith("angle_rad"):
         return (a - b + math.pi) % (2.0 * math.pi) - math.pi
     return a - b
@@ -220,18 +221,18 @@ def distance(channel, a, b, first):
 
 
 def scales(solution, channels):
-    """Half the range of every channel, but at least the least share of the largest of its unit."""
+    """Half the range of every channel, but at least `LEAST` times the largest half range with the same unit."""
     half = {channel: float(np.ptp(solution[channel])) / 2.0 for channel in channels}
     unit = lambda channel: channel.rsplit("_", 1)[1] if not channel.endswith("_N_m") else "N_m"
     largest = {}
     for channel in channels:
         largest[unit(channel)] = max(largest.get(unit(channel), 0.0), half[channel])
-    # A mechanism whose links do not turn or slide at all has angles of zero, right to the rest that is allowed.
+    # If no channel of a unit varies, the scale is 1.
     return {channel: max(half[channel], LEAST * largest[unit(channel)]) or 1.0 for channel in channels}
 
 
 class Judgement:
-    """Errors of one model against the solution and against its own, over the scales."""
+    """Errors of one model against the analytic solution, and MuJoCo's error estimated from its runs, divided by the scales."""
 
     def __init__(self, scenario, model):
         self.runs = [simulate(scenario, model, steps) for steps in STEPS]
@@ -241,7 +242,7 @@ class Judgement:
         self.errors = {c: [] for c in self.channels}
         self.orders, self.estimates, self.extrapolated, self.within = {}, {}, {}, {}
         for channel in self.channels:
-            # The first steps of forces carry a transient: the keyframe's velocities belong to its instant, not half a step before.
+            # Forces have a transient at the start: the keyframe's velocities belong to its instant, not to half a step before it.
             first = 1 if order_of(channel) == FORCE else 0
             apart = lambda a, b: distance(channel, a, b, first) / scale[channel]
             runs = [run[channel] for run in self.runs]
@@ -249,7 +250,7 @@ class Judgement:
             rest = REST[order_of(channel)] + (scenario.drift(model, solution) if order_of(channel) == POSITION else 0.0)
             if order_of(channel) == POSITION:
                 coarse, fine = apart(runs[1], runs[2]), apart(runs[2], runs[3])
-                # Below the rest there is no order to be seen.
+                # Errors near `rest` show no order.
                 self.orders[channel] = math.log2(coarse / fine) if fine > 10.0 * rest else None
                 self.estimates[channel] = CLEAR * fine / 3.0 + rest
                 self.within[channel] = self.errors[channel][-1] <= self.estimates[channel]
@@ -266,7 +267,7 @@ class Judgement:
         return [channel for channel in self.channels if order_of(channel) == order]
 
     def beyond(self, order):
-        """Channels of an order that are off by more than MuJoCo's own error."""
+        """Channels of an order whose error exceeds MuJoCo's estimated error."""
         return [channel for channel in self.of(order) if not self.within[channel]]
 
     def worst(self, order, run=-1):
@@ -275,7 +276,7 @@ class Judgement:
 
 
 def falsified(scenario, change):
-    """What becomes of a model with a small fault."""
+    """Judgement of a copy of the model after `change` has planted a fault in it."""
     with tempfile.TemporaryDirectory() as directory:
         file = Path(directory) / "model.mjb"
         mujoco.mj_saveModel(scenario.model, str(file), None)
@@ -317,18 +318,18 @@ def check_scenario(linkproof, path, singular):
         check(f"{what} are off by no more than MuJoCo's own error", not beyond, ", ".join(beyond) or f"{len(judgement.of(order))} channels")
 
     def longer(model):
-        """Moves the place where a loop closes, along both axes: a slider does not feel one of them. Without a loop, moves the last body."""
+        """Displaces a site of a loop joint along both axes, because along its guide a slider shows no effect. Without a loop, displaces the last body."""
         loops = model.eq_obj1id[model.eq_type == mujoco.mjtEq.mjEQ_CONNECT]
         if not loops.size:
             model.body_pos[-1][:2] += WRONG_LENGTH * scenario.size()
             return
         site = loops[0]
         model.site_pos[site][:2] += WRONG_LENGTH * scenario.size()
-        # Else MuJoCo takes a short cut past the place of a site at its body's origin.
+        # Otherwise MuJoCo ignores the position of a site that was at its body's origin.
         model.site_sameframe[site] = mujoco.mjtSameFrame.mjSAMEFRAME_NONE
 
     def heavier(model):
-        """Changes the heaviest mass; beside transmissions, where reactions are not compared, the loads too."""
+        """Increases the heaviest mass; with transmissions, whose reactions are not compared, the loads too."""
         model.body_mass[int(model.body_mass.argmax())] *= 1.0 + WRONG_MASS
         if "transmissions" in scenario.toml:
             model.actuator_biasprm[:, 0] *= 1.0 + WRONG_MASS
@@ -341,7 +342,7 @@ def check_scenario(linkproof, path, singular):
 
 
 def told_of(linkproof, singular, path):
-    """What the checks of a scenario print, and their results: for a process of its own."""
+    """Printed lines and results of the checks of a scenario, which may run in a separate process."""
     del results[:]
     with contextlib.redirect_stdout(io.StringIO()) as text:
         check_scenario(linkproof, path, singular)
@@ -359,7 +360,7 @@ def check_promises(judgement):
     if orders:
         check("positions are of second order", not off, ", ".join(off) or f"{min(orders.values()):.3f} to {max(orders.values()):.3f}")
     else:
-        # Wheels in a tree whose crank has a constant speed.
+        # In a train of wheels at constant speed, positions have no truncation error.
         check("positions are too exact for an order", judgement.worst(POSITION)[0] <= PROMISED["positions extrapolated"], f"{judgement.worst(POSITION)[0]:.1e}")
     for order, what in ((POSITION, "positions extrapolated"), (FORCE, "forces extrapolated")):
         error, channel = max((judgement.extrapolated[channel], channel) for channel in judgement.of(order))

@@ -1,8 +1,8 @@
-"""Prints what other choices in the exported file would cost: the tables of docs/mjcf.md.
+"""Prints the errors of other choices in the exported file, as in docs/mjcf.md.
 
 usage: mujoco_choices.py LINKPROOF SCENARIO...
 
-Errors are the largest over half the range of the channel, against the analytic solution, over one turn of the crank.
+Errors are the largest differences from the analytic solution over one turn, divided by half the range of the channel.
 """
 
 import re
@@ -16,7 +16,7 @@ import numpy as np
 from mujoco_check import FORCE, POSITION, STEPS, Scenario, distance, order_of, scales, simulate
 
 INTEGRATORS = ("implicitfast", "Euler", "implicit", "discrete", "RK4")
-# Gains of a velocity actuator (N m s/rad) over the rotor's inertia times the crank's speed.
+# Gains of a velocity actuator (N m s/rad), divided by the rotor's inertia times the crank's speed.
 GAINS = (1e-9, 1e-7, 1e-5, 1e-3)
 
 
@@ -30,7 +30,7 @@ def errors(scenario, model):
         for channel, column in run.items():
             order = order_of(channel)
             error = distance(channel, column, scenario.solution[channel], int(order == FORCE)) / scale[channel]
-            # A simulation that fell apart has no number.
+            # A simulation that diverged has no number.
             worst[order] = max(worst[order], error if np.isfinite(error) else np.inf)
         rows.append(worst)
     return rows
@@ -43,7 +43,7 @@ def line(what, rows):
 
 
 def with_actuators(text, gain):
-    """The file with velocity actuators in place of rotors: the speed in the keyframe as their control."""
+    """The file with velocity actuators in place of rotors; their control is the speed in the keyframe."""
     drives = re.findall(r'<joint name="([^"]*)"[^>]*armature="([^"]*)"', text)
     speeds = {}
     model = mujoco.MjModel.from_xml_string(text)
@@ -52,13 +52,13 @@ def with_actuators(text, gain):
     text = re.sub(r' armature="[^"]*"', "", text)
     actuator = lambda name, rotor: f'<velocity joint="{name}" kv="{gain * float(rotor) * abs(speeds[name])!r}"/>'
     text = text.replace("<sensor>", f"<actuator>{''.join(actuator(*drive) for drive in drives)}</actuator><sensor>")
-    # Controls stand in the order of the actuators.
+    # Controls are in the order of the actuators.
     control = " ".join(repr(speeds[name]) for name, _ in drives)
     return text.replace("<key ", f'<key ctrl="{control}" ')
 
 
 def without_mass(path, link):
-    """Text of a scenario of which one link has no mass, without the published numbers that belong to the mass."""
+    """Text of a scenario with one massless link, without the published numbers that depend on its mass."""
     text = Path(path).read_text()
     table = re.search(rf"(?m)^\[links\.{link}\]\n(.*?)(?=^\[)", text, re.S)
     text = text[: table.start(1)] + text[table.end(1) :]
@@ -66,7 +66,7 @@ def without_mass(path, link):
 
 
 def lent(linkproof, path):
-    """Lines of a table: errors where MuJoCo is lent a mass for a link that has none."""
+    """Lines of a table: errors if a massless link gets a small mass in MuJoCo."""
     for link in tomllib.loads(Path(path).read_text())["links"]:
         with tempfile.TemporaryDirectory() as directory:
             file = Path(directory) / "lent.toml"

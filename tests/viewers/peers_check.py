@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Peers of `linkproof bench` on motions under forces: tests/viewers/peers_check.py LINKPROOF
 
-MuJoCo gets motors, loads, springs and dampers by the exported model; Exudyn builds its own. Both must come to our
-solution with their step. A peer that is not installed is skipped, and that is said.
+MuJoCo gets motors, loads, springs and dampers from the exported model; the peer of Exudyn builds its model itself. Both must
+converge to our solution. A peer that is not installed is skipped with a message.
 """
 
 import importlib.util
@@ -13,8 +13,8 @@ import tempfile
 from pathlib import Path
 
 TOP = Path(__file__).resolve().parent.parent.parent
-# Largest error of positions over their scales at the finest step of a quick picture, and how much smaller it is than at
-# the coarsest: measured, with room. Under a prescribed drive Exudyn solves for the pose itself, at any step.
+# Largest position error at the finest step of a quick measurement, divided by the scale, and its smallest ratio to the
+# error at the coarsest step: measured, with a margin. Under a prescribed drive Exudyn solves for the pose at any step.
 EXPECTED = {
     "scenarios/pendulum.toml": {"mujoco": (1e-11, 1e3), "exudyn": (3e-4, 10)},
     "scenarios/double_pendulum.toml": {"mujoco": (1e-11, 1e3), "exudyn": (1e-4, 10)},
@@ -23,7 +23,7 @@ EXPECTED = {
     "tests/viewers/scenarios/all_loads.toml": {"mujoco": (1e-6, 10)},
     "scenarios/crank_rocker.toml": {"mujoco": (1e-5, 10), "exudyn": (1e-10, 0)},
 }
-# Reactions, where a peer reads them to rounding.
+# Limit for reactions that a peer computes to rounding error.
 REACTIONS = {"scenarios/pendulum.toml": 1e-10, "scenarios/double_pendulum.toml": 1e-10}
 
 
@@ -44,7 +44,7 @@ def main(linkproof):
             errors = [point["errors"]["positions"].get("max", float("inf")) for point in own]
             most, gain = expected[peer]
             passed = len(errors) >= 3 and min(errors) <= most and errors[0] >= gain * min(errors)
-            # A wrong sign or a wrong place is an error of about the scale, whatever the step.
+            # A wrong sign or a wrong point of application gives an error of about the scale at any step.
             stages = {stage for point in own for stage in point["errors"]}
             best = {stage: min((point["errors"][stage] or {}).get("max", float("inf")) for point in own) for stage in stages}
             passed &= all(error <= 0.05 for stage, error in best.items() if any(point["errors"][stage] for point in own))

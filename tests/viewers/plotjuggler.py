@@ -1,8 +1,8 @@
-"""Opens a recording in PlotJuggler with the layout of `linkproof view`, on a virtual display, and looks at the curves.
+"""Opens a recording in PlotJuggler with the layout of `linkproof view`, on a virtual display, and checks the curves.
 
 usage: plotjuggler.py PLOTJUGGLER LINKPROOF RECORDING.mcap OUT.png
 
-The curve in front of each plot must run where the numbers of the recording say.
+The foremost curve of each plot must follow the numbers of the recording.
 """
 
 import os
@@ -38,14 +38,14 @@ def curves(recording, layout):
 
 
 def bands(seen):
-    """Spans of rows in which something is seen, one for each plot: another plot is between two of one colour."""
+    """Ranges of pixel rows with visible curves, one range for each plot; a plot of another colour lies between two of one colour."""
     rows = np.nonzero(seen.any(axis=1))[0]
     parts = np.split(rows, np.nonzero(np.diff(rows) > 60)[0] + 1)
     return [(part[0], part[-1] + 1) for part in parts if len(part) > 5]
 
 
 def without_blocks(seen):
-    """Without the squares of a colour that a legend has: no curve is as thick."""
+    """The pixels without the coloured squares of the legend, which are thicker than any curve."""
     blocks = seen.copy()
     for axis in (0, 1):
         blocks = np.logical_and.reduce([np.roll(blocks, -step, axis) for step in range(6)])
@@ -56,7 +56,7 @@ def without_blocks(seen):
 
 
 def share(seen, rows):
-    """How much of a curve is seen within 4 pixels of where it must be."""
+    """Fraction of a curve that is visible within 4 pixels of its expected position."""
     at = np.nonzero(seen.any(axis=0))[0]
     up = np.nonzero(seen.any(axis=1))[0]
     (time, value), good = rows.T, []
@@ -70,7 +70,7 @@ def share(seen, rows):
 
 
 def judged(picture, wanted):
-    """For every plot how much of its curve is where it must be."""
+    """For every plot, the fraction of its curve at the expected position."""
     pixels = np.asarray(picture.convert("RGB")).astype(int)
     found, taken = [], {}
     for name, color, rows in wanted:
@@ -83,7 +83,7 @@ def judged(picture, wanted):
 
 
 def main(plotjuggler, linkproof, recording, out):
-    """Shows the recording and judges the picture."""
+    """Shows the recording and checks the picture."""
     with tempfile.TemporaryDirectory() as own:
         copy = Path(own) / "own.mcap"
         shutil.copy(recording, copy)

@@ -1,9 +1,9 @@
-"""Judges what `linkproof view` makes of recordings for Rerun, and photographs it in the viewer itself.
+"""Checks the files that `linkproof view` writes for Rerun, and takes a picture of Rerun's viewer.
 
 usage: rerun_check.py LINKPROOF PICTURES FILE.mcap...
 
 The poses in the `.rrd` must be those of the recording, on a timeline of simulated seconds. The picture must show both
-sides in their colours. Without a virtual display (`xvfb-run`) there is no picture, and that is told.
+sides in their colours. Without a virtual display (`xvfb-run`) the picture is skipped with a message.
 """
 
 import math
@@ -92,7 +92,7 @@ def photograph(rrd, picture):
         seen = np.all(np.abs(left - np.array(colour)) < 30, axis=2)
         rows, columns = np.nonzero(seen)
         spans = (np.ptp(rows) / left.shape[0], np.ptp(columns) / left.shape[1]) if len(rows) else (0.0, 0.0)
-        # A picture that is cut off or far away would have other spans.
+        # In a clipped or distant picture, the extents would differ.
         what = f"{picture.name}: the {side} is seen, and is neither a dot nor cut off"
         check(what, 0.3 < max(spans) < 0.98 and seen.sum() > 500, f"{seen.sum()} pixels over {spans[0]:.2f} by {spans[1]:.2f}")
 

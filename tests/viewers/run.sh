@@ -1,11 +1,11 @@
 #!/bin/sh
-# Opens what we write with programs that are not ours: tests/viewers/run.sh [FILE...]
+# Opens recordings and models with foreign programs: tests/viewers/run.sh [FILE...]
 #
-# Recordings (*.mcap) go to their readers and viewers, scenarios (*.toml) to MuJoCo. Default: recordings/*.mcap, a recording made for the purpose of a mechanism with
+# Recordings (*.mcap) go to their readers and viewers, scenarios (*.toml) to MuJoCo. Default: recordings/*.mcap, a new recording of a mechanism with
 # sliders (scenarios/compressor.toml), and all scenarios that can be exported.
-# Rerun is photographed on a virtual display (xvfb, mesa-vulkan-drivers), Foxglove Studio in headless Chromium (chromium, npm);
-# what is not installed is told. Pictures stay in target/viewers-pictures, to be looked at.
-# Python packages go into target/viewers-venv. LINKPROOF names a command that is built already.
+# Pictures are taken of Rerun on a virtual display (xvfb, mesa-vulkan-drivers) and of Foxglove Studio in headless Chromium (chromium,
+# npm). Programs that are not installed are reported. Pictures stay in target/viewers-pictures for inspection.
+# Python packages go into target/viewers-venv. LINKPROOF names the built command.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 top=$(cd "$here/../.." && pwd)
@@ -26,13 +26,13 @@ if [ "$everything" ]; then
     fresh="$top/target/viewers-recordings"
     "$linkproof" run --record "$fresh" --record-forces "$top/scenarios/compressor.toml" >/dev/null
     "$linkproof" run --record "$fresh" --record-forces --slow 20 --record-hz 400 "$top/scenarios/crank_rocker.toml" >/dev/null
-    # A resistance on a link that is not hinged to the ground: no scenario has one.
+    # No scenario has a resistance on a link that is not hinged to the ground, so one is added here.
     sed 's/^link = "rocker"/link = "coupler"/' "$top/scenarios/crank_rocker.toml" >"$fresh/resisted_coupler.toml"
     set -- "$@" "$fresh/compressor.mcap" "$fresh/crank_rocker.mcap"
     for file in "$top"/scenarios/*.toml; do
-        # Motions under forces have a check of their own.
+        # Motions under forces are checked separately.
         if grep -q '^motion = "free"' "$file"; then continue; fi
-        # Some loads and laws of motion are not exported. Any other error is one.
+        # Some loads and laws of motion cannot be exported. Any other error is a failure.
         if why=$("$linkproof" export "$file" --mjcf "$fresh/tried.xml" 2>&1); then
             set -- "$@" "$file"
         elif printf '%s' "$why" | grep -q 'cannot be written to a model for MuJoCo'; then
@@ -47,7 +47,7 @@ fi
 python_with "$environment" "$here/requirements.txt"
 PATH="$environment/bin:$PATH"
 
-# The list is taken apart by kind, in its order.
+# The list is divided by kind; the order is kept.
 count=$#
 scenarios=0
 for file in "$@"; do
@@ -68,7 +68,7 @@ sorted() {
     fi
 }
 failed=0
-# The readers of recordings wait for each other more than for a processor: they go beside MuJoCo.
+# The readers of recordings mostly wait for each other, so they run in parallel with MuJoCo.
 if [ "$count" -gt "$scenarios" ]; then
     sorted other "$@" &
     readers=$!
@@ -83,7 +83,7 @@ if [ "$everything" ]; then
     "$here/foxglove.sh" "$pictures" "$fresh/compressor.mcap" "$fresh/crank_rocker.mcap" || failed=1
     python "$here/live_check.py" "$linkproof" "$pictures" "$top/target/foxglove" || failed=1
     python "$here/kills.py" "$linkproof" 20 || failed=1
-    # Motions under forces, by way of peers of `linkproof bench`.
+    # Motions under forces, with the peers of `linkproof bench`.
     python "$here/peers_check.py" "$linkproof" || failed=1
 fi
 exit $failed

@@ -1,6 +1,6 @@
 //! Side 1: the solver by Assur groups.
 //! The solver computes the motion from the first group to the last, and the forces from the last group to the first.
-//! It solves dyads in closed form.
+//! Dyads are solved in closed form.
 
 #[cfg(feature = "batch")]
 pub mod batch;

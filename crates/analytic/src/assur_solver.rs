@@ -1,6 +1,6 @@
 //! Side 1: the solver by Assur groups.
 //! The solver computes the motion from the first group to the last, and the forces from the last group to the first.
-//! It solves dyads in closed form.
+//! Dyads are solved in closed form.
 
 use crate::assur::PoseSolver;
 use crate::assur::transfer::TransferSide;
@@ -65,7 +65,7 @@ impl Solver for AssurAt {
 }
 
 /// Side 1 with a tighter integration of motions under forces.
-/// Its results differ from those of [`AssurSolver`] by the integration error of [`AssurSolver`].
+/// The results differ from those of [`AssurSolver`] by the integration error of [`AssurSolver`].
 /// Both sides have this error, because they share the integrator.
 /// A prescribed motion is not integrated, so its results do not differ.
 pub const TIGHT_ASSUR: AssurAt = AssurAt(TIGHTER * ACCURACY);
@@ -86,7 +86,7 @@ fn free_motion(case: &Case, accuracy: f64, visit: Visit, progress: Progress) -> 
     let model = match ReducedModel::of(case) {
         // Use the equations with transfer functions if the reduced equation does not apply.
         // The reduced equation does not apply if the loads are not functions of the crank angle over whole turns.
-        // It also does not apply if the branch is not known over a full turn.
+        // The reduced equation also does not apply if the branch is not known over a full turn.
         Err(error) if matches!(error.kind(), ErrorKind::Unsupported | ErrorKind::Numeric) => {
             return free::sweep(case, &mut TransferSide::new(case, share)?, accuracy, visit, progress);
         }

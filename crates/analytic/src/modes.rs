@@ -15,7 +15,7 @@ use linkage::trajectory::Stage;
 /// One real configuration of a group.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mode {
-    /// Its assembly mode.
+    /// Assembly mode of the configuration.
     pub mode: AssemblyMode,
     /// Pose of each link of the group, in the order of its links.
     pub poses: Vec<LinkPose>,

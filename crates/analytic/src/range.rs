@@ -42,7 +42,7 @@ const CONTACT: f64 = 1e-3;
 const SINGULAR: f64 = 1e-6;
 
 /// Work allowed for finding the reachable crank angles as a by-product, for example for an error message.
-/// It is counted in the unit of work budgets, and is a twentieth of the work allowed for a proof.
+/// This work is counted in the unit of work budgets, and is a twentieth of the work allowed for a proof.
 pub const ASIDE: f64 = 1e6;
 
 /// Crank angles over which a mechanism can be followed on its branch.
@@ -126,7 +126,7 @@ impl Range {
 /// [`Range::of`] also computes these angles, before its other results.
 ///
 /// # Errors
-/// Those of [`Range::of`].
+/// The errors of [`Range::of`].
 pub fn reachable(case: &Case) -> Result<Extent> {
     let (tracker, start) = Tracker::new(case)?;
     Ok(both_ways(&tracker, &start)?.1)

@@ -1,7 +1,7 @@
 //! Motion under forces of a mechanism of one degree of freedom: the equation of motion is reduced to the crank.
 //!
 //! `omega^2 / 2 dI*/dphi + I* domega/dt = M`. The first and second transfer functions give I* and dI*/dphi.
-//! The powers of motor, gravity and loads give M.
+//! M is the power of motor, gravity and loads per unit speed of the crank.
 //! This equation is the kinetic energy theorem for E = I* omega^2 / 2.
 //! Background: I. I. Artobolevsky, Theory of Mechanisms and Machines, 4th ed., Nauka 1988.
 //! See docs/numerics/forces.md.

@@ -148,7 +148,7 @@ pub(crate) fn numbers_as(cells: &[TableCell], precision: Precision) -> Vec<Round
     if are_rounded && !chosen(&found) { with(telling) } else { found }
 }
 
-/// If at least this many whole numbers end with zeros, the zeros count as digits lost in rounding, not as chance.
+/// If at least this many whole numbers end with zeros, the column counts as rounded to fewer digits.
 /// By chance, one whole number in ten ends with zero.
 const FEW: usize = 2;
 

@@ -194,7 +194,7 @@ mod tests {
         let found = of(UNDEFINED);
         assert_eq!((found.judged, found.missing, found.since.map(|at| at.row)), (4, 0, Some(1)));
         assert!(found.largest.unwrap().difference == 0.0 && found.worst.unwrap().used().is_infinite());
-        // The analytic side has no number in this row. A number of the side that is not analytic is then no error.
+        // The analytic side has no number in this row, so the number of the other party is not judged.
         let found = judged(&[right[0], UNDEFINED], &right[..2], [true, false]);
         assert_eq!((found.judged, found.missing, found.since), (1, 1, None));
         // Neither column is analytic, and only one of the two columns has a number, so the row exceeds its bound.

@@ -107,7 +107,7 @@ pub fn bytes(text: &str) -> f64 {
 ///
 /// # Errors
 /// A line whose number of cells differs from that of the header, or a cell that is not a number.
-/// Also two columns with the same name, or a text without any line.
+/// Two columns with the same name, or a text without any line, are errors too.
 pub fn read(text: &str) -> Result<TextTable, TableFault> {
     let wrong = |start: usize, message: String, help: &str| {
         let length = text[start..].find(['\r', '\n']).unwrap_or(text.len() - start);

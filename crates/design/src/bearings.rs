@@ -41,22 +41,26 @@ pub struct Peaks {
     pub shaking_force: Peak,
     /// Magnitude of the balancing moment on the crank (N m), or of the driving force of a slide (N).
     pub balancing_moment: Peak,
-    /// The same for every further drive.
+    /// Magnitude of the moment or force of every further drive.
     pub further_drives: Vec<Peak>,
     /// Magnitude of the force of each transmission along its line of action (N).
     pub transmissions: Vec<Peak>,
-    /// The joints with friction.
+    /// The joints with friction, then the transmissions with losses.
     pub frictions: Vec<FrictionLoss>,
     /// Work of the drives over the range (J); negative if the mechanism drives them.
     pub drive_work: f64,
 }
 
-/// Friction of a joint over a range of crank angles.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Friction of a joint, or losses of a transmission, over a range of crank angles.
+#[derive(Clone, Debug, PartialEq)]
 pub struct FrictionLoss {
-    /// The joint.
-    pub joint: JointId,
-    /// Largest friction (N m, or N in a prismatic joint).
+    /// Name of the joint, or of the transmission with losses.
+    pub name: String,
+    /// Whether it is a transmission.
+    pub is_mesh: bool,
+    /// Whether the friction is a force, in a prismatic joint.
+    pub is_force: bool,
+    /// Largest friction (N m or N). For a transmission: the largest moment on its first member.
     pub largest: f64,
     /// Work that the friction takes over the range (J), not negative.
     pub work: f64,
@@ -87,7 +91,7 @@ pub fn journal_diameter(force: f64, lever: f64, stress: f64) -> f64 {
 ///
 /// # Errors
 /// [`ErrorKind::Unsupported`] if the law of the drive has no unique time for a crank angle of the grid.
-/// Those of [`PoseSolver::solve`], for crank angles that the mechanism cannot reach.
+/// The errors of [`PoseSolver::solve`], for crank angles that the mechanism cannot reach.
 pub fn over_range(case: &Case) -> Result<Peaks> {
     if case.grid.inputs.iter().any(|&crank| case.crank().time_of(crank).is_nan()) {
         let message = sentences::PEAKS_ARE_LOOKED_FOR_OVER;
@@ -111,8 +115,11 @@ pub fn over_range(case: &Case) -> Result<Peaks> {
         quantities.push(Box::new(move |state| state.transmitted[transmission].abs()));
     }
     let mut samples = vec![Vec::with_capacity(cranks.len()); quantities.len()];
-    let none =
-        |friction: Friction| FrictionLoss { joint: friction.joint, largest: 0.0, work: 0.0, pressure_speed: 0.0 };
+    let none = |friction: Friction| {
+        let (name, is_force) = friction.name();
+        let (name, is_mesh) = (name.to_string(), friction.is_mesh());
+        FrictionLoss { name, is_mesh, is_force, largest: 0.0, work: 0.0, pressure_speed: 0.0 }
+    };
     let mut frictions: Vec<FrictionLoss> = case.frictions().map(none).collect();
     let mut drive_work = 0.0;
     for (number, &crank) in cranks.iter().enumerate() {
@@ -123,8 +130,9 @@ pub fn over_range(case: &Case) -> Result<Peaks> {
         let span = if rate == 0.0 { 0.0 } else { ends * (to - from) / parts as f64 / rate };
         for (friction, own) in case.frictions().zip(&mut frictions) {
             let (effort, speed) = (friction.effort(&state.motions, state.reactions()), friction.rate(&state.motions));
-            let normal = friction.normal(state.forces[own.joint], state.moments[own.joint]);
-            own.largest = own.largest.larger(effort.abs());
+            let normal = friction.normal(friction.reaction(state.reactions()), speed);
+            let [_, on] = friction.act(effort, &state.motions);
+            own.largest = own.largest.larger(on.force.norm() + on.moment.abs());
             own.work += (effort * speed).abs() * span.abs();
             own.pressure_speed = own.pressure_speed.larger(normal * speed.abs() * friction.contact());
         }

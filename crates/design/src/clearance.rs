@@ -16,6 +16,7 @@ use std::f64::consts::TAU;
 
 use analytic::{AssurSolver, PoseSolver};
 use linkage::case::{Case, Wanted};
+use linkage::drive::Drive;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::input::Input;
 use linkage::math::Motion;
@@ -116,13 +117,14 @@ impl ClearanceResult {
 /// Answers a clearance question about a case over the crank angles that its grid spans.
 /// `progress` receives the finished fraction, from 0 to 1.
 ///
-/// The poses repeat after a turn if all groups are dyads, there is one drive, and change points are not passed.
+/// The poses repeat after a turn if all groups are dyads, there is one drive, which turns a joint, there are no
+/// transmissions, and change points are not passed.
 /// If the poses repeat and the range is longer than a turn, only one turn is examined.
 /// For a free motion with one degree of freedom, the range spans the crank angles at the instants of the grid.
 ///
 /// # Errors
 /// [`ErrorKind::Unsupported`] for a free motion with several degrees of freedom.
-/// Those of [`analytic::PoseSolver::solve`] for crank angles that the mechanism cannot reach.
+/// The errors of [`analytic::PoseSolver::solve`] for crank angles that the mechanism cannot reach.
 pub fn find(case: &Case, question: &ClearanceQuestion, progress: Progress) -> Result<ClearanceResult> {
     let range = range(case)?;
     let case = &case.nominal();
@@ -180,7 +182,7 @@ pub struct DistanceCurve {
 /// Computes the distances of all pairs at the instants of the case's grid.
 ///
 /// # Errors
-/// Those of [`find`].
+/// The errors of [`find`].
 pub fn course(case: &Case, question: &ClearanceQuestion) -> Result<DistanceCurve> {
     let cranks = cranks(case)?;
     let case = &case.nominal();
@@ -204,7 +206,7 @@ pub fn course(case: &Case, question: &ClearanceQuestion) -> Result<DistanceCurve
 /// Computes the poses of all links at the crank angles `cranks` (rad), for drawings.
 ///
 /// # Errors
-/// Those of [`PoseSolver::solve`].
+/// The errors of [`PoseSolver::solve`].
 pub fn poses(case: &Case, cranks: &[f64]) -> Result<Vec<Vec<Motion>>> {
     let case = &case.nominal();
     let mut solver = PoseSolver::new(case)?;
@@ -215,10 +217,14 @@ pub fn poses(case: &Case, cranks: &[f64]) -> Result<Vec<Vec<Motion>>> {
 /// Returns the crank angles at the instants of the grid (rad).
 /// For a motion under forces, the angles come from the solution of the motion.
 fn cranks(case: &Case) -> Result<Vec<f64>> {
-    if let Some(drive) = case.drives.iter().find(|drive| drive.input != Input::Angle) {
-        let message =
-            sentences::clearance_needs_cranks(&case.mechanism.joints()[drive.joint].name, &drive.input.noun());
-        return Err(Error::new(ErrorKind::Unsupported, message).help(sentences::DRIVE_THE_MECHANISM_AT_CRANKS));
+    if let Some(cam) = case.mechanism.transmissions().iter().find(|own| own.cam.is_some()) {
+        let error = Error::new(ErrorKind::Unsupported, sentences::clearance_knows_no_cams(&cam.name()));
+        return Err(error.help(sentences::LEAVE_THE_CAM_OUT));
+    }
+    let varies = |drive: &Drive| !drive.is_free() && drive.constant_speed().is_none();
+    if !case.drives.further().is_empty() && case.drives.iter().any(varies) {
+        let error = Error::new(ErrorKind::Unsupported, sentences::CLEARANCE_NEEDS_CONSTANT_SPEEDS);
+        return Err(error.help(sentences::GIVE_ALL_DRIVES_CONSTANT_SPEEDS));
     }
     if !case.is_free() {
         return Ok(case.grid.inputs.clone());
@@ -236,8 +242,9 @@ fn cranks(case: &Case) -> Result<Vec<f64>> {
 fn range(case: &Case) -> Result<[f64; 2]> {
     let [low, mut high] = ends(cranks(case)?);
     let dyads = case.structure.groups.iter().all(|group| group.kind != GroupKind::Higher);
+    let repeats = dyads && case.crank().input != Input::Slide && case.mechanism.transmissions().is_empty();
     let forwards = case.crank().sense() > 0.0;
-    if dyads && case.drives.further().is_empty() && !case.crank().through && high - low > TAU {
+    if repeats && case.drives.further().is_empty() && !case.crank().through && high - low > TAU {
         if !forwards {
             return Ok([high, high - TAU]);
         }

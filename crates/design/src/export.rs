@@ -11,7 +11,7 @@ use linkage::trajectory::Stage;
 /// Computes the state at t = 0 with velocities and accelerations by `solver`.
 ///
 /// # Errors
-/// Those of the solver.
+/// The errors of the solver.
 pub fn first_state(case: &Case, solver: &dyn Solver) -> Result<State> {
     let wanted = Wanted::of(&[Stage::Positions, Stage::Velocities, Stage::Accelerations]);
     let case = case.on(Grid::of_times(case.crank(), vec![0.0]))?.wanting(wanted);

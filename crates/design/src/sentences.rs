@@ -14,8 +14,10 @@ linkage::sentences! {
     the_catalogue_cannot_be_read(path, error) = "the catalogue {path} cannot be read: {error}";
     // clearance.rs
     PRESCRIBE_THE_DRIVES_OR_LET = "prescribe the drives, or let no more than one link move freely";
-    clearance_needs_cranks(joint, noun) = "clearance is proven for cranks only, but the input of the drive of \"{joint}\" is a {noun}";
-    DRIVE_THE_MECHANISM_AT_CRANKS = "drive the mechanism at cranks";
+    clearance_knows_no_cams(name) = "clearance is not proven for cams such as \"{name}\"";
+    LEAVE_THE_CAM_OUT = "leave the cam out and drive its follower";
+    CLEARANCE_NEEDS_CONSTANT_SPEEDS = "with several drives, clearance is proven for constant speeds only";
+    GIVE_ALL_DRIVES_CONSTANT_SPEEDS = "give all drives constant speeds";
     CLEARANCE_IS_LOOKED_FOR_OVER = "clearance is searched over crank angles, but forces determine several degrees of freedom of the motion";
     // plan/builder.rs
     along_the_guide(joint) = ", along the guide {joint}";
@@ -38,7 +40,7 @@ linkage::sentences! {
     CHORDS_WHOSE_SLOPES_GIVE_THE_VELOCITY = "chords whose slopes give the velocity";
     EXACT_BY_THE_SOLVER = "exact, by the solver";
     scale_factor_2(channel, sub, scale, per) = "{channel}, scale factor μ{sub} = {scale} {per}";
-    chord_method_and_graphical_integration(divisions) = "chord method and graphical integration, {divisions} divisions of the turn; errors as fractions of half the range of the exact curve";
+    chord_method_and_graphical_integration(divisions) = "chord method and graphical integration, {divisions} divisions; errors as fractions of half the range of the exact curve";
     // draw/plan_sheet.rs
     FROM_TO = "from → to";
     scale_factor_3(symbol, sub, scale, scripted) = "scale factor {symbol}{sub} = {scale} {scripted}";
@@ -49,10 +51,9 @@ linkage::sentences! {
     SOLVE_WITH_ANOTHER_SOLVER = "solve with another solver";
     does_not_provide(solver, channel) = "{solver} does not provide {channel}";
     GIVE_THE_DRIVE_A_CONSTANT = "give the drive a constant speed";
-    a_diagram_needs_a_turn(noun) = "the chord method divides a turn, but the input of the drive is a {noun}";
-    THE_CHORD_METHOD_DIVIDES_A_TURN = "the chord method divides a turn into equal times, but the drive's speed changes";
+    THE_CHORD_METHOD_DIVIDES_A_TURN = "the chord method divides the motion into equal times, but the drive's speed changes";
     give_from_to_divisions(least, most) = "give from {least} to {most} divisions";
-    a_turn_cannot_be_divided(divisions) = "a turn cannot be divided into {divisions} parts here";
+    a_turn_cannot_be_divided(divisions) = "the motion cannot be divided into {divisions} parts here";
     allowed_here(names) = "allowed here: {names}";
     CHANNELS_ARE_NAMED_LIKE_POINT = "channels are named like point.B.x_m, point.B.y_m or link.crank.angle_rad";
     is_neither_a_position_nor(name) = "\"{name}\" is neither a position nor an angle";
@@ -83,6 +84,7 @@ linkage::sentences! {
     a_load_of_type_that_acts(sort) = "a load of type \"{sort}\" that acts in one sense or on one side only";
     a_load_of_type_with_a_table(sort) = "a load of type \"{sort}\" with a table over the crank angle";
     LEAVE_IT_OUT_OF_THE_SCENARIO = "leave it out of the scenario, and add it to the model by hand";
+    the_losses_of(name) = "the efficiency of \"{name}\"";
     a_cam(name) = "cam \"{name}\"";
     cannot_be_written_to_a_model(what) = "{what} cannot be written to a model for MuJoCo";
     // export/mjcf/model.rs

@@ -41,7 +41,7 @@ pub struct Laid {
 pub struct GroupPlacement {
     /// Number of the group.
     pub group: GroupId,
-    /// Its mode.
+    /// Assembly mode of the group.
     pub mode: AssemblyMode,
     /// Number of the group's configuration, counted from 1; 0 if unknown.
     pub number: usize,

@@ -12,23 +12,23 @@ const CORNERS: f64 = 32.0;
 pub enum MarkShape {
     /// A line through points, or a polygon.
     Line {
-        /// Its corners.
+        /// Corners of the line or polygon.
         points: Vec<Vec2>,
         /// Whether the last corner is joined to the first corner.
         closed: bool,
     },
     /// A circle.
     Circle {
-        /// Its centre.
+        /// Centre of the circle.
         centre: Vec2,
-        /// Its radius.
+        /// Radius of the circle.
         radius: f64,
     },
     /// A part of a circle.
     Arc {
         /// Centre of the circle.
         centre: Vec2,
-        /// Its radius.
+        /// Radius of the circle.
         radius: f64,
         /// Direction of the first end from the centre (rad), counter-clockwise from the frame's x axis.
         from: f64,
@@ -149,13 +149,13 @@ roles! {
 /// The colour of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ink {
-    /// That of the link.
+    /// The colour of the link.
     Link,
-    /// That of text.
+    /// The colour of text.
     Text,
     /// A pale colour for the background.
     Quiet,
-    /// That of loads.
+    /// The colour of loads.
     Load,
 }
 
@@ -176,7 +176,7 @@ pub enum Fill {
 /// link.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Layer {
-    /// What stands still.
+    /// Marks that stand still.
     Ground,
     /// Links.
     Links,
@@ -209,7 +209,7 @@ pub struct Look {
 pub struct Mark {
     /// The shape, in the frame of the mark's link (m).
     pub shape: MarkShape,
-    /// What it stands for.
+    /// The role of the mark.
     pub role: MarkRole,
 }
 

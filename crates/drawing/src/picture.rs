@@ -66,7 +66,7 @@ pub struct Picture<'a> {
     places: &'a [LinkPlacement],
     /// Length in the world that corresponds to a millimetre on paper (m).
     scale: f64,
-    /// What is drawn.
+    /// The figure so far.
     pub figure: DrawnFigure,
     /// Elements that labels must not touch.
     pub obstacles: Obstacles,

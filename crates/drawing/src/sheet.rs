@@ -29,7 +29,7 @@ pub struct SheetCell {
     pub bounds: [Vec2; 2],
     /// Length in the world that corresponds to a millimetre on paper (m).
     pub scale: f64,
-    /// Faults, written below it.
+    /// Faults, written below the picture.
     pub faults: Vec<String>,
 }
 

@@ -101,7 +101,7 @@ pub fn of_drive(mechanism: &Mechanism, drive: &Drive, u: f64) -> Vec<Mark> {
     let mut marks = Vec::new();
     let joint = &mechanism.joints()[drive.joint];
     if let Some(axis) = joint.axis_on(drive.link).filter(|_| drive.has_moment()) {
-        // Beside the joint, in the direction in which the slide moves the link.
+        // The arrow is beside the joint and points in the direction in which the slide moves the link.
         let sign = if joint.second.link == drive.link { sense } else { -sense };
         let marked = arrow(axis * (sign * 2.0 * DRIVE * u), u);
         let beside = pin + turned(axis) * (BESIDE * u) - axis * (sign * DRIVE * u);

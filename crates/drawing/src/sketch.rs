@@ -43,7 +43,7 @@ pub struct Sketch {
 pub struct LinkMarks {
     /// Number of the link.
     pub link: LinkId,
-    /// Its marks.
+    /// Marks of the link.
     pub marks: Vec<Mark>,
     /// Largest distance between two points of the link (m); infinite for the ground.
     pub size: f64,

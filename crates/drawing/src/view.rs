@@ -20,9 +20,9 @@ const FREE: f64 = 11.0;
 pub struct DrawnSubject<'a> {
     /// The mechanism.
     pub mechanism: &'a Mechanism,
-    /// What moves it.
+    /// The drives of the mechanism.
     pub drives: &'a [Drive],
-    /// What loads it.
+    /// The loads on the mechanism.
     pub loads: &'a [Load],
     /// Acceleration of gravity (m/s^2).
     pub gravity: Vec2,

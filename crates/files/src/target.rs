@@ -29,7 +29,7 @@ pub enum OutputTarget<'a> {
 pub(super) enum Place {
     /// The content goes to a path that is already open or that is not a regular file.
     Open(PathBuf),
-    /// The content replaces this file. If the file exists, its metadata follow.
+    /// The content replaces this file. The metadata are those of the existing file, if any.
     File(PathBuf, Option<fs::Metadata>),
 }
 

@@ -149,7 +149,7 @@ impl FormulaGraph {
     ///
     /// # Errors
     /// The errors of [`FormulaGraph::add`].
-    /// Also an operation on constants outside its domain, with the position of the operation.
+    /// An operation on constants outside its domain is an error too; the error gives the position of the operation.
     pub fn add_defined(&mut self, tree: &FormulaTree) -> Result<NodeId, FormulaFault> {
         self.added(tree, true)
     }

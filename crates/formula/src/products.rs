@@ -22,7 +22,7 @@ pub struct Product {
     pub number: f64,
     /// Indices of quantities with their exponents.
     pub powers: Vec<(u8, i8)>,
-    /// Its dimension.
+    /// Dimension of the product.
     pub dimension: Dimension,
 }
 

@@ -23,7 +23,7 @@ use crate::mechanism::{GROUND, JointSide, LinkId};
 use crate::trajectory::{CHANNELS, Channel, ChannelSubject, OfLink, Reading, Stage};
 
 pub use builder::CaseBuilder;
-pub use friction::{Friction, JointReactions};
+pub use friction::{Friction, FrictionSeat, JointReactions};
 pub use grid::Grid;
 pub use parts::{CaseParts, Wanted};
 pub use scene::{LeftOut, Scene};
@@ -333,10 +333,10 @@ impl Case {
         power
     }
 
-    /// Whether a load depends on a sense of motion.
+    /// Whether a load or the loss of a transmission depends on a sense of motion.
     #[must_use]
     pub fn has_sense(&self) -> bool {
-        self.loads.iter().any(Load::has_sense)
+        self.senses().any(|senses| senses != Senses::Nothing)
     }
 
     /// Calls `put` with the action of load number `load` on each of the load's links.

@@ -53,7 +53,7 @@ pub fn four_bar() -> Mechanism {
     mechanism(links, &pins).unwrap()
 }
 
-/// Mechanism of reference 7: crank 1 = OA, triangles 2 = A-C-B and 5 = K-E-D, links 3 = BD and 4 = CE.
+/// Mechanism of `scenarios/fourth_class.toml`: crank 1 = OA, triangles 2 = A-C-B and 5 = K-E-D, links 3 = BD, 4 = CE.
 /// Point B is C rotated about A by +60 deg (`side_b` = 1) or -60 deg (-1).
 /// Point D is E rotated about K by +60 deg (`side_d` = 1) or -60 deg (-1).
 pub fn class_four(side_b: f64, side_d: f64) -> Mechanism {

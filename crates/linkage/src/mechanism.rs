@@ -25,7 +25,7 @@ pub use placing::Handle;
 pub use pose::{LinkPose, Pose};
 pub use spanning_tree::{SpanningTree, TreeBranch};
 pub use structure::{DrivenJoint, DrivingLink, Group, GroupKind, Structure};
-pub use transmission::{Coordinate, Transmission, TransmissionDesign, TransmissionKind};
+pub use transmission::{Coordinate, Losses, Transmission, TransmissionDesign, TransmissionKind};
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -96,7 +96,7 @@ impl Mechanism {
     /// This mechanism with the given transmissions in place of its own.
     ///
     /// # Errors
-    /// Those of [`Transmission::of`]; [`ErrorKind::Input`] for two transmissions of one name.
+    /// The errors of [`Transmission::of`]; [`ErrorKind::Input`] for two transmissions of one name.
     pub fn with_transmissions(mut self, designs: Vec<TransmissionDesign>) -> Result<Self> {
         let mut taken = BTreeSet::new();
         let mut all = Vec::with_capacity(designs.len());

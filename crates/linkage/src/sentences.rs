@@ -22,6 +22,7 @@ crate::sentences! {
     its_links_are_not_those_of_joint(name) = "its links are not those of joint \"{name}\"";
     joint_has_two_frictions(name) = "joint \"{name}\" has friction already";
     friction_grows_without_bound(name) = "at a change point, reactions and the friction of joint \"{name}\" grow without bound: leave out `through = \"smooth\"` or the friction";
+    losses_grow_without_bound(name) = "at a change point, the losses of transmission \"{name}\" grow without bound: leave out `through = \"smooth\"` or the efficiency";
     a_number_is_not_finite_or_negative(load) = "a number is not finite, or negative where it must not be: {load}";
     it_acts_on_link_but_there(link, count) = "it acts on link {link}, but there are {count} links";
     joint_drives_link_not(name, turned, said) = "joint \"{name}\" drives link \"{turned}\", not \"{said}\"";
@@ -191,5 +192,11 @@ crate::sentences! {
     JOIN_THE_MEMBER_TO_THE_CARRIER = "join the wheel to the carrier by a revolute joint, or to a third link that is joined to the carrier at the same point";
     the_member_has_no_axle(link, carrier) = "link \"{link}\" has no axle on the carrier \"{carrier}\"";
     NAME_TWO_MEMBERS = "name two different members and, with `carrier`, the link that carries their axles";
+    the_efficiencies_are(forward, back) = "the efficiency is {forward}, and back {back}";
+    GIVE_EFFICIENCIES = "give an efficiency above 0 and at most 1; back, it is at most 1";
+    A_CAM_HAS_NO_EFFICIENCY = "a cam has no efficiency";
+    GIVE_FRICTION = "give the joints of cam and follower friction";
+    NO_MEMBER_IS_JOINED_TO_THE_CARRIER = "the transmission has an efficiency, but no member has a joint with the carrier";
+    JOIN_A_MEMBER_TO_THE_CARRIER = "join one member to the carrier";
     A_TRANSMISSION_NEEDS_THREE_LINKS = "the two members and the carrier are not three different links";
 }

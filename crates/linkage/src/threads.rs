@@ -16,8 +16,8 @@ pub fn cores() -> usize {
 
 /// Calls `work` for every index below `count`, on at most `threads` threads. Each thread takes the next free index.
 /// `work` may send any number of messages.
-/// The calling thread passes each message with its index to `hear`. After `hear` returns a break, no further index is
-/// started.
+/// The calling thread passes each message with its index to `hear`.
+/// After `hear` returns a break, no work is started for further indices.
 /// The [counts](work) of the work done on the threads are added to the counts of the calling thread.
 ///
 /// If `threads` is 1, or if the system cannot start a thread, the calling thread does the work.

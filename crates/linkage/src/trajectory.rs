@@ -57,7 +57,7 @@ impl Trajectory {
         Trajectory { input, ..self }
     }
 
-    /// What moves the mechanism.
+    /// The input that moves the mechanism.
     #[must_use]
     pub fn input(&self) -> Input {
         self.input

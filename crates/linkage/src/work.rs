@@ -48,7 +48,7 @@ impl Work {
     /// No work.
     pub const NONE: Work = Work([0; Count::ALL.len()]);
 
-    /// The number of one count.
+    /// The value of the count `what`.
     #[must_use]
     pub fn of(&self, what: Count) -> u64 {
         self.0[what as usize]

@@ -134,7 +134,7 @@ pub struct FigureComparison {
     /// Verdict words of the accepted and the found proof; `None` if both are `agree`.
     pub proof: Option<[String; 2]>,
     /// The verdict.
-    /// It is disagree if the found proof disagrees, or if values, channels or the grid have changed.
+    /// The verdict is disagree if the found proof disagrees, or if values, channels or the grid have changed.
     /// Otherwise it is inconclusive if a bound has changed much, if one of the two proofs does not agree, or if the run
     /// has no channel.
     pub verdict: Verdict,
@@ -255,7 +255,7 @@ fn pairs(kept: &AcceptedChannel, found: &AcceptedChannel, times: &[f64]) -> Vec<
     at.chain(ends).chain(rms).collect()
 }
 
-/// Returns the values to store after the run `found`.
+/// Returns the values to store after a run with the values `found`.
 /// Channels without moved values and without a much wider or narrower bound keep their accepted values.
 /// So the file changes only where the comparison reports a change. On another grid all values are new.
 #[must_use]

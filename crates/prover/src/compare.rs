@@ -65,7 +65,7 @@ impl ComparedParty {
     /// As [`ComparedParty::table`], but calls `may` before memory is allocated.
     ///
     /// # Errors
-    /// Those of [`ComparedParty::table`], and those of `may`.
+    /// The errors of [`ComparedParty::table`], and those of `may`.
     pub fn table_within(path: impl AsRef<Path>, mapping: &Mapping, may: May) -> Result<ComparedParty> {
         let path = path.as_ref();
         let held = Held::of_table(&load_within(path, may)?, mapping)?;
@@ -109,7 +109,7 @@ const REFERENCE: &str = "reference";
 ///
 /// # Errors
 /// [`ErrorKind::Input`] if the parties have no instant or no channel in common.
-/// Also the errors of the sides.
+/// The errors of the analytic sides.
 pub fn compare(parties: [ComparedParty; 2], how: &ComparisonRule) -> Result<PartyComparison> {
     let names = parties.each_ref().map(|party| party.name.clone());
     let [first, second] = parties.map(|party| party.holds);

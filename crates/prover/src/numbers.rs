@@ -87,7 +87,7 @@ pub fn beside(values: [f64; 2], bound: f64) -> [String; 2] {
         true if is_far(value) => FAR * value.abs(),
         true if difference <= bound => difference.larger(NEAR * value.abs()),
         true => difference,
-        // Not a number too.
+        // This arm includes NaN.
         false => bound.larger(NEAR * value.abs()),
     };
     values.map(|value| resolved(value, resolution(value)))

@@ -57,7 +57,7 @@ use linkage::trajectory::Trajectory;
 use linkage::work::limited;
 use scenario::Scenario;
 
-/// Work that the analytic sides may always do, whatever the budget. It takes a second or two.
+/// Work that the analytic sides may always do, whatever the budget. This work takes a second or two.
 /// Without the analytic sides there is no result.
 pub const SIDES: f64 = 1e6;
 /// A diagnosis may use at most this multiple of the proof's budget.
@@ -150,7 +150,7 @@ pub fn prove(scenario: &Scenario, options: &Options) -> Result<Proof> {
 /// As [`prove`]. Calls `progress` with the finished fraction of the work, from 0 to 1.
 ///
 /// # Errors
-/// Those of [`prove`].
+/// The errors of [`prove`].
 pub fn prove_with(scenario: &Scenario, options: &Options, progress: Progress) -> Result<Proof> {
     joined(scenario, &scenario.case, options, progress).map_err(|error| explained(&scenario.case, error))
 }
@@ -159,7 +159,7 @@ pub fn prove_with(scenario: &Scenario, options: &Options, progress: Progress) ->
 /// A fault planted in `engine_case` shows which faults a proof can find.
 ///
 /// # Errors
-/// Those of [`prove`].
+/// The errors of [`prove`].
 pub fn prove_against(scenario: &Scenario, engine_case: &Case, options: &Options) -> Result<Proof> {
     joined(scenario, engine_case, options, &mut |_| {}).map_err(|error| explained(&scenario.case, error))
 }

@@ -124,7 +124,7 @@ linkage::sentences! {
     a_millionth_more_of_gravity(share) = "; increasing gravity and motor torque by a millionth changes the channel by {share:.2} millionths of its scale";
     AT_THE_PACE_OF_ITS_ROUNDS = "at this rate of progress the work limit would not be enough";
     THE_WORK_THAT_WAS_ALLOWED = "the work limit was reached";
-    A_FINER_STEP_ADDS_MORE_ROUNDING = "a finer step adds more rounding error than it removes";
+    A_FINER_STEP_ADDS_MORE_ROUNDING = "a finer step adds more rounding error than it removes truncation error";
     // run/engines.rs
     leave_the_step_to_the_proof(error, sweeps, combined, outcome) = "let the proof choose the step: it chooses {error} s and {sweeps} sweeps, {combined}, and {outcome}";
     extrapolated_times(times) = "extrapolated {times} times";
@@ -248,7 +248,7 @@ linkage::sentences! {
     A_COLUMN_HAS_FEWER_VALUES = "a column has fewer values than it announces";
     A_COLUMN_HAS_FEWER_VALUES_THAN_THERE = "a column has fewer values than there are rows";
     it_has_values_more_than(values, most) = "it has {values} values, more than {most}";
-    ITS_GROUPS_HAVE_OTHER_ROWS = "its row groups have another number of rows than the file announces";
+    ITS_GROUPS_HAVE_OTHER_ROWS = "the row groups have a different number of rows than the file announces";
     its_columns_are_compressed_with_which_is_not_read(name) = "its columns are compressed with {name}, which is not read here";
     the_table(path, message) = "the table {path}: {message}";
     ITS_PARTS_CONTRADICT_EACH_OTHER = "its parts contradict each other";

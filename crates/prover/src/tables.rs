@@ -32,7 +32,7 @@ pub fn load(path: impl AsRef<Path>) -> Result<Raw> {
 /// and the rows before the values are stored. For a Parquet file it is called once, before the values are stored.
 ///
 /// # Errors
-/// Those of [`load`], and those of `may`.
+/// The errors of [`load`], and those of `may`.
 pub fn load_within(path: &Path, may: May) -> Result<Raw> {
     let mut file = File::open(path).map_err(|error| unread(path, &error))?;
     let about = file.metadata().map_err(|error| unread(path, &error))?;

@@ -78,7 +78,7 @@ pub enum BoundBasis {
         /// Whether the formula also states an error of its values.
         claimed: bool,
     },
-    /// A basis with a note on the check that uses it.
+    /// Another basis, with a note on the check that uses it.
     Noted(Box<BoundBasis>, &'static str),
 }
 

@@ -47,7 +47,7 @@ pub(super) struct Acting {
     jumps: Option<Jumps>,
     branch: Option<MotorBranch>,
     /// Moment of the motor on the crank (N m) that acts as a load in this step.
-    /// It acts as a load because Rapier's motor cannot apply it.
+    /// Rapier's motor cannot apply this moment.
     direct: f64,
     /// One for each world.
     added: Vec<Option<Added>>,
@@ -56,7 +56,7 @@ pub(super) struct Acting {
 
 impl Acting {
     /// # Errors
-    /// Those of [`check_inertias`].
+    /// The errors of [`check_inertias`].
     pub(super) fn new(case: &Case, precision: Precision, worlds: &[Guard]) -> Result<Self> {
         if precision != Precision::Double {
             // In single precision, second differences of positions are only rounding noise and cannot compensate an
@@ -84,7 +84,7 @@ impl Acting {
     /// The newest state of the window is the start of the step.
     ///
     /// # Errors
-    /// Those of [`Braking::add`].
+    /// The errors of [`Braking::add`].
     pub(super) fn act(&mut self, case: &Case, window: &Window, worlds: &mut [Guard], ends: [f64; 2]) -> Result<()> {
         for (before, motion) in self.before.iter_mut().zip(&self.state.motions) {
             *before = if window.newest() > 0 { motion.omega } else { f64::NAN };
@@ -244,7 +244,7 @@ impl Acting {
 /// In the trial step, such a load does not act, and power flows from the motor.
 ///
 /// # Errors
-/// Those of [`Guard::step`].
+/// The errors of [`Guard::step`].
 pub(super) fn begin(case: &Case, acting: &mut Acting, worlds: &mut [Guard], settings: &Settings) -> Result<Window> {
     let step = settings.resolution;
     settle(case, worlds, step)?;
@@ -296,7 +296,7 @@ fn guess(case: &Case, acting: &mut Acting, window: &Window, worlds: &mut [Guard]
     Ok(())
 }
 
-/// Mean rates of the joints with friction in a trial step from the start. Rates of rounding size are zero.
+/// Mean rates of the joints with friction in a trial step from the start. Rates as small as rounding errors become 0.
 fn set_off(case: &Case, guard: &Guard, step: f64) -> Vec<f64> {
     let mut motions = vec![Motion::REST; case.mechanism.links().len()];
     for (link, body) in case.mechanism.links().entries().skip(1) {

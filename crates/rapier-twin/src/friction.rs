@@ -74,7 +74,7 @@ impl InverseDynamics {
     /// `sense` returns the sense of the sliding of a joint: 1, -1, or a mean if the sense changes within a step.
     ///
     /// # Errors
-    /// Those of [`NewtonEuler::solve`]; [`ErrorKind::Numeric`] if the friction locks the mechanism.
+    /// The errors of [`NewtonEuler::solve`]; [`ErrorKind::Numeric`] if the friction locks the mechanism.
     fn solve(&mut self, case: &Case, state: &mut State, t: f64, sense: &dyn Fn(usize) -> f64) -> Result<&[f64]> {
         self.normals.fill(0.0);
         let (mut share, mut part) = (0.0, 1.0);
@@ -100,7 +100,7 @@ impl InverseDynamics {
         let (n, mut last) = (self.normals.len(), f64::INFINITY);
         for _ in 0..MOST {
             self.react(case, state, t, sense)?;
-            read(case, state, &mut self.now);
+            read(case, state, sense, &mut self.now);
             let largest = self.now.iter().chain(&self.normals).fold(0.0f64, |most, own| most.larger(*own));
             let off =
                 self.now.iter().zip(&self.normals).fold(0.0f64, |most, (now, own)| most.larger((now - own).abs()));
@@ -115,7 +115,7 @@ impl InverseDynamics {
                 self.normals[i] += more;
                 self.react(case, state, t, sense)?;
                 self.normals[i] = own;
-                read(case, state, &mut self.beside);
+                read(case, state, sense, &mut self.beside);
                 for j in 0..n {
                     self.matrix.add(j, i, (self.now[j] - self.beside[j]) / more + if i == j { 1.0 } else { 0.0 });
                 }
@@ -144,7 +144,7 @@ impl InverseDynamics {
     /// Fills in the reactions of a sample.
     ///
     /// # Errors
-    /// Those of [`InverseDynamics::solve`].
+    /// The errors of [`InverseDynamics::solve`].
     pub(super) fn sample(&mut self, case: &Case, state: &mut State, t: f64) -> Result<()> {
         if self.normals.is_empty() {
             self.equations.solve(case, state, t)?;
@@ -158,9 +158,9 @@ impl InverseDynamics {
 }
 
 /// Writes the normal forces of a state's reactions.
-fn read(case: &Case, state: &State, normals: &mut [f64]) {
-    for (normal, friction) in normals.iter_mut().zip(case.frictions()) {
-        *normal = friction.normal(state.forces[friction.joint], state.moments[friction.joint]);
+fn read(case: &Case, state: &State, sense: &dyn Fn(usize) -> f64, normals: &mut [f64]) {
+    for (k, (normal, friction)) in normals.iter_mut().zip(case.frictions()).enumerate() {
+        *normal = friction.normal(friction.reaction(state.reactions()), sense(k));
     }
 }
 
@@ -196,7 +196,7 @@ impl Braking {
     /// (s).
     ///
     /// # Errors
-    /// Those of [`InverseDynamics::solve`].
+    /// The errors of [`InverseDynamics::solve`].
     pub(super) fn add(
         &mut self,
         case: &Case,
@@ -240,7 +240,7 @@ impl Braking {
     }
 
     /// Stores the accelerations of a trial step from the start of the motion.
-    /// Returns their largest change divided by the largest of them.
+    /// Returns their largest change divided by the largest acceleration.
     pub(super) fn guess(&mut self, case: &Case, mut of: impl FnMut(usize) -> [f64; 3]) -> f64 {
         let size = case.mechanism.size();
         let length = |own: [f64; 3]| Vec2::new(own[0], own[1]).norm().larger(own[2].abs() * size);

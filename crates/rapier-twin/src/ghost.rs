@@ -25,7 +25,7 @@ impl Ghost {
     /// The stand-ins of a case. If its loads are missing in the engine (`unloaded`), they are included too.
     /// `None` if nothing has to be subtracted.
     pub(super) fn of(case: &Case, unloaded: bool) -> Option<Self> {
-        // The flywheel of a crank adds a moment only while it is accelerated. That of a slide is a mass with a weight.
+        // The flywheel of a crank adds a moment only while accelerated. A flywheel of a slide is a mass with weight.
         let tree = SpanningTree::none(&case.mechanism);
         let only_cranks = case.drives.iter().all(|drive| drive.input == Input::Angle);
         let flywheels_idle = case.is_steady() && only_cranks;
@@ -51,7 +51,7 @@ impl Ghost {
     /// Subtracts the contribution of the stand-ins from reactions and moments.
     ///
     /// # Errors
-    /// Those of [`NewtonEuler::solve`].
+    /// The errors of [`NewtonEuler::solve`].
     pub(super) fn take_off(&mut self, case: &Case, state: &mut State, t: f64) -> Result<()> {
         self.state.motions.clone_from(&state.motions);
         self.state.angles.clone_from(&state.angles);

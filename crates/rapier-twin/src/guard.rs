@@ -51,7 +51,7 @@ pub(super) struct Guard<'a> {
     tally: WorkTally,
     /// Largest kinetic energy so far (J).
     /// The initial value assumes that all links turn as fast as the fastest drive.
-    /// It also assumes that every mass centre is one mechanism size from the axis of rotation.
+    /// The initial value also assumes that every mass centre is one mechanism size from the axis of rotation.
     energy: f64,
     /// Whether no step has been done yet.
     first: bool,

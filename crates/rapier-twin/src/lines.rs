@@ -35,7 +35,7 @@ impl Lines {
     /// Moves the forces of the transmissions of a state to the lines that carry them.
     ///
     /// # Errors
-    /// Those of [`NewtonEuler::solve`].
+    /// The errors of [`NewtonEuler::solve`].
     pub(super) fn change(&mut self, case: &Case, state: &mut State, t: f64) -> Result<()> {
         let (mechanism, moved) = (&case.mechanism, &mut self.moved);
         moved.fill(Wrench::ZERO);

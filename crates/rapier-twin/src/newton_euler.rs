@@ -17,7 +17,7 @@
 //! Driven joints are in the tree, and the remainder of a driven joint's equation is the driving moment or force.
 //! The moment of a crank acts from the frame. Any other driving moment or force also acts on the inner link.
 //! The number of the remaining equations equals the number of components in cut joints.
-//! A four-bar has two such equations; the equations of all its links together are nine.
+//! A four-bar has two such equations, while all its links together have nine equations of motion.
 //! A transmission is a cut joint with one component: the force in its first line of action.
 
 mod seam;
@@ -157,7 +157,7 @@ impl NewtonEuler {
     /// Like [`NewtonEuler::solve`], with the given loads on all links.
     ///
     /// # Errors
-    /// Those of [`NewtonEuler::solve`].
+    /// The errors of [`NewtonEuler::solve`].
     pub(super) fn solve_under(&mut self, loads: &[Wrench], case: &Case, state: &mut State, t: f64) -> Result<()> {
         self.loads.copy_from_slice(loads);
         self.balance(case, state, t)
@@ -215,7 +215,7 @@ impl NewtonEuler {
         true
     }
 
-    /// Adds to the needs of every link the needs of the links beyond this link. The leaves are treated first.
+    /// Adds to `needs` of every link the needs of the links that it carries. The leaves are treated first.
     fn pass_on(&mut self) {
         let width = self.components.len() + 1;
         for (number, limb) in self.tree.iter().enumerate().rev() {

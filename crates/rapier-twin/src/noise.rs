@@ -17,8 +17,8 @@ const SPEED_ULPS: f64 = 20.0;
 /// The difference itself has an error of four half units (12.6 epsilon for a full turn; 11.7 were measured).
 /// For the links behind the crank, this error is doubled.
 const DIFFERENCE_ULPS: f64 = 4.0;
-/// If the largest angle is below this (rad), this angle replaces it in the rounding error of a second difference.
-/// The replacement is needed because unit vectors and positions are rounded even if a link has hardly turned.
+/// Lower limit of the largest angle (rad) in the rounding error of a second difference: unit vectors and positions are
+/// rounded even if a link has hardly turned.
 /// For a quarter turn and for half a turn, 12.6 epsilon were measured on the crank-rocker and on `quick_return`.
 /// On `ov7_base`, 26 epsilon were measured; 37 epsilon are allowed.
 const LEAST_TURN: f64 = 3.0 * std::f64::consts::PI;
@@ -26,7 +26,7 @@ const LEAST_TURN: f64 = 3.0 * std::f64::consts::PI;
 /// The rounding error of a unit vector is up to a whole epsilon, whatever the size of the angle.
 const MEAN_HALF_ULP: f64 = 0.25;
 /// Rounding error of the speed change due to an impulse, in units in the last place.
-/// It is the rounding error of a speed times the condition number of the loop that determines the impulse.
+/// This is the rounding error of a speed times the condition number of the loop that determines the impulse.
 /// On the crank-rocker in f32, 3100 and 3570 units were measured at time steps of 1e-3 s and 2.5e-4 s.
 /// In the impulse build, 557 and 570 units were measured at these time steps.
 /// The bound is about twice as large as the largest measured value.

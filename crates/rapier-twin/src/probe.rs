@@ -42,7 +42,7 @@ impl<'a> Probe<'a> {
         Probe { reporters, step: turn / speed, ghost: Ghost::of(case, false), worlds, poses, tally }
     }
 
-    /// Fills in the reactions and moments of a state. They belong to the window's motion at the time `t` (s).
+    /// Fills in the reactions and moments of a state. The reactions belong to the window's motion at the time `t` (s).
     pub(super) fn solve(&mut self, case: &Case, window: &Window, state: &mut State, t: f64) -> Result<()> {
         state.forces.fill(Vec2::zeros());
         state.moments.fill(0.0);

@@ -59,7 +59,7 @@ pub(super) struct Window {
 impl Window {
     /// Number of steps that a sample needs before the step that lies at or before the sample's instant.
     pub(super) const BEHIND: i64 = 3;
-    /// Steps needed after it.
+    /// Number of steps that a sample needs after that step.
     pub(super) const AHEAD: i64 = 4;
 
     /// An empty window of a run. The first state that is pushed is that of step `start`.

@@ -26,7 +26,7 @@ pub struct LinkFrame {
     pub origin: Vec2,
     /// Unit vector of the frame's x axis: (cos, sin) of the frame's angle.
     pub direction: Vec2,
-    /// Its angle.
+    /// Angle of the frame.
     pub angle: LinkAngle,
 }
 

@@ -36,7 +36,7 @@ const ENGINE: &str = "engine";
 /// Where a recording goes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RecordingPlace {
-    /// Its file.
+    /// Path of the recording's file.
     pub path: PathBuf,
     /// Difference from the recording that has the usual name; `None` if this recording has the usual name.
     pub other: Option<String>,

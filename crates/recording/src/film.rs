@@ -69,7 +69,7 @@ struct Found {
 /// Reads a recording as a moving picture.
 ///
 /// # Errors
-/// Those of [`load`](super::load); [`ErrorKind::Input`](linkage::ErrorKind::Input) if the recording has no picture.
+/// The errors of [`load`](super::load); [`ErrorKind::Input`](linkage::ErrorKind::Input) if there is no picture.
 pub fn film(path: &Path) -> Result<Film> {
     let bytes = read::bytes(path)?;
     let sides = read::read_bytes(&bytes, path)?;
@@ -204,7 +204,7 @@ pub struct Numbers {
 /// Lists the numbers that a recording contains.
 ///
 /// # Errors
-/// Those of [`load`](super::load).
+/// The errors of [`load`](super::load).
 pub fn numbers(path: &Path) -> Result<Numbers> {
     let bytes = read::bytes(path)?;
     let sides = read::read_bytes(&bytes, path)?;

@@ -52,7 +52,7 @@ pub struct RecordedSide<'a> {
     /// First part of the names of the side's topics and frames: "reference", "engine". The name must be unique,
     /// non-empty, without `/`, and neither "error" nor "mechanism".
     pub name: &'a str,
-    /// Its values.
+    /// Values of the side.
     pub trajectory: &'a Trajectory,
 }
 

@@ -32,7 +32,7 @@ pub struct ReelMessage<'a> {
     pub time: u64,
     /// Number of its topic.
     pub topic: u16,
-    /// Its bytes.
+    /// Content of the message.
     pub data: &'a [u8],
 }
 

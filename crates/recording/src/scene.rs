@@ -150,7 +150,7 @@ impl<'a> ViewerScene<'a> {
 pub struct PlacedSide<'a> {
     /// Name of the side.
     pub name: &'a str,
-    /// Its values.
+    /// Values of the side.
     pub trajectory: &'a Trajectory,
     /// Colour, thickness and height of the side in drawings.
     pub paint: SidePaint,

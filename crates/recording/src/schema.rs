@@ -90,7 +90,7 @@ pub fn numbers(mut data: &[u8]) -> Result<Vec<(u32, f64)>, prost::DecodeError> {
 }
 
 /// Upper limit of the length of a message description that is parsed (bytes).
-/// It is hundreds of times the length of linkproof's descriptions.
+/// The limit is hundreds of times the length of linkproof's descriptions.
 /// The limit is needed because the parts of a description take up to a hundred times their file size in memory.
 const LONGEST: usize = 1 << 20;
 

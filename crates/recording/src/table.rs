@@ -9,7 +9,7 @@ use mcap::McapResult;
 pub struct ChannelTable<'a> {
     /// Times of the trajectory's rows (s).
     pub times: &'a [f64],
-    /// Its topics.
+    /// Topics of the columns.
     pub topics: Vec<Topic<'a>>,
 }
 

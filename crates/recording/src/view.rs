@@ -38,9 +38,9 @@ pub struct View {
 /// A plot over time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plot {
-    /// What is plotted, with its unit.
+    /// The plotted quantity and its unit.
     pub title: String,
-    /// Its lines.
+    /// Lines of the plot.
     pub lines: Vec<Line>,
 }
 
@@ -51,7 +51,7 @@ pub struct Line {
     pub topic: String,
     /// Field of these numbers in the messages of the topic.
     pub field: String,
-    /// What it is called.
+    /// Name of the line.
     pub label: String,
     /// Index of the side; 0 is the reference. `None` for errors.
     pub side: Option<usize>,

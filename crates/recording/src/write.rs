@@ -183,8 +183,8 @@ impl Sink for RecordingOutput {
     }
 
     fn put(&mut self, topic: u16, sequence: u32, time: u64, data: &[u8]) -> McapResult<()> {
-        // One chunk per second limits the loss if a run is killed. Chunks of only a few samples would compress badly,
-        // so such chunks are not ended.
+        // One chunk per second limits the loss if a run is killed. A chunk of only a few samples would compress badly,
+        // so it is continued.
         if time / SECOND > self.flushed && self.pending > CHUNK as usize / 8 {
             self.writer.flush()?;
             (self.flushed, self.pending) = (time / SECOND, 0);

@@ -143,7 +143,7 @@ impl Start<'_> {
     }
 
     /// Places all groups by the starts `starts`. `crank` is the crank angle (rad).
-    /// If undecided groups are to be listed, each undecided group starts in the configuration that its number selects.
+    /// If undecided groups are to be listed, each undecided group starts in one of its configurations.
     /// If all groups are decided, the pose counts as lying on the file's branch.
     fn settled(&self, crank: f64, mut starts: Vec<StartGroup>) -> Result<Placed> {
         let angles = self.angles(crank);

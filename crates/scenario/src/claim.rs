@@ -12,14 +12,14 @@ use linkage::trajectory::Channel;
 /// A channel, a figure, or an arithmetic expression of channels and figures, in the units of their names.
 #[derive(Clone, Debug)]
 pub struct Claim {
-    /// Its text.
+    /// Text of the claim.
     pub text: String,
     /// The text as parsed. Its names are those of the channels and figures.
     /// A quantity reduced to the crank is replaced by its arithmetic expression of channels.
     pub tree: FormulaTree,
-    /// The channels with their names in the tree.
+    /// The channels in the claim, with their names in the expression tree.
     pub channels: Vec<(String, PrintedChannel)>,
-    /// The figures with their names in the tree.
+    /// The figures of the mechanism in the claim, with their names in the expression tree.
     pub figures: Vec<(String, MechanismFigure)>,
     /// Unit of the claim's values; empty for an arithmetic expression.
     unit: &'static str,

@@ -26,19 +26,19 @@ pub struct Draft {
     pub mechanism: Mechanism,
     /// The groups of the mechanism, or the reason why they cannot be determined.
     pub structure: Result<Structure>,
-    /// What moves it.
+    /// The drives of the mechanism.
     pub drives: Vec<Drive>,
     /// Whether the file states no drive that could be read.
     /// The crank is then the first link hinged to the ground that gives a valid structure, if there is such a link.
     pub is_driven_by_guess: bool,
-    /// What loads it.
+    /// The loads on the mechanism.
     pub loads: Vec<Load>,
     /// Acceleration of gravity (m/s^2).
     pub gravity: Vec2,
     /// Input at t = 0 (SI).
     pub crank: f64,
     /// The start of each group of the structure at the start, in its order.
-    /// Without a valid start in the file, it is the default.
+    /// Without a valid start in the file, each start is the default.
     pub starts: Vec<StartGroup>,
     /// The mistakes of the file, if there are any.
     pub mistakes: Option<Error>,

@@ -69,7 +69,7 @@ macro_rules! settings {
 }
 
 settings! {
-    /// Engines that judge.
+    /// Engines of the proof.
     engines: Vec<EngineName>,
     /// Time step (s) of engines with a fixed step.
     step: f64,
@@ -107,13 +107,13 @@ pub struct SettingRow {
     /// Key of the setting in [`SECTIONS`]. If two keys can state the setting, the first key is given. `None` if no file
     /// can state the setting.
     pub key: Option<&'static str>,
-    /// Its argument.
+    /// Command-line argument of the setting.
     pub argument: &'static str,
     /// Name of the argument's value in the help.
     pub value: &'static str,
     /// Description of the argument in the help.
     pub help: &'static str,
-    /// Its place.
+    /// Returns the place of the setting in the engine's settings.
     pub slot: fn(&mut EngineSettings) -> Slot<'_>,
 }
 
@@ -207,7 +207,7 @@ impl EngineSettings {
     }
 }
 
-/// What the section says.
+/// Reads the settings of the section.
 pub fn read(table: &mut TomlTable, drive: &Drive) -> Result<EngineSettings> {
     let mut own = EngineSettings::default();
     let (time, angle) = (table.optional_si("dt")?, table.optional_si("step")?);

@@ -54,7 +54,7 @@ pub struct Formulas {
 pub struct Formula {
     /// Name of the formula. Later formulas may use it.
     pub name: String,
-    /// Its text.
+    /// Text of the formula.
     pub text: String,
     /// The text of the formula as a tree.
     pub tree: FormulaTree,
@@ -173,7 +173,7 @@ impl Formulas {
         None
     }
 
-    /// Calls `then` for the formula `of`, while each formula in `changed` (by index) has the tree that `changed` gives.
+    /// Calls `then` for the formula `of` after a change: the formulas in `changed`, given by index, have other trees.
     /// Formulas that use a changed formula change too. The trees may use [`OMEGA`].
     /// Afterwards the graph is as before. Returns `None` if a name is unknown.
     pub fn with_trees<T>(
@@ -260,7 +260,7 @@ impl Formulas {
         self.graph.rate(of, &[Some(omega), Some(one), Some(alpha)])
     }
 
-    /// Those that claim something.
+    /// The formulas that claim something.
     pub fn claims(&self) -> impl Iterator<Item = (&Formula, &Claim)> {
         self.list.iter().filter_map(|formula| Some((formula, formula.claim.as_ref()?)))
     }

@@ -65,7 +65,7 @@ use self::source::{Source, text_of};
 use self::start::Lists;
 use self::stated::FileSections;
 use linkage::case::{Case, CaseParts, Grid, Wanted};
-use linkage::drive::Drives;
+use linkage::drive::{Course, Drives};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::input::Input;
 use linkage::mechanism::assembly::{ConfigurationChoice, group_of};
@@ -86,7 +86,7 @@ use linkage::mechanism::{GroupId, Mechanism, StartGroup, Structure};
 pub struct Scenario {
     /// Short name, usable in file names: lower-case letters, digits and `_`.
     pub name: String,
-    /// One line for people.
+    /// Title in one line, for readers.
     pub title: String,
     /// Source of the dimensions, if the file states one.
     pub source: Option<String>,
@@ -199,7 +199,7 @@ impl Scenario {
     }
 
     /// The scenario of a case that was built in code. The scenario has no file and no published numbers.
-    /// Its engine settings are free: the proof finds them. `name` must be usable in file names.
+    /// The engine settings are free: the proof finds them. `name` must be usable in file names.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for a name with characters other than lower-case letters, digits and `_`.
@@ -333,10 +333,11 @@ fn finished(
     let modes = structure.modes(&choices.iter().map(|choice| choice.mode).collect::<Vec<_>>());
     let start = placed.pose;
     let (loads, gravity, grid, wanted) = (stated.loads, stated.gravity, stated.grid, Wanted::ALL);
-    if drives.crank().input != Input::Angle
-        && let Some(load) = loads.iter().find(|load| load.courses().any(|course| course.knots().is_some()))
-    {
-        let message = sentences::a_table_of_a_load_is_over_the_crank(&load.sort(), &drives.crank().input.noun());
+    let input = drives.crank().input;
+    let differs = |turns: Option<u32>| turns.is_none() != (input == Input::Slide);
+    if let Some(load) = loads.iter().find(|load| load.courses().filter_map(Course::turns).any(differs)) {
+        let over = if input == Input::Slide { "an angle" } else { "a slide" };
+        let message = sentences::a_table_of_a_load_is_over(&load.sort(), &over, &input.noun());
         return Err(Error::new(ErrorKind::Unsupported, message).key("loads").help(sentences::GIVE_THE_LOAD_A_CONSTANT));
     }
     let case =

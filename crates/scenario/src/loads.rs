@@ -3,11 +3,12 @@
 use super::joints::link;
 use super::keys::key::{Section, ValueKind, needed, optional};
 use super::reader::{Faults, Sign, TomlTable};
-use super::unit::{DAMPING, MOMENT, MOMENT_PER_SPEED, STIFFNESS, TORSIONAL_STIFFNESS};
+use super::unit::{DAMPING, MOMENT, MOMENT_PER_SPEED, STIFFNESS, TORSIONAL_STIFFNESS, of_input};
 use super::words::{Words, names, suggestion};
 use crate::sentences;
 use linkage::drive::{Acts, Course, Load};
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::input::Input;
 use linkage::mechanism::{GROUND, JointId, JointSide, LinkId, Mechanism};
 use std::f64::consts::{PI, TAU};
 
@@ -73,8 +74,8 @@ pub const SECTIONS: &[Section] = &[
         optional("length", ValueKind::LENGTHS.of(Sign::NotNegative), "0: the moment of the guide causes no friction")
             .means("length of the guide of a prismatic joint, half of it on each side of the point of the second link"),
         optional("table", ValueKind::Tables, "constant values")
-            .means("load as a function of the crank angle: crank angles ascending, within one period; between two points with the same \
-                    crank angle a table of straight lines jumps"),
+            .means("load as a function of the input of the first drive: crank angles ascending, within one period, or slides ascending; \
+                    between two points with the same input a table of straight lines jumps"),
         optional("interpolation", ValueKind::Choice(|| names(INTERPOLATIONS)), "`\"linear\"`").means(
             "interpolation of the table: straight lines, which do not overshoot, or a periodic cubic spline \
              with continuous second derivatives",
@@ -83,7 +84,7 @@ pub const SECTIONS: &[Section] = &[
             .means("turns of the crank after which the table repeats; 2 for a four-stroke engine"),
     ]),
     Section::at("loads.table").with(&[
-        needed("crank", ValueKind::ANGLES).means("crank angle"),
+        needed("crank", ValueKind::INPUTS).means("crank angle, or slide of the first drive; beyond its ends a table over a slide keeps its values"),
         optional("moment", ValueKind::MOMENTS, "required for a moment").means("moment at that angle"),
         optional("thrust", ValueKind::FORCES, "required for a force on a slide").means("force along the axis at that angle"),
         optional("pressure", ValueKind::PRESSURES, "required with `bore`").means("pressure at that angle"),
@@ -277,28 +278,40 @@ fn courses<const N: usize>(table: &mut TomlTable, names: [&str; N]) -> Result<[C
         }
     }
     let mut points: [Vec<(f64, f64)>; N] = names.map(|_| Vec::new());
+    let is_periodic = smooth == Some(true) || turns.is_some();
     let (smooth, turns) = (smooth.unwrap_or(false), period(table, turns)?);
+    let mut slides: Option<bool> = None;
     for mut row in rows {
         let read = row.read(|row| {
-            let crank = row.si("crank")?;
+            let Some((family, crank)) = row.optional_si_of("crank")? else {
+                return Err(row.lacks(&["crank_rad", "crank_deg", "crank_m", "crank_mm"], sentences::GIVE_THE_INPUT));
+            };
+            let is_slide = std::ptr::eq(family, of_input(Input::Slide));
+            if *slides.get_or_insert(is_slide) != is_slide || (is_slide && is_periodic) {
+                let message = sentences::A_TABLE_OVER_A_SLIDE_IS_NOT_PERIODIC;
+                return Err(row.wrong(ErrorKind::Input, "crank", message).help(sentences::GIVE_SLIDES_IN_ALL_ROWS));
+            }
             for (name, points) in names.into_iter().zip(&mut points) {
                 points.push((crank, row.si(name)?));
             }
             row.finish()
         });
         read?;
-        check_crank(&row, &points[0], turns, smooth)?;
+        check_crank(&row, &points[0], if slides == Some(true) { None } else { Some(turns) }, smooth)?;
     }
     if points[0].is_empty() {
         let help = sentences::WRITE_A_CONSTANT_OR_ADD_POINTS;
         return table.refuse("table", sentences::A_TABLE_OVER_THE_CRANK_ANGLE, help);
     }
-    Ok(points.map(|points| Course::table(&points, turns, smooth)))
+    Ok(points.map(|points| match slides {
+        Some(true) => Course::over_slide(&points),
+        Some(false) | None => Course::table(&points, turns, smooth),
+    }))
 }
 
 /// Checks that the last point lies after the point before it and within the period of the table.
 /// Two points with the same crank angle are a jump, which only a table without a spline may have.
-fn check_crank(row: &TomlTable, points: &[(f64, f64)], turns: u32, smooth: bool) -> Result<()> {
+fn check_crank(row: &TomlTable, points: &[(f64, f64)], turns: Option<u32>, smooth: bool) -> Result<()> {
     let (&[(first, _), ..], &[.., (last, _)]) = (points, points) else { return Ok(()) };
     let before = |count: usize| points.len().checked_sub(count + 1).map(|index| points[index].0);
     let jumps = before(1) == Some(last);
@@ -313,6 +326,7 @@ fn check_crank(row: &TomlTable, points: &[(f64, f64)], turns: u32, smooth: bool)
     }
     // Degrees are rounded when they are converted to radians.
     // The margin 1e-12 therefore refuses a point at the end of the period even if rounding has moved it below the end.
+    let Some(turns) = turns else { return Ok(()) };
     let (length, period) = (last - first, TAU * f64::from(turns));
     if length > period * (1.0 - 1e-12) && (smooth || length > period * (1.0 + 1e-12)) {
         let message = sentences::the_table_is_longer_than_its_period(&(360 * u64::from(turns)));

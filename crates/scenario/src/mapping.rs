@@ -165,7 +165,7 @@ impl Mapping {
         }
     }
 
-    /// Whether it says nothing.
+    /// Whether the mapping is empty.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.at.is_empty() && self.channels.is_empty() && self.allowed.is_empty()

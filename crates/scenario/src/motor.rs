@@ -61,15 +61,21 @@ pub fn read(table: &mut TomlTable) -> Result<Motor> {
         let error = table.wrong(ErrorKind::Input, "ratio", sentences::found_but_a_ratio_of_speeds(&ratio));
         table.instead((), error.help(sentences::GIVE_THE_SPEED_OF_THE_MOTOR))?;
     }
+    let efficiency = efficiency(table)?;
+    let inertia = inertia(table)?;
+    table.finish()?;
+    Ok(Motor { law, ratio, efficiency, inertia })
+}
+
+/// The key `efficiency`, or 1.
+pub(crate) fn efficiency(table: &mut TomlTable) -> Result<f64> {
     let efficiency = table.optional_number("efficiency")?.unwrap_or(1.0);
     if !(efficiency > 0.0 && efficiency <= 1.0) {
         let message = sentences::found_but_an_efficiency_lies(&efficiency);
         let error = table.wrong(ErrorKind::Input, "efficiency", message).help(sentences::GIVE_A_SHARE_FOR);
         table.instead((), error)?;
     }
-    let inertia = inertia(table)?;
-    table.finish()?;
-    Ok(Motor { law, ratio, efficiency, inertia })
+    Ok(efficiency)
 }
 
 fn constant(table: &mut TomlTable) -> Result<MotorLaw> {

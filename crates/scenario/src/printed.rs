@@ -13,8 +13,7 @@ use linkage::trajectory::{self, CHANNELS, Channel, ChannelKind};
 pub struct Printed {
     /// The number, in the printed unit.
     pub value: f64,
-    /// Number of printed decimals. The number is negative if digits before the decimal point are missing (1.5e3 has
-    /// -2).
+    /// Number of printed decimals; negative if the last printed digit lies before the decimal point (1.5e3 has -2).
     pub digits: i32,
     /// Largest distance of the true number from the printed one, in the printed unit.
     pub half_unit: f64,
@@ -126,7 +125,7 @@ impl PrintedChannel {
         self.channel.kind.periodic.then_some(if is_degrees { 360.0 } else { std::f64::consts::TAU })
     }
 
-    /// Symbol of its unit.
+    /// Symbol of the channel's unit.
     #[must_use]
     pub fn unit_symbol(&self) -> &'static str {
         self.unit.map_or(self.channel.kind.unit.symbol(), |unit| unit.suffix)

@@ -223,7 +223,7 @@ impl<'a> TomlTable<'a> {
     }
 
     /// The result of `read` for the value of `key`, if the key is present.
-    /// If `read` refuses the value, `stand_in` replaces the result. If there is no `stand_in`, the reading ends.
+    /// If `read` refuses the value, `stand_in` replaces the result. Without a `stand_in`, an error is returned.
     fn scalar<T>(
         &mut self,
         key: &str,
@@ -244,7 +244,7 @@ impl<'a> TomlTable<'a> {
         self.scalar(key, Needed::Text, None, |value| value.as_str().map(ToString::to_string))
     }
 
-    /// The meaning of the word under a key, if the key is present. `wrong` is the message for an unknown word.
+    /// The value in `words` for the word under a key, if present. `wrong` is the message for an unknown word.
     pub fn optional_choice<T: Copy>(&mut self, key: &str, wrong: &str, words: &[(&str, T)]) -> Result<Option<T>> {
         let Some(word) = self.optional_string(key)? else { return Ok(None) };
         let found = words.iter().find(|(own, _)| *own == word).map(|(_, meant)| *meant);
@@ -256,7 +256,7 @@ impl<'a> TomlTable<'a> {
         Ok(found)
     }
 
-    /// The meaning of the word under a key.
+    /// The value in `words` for the word under a key.
     pub fn choice<T: Copy>(&mut self, key: &str, wrong: &str, words: &[(&str, T)]) -> Result<T> {
         let found = self.optional_choice(key, wrong, words)?;
         match self.faults.last() {

@@ -30,7 +30,7 @@ pub(super) const QUANTITIES: [Quantity; 4] = [
     Quantity { name: "drive.reduced_inertia_kg_m2", unit: "kg m^2", of_slide: false, tree: inertia },
     // Moment of gravity and loads reduced to the crank, counter-clockwise positive.
     Quantity { name: "drive.reduced_moment_N_m", unit: "N m", of_slide: false, tree: moment },
-    // The same for a slide as the input, with its speed in place of omega.
+    // Mass and force reduced to a slide as the input, with the speed of the slide in place of omega.
     Quantity { name: "drive.reduced_mass_kg", unit: "kg", of_slide: true, tree: inertia },
     Quantity { name: "drive.reduced_force_N", unit: "N", of_slide: true, tree: moment },
 ];

@@ -5,10 +5,10 @@ linkage::sentences! {
     THE_STEP_IS_AN_ANGLE_BUT = "the step is given as a rotation of the crank, but the input of the first drive is a slide";
     GIVE_THE_TIME_STEP_OF_THE_ENGINE = "give the time step: `dt_s` or `dt_ms`";
     // lib.rs
-    a_table_of_a_load_is_over_the_crank(sort, noun) = "a load of type {sort} is a table over the crank angle, but the input of the first drive is a {noun}";
-    GIVE_THE_LOAD_A_CONSTANT = "give the load a constant value, or drive the mechanism at a crank";
-    THE_START_OF_TRANSMISSIONS_IS_THAT_OF_THE_FILE = "the starts of the transmissions belong to the start of the first drive that the file states";
-    CHANGE_THE_STARTS_IN_THE_FILE = "change both in the file, or ask for a grid from another input";
+    a_table_of_a_load_is_over(sort, over, noun) = "a load of type {sort} is a table over {over}, but the input of the first drive is a {noun}";
+    GIVE_THE_LOAD_A_CONSTANT = "give the rows of the table in the unit of the drive: `crank_deg` for an angle, `crank_mm` for a slide";
+    THE_START_OF_TRANSMISSIONS_IS_THAT_OF_THE_FILE = "the starts of the transmissions are valid only at the file's start of the first drive";
+    CHANGE_THE_STARTS_IN_THE_FILE = "change both starts in the file, or keep the start and request a grid that begins at the other input";
     // motion.rs
     a_motor_needs_a_crank(noun) = "the motor drives a crank, but the input of the first drive is a {noun}";
     TAKE_MOTOR_OUT_OR_DRIVE = "remove `[motor]`, or drive the mechanism at a crank";
@@ -200,15 +200,18 @@ linkage::sentences! {
     A_TABLE_REPEATS_AFTER_A_TURN = "a table repeats after one turn or after `turns` turns: leave out its last point if it repeats the first";
     the_table_is_longer_than_its_period(u64) = "the table is longer than its period, {u64} deg";
     WRITE_THE_POINTS_IN_ASCENDING = "write the points in ascending order of the crank angle, each angle once";
+    GIVE_THE_INPUT = "give the crank angle, or the slide of the first drive";
+    A_TABLE_OVER_A_SLIDE_IS_NOT_PERIODIC = "a table over a slide has slides in all rows, straight lines and no `turns`";
+    GIVE_SLIDES_IN_ALL_ROWS = "give `crank_m` or `crank_mm` in all rows, and leave out `turns` and `interpolation`";
     A_SPLINE_CANNOT_JUMP = "the table jumps here, but its interpolation is smooth";
     TAKE_LINES_FOR_JUMPS = "write `interpolation = \"linear\"`, or give each crank angle once";
     A_JUMP_HAS_TWO_POINTS = "three points have the same crank angle";
-    THE_CRANK_ANGLES_OF_THE_TABLE = "the crank angles of the table do not ascend";
-    A_TABLE_OVER_THE_CRANK_ANGLE = "a table over the crank angle needs at least one point";
+    THE_CRANK_ANGLES_OF_THE_TABLE = "the crank angles or slides of the table do not ascend";
+    A_TABLE_OVER_THE_CRANK_ANGLE = "a table needs at least one point";
     WRITE_A_CONSTANT_OR_ADD_POINTS = "write a constant, or add points";
     and_table_are_both_given(name) = "`{name}` and `table` are both given";
     ADD_TABLE_OR_LEAVE_THE_KEY = "add `table`, or leave out the key";
-    THIS_BELONGS_TO_A_TABLE_OVER = "this key belongs to a table over the crank angle, but no table is given";
+    THIS_BELONGS_TO_A_TABLE_OVER = "this key belongs to a table, but no table is given";
     IS_NO_INTERPOLATION = "is not an interpolation";
     NAME_A_POINT_THAT_MOVES = "name a point that moves";
     THE_POINT_DOES_NOT_MOVE_IT_IS_HINGED = "the point does not move: it is hinged to the ground";
@@ -287,6 +290,9 @@ linkage::sentences! {
     THE_SLIP_AND_THE_SPEED_OF_BREAKDOWN = "breakdown slip and breakdown speed are both given";
     GIVE_ONE_OF_THE_TWO_BREAKDOWN = "give one of the two: `breakdown_slip`, or `breakdown_speed_rpm` or `breakdown_speed_rad_s`";
     GIVE_A_SHARE_FOR = "give a fraction: 0.92 for 92 %";
+    found_but_back_an_efficiency_is(efficiency) = "found {efficiency}, but an efficiency is at most 1";
+    A_CAM_HAS_NO_EFFICIENCY = "a cam has no efficiency";
+    GIVE_FRICTION_INSTEAD = "give the joints of cam and follower friction";
     found_but_an_efficiency_lies(efficiency) = "found {efficiency}, but an efficiency is above 0 and at most 1";
     GIVE_THE_SPEED_OF_THE_MOTOR = "give the speed of the motor divided by that of the crank; 1 without a reducer";
     IS_NO_LAW_OF_A_MOTOR = "is not a law of a motor";

@@ -106,7 +106,7 @@ impl<'a> FileSections<'a> {
         let has_all = ground.is_ok() && links.is_ok() && drives.is_ok() && start.is_ok();
         faults.whole = has_all && !root.has_unknown_table();
         faults.names = ground.is_ok() && links.is_ok();
-        // Its errors are noted.
+        // The errors that `finish` finds are noted.
         let _ = root.finish();
 
         let engine_rel = tolerances.and_then(|mut table| faults.read(&mut table, settings::engine_rel));

@@ -97,7 +97,7 @@ impl Template {
         self.name.replace('-', "_")
     }
 
-    /// Its dimensions.
+    /// Dimensions of the template, as `key = number`.
     #[must_use]
     pub fn dimensions(&self) -> String {
         let all = parameters(&self.document());

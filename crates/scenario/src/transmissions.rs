@@ -5,6 +5,7 @@ mod cam;
 use super::joints::link;
 use super::keys::key::{Section, ValueKind, needed, optional};
 use super::links::sound_name;
+use super::motor::efficiency;
 use super::reader::{Faults, Sign, TomlTable};
 use super::unit::{UnitFamily, of_input};
 use super::words::{Words, names, suggestion};
@@ -55,6 +56,14 @@ pub const SECTIONS: &[Section] = &[
     optional("strands", ValueKind::Choice(|| names(STRANDS)), "`\"open\"`")
         .means("belt: open, or crossed, so that the wheels turn in opposite senses"),
     optional("slack", ValueKind::FORCES.of(Sign::NotNegative), "0: a chain").means("belt: tension of the slack strand"),
+    optional("efficiency", ValueKind::Number, "1").means(
+        "not for a cam: fraction of the power that arrives if the first member drives the second, above 0 and at most 1. \
+         The loss is a moment between carrier and first member",
+    ),
+    optional("efficiency_back", ValueKind::Number, "`efficiency`").means(
+        "not for a cam: the same if the second member drives the first, at most 1; 0 or less for a self-locking \
+         transmission, whose members must both be driven",
+    ),
     optional("follower", ValueKind::Choice(|| names(cam::FOLLOWERS)), "required for a cam")
         .means("cam: the part of the follower that touches the cam; a flat face stands across the guide of the follower"),
     optional("point", ValueKind::Text, "required for a cam")
@@ -109,6 +118,12 @@ fn transmission(
     };
     let members = [link(table, first, links)?, link(table, second, links)?];
     let (kind, lift) = kind(table, &links[members[1]])?;
+    let forward = efficiency(table)?;
+    let back = table.optional_number("efficiency_back")?.unwrap_or(forward);
+    if !(back.is_finite() && back <= 1.0) {
+        let message = sentences::found_but_back_an_efficiency_is(&back);
+        return table.refuse("efficiency_back", message, sentences::GIVE_A_SHARE_FOR);
+    }
     let carrier = table.optional_string("carrier")?.unwrap_or_else(|| "ground".into());
     let stated = table.optional_string("start_joint")?;
     let Some((family, start)) = table.optional_si_of("start")? else {
@@ -137,7 +152,12 @@ fn transmission(
         let message = sentences::the_lift_has_units_of(&family.noun, &own.name, &own.kind.name());
         return Err(table.wrong(ErrorKind::Input, "motion", message).help(sentences::GIVE_LIFTS_LIKE_THE_JOINT));
     }
-    Ok(TransmissionDesign { name, kind, links: members, carrier, joint, start })
+    let efficiency = [forward, back];
+    if efficiency != [1.0; 2] && matches!(kind, TransmissionKind::Cam { .. }) {
+        let key = if forward < 1.0 { "efficiency" } else { "efficiency_back" };
+        return table.refuse(key, sentences::A_CAM_HAS_NO_EFFICIENCY, sentences::GIVE_FRICTION_INSTEAD);
+    }
+    Ok(TransmissionDesign { name, kind, links: members, carrier, joint, start, efficiency })
 }
 
 /// Whether a quantity has the units of a joint's coordinate.

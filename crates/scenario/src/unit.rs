@@ -131,7 +131,7 @@ pub static POWER: UnitFamily = UnitFamily::of("a power", &[si("W"), unit("kW", 1
 pub static INPUTS: [&UnitFamily; 2] = [&ANGLE, &LENGTH];
 /// The units in which rates of inputs are written.
 pub static INPUT_RATES: [&UnitFamily; 2] = [&ANGULAR_SPEED, &SPEED];
-/// The same, or times.
+/// The units in which inputs or times are written.
 pub static INPUTS_OR_TIMES: [&UnitFamily; 3] = [&ANGLE, &LENGTH, &TIME];
 
 /// The units in which values of an input are written.

@@ -16,7 +16,7 @@ use linkage::solver::State;
 /// Starts the run of a free motion at t = 0.
 ///
 /// # Errors
-/// Those of [`check_inertias`], and failures of Simbody at the start.
+/// The errors of [`check_inertias`], and failures of Simbody at the start.
 pub(super) fn start(case: &Case, settings: IntegrationSettings) -> Result<(Linkage, LinkageRun)> {
     check_inertias(case, "Simbody")?;
     // A model driven at the initial speeds gives the initial rates of all links that are not driven.

@@ -57,7 +57,7 @@ impl RawBody {
         }
     }
 
-    /// All its floating-point numbers.
+    /// All floating-point numbers of the body.
     pub(crate) fn numbers(&self) -> impl Iterator<Item = f64> {
         let pairs = [self.on_parent, self.on_child, self.axis_parent, self.axis_child, self.centre];
         let masses = [self.mass, self.inertia, self.extra_mass, self.extra_inertia];

@@ -64,7 +64,7 @@ pub struct SimbodyBody {
     pub parent: usize,
     /// The joint to the parent.
     pub joint: SimbodyJoint,
-    /// Its inertia.
+    /// Mass and inertia of the body.
     pub inertia: Inertia,
     /// Constant moment that opposes the body's rotation (N m); zero while the body is at rest.
     pub resistance: f64,

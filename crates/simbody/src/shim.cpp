@@ -216,7 +216,7 @@ struct linkproof_run {
 
     // Applied forces: the loads, and the forces that accelerate the extra masses instead of the mobilizers.
     // The latter follow from the accelerations.
-    // These depend on neither as long as every degree of freedom is prescribed.
+    // The accelerations depend on neither of these forces while every degree of freedom is prescribed.
     void relieve(State &state) const {
         // All accelerations are read before a force is set: setting one invalidates them in the state.
         std::vector<SpatialVec> carried(given.size(), SpatialVec(Vec3(0)));

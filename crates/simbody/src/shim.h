@@ -61,18 +61,18 @@ typedef struct linkproof_loop_state {
 
 typedef struct linkproof_run linkproof_run;
 
-/* What acts on the bodies besides gravity during the run.
+/* Computes the loads on the bodies during the run, without gravity.
  * The input has positions and velocities of all bodies; accelerations and forces are zero.
  * The output is, for every body, the force at its mass centre (N, world axes) and the moment about it (N m).
  * The function must not throw. */
 typedef void (*linkproof_act)(void *user, const linkproof_body_state *bodies, double *loads);
 
-/* Texts are cut to `size` bytes, including the final zero. All these functions return 0, or else they write a text. */
+/* Texts are cut to `size` bytes, including the final zero. All these functions return 0, or 1 with a text on failure. */
 
 /* Builds the system and assembles it to `tolerance` (m).
- * No constraint error is larger, nor is the rate of any error times `time_scale` (s).
+ * No constraint error exceeds `tolerance`, and neither does its rate times `time_scale` (s).
  * `accuracy` is that of the integrator.
- * `act` may be null: then nothing else acts. It is called with `user` as long as the run lives. */
+ * If `act` is null, gravity is the only load. `act` is called with `user` as long as the run lives. */
 int linkproof_simbody_new(const linkproof_body *bodies, size_t body_count, const linkproof_loop *loops, size_t loop_count,
                           const double gravity[2], double accuracy, double tolerance, double time_scale,
                           linkproof_act act, void *user, linkproof_run **run, char *text, size_t size);
@@ -87,7 +87,7 @@ int linkproof_simbody_read(linkproof_run *run, int reactions, linkproof_body_sta
 
 /* Sets the loads on every body that the next readings include.
  * They are three numbers each: the force at the mass centre (N, world axes) and the moment about it (N m).
- * They do not move anything: every degree of freedom is prescribed. All are zero at first. */
+ * They do not change the motion, because every degree of freedom is prescribed. All are zero at first. */
 void linkproof_simbody_load(linkproof_run *run, const double *loads);
 
 /* Time that the integrator has reached, also after a failure, and the gap of every loop there. */
@@ -101,7 +101,7 @@ void linkproof_simbody_free(linkproof_run *run);
 /* Version of the Simbody library that is loaded. */
 void linkproof_simbody_version(int version[3]);
 
-/* Sizes of the four structures above, in their order: the Rust side checks its own. */
+/* Sizes of the four structures above, in their order. The Rust side compares them with the sizes of its structures. */
 void linkproof_simbody_sizes(size_t sizes[4]);
 
 #ifdef __cplusplus

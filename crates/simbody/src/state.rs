@@ -32,7 +32,7 @@ pub struct BodyState {
     /// Force on the body from its joint with the parent (N).
     pub force: [f64; 2],
     /// Moment of the joint with the parent on the body, about the joint's point on the body (N m).
-    /// It includes the driving moment.
+    /// This moment includes the driving moment.
     pub moment: f64,
     /// Generalised force of the prescribed motion (N m for a pin, N for a slider).
     pub drive: f64,

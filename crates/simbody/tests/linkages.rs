@@ -109,8 +109,8 @@ fn all_links_may_be_massless() {
 
 #[test]
 fn a_slider_carries_force_and_moment_across_its_axis() {
-    // A block of 2 kg on a guide inclined by 0.3 rad moves at 1.5 m/s. Its mass centre is at a distance from the
-    // joint's point.
+    // A block of 2 kg moves at 1.5 m/s on a guide inclined by 0.3 rad. The block's mass centre is not at the joint's
+    // point.
     let (angle, axis) = (0.3_f64, [0.3_f64.cos(), 0.3_f64.sin()]);
     let joint =
         SimbodyJoint::Slider { on_parent: [0.1, 0.2], on_child: [0.0, 0.1], axis_parent: axis, axis_child: [1.0, 0.0] };

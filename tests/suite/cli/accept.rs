@@ -134,7 +134,7 @@ fn a_figure_within_its_bound_has_not_moved() {
     let outcome = check(&place);
     assert_eq!(outcome.code, 1);
     assert!(outcome.stdout.contains(&format!("1 of {} channels moved.", channels())), "{}", outcome.stdout);
-    // A whole revolution of an angle is no difference.
+    // Angles that differ by a whole revolution are equal.
     let turned = [
         ("at = [0.0, 1.5707963267949, 3.1415926535898,", "at = [6.2831853071796, 7.8539816339745, 9.4247779607694,"),
         ("4.7123889803847, 6.2831853071796]", "10.9955742875643, 12.5663706143592]"),

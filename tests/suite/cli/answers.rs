@@ -139,7 +139,7 @@ fn in_text(place: &Place, name: &str, asked: &ClearanceQuestion, found: &design:
     let areas = rows.iter().position(|row| row.starts_with(&["swept", "area"])).unwrap();
     for (body, area) in &found.swept {
         let own = rows[areas..].iter().find(|row| row.first() == Some(&asked.bodies[*body].name.as_str())).unwrap();
-        // Square millimetres.
+        // Areas are in square millimetres.
         let told: Vec<f64> = own[1..5].iter().map(|cell| cell.parse().unwrap()).collect();
         for (told, value) in told.iter().zip([area.value, area.error(), area.least, area.most]) {
             assert_within!((told - 1e6 * value).abs(), 0.005_000_1, "{text}");

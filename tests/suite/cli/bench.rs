@@ -65,7 +65,7 @@ fn diagrams_and_numbers_are_written() {
         let start = format!("fastest other program with an error of at most {within:e}: ");
         let told = section.lines().find_map(|line| line.trim().strip_prefix(&start));
         let number = told.unwrap().split(' ').next().unwrap().parse::<f64>().ok();
-        // Three digits.
+        // The text shows three digits.
         let same = |(told, right): (f64, f64)| (told - right).abs() <= 0.006 * right;
         assert!(number.is_some() == fastest.is_some() && number.zip(fastest).is_none_or(same), "{within:e}: {section}");
     }

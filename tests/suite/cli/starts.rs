@@ -33,7 +33,7 @@ fn run_accepts_another_grid() {
         ("crank_rocker --crank-deg 0,30,45:90:15", 6),
         ("crank_rocker --times 0,0.1,0.3", 3),
         ("pendulum --times 0:0.5:0.1", 6),
-        // Not in order.
+        // The times need not be in order.
         ("pendulum --times 0.2,0,0.1", 3),
     ] {
         let (name, grid) = command.split_once(' ').unwrap();

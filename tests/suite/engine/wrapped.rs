@@ -91,8 +91,8 @@ fn a_hook_applies_exactly_once_plain_and_extrapolated() {
     }
 }
 
-/// Only methods that follow from methods without a default have a default.
-/// A wrapper that forgets a method therefore does not compile.
+/// A method has a default only if the default calls methods that every implementation must define.
+/// A wrapper that forgets one of these methods therefore does not compile.
 #[test]
 fn engine_and_solver_have_only_derived_default_methods() {
     let defaults = |file: &str, name: &str| -> Vec<String> {

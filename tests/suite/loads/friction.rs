@@ -19,7 +19,8 @@ fn load(text: &str) -> Case {
     Scenario::parse(text, Path::new("test.toml")).unwrap_or_else(|error| panic!("{error}")).case
 }
 
-/// Friction in the guide of a massless slider-crank: the rod's force q satisfies q cos - mu |q| |sin| = -P.
+/// Friction in the guide of a massless slider-crank. With the rod at the angle beta to the guide and the force P along
+/// the guide, the rod's force q satisfies q cos(beta) -+ mu |q| |sin(beta)| = -P.
 #[test]
 fn val_friction_of_a_guide_on_a_slider_crank() {
     let (mu, force) = (0.2, -50.0);
@@ -86,7 +87,7 @@ fn wedge(angle: f64, by_wedge: bool, speed: f64, force: f64) -> Case {
     ))
 }
 
-/// With the angle phi of friction in all three contacts, a wedge lifts with F = Q tan(alpha + 2 phi): J. L. Meriam,
+/// With the angle of friction phi in all three contacts, a wedge lifts with F = Q tan(alpha + 2 phi): J. L. Meriam,
 /// L. G. Kraige, Engineering Mechanics: Statics, 7th ed., Wiley 2012, section 6/4.
 #[test]
 fn val_a_wedge_lifts_with_the_tangent_of_its_angle_and_twice_that_of_friction() {
@@ -105,7 +106,7 @@ fn val_a_wedge_lifts_with_the_tangent_of_its_angle_and_twice_that_of_friction() 
 
 /// Driven by its follower, the wedge moves only if its angle alpha exceeds 2 phi. The force is then
 /// F = P / tan(alpha - 2 phi). Below 2 phi no force moves the wedge.
-/// In the other sense of motion, the forces are undetermined below 2 phi.
+/// If the force on the wedge has the opposite sign, the forces are undetermined below 2 phi.
 #[test]
 fn val_a_wedge_locks_below_twice_the_angle_of_friction() {
     let limit = 2.0 * MU.atan();
@@ -115,7 +116,7 @@ fn val_a_wedge_locks_below_twice_the_angle_of_friction() {
             let case = wedge(angle.to_degrees(), false, 10.0, 100.0);
             let driven = states(solver, &case, &case.grid.times).unwrap();
             let wanted = 100.0 / beyond.tan();
-            // The force has the condition number alpha / (alpha - 2 phi) by the angle.
+            // With respect to the angle, the force has the condition number alpha / (alpha - 2 phi).
             let bound = 1e-13 * wanted * angle / beyond;
             assert_within!((driven[1].torques[0] - wanted).abs(), bound, "{} {beyond}", solver.name());
         }
@@ -130,8 +131,8 @@ fn val_a_wedge_locks_below_twice_the_angle_of_friction() {
     }
 }
 
-/// Largest difference of two solvers in any channel, over the largest value of its unit.
-fn apart(case: &Case, solvers: [&dyn Solver; 2]) -> f64 {
+/// Largest difference of two solvers in any channel, divided by the largest value of all channels with the same unit.
+pub(super) fn apart(case: &Case, solvers: [&dyn Solver; 2]) -> f64 {
     let [a, b] = solvers.map(|solver| solver.solve(case).unwrap());
     let largest = |unit: &str| {
         let own = a.channels().iter().filter(|channel| channel.kind.unit.symbol() == unit);
@@ -159,7 +160,8 @@ fn both_sides_agree_with_friction_in_every_joint() {
     }
 }
 
-/// A fault of fixed size is found: a coefficient off by a thousandth moves the driving moment by more than 1e-5 of it.
+/// A coefficient of friction that is off by a thousandth changes the driving moment by more than 1e-5 of its value, and
+/// so does a coefficient with the wrong sign.
 #[test]
 fn a_coefficient_off_by_a_thousandth_is_seen_and_its_sign_too() {
     let case = shipped("slider_crank_friction.toml").case;
@@ -176,7 +178,7 @@ fn a_coefficient_off_by_a_thousandth_is_seen_and_its_sign_too() {
     }
 }
 
-/// A swinging rod with friction in its journal loses the energy that its friction takes.
+/// A swinging rod with friction in its journal loses the energy that the friction dissipates.
 #[test]
 fn friction_of_a_swinging_rod_takes_its_energy() {
     let rod = shipped("pendulum.toml").case;
@@ -205,8 +207,7 @@ fn friction_of_a_swinging_rod_takes_its_energy() {
             found.iter().map(|state| case.load_power(&state.motions, &state.angles, state.reactions())).collect();
         let spent: f64 = power.windows(2).map(|pair| 0.5e-3 * (pair[0] + pair[1])).sum();
         let lost = energy(&found[3000]) - energy(&found[0]);
-        // Where the rod reverses, its friction jumps, and the trapezium rule is of second order as elsewhere: its power
-        // is zero there.
+        // Friction jumps where the rod reverses, but its power is zero there, so the trapezium rule keeps its order 2.
         assert_within!((lost - spent).abs(), 1e-5 * lost.abs(), "{}: {lost} {spent}", solver.name());
         assert!(lost < -1.0, "{lost}");
     }

@@ -165,6 +165,16 @@ impl Row<'_> {
                 }
             }
         }
+        for own in self.case.mechanism.transmissions().iter().filter(|own| own.cam.is_none()) {
+            let ([first, _], [forward, back]) = (own.design.links, own.design.efficiency);
+            let (line, spin) = (own.contact([0.0; 2]).lines[0], omega(first) - omega(own.design.carrier));
+            let lever = cross(line.feet[0] - own.members[0].place, line.direction);
+            // Power that reaches the second member, or comes from it.
+            let power = self.read(&format!("transmission.{}.force_N", own.name())) * lever * spin;
+            let lost = if power > 0.0 { power / forward - power } else { -power * (1.0 - back) };
+            let moment = if spin == 0.0 { 0.0 } else { -lost / spin };
+            all.extend([couple(first, moment), couple(own.design.carrier, -moment)]);
+        }
         all
     }
 

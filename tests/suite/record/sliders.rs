@@ -120,7 +120,7 @@ fn every_mark_is_drawn_in_the_frame_of_its_link() {
                 assert_eq!(line.r#type == LineType::LineLoop as i32, closed, "{name} {id} {:?}", mark.role);
                 assert_eq!(line.points.len(), points.len());
                 for (drawn, wanted) in line.points.iter().zip(points) {
-                    // Single precision.
+                    // The picture is in single precision.
                     assert_within!((Vec2::new(drawn.x, drawn.y) - wanted).norm(), 1e-6, "{name} {id} {:?}", mark.role);
                 }
             }

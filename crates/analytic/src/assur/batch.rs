@@ -61,7 +61,7 @@ impl<'a> Batch<'a> {
     /// Starts at the start pose of the case, which fixes the branch.
     ///
     /// # Errors
-    /// Those of [`PoseSolver::new`].
+    /// The errors of [`PoseSolver::new`].
     pub fn of(case: &'a Case) -> Result<Self> {
         let poses = PoseSolver::new(case)?;
         // A case that passes change points is not vectorised.
@@ -110,8 +110,8 @@ impl<'a> Batch<'a> {
     /// Between rows more than 15 degrees apart, intermediate poses are solved too.
     ///
     /// # Errors
-    /// Those of [`PoseSolver::solve`] at the first crank angle that cannot be reached. `out` then contains the poses
-    /// before it.
+    /// The errors of [`PoseSolver::solve`] at the first crank angle that cannot be reached. `out` then contains the
+    /// poses before this angle.
     pub fn solve(&mut self, cranks: &[f64], omega: f64, alpha: f64, deepest: Stage, out: &mut Poses) -> Result<()> {
         out.prepare(self.layout, cranks.len());
         if let Some(groups) = &self.groups {
@@ -269,7 +269,7 @@ mod tests {
         Mechanism::new(links, mechanism.joints().to_vec()).unwrap()
     }
 
-    /// The class IV group of reference 7, with masses.
+    /// The class IV group of `scenarios/fourth_class.toml`, with masses.
     fn quadrilateral() -> Case {
         let first = StartGroup { rank: Some(1), ..StartGroup::default() };
         turning_from(with_masses(&class_four(1.0, -1.0)), 70f64.to_radians(), &first)

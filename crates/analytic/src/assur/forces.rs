@@ -45,12 +45,12 @@ pub(super) struct Kinetostatics {
     parts: Vec<Part>,
     /// The driving links, outermost link first.
     drivers: Vec<Driving>,
-    /// Loads on every link; empty if the case has no loads.
+    /// Loads on every link; empty if the case has neither loads nor friction.
     loads: Vec<Wrench>,
-    /// One load per loaded link, if all loads are moments of resistance; otherwise `None`.
+    /// One load per loaded link, if all loads are moments of resistance and there is no friction; otherwise `None`.
     /// Moments of resistance do not depend on the link's position.
     resistances: Option<Vec<(LinkId, Load)>>,
-    /// Whether any drive moves a joint that is not that of a crank.
+    /// Whether any drive moves a joint other than that of a crank.
     drives_joints: bool,
     /// The joints with friction, if there are any, and the loads without friction.
     dry: Option<Box<(Dry, Vec<Wrench>)>>,
@@ -78,9 +78,11 @@ impl Kinetostatics {
             drivers.push(Driving::of(case, driver.link, driver.joint, index, &settled));
             settled.add(driver.joint);
         }
-        let loads = if case.loads.is_empty() { 0 } else { case.mechanism.links().len() };
-        let resistances = case.loads.iter().map(Load::resistance).collect::<Option<Vec<_>>>().map(merged);
+        let is_loaded = !case.loads.is_empty() || case.has_friction();
+        let loads = if is_loaded { case.mechanism.links().len() } else { 0 };
         let dry = Dry::of(case).map(|dry| Box::new((dry, vec![Wrench::ZERO; loads])));
+        let resistances = case.loads.iter().map(Load::resistance).collect::<Option<Vec<_>>>().map(merged);
+        let resistances = resistances.filter(|_| dry.is_none());
         Kinetostatics {
             parts,
             drivers,
@@ -98,7 +100,7 @@ impl Kinetostatics {
     /// The pose must be the last one that `plan` has solved. Loads may use the state's angles.
     ///
     /// # Errors
-    /// Those of [`Dry::settle`].
+    /// The errors of [`Dry::settle`].
     pub(super) fn solve(&mut self, case: &Case, plan: &SolutionPlan, state: &mut State) -> Result<()> {
         if let Some(resistances) = &self.resistances {
             // The loads on links without a moment of resistance stay zero.

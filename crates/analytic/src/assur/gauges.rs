@@ -105,7 +105,7 @@ impl Gauges {
         Gauges { watched: Vec::new(), ratios: Vec::new(), links: Vec::new(), reach: f64::INFINITY, left: f64::INFINITY }
     }
 
-    /// The groups proven not to pass a change point in this step. They need no estimate.
+    /// The groups proven not to pass a change point in this step. These groups need no estimate.
     pub(super) fn proven(&self) -> impl Iterator<Item = GroupId> {
         self.watched.iter().filter(|watched| !watched.is_open).map(|watched| watched.group)
     }

@@ -267,7 +267,7 @@ impl SolutionPlan {
     /// The arguments are those of the three separate functions.
     ///
     /// # Errors
-    /// Those of [`SolutionPlan::positions`].
+    /// The errors of [`SolutionPlan::positions`].
     // A separate function is faster: if this code is inlined into its caller, dyads take a fifth more time although
     // fewer instructions are executed.
     #[inline(never)]
@@ -347,7 +347,7 @@ impl SolutionPlan {
     /// this list.
     ///
     /// # Errors
-    /// Those of [`SolutionPlan::positions`].
+    /// The errors of [`SolutionPlan::positions`].
     pub(in crate::assur) fn some_positions(
         &mut self,
         groups: impl Iterator<Item = GroupId>,

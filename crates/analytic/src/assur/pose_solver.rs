@@ -27,7 +27,7 @@ pub(super) const HALVINGS: u32 = 20;
 const MEET: &str = sentences::THERE_THE_LINKS_OF_THE_GROUP;
 
 /// Steps from crank angle to crank angle on one branch and solves the pose at each angle, without allocation.
-/// If several drives have laws of their own, the crank angle does not determine the pose.
+/// If several drives have separate laws, the crank angle does not determine the pose.
 /// The solver then steps in time: its functions take a time (s) in place of a crank angle (rad).
 #[derive(Debug)]
 pub struct PoseSolver<'a> {
@@ -104,7 +104,7 @@ impl<'a> PoseSolver<'a> {
     /// Like [`PoseSolver::new`], and counts the turns of all links.
     ///
     /// # Errors
-    /// Those of [`PoseSolver::new`].
+    /// The errors of [`PoseSolver::new`].
     pub fn counting_turns(case: &'a Case) -> Result<Self> {
         let mut solver = PoseSolver::new(case)?;
         solver.turns = Some(Turns::from(&case.start, &solver.state.motions));
@@ -298,7 +298,7 @@ impl<'a> PoseSolver<'a> {
     /// The state at an instant of the case's grid. The arguments and errors are those of [`PoseSolver::solve`].
     ///
     /// # Errors
-    /// Those of [`PoseSolver::solve`].
+    /// The errors of [`PoseSolver::solve`].
     pub fn solve_row(&mut self, row: usize, deepest: Stage) -> Result<&State> {
         let grid = &self.case.grid;
         self.solve_when(grid.times[row], grid.inputs[row], deepest)
@@ -308,7 +308,7 @@ impl<'a> PoseSolver<'a> {
     /// must reach the input at a unique time.
     ///
     /// # Errors
-    /// Those of [`PoseSolver::solve`].
+    /// The errors of [`PoseSolver::solve`].
     pub fn solve_at(&mut self, input: f64, deepest: Stage) -> Result<&State> {
         self.solve_when(self.case.crank().time_of(input), input, deepest)
     }
@@ -324,7 +324,7 @@ impl<'a> PoseSolver<'a> {
 
     /// The state at an input of the first drive, for a list of configurations.
     /// If the speeds of the drives vary, the first drive has its top speed, and further drives have theirs in proportion.
-    /// If several drives have laws of their own, they have the rates of their laws.
+    /// If several drives have separate laws, they have the rates of these laws.
     pub(crate) fn solve_place(&mut self, input: f64, deepest: Stage) -> Result<&State> {
         let drive = self.case.crank();
         if self.by_time {

@@ -15,7 +15,7 @@ const MOST_RESTING: usize = 8;
 /// `None` if every joint with friction is in motion.
 ///
 /// # Errors
-/// Those of [`PoseSolver::solve_row`].
+/// The errors of [`PoseSolver::solve_row`].
 pub fn effort_at_rest(case: &Case, row: usize) -> Result<Option<[f64; 2]>> {
     let mut poses = PoseSolver::new(case)?;
     let state = poses.solve_row(row, Stage::BalancingMoment)?;

@@ -258,14 +258,14 @@ impl Side for TransferSide<'_> {
         if self.passing.as_ref().is_some_and(|passing| passing.inside().is_some()) {
             self.held = Some(held.clone());
         }
-        if !self.case.loads.is_empty() {
+        if !self.case.loads.is_empty() || self.dry.is_some() {
             self.find_angles(&inputs.angles);
             loads_held(self.case, &self.state.motions, &self.state.angles, held, &mut self.loads);
         }
         let Some(mut dry) = self.dry.take() else { return self.embed(inputs, held) };
         let (loads, mut state) = (self.loads.clone(), State::at_rest(self.case));
         for (sense, friction) in dry.senses.iter_mut().zip(self.case.frictions()) {
-            *sense = held.senses[friction.load];
+            *sense = held.senses[friction.index];
         }
         let found = dry.settle(self.case, &mut state, &mut |efforts, state| {
             self.loads.copy_from_slice(&loads);

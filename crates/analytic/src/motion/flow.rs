@@ -12,7 +12,7 @@ use super::side::{self, Held, Inputs};
 use super::step::Flow;
 use linkage::case::{ANY_CRANK, Case};
 use linkage::drive::load::sense_of;
-use linkage::drive::{Load, MotorBranch, Senses};
+use linkage::drive::{MotorBranch, Senses};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{KeepNan, Vec2, cross, just_below, root};
 use linkage::mechanism::{JointId, JointSide, LinkId};
@@ -60,12 +60,13 @@ pub(super) fn start<const N: usize>(case: &Case) -> [f64; N] {
     y
 }
 
-/// Number of a load that depends on a sense of motion, and the link or point with this motion.
+/// Number in [`Case::senses`] of a load or transmission that depends on a sense of motion, and the link, point or joint
+/// with this motion.
 type Sensed = (usize, Senses);
 
-/// The link or point whose sense of motion determines a load; `Senses::Nothing` if this link never turns.
-fn sensed(case: &Case, load: &Load) -> Senses {
-    match load.nature().senses {
+/// The link or point of [`Case::senses`]; `Senses::Nothing` if this link never turns.
+fn sensed(case: &Case, senses: Senses) -> Senses {
+    match senses {
         Senses::Link(link) if !case.can_turn(link) => Senses::Nothing,
         senses @ (Senses::Nothing | Senses::Link(_) | Senses::Point(_) | Senses::Joint(_)) => senses,
     }
@@ -146,21 +147,21 @@ impl<'a, const N: usize> Pieces<'a, N> {
     pub(super) fn new(case: &'a Case, side: &'a mut dyn side::Side) -> Self {
         let drives = case.drives.len();
         let zeros = || vec![0.0; drives];
-        let loads = case.loads.len();
+        let count = case.senses().count();
         let held = Held {
             motor: 0.0,
             added: case.crank().moving_inertia(),
-            senses: vec![0.0; loads],
-            ways: vec![Vec2::zeros(); loads],
+            senses: vec![0.0; count],
+            ways: vec![Vec2::zeros(); count],
             piece: ANY_CRANK,
         };
-        let sensed = case.loads.iter().map(|load| sensed(case, load)).enumerate();
+        let sensed = case.senses().map(|senses| sensed(case, senses)).enumerate();
         let inputs = Inputs { angles: zeros(), speeds: zeros(), accelerations: zeros() };
         Pieces {
             case,
             work: RefCell::new(Work { side, inputs, held, fault: None, tally: WorkTally::default() }),
             sensed: sensed.filter(|(_, senses)| *senses != Senses::Nothing).collect(),
-            fastest: RefCell::new(vec![0.0; loads]),
+            fastest: RefCell::new(vec![0.0; count]),
             entered: Cell::new(0.0),
             branch: Cell::new(None),
             knots: Knots::of(case),
@@ -221,7 +222,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
     }
 
     fn bound(&self, index: usize) -> Bound {
-        index.checked_sub(self.case.loads.len()).map_or(Bound::Sense(index), |common| COMMON[common])
+        index.checked_sub(self.fastest.borrow().len()).map_or(Bound::Sense(index), |common| COMMON[common])
     }
 
     /// Sets the crank's speed exactly to this end of the motor's branch and chooses the branch beyond the end.
@@ -258,7 +259,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
     fn go_on(&self, work: &mut Work, place: &Place<N>, stood: &[Sensed]) -> Result<()> {
         self.origin.set(place.y);
         let ends = self.knots.around(self.crank(place.x, &place.y));
-        // At its upper end a table may already have the value after a jump.
+        // At the upper end of a piece, a table may already have the value after a jump.
         work.held.piece = [ends[0], just_below(ends[1])];
         self.smooth.set(knots::beyond(ends));
         if stood.is_empty() { self.accelerate(work, place.x, &place.y) } else { self.set_off(work, place, stood) }
@@ -291,7 +292,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
     }
 
     /// The entries of `sensed` that stand still at the end of a piece.
-    /// They are the entry of the bound, and every further entry that stops at the same instant.
+    /// These are the entry of the bound, and every further entry that stops at the same instant.
     /// A point that has only changed its direction is not at rest.
     fn stopped(&self, work: &mut Work, place: &Place<N>, bound: usize) -> Result<Vec<Sensed>> {
         self.put(&mut work.inputs, place.x, &place.y);
@@ -328,7 +329,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
         let begun: Vec<Vec2> = stood.iter().map(|&own| work.second(own)).collect();
         let ahead = self.ahead(work, place, stood);
         // A link or point at its dead centre is idle: it has no acceleration, and its load does no work at first.
-        // Its sense is taken from its velocity after a short time.
+        // The sense of this motion is taken from the velocity after a short time.
         let idle =
             |second: Vec2, k: usize, (after, rates): &(f64, Vec<Vec2>)| second.norm() * after < 0.5 * rates[k].norm();
         let is_idle = |k: usize| ahead.as_ref().is_some_and(|found| idle(begun[k], k, found));
@@ -479,7 +480,7 @@ impl<const N: usize> ODE<f64, [f64; N]> for Pieces<'_, N> {
 
 impl<const N: usize> Flow<N> for Pieces<'_, N> {
     fn bounds(&self) -> usize {
-        self.case.loads.len() + COMMON.len()
+        self.fastest.borrow().len() + COMMON.len()
     }
 
     fn margin(&self, bound: usize, t: f64, y: &[f64; N]) -> f64 {
@@ -493,10 +494,7 @@ impl<const N: usize> Flow<N> for Pieces<'_, N> {
             Bound::KnotBehind => return self.crank(t, y) - self.smooth.get()[0],
             Bound::KnotAhead => return self.smooth.get()[1] - self.crank(t, y),
         };
-        let senses = sensed(self.case, &self.case.loads[load]);
-        if senses == Senses::Nothing {
-            return f64::INFINITY;
-        }
+        let Some(&(_, senses)) = self.sensed.iter().find(|(index, _)| *index == load) else { return f64::INFINITY };
         let work = &mut *self.work.borrow_mut();
         self.put(&mut work.inputs, t, y);
         match work.rate((load, senses)) {

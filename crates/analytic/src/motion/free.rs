@@ -41,7 +41,7 @@ pub(crate) fn check(case: &Case) -> Result<()> {
 /// Follows the motion over the case's grid. `accuracy` is the error allowed in each step.
 ///
 /// # Errors
-/// Those of [`check`] and of the side; [`ErrorKind::Numeric`] if a resistance holds the mechanism.
+/// The errors of [`check`] and of the side; [`ErrorKind::Numeric`] if a resistance holds the mechanism.
 pub(crate) fn sweep(case: &Case, side: &mut dyn Side, accuracy: f64, visit: Visit, progress: Progress) -> Result<()> {
     check(case)?;
     match case.drives.free().count() {

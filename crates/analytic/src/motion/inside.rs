@@ -1,12 +1,12 @@
 //! States inside a step of DOP853, at the requested instants.
 //!
 //! The interpolant of DOP853 has order 7.
-//! It is the sum of two terms (Hairer, Norsett, Wanner, "Solving ordinary differential equations I", II.6).
+//! This is the sum of two terms (Hairer, Norsett, Wanner, "Solving ordinary differential equations I", II.6).
 //! The first term is a cubic H through the values and rates at both ends. The second term is s^2 (1 - s)^2 times a
 //! cubic C.
 //! The library exchanges s and 1 - s in C. The library's value at s therefore contains C at 1 - s, and has order 4.
 //! The factor of C is the same at s and 1 - s. The true value is therefore H(s) + (library(1 - s) - H(1 - s)).
-//! A test below checks the order. It will fail if the library corrects this error.
+//! A test below checks the order. The test will fail if the library corrects this error.
 //! See docs/numerics/forces.md.
 
 use std::cell::Cell;

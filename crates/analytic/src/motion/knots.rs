@@ -2,8 +2,6 @@
 //!
 //! At a knot a load or its derivative jumps, so a step over a knot would have a lower order.
 
-use std::f64::consts::TAU;
-
 use linkage::case::Case;
 use linkage::math::KeepNan;
 
@@ -20,7 +18,7 @@ impl Knots {
     pub(super) fn of(case: &Case) -> Self {
         let courses = case.loads.iter().flat_map(|load| load.courses());
         let tables = courses.filter_map(|course| course.knots());
-        Knots(tables.map(|(knots, turns)| (knots.to_vec(), TAU * f64::from(turns))).collect())
+        Knots(tables.map(|(knots, period)| (knots.to_vec(), period)).collect())
     }
 
     /// Ends of the interval around a crank angle in which all tables are smooth.
@@ -46,6 +44,7 @@ pub(super) fn beyond([low, high]: [f64; 2]) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::TAU;
 
     #[test]
     fn knots_repeat_with_the_period() {

@@ -84,7 +84,7 @@ pub(crate) struct Place<const N: usize> {
 }
 
 /// Integrates from `place` over the ascending `targets`, to the last target or to the first bound.
-/// `visit` receives every step, divided at the targets inside it.
+/// `visit` receives every step, in parts that end at the targets inside the step.
 pub(crate) fn march<const N: usize, F: Flow<N>>(
     flow: &F,
     place: &mut Place<N>,

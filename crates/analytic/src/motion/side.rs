@@ -28,11 +28,11 @@ pub(crate) struct Held {
     pub(crate) motor: f64,
     /// Moment of inertia that turns with the crank (kg m^2): rotor and reducer.
     pub(crate) added: f64,
-    /// For every load that depends on the sense of a link or joint: this sense (+1, -1, 0 for standstill). Entries of other
-    /// loads are unused.
+    /// For every load, then for every transmission, that depends on the sense of a link or joint: this sense (+1, -1, 0 for
+    /// standstill). Other entries are unused.
     pub(crate) senses: Vec<f64>,
     /// For every load against the motion of a point: direction of this motion at the beginning of the present step.
-    /// It is a unit vector, or zero for standstill. Entries of other loads are unused.
+    /// The direction is a unit vector, or zero for standstill. Entries of other loads are unused.
     pub(crate) ways: Vec<Vec2>,
     /// Crank angles (rad) between which the loads' tables are smooth.
     pub(crate) piece: [f64; 2],

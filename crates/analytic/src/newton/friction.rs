@@ -11,7 +11,7 @@
 use super::system::System;
 use crate::motion::side::Held;
 use crate::sentences;
-use linkage::case::Friction;
+use linkage::case::{Friction, FrictionSeat};
 use linkage::error::Result;
 use linkage::math::dense::Lu;
 use linkage::math::{KeepNan, cross};
@@ -19,8 +19,7 @@ use linkage::mechanism::{GROUND, LinkId};
 
 /// Largest number of Newton's steps.
 const MOST: usize = 40;
-/// If the method does not converge, the friction is increased in steps. This is the smallest step, as a fraction of the
-/// friction.
+/// Smallest step, as a fraction of the friction, in which the friction is increased if the method does not converge.
 const LEAST: f64 = 1e-3;
 /// The multipliers are settled if they change by less than this fraction of the largest one.
 const SETTLED: f64 = 1e-14;
@@ -36,7 +35,14 @@ pub(super) struct Freedom<'a> {
 }
 
 /// Sum of the normal forces of a joint as a function of its multipliers, and its derivatives by them.
-fn of_multipliers(friction: &Friction, own: &[f64], slides: bool) -> (f64, [f64; 2]) {
+/// For a transmission: the lost power of its force, divided by the lever and the speed.
+fn of_multipliers(friction: &Friction, own: &[f64], slides: bool, sense: f64) -> (f64, [f64; 2]) {
+    if let FrictionSeat::Mesh { losses, .. } = friction.seat {
+        // The power to the second member, divided by a positive factor.
+        let power = own[0] * losses.lever * sense;
+        let slope = if power < 0.0 { -losses.lost[1] } else { losses.lost[0] } * (losses.lever * sense).signum();
+        return (slope * own[0], [slope, 0.0]);
+    }
     if !slides {
         let size = own[0].hypot(own[1]);
         return (size, if size > 0.0 { [own[0] / size, own[1] / size] } else { [0.0; 2] });
@@ -61,7 +67,7 @@ impl System<'_> {
             .frictions()
             .map(|friction| {
                 let sense = match freedom {
-                    Some(own) => own.held.senses[friction.load],
+                    Some(own) => own.held.senses[friction.index],
                     None => friction.rate(&self.motions),
                 };
                 if sense == 0.0 { 0.0 } else { -sense.signum() * friction.lever() }
@@ -111,12 +117,22 @@ impl System<'_> {
                 right[column] -= value * self.lambda[row];
             }
             for (friction, &lever) in case.frictions().zip(levers) {
-                let (rows, joint) = (case.mechanism.rows(friction.joint), &case.mechanism.joints()[friction.joint]);
+                let joint = &case.mechanism.joints()[friction.joint];
+                let (rows, axis, ends) = match friction.seat {
+                    FrictionSeat::Joint { .. } => {
+                        let axis = joint.axis_on(joint.first.link).map(|axis| self.along(joint.first.link, axis));
+                        let ends = [(joint.first.link, -1.0), (joint.second.link, 1.0)];
+                        (case.mechanism.rows(friction.joint), axis, ends)
+                    }
+                    FrictionSeat::Mesh { transmission, links: [carrier, first], losses } => {
+                        let row = case.mechanism.row_of_transmission(transmission);
+                        (row..row + 1, None, [(carrier, -1.0 / losses.per), (first, 1.0 / losses.per)])
+                    }
+                };
                 let own: Vec<f64> = rows.clone().map(|row| self.lambda[row] + self.beside[row]).collect();
-                let (normal, slopes) = of_multipliers(&friction, &own, joint.slides());
-                let axis = joint.axis_on(joint.first.link).map(|axis| self.along(joint.first.link, axis));
+                let (normal, slopes) = of_multipliers(&friction, &own, joint.slides(), -lever);
                 let place = self.centre(joint.second.link) + self.arm(joint.second.link, joint.second.local);
-                for (link, sign) in [(joint.first.link, -1.0), (joint.second.link, 1.0)] {
+                for (link, sign) in ends {
                     if link == GROUND {
                         continue;
                     }

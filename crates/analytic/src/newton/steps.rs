@@ -63,14 +63,14 @@ impl System<'_> {
         let turned = |drive: &Drive| {
             let way = match drive.constant_speed() {
                 Some(_) => (drive.at(t).value - drive.at(self.time).value).abs(),
-                // Between the two times the drive may move forwards and back. Its top speed bounds the total angle.
+                // Between the two times the drive may move forwards and back. The top speed bounds the total angle.
                 None => drive.top_speed().abs() * (t - self.time).abs(),
             };
             way / drive.input.span(size)
         };
         let turn = self.case.drives.iter().map(turned).fold(0.0, f64::larger);
         // Refuse too many turns. With a varying speed, `turn` is computed from the top speed and may be much larger
-        // than the real angle. Only this check limits it.
+        // than the real angle. No other check limits `turn`.
         if !(turn <= 2.0 * Grid::MOST_TURNS * TAU) {
             let turns = turn / TAU;
             return Err(self.lost(&sentences::up_to_turns_on_the_way_to_are_too(&format_args!("{turns:.1e}"), &t)));
@@ -188,7 +188,7 @@ impl System<'_> {
 
     /// Computes motions and angles of all links from the coordinates, and calls `of` to find their loads.
     pub(super) fn find_loads(&mut self, of: impl FnOnce(&Case, &[Motion], &[f64], &mut [Wrench])) {
-        if !self.case.loads.is_empty() {
+        if !self.case.loads.is_empty() || self.has_friction {
             for link in self.case.mechanism.links().ids().skip(1) {
                 (self.motions[link], self.angles[link]) = self.motion(link);
             }

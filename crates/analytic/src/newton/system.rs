@@ -39,7 +39,7 @@ pub(super) struct System<'a> {
     pub(super) branch: Vec<f64>,
     pub(super) residual: Vec<f64>,
     pub(super) predicted: Vec<f64>,
-    /// Coordinates, velocities and accelerations before the step. They are restored if the step fails.
+    /// Coordinates, velocities and accelerations before the step. These values are restored if the step fails.
     pub(super) before: Vec<f64>,
     pub(super) rate_before: Vec<f64>,
     pub(super) second_before: Vec<f64>,

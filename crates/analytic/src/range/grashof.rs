@@ -40,7 +40,7 @@ linkage::words! {
 pub struct FourBar {
     /// Lengths of frame, driving link, coupler and output link (m).
     pub lengths: [f64; 4],
-    /// Its type.
+    /// Type of the four-bar.
     pub of_type: FourBarType,
 }
 

@@ -19,7 +19,7 @@ pub struct GroupCondition {
     /// Normalised determinant, from -1 to 1; zero in a singular pose.
     pub determinant: f64,
     /// Condition number (2-norm) of the normalised equations.
-    /// It is the largest ratio of relative errors of angular velocities to relative errors of position.
+    /// This is the largest ratio of relative errors of angular velocities to relative errors of position.
     /// [`f64::MAX`] if the equations are singular to working precision.
     pub condition: f64,
 }

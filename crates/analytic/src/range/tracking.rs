@@ -107,7 +107,7 @@ pub(super) struct Tracker<'a> {
     signs: Vec<f64>,
     /// Direction of the smallest singular value at the last pose. The search at the next pose starts from it.
     weakest: RefCell<ColumnVector>,
-    /// The error that the allowed work is used up. After this error, no further pose is placed.
+    /// The error that reports that the allowed work is used up. After this error, no further pose is placed.
     over: OnceCell<Error>,
 }
 

@@ -44,7 +44,7 @@ pub fn moment_of_resistance(case: &Case, state: &State) -> f64 {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Kinks {
     /// Crank angle (rad) after which the mechanism is back at its first pose, under the same loads.
-    /// It is one turn, or several turns with higher groups and with tables that cover several turns.
+    /// This angle is one turn, or several turns with higher groups and with tables that cover several turns.
     /// `None` if the crank cannot turn fully.
     pub period: Option<f64>,
     /// Crank angles (rad) of the kinks. At a kink, a loaded link reverses, so that its load changes its sense, or a
@@ -97,8 +97,8 @@ impl Reach {
 /// Kinks of the reduced quantities of a case.
 ///
 /// # Errors
-/// Those of [`Range::of`]; [`ErrorKind::Unsupported`] for loads against the motion of a point, and for tables whose
-/// common period exceeds a thousand turns.
+/// The errors of [`Range::of`]; [`ErrorKind::Unsupported`] for loads against the motion of a point, and for tables
+/// whose common period exceeds a thousand turns.
 pub fn kinks(case: &Case) -> Result<Kinks> {
     if case.crank().input != Input::Angle {
         let message = sentences::the_drive_moves_no_crank(&case.crank().input.noun());
@@ -132,7 +132,7 @@ pub fn kinks(case: &Case) -> Result<Kinks> {
     }
     let tables = || case.loads.iter().flat_map(Load::courses).filter_map(Course::knots);
     let mut all = turns;
-    for (_, own) in tables() {
+    for own in case.loads.iter().flat_map(Load::courses).filter_map(Course::turns).flatten() {
         all = all.map(|all| all.lcm(&own));
         if let Some(turns) = all.filter(|&turns| turns > MOST_TURNS) {
             let message = sentences::mechanism_and_tables_of_loads(&turns, &MOST_TURNS);
@@ -146,7 +146,6 @@ pub fn kinks(case: &Case) -> Result<Kinks> {
     }
     let period = all.map(|all| TAU * f64::from(all));
     for (knots, own) in tables() {
-        let own = TAU * f64::from(own);
         let Some([from, to]) = period.map(|period| [start, start + period]).or(limits) else { continue };
         for &knot in &knots[1..] {
             let first = knot + ((from - knot) / own).ceil() * own;
@@ -180,7 +179,7 @@ const PANEL: f64 = PI / 90.0;
 /// kinks.
 ///
 /// # Errors
-/// Those of the solver, [`ErrorKind::Geometry`] for mechanisms whose crank cannot turn fully.
+/// The errors of the solver, [`ErrorKind::Geometry`] for mechanisms whose crank cannot turn fully.
 pub fn means_over_turn(case: &Case, solver: &dyn Solver) -> Result<Means> {
     let found = kinks(case)?;
     let Some(period) = found.period else { return Err(no_turn(&found)) };

@@ -40,7 +40,7 @@ struct Mass {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Piece {
     index: i64,
-    /// Crank angles (rad) at its ends.
+    /// Crank angles (rad) at the ends of the piece.
     pub(crate) ends: [f64; 2],
 }
 
@@ -53,7 +53,7 @@ impl Piece {
 
 /// A mechanism of one degree of freedom under forces.
 /// The model contains the coefficients of the equation of motion `omega^2 / 2 dI*/dphi + I* domega/dt = M`.
-/// It also contains the crank angles at which these coefficients have kinks.
+/// The model also contains the crank angles at which these coefficients have kinks.
 #[derive(Clone, Debug)]
 pub struct ReducedModel<'a> {
     pub(crate) case: &'a Case,
@@ -211,7 +211,7 @@ impl<'a> ReducedModel<'a> {
         let state = self.at_unit_speed(poses, crank)?;
         let count = self.sensed.len();
         let row = piece.index.rem_euclid((self.senses.len() / count.max(1)).max(1) as i64) as usize;
-        // At its upper end a table may already have the value after a jump.
+        // At the upper end of the piece, a table may already have the value after a jump.
         let within = crank.larger(piece.ends[0]).smaller(just_below(piece.ends[1]));
         let mut found = self.of_pose(state, within);
         for ((link, load), sense) in self.sensed.iter().zip(&self.senses[row * count..]) {
@@ -238,7 +238,7 @@ impl<'a> ReducedModel<'a> {
     /// crank.
     ///
     /// # Errors
-    /// Those of [`ReducedModel::at`].
+    /// The errors of [`ReducedModel::at`].
     pub fn inertia_at_start(&self) -> Result<f64> {
         let mut poses = PoseSolver::new(self.case)?;
         Ok(self.at(&mut poses, self.case.crank().start, self.sense)?.inertia + self.added)

@@ -22,7 +22,7 @@ pub struct CrankState {
     pub within: f64,
     /// Angular velocity of the crank (rad/s).
     pub omega: f64,
-    /// Its angular acceleration (rad/s^2).
+    /// Angular acceleration of the crank (rad/s^2).
     pub alpha: f64,
     /// Static moment of the motor on the crank (N m), counter-clockwise positive. The moment that accelerates rotor and
     /// reducer is not subtracted.
@@ -268,7 +268,7 @@ impl RunUp {
     /// Kinetostatics uses the true speed and acceleration.
     ///
     /// # Errors
-    /// Those of [`motion`].
+    /// The errors of [`motion`].
     pub fn of(model: &ReducedModel, omega: f64, times: &[f64], accuracy: f64) -> Result<Self> {
         let (motion, end) = motion(model, omega, times, accuracy)?;
         let grid = Grid {

@@ -13,7 +13,7 @@ use linkage::math::root;
 use linkage::mechanism::{LinkId, PerLink};
 use linkage::trajectory::Stage;
 
-/// Number of poses in one turn of the crank. They are three degrees apart.
+/// Number of poses in one turn of the crank. The poses are three degrees apart.
 /// Even two reversals between neighbouring poses are detected, from the slopes.
 const POSES: u32 = 120;
 /// If the crank has turned this number of turns, the search for a return to the first pose ends. The range of motion

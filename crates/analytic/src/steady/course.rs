@@ -61,7 +61,7 @@ impl ReducedModel<'_> {
     /// Extremes over one period of dI*/dphi, refined between samples.
     ///
     /// # Errors
-    /// Those of [`ReducedModel::extremes`].
+    /// The errors of [`ReducedModel::extremes`].
     pub fn slope_extremes(&self) -> Result<Extremes> {
         Ok(self.extremes_of([|row| row.slope])?[0])
     }

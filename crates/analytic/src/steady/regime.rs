@@ -12,7 +12,7 @@ use crate::reduced::means::{self, no_turn};
 use crate::reduced::model::{Piece, ReducedModel};
 use linkage::error::{Error, ErrorKind, Result};
 
-/// Largest number of Newton steps of the shooting method. It usually needs three to six.
+/// Largest number of Newton steps of the shooting method. The method usually needs three to six.
 const MOST_SHOTS: usize = 60;
 /// If the relative change of the energy over a period is at most this value, it counts as zero.
 const CLOSED: f64 = 2e-14;
@@ -24,7 +24,7 @@ pub struct SpeedAtCrank {
     pub crank: f64,
     /// Angular velocity of the crank (rad/s).
     pub omega: f64,
-    /// Its angular acceleration (rad/s^2).
+    /// Angular acceleration of the crank (rad/s^2).
     pub alpha: f64,
 }
 
@@ -41,10 +41,10 @@ pub struct Regime {
     pub start_speed: f64,
     /// The largest speed of the crank and its crank angle.
     pub fastest: SpeedAtCrank,
-    /// Where it is slowest.
+    /// The smallest speed of the crank and its crank angle.
     pub slowest: SpeedAtCrank,
     /// Ratio of a small deviation of the energy at the end of a period to the deviation at the beginning.
-    /// It is below 1; otherwise the motion would not be stable.
+    /// The ratio is below 1; otherwise the motion would not be stable.
     pub multiplier: f64,
     /// Speeds of the crank at the requested crank angles.
     pub samples: Vec<SpeedAtCrank>,
@@ -64,7 +64,7 @@ impl ReducedModel<'_> {
     /// The steady periodic motion in the motor's sense.
     /// Newton's method finds the energy at the start of a period; its derivative is integrated along with the motion.
     /// `cranks` are the crank angles (rad) at which the crank's speed is requested.
-    /// They lie in one period from the start of the case, in the order of the motion.
+    /// These angles lie in one period from the start of the case, in the order of the motion.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] without a motor, [`ErrorKind::Geometry`] if the crank does not turn fully,
@@ -102,7 +102,7 @@ impl ReducedModel<'_> {
     /// The motion is followed over one more period; it is not searched for again.
     ///
     /// # Errors
-    /// Those of [`ReducedModel::regime`].
+    /// The errors of [`ReducedModel::regime`].
     pub fn regime_at(&self, found: &Regime, cranks: &[f64], accuracy: f64) -> Result<Regime> {
         let Some(period) = self.kinks().period else { return Err(no_turn(self.kinks())) };
         Turn::of(self, period)?.described(found.energy, found.multiplier, cranks, accuracy)

@@ -27,7 +27,7 @@ use linkage::solver::State;
 pub struct TriadLead {
     /// The link.
     pub link: LinkId,
-    /// Its outer joint.
+    /// Outer joint of the lead.
     pub outer: JointId,
     /// Joint of the lead with the base link.
     pub inner: JointId,
@@ -102,7 +102,7 @@ impl Triad {
     }
 
     /// The known forces on each link before the group's reactions.
-    /// They are gravity and inertia m (g - a) at the mass centre, the moment -J alpha, and loads.
+    /// These forces are gravity and inertia m (g - a) at the mass centre, the moment -J alpha, and loads.
     /// The forces in the joints with later groups are taken from the state.
     #[must_use]
     pub fn known(&self, case: &Case, state: &State) -> [KnownResultant; 4] {

@@ -80,7 +80,7 @@ impl DistanceSearch<'_, '_> {
     /// Computes the smallest distances of pairs of bodies.
     ///
     /// # Errors
-    /// Those of the pose solver.
+    /// The errors of the pose solver.
     pub fn smallest(&mut self, pairs: &[[usize; 2]]) -> Result<Vec<Smallest>> {
         let unknown =
             Smallest { distance: f64::INFINITY, least: f64::INFINITY, crank: f64::NAN, points: [Vec2::zeros(); 2] };
@@ -179,7 +179,7 @@ impl DistanceSearch<'_, '_> {
     /// Returns `None` if the pair is proven farther apart over the whole range.
     ///
     /// # Errors
-    /// Those of the pose solver.
+    /// The errors of the pose solver.
     pub fn first(&mut self, pair: [usize; 2], threshold: f64) -> Result<Option<Meeting>> {
         let enough = threshold + self.touch;
         let mut ahead: Vec<RangePart> = self.tubes.parts().rev().collect();

@@ -102,7 +102,7 @@ impl<'a, 'c> Sweep<'a, 'c> {
     /// If the tolerance would take more than `budget` tests, the area is less accurate.
     ///
     /// # Errors
-    /// Those of the pose solver.
+    /// The errors of the pose solver.
     pub fn area(&mut self, wanted: f64, budget: usize) -> Result<Area> {
         let first = self.sound_parts()?;
         if first.is_empty() {

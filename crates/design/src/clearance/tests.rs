@@ -199,7 +199,7 @@ fn a_proven_distance_allows_for_rounding() {
     assert!(found.now > expected - 0.01 && found.now - found.least >= 1.99 * rounding, "{found:?} {rounding}");
 }
 
-/// The corners of a polygon may be given clockwise or counter-clockwise. They are stored counter-clockwise.
+/// The corners of a polygon may be given clockwise or counter-clockwise. The corners are stored counter-clockwise.
 /// Both orders give convex parts that cover the same area, and give the same distances.
 #[test]
 fn the_orientation_of_a_polygon_does_not_matter() {

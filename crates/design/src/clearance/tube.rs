@@ -26,11 +26,13 @@ use std::rc::Rc;
 use analytic::PoseSolver;
 use linkage::case::Case;
 use linkage::error::Result;
+use linkage::input::Input;
 use linkage::math::{KeepNan, Matrix, Vec2, cross, rotated, turned};
-use linkage::mechanism::{GROUND, Group, Joint, LinkId};
+use linkage::mechanism::{Coordinate, GROUND, Joint, JointId, LinkId, TransmissionId};
 use linkage::trajectory::Stage;
 
-/// Upper limit of the width of the first parts, into which the range is divided at the beginning (rad).
+/// Upper limit of the width of the first parts, into which the range is divided at the beginning (rad, or fraction of the
+/// mechanism's size for a slide).
 const FIRST: f64 = std::f64::consts::PI / 24.0;
 /// Upper limit of the number of halvings of a first part.
 /// The width of the smallest part is about 1.5e-8 times the width of the first part.
@@ -171,14 +173,14 @@ impl<'a> Tubes<'a> {
     /// The bound on rounding errors grows with `extent`.
     ///
     /// # Errors
-    /// Those of [`PoseSolver::new`].
+    /// The errors of [`PoseSolver::new`].
     pub fn new(case: &'a Case, range: [f64; 2], extent: f64) -> Result<Self> {
         let mechanism = &case.mechanism;
         let centre = |link: LinkId| {
             let places: Vec<Vec2> = mechanism.joints().iter().filter_map(|joint| joint.on(link)).collect();
             places.iter().sum::<Vec2>() / (places.len() as f64).larger(1.0)
         };
-        let first = ((range[1] - range[0]).abs() / FIRST - 1e-9).ceil().larger(1.0) as u64;
+        let first = ((range[1] - range[0]).abs() / case.step(FIRST) - 1e-9).ceil().larger(1.0) as u64;
         let ground = mechanism.links()[GROUND].points.iter().map(|point| point.local.norm()).fold(0.0, f64::larger);
         Ok(Tubes {
             case,
@@ -214,7 +216,7 @@ impl<'a> Tubes<'a> {
     /// Returns the enclosures of all links over a part.
     ///
     /// # Errors
-    /// Those of [`PoseSolver::solve`].
+    /// The errors of [`PoseSolver::solve`].
     pub fn at(&mut self, part: RangePart) -> Result<Rc<Slice>> {
         if let Some(slice) = self.kept.get(&part) {
             return Ok(Rc::clone(slice));
@@ -230,7 +232,7 @@ impl<'a> Tubes<'a> {
     /// Computes the enclosures of all links within `half` (rad) of a crank angle (rad).
     ///
     /// # Errors
-    /// Those of [`PoseSolver::solve`].
+    /// The errors of [`PoseSolver::solve`].
     pub fn slice(&mut self, crank: f64, half: f64) -> Result<Slice> {
         self.poses += 1;
         let case = self.case;
@@ -243,36 +245,158 @@ impl<'a> Tubes<'a> {
             let (direction, spin) = (motion.direction, motion.omega);
             *tube = Tube { centre, at, rate, direction, spin, off: rounding, twist: ROUNDING, half };
         }
-        for drive in case.drives.iter() {
-            // The crank turns uniformly about its pivot on the ground.
-            // A drive on a moving link is free, so a mechanism with such a drive has several degrees of freedom.
-            // A single angle does not determine the pose of such a mechanism, so such mechanisms do not occur here.
+        for drive in case.drives.iter().filter(|drive| drive.input == Input::Angle) {
+            // A crank turns uniformly about its pivot on the ground. A link on a driven guide of the ground moves uniformly.
             let pivot = case.mechanism.joints()[drive.joint].on(drive.link).unwrap_or_else(Vec2::zeros);
             let (tube, motion) = (&mut tubes[drive.link], &state.motions[drive.link]);
             (tube.centre, tube.at, tube.rate) = (pivot, motion.point(pivot), Vec2::zeros());
         }
-        let sound = case.structure.groups.iter().all(|group| enclose(case, group, half, &mut tubes, rounding));
+        let rates: Vec<f64> =
+            case.drives.iter().map(|drive| case.drive_state(drive, &state.motions, &state.angles).rate).collect();
+        let rate_of = |joint: JointId| case.drives.iter().position(|own| own.joint == joint).map_or(0.0, |k| rates[k]);
+        let sound = units(case).all(|(links, joints, given, trains)| {
+            let rows = rows(case, &joints, given, trains, rate_of);
+            rows.is_some_and(|rows| enclose(&rows, links, half, &mut tubes, rounding))
+        });
         Ok(Slice { crank, half, tubes, sound })
     }
 }
 
-/// Widens the tubes of a group's links until they provably contain the motion of the group.
+/// Links that are solved together, with their joints, the driven ones among them, and their transmissions.
+type Unit<'a> = (&'a [LinkId], Vec<JointId>, &'a [JointId], &'a [TransmissionId]);
+
+/// The driving links on moving links, and the groups, in the order of solution.
+fn units(case: &Case) -> impl Iterator<Item = Unit<'_>> {
+    let mechanism = &case.mechanism;
+    let drivers = case.structure.leading().map(|(_, driver)| driver);
+    let moved = drivers.filter(|driver| mechanism.joints()[driver.joint].other(driver.link).link != GROUND);
+    let moved = moved.map(|own| {
+        let one = std::slice::from_ref(&own.joint);
+        (std::slice::from_ref(&own.link), one.to_vec(), one, &[][..])
+    });
+    let groups = case.structure.groups.iter().map(|group| {
+        let joints = group.inner.iter().chain(&group.outer).copied().collect();
+        (&group.links[..], joints, &group.given[..], &group.trains[..])
+    });
+    moved.chain(groups)
+}
+
+/// An equation: the sum of its terms is zero, or changes at a known rate.
+struct Row<'a> {
+    terms: Vec<(Term<'a>, f64)>,
+    /// Rate of the sum, per unit of the input.
+    rate: f64,
+    /// Whether the sum must be zero at the middle. Otherwise its value there is that of side 1.
+    is_zero: bool,
+}
+
+/// A function of the poses of links.
+#[derive(Clone, Copy)]
+enum Term<'a> {
+    /// Distance of the joint's second point from its first point along a direction in the world.
+    Along(&'a Joint, Vec2),
+    /// The same along a direction in the first link.
+    Inside(&'a Joint, Vec2),
+    /// Angle of a link.
+    Angle(LinkId),
+    /// Angle between the joint's axes.
+    Axes(&'a Joint, [Vec2; 2]),
+}
+
+/// The equations of joints, driven joints and transmissions. `None` for a cam, whose equation is not linear.
+fn rows<'a>(
+    case: &'a Case,
+    joints: &[JointId],
+    given: &[JointId],
+    trains: &[TransmissionId],
+    rate_of: impl Fn(JointId) -> f64,
+) -> Option<Vec<Row<'a>>> {
+    let all = case.mechanism.joints();
+    let mut rows: Vec<Row> = joints.iter().flat_map(|&id| closure(&all[id])).collect();
+    rows.extend(given.iter().map(|&id| motion(&all[id], rate_of(id))));
+    for &id in trains {
+        let own = &case.mechanism.transmissions()[id];
+        let ratio = own.ratio()?;
+        let of = |(coordinate, sign): &(Coordinate, f64), factor: f64| match *coordinate {
+            Coordinate::Angle(link) => (Term::Angle(link), sign * factor),
+            Coordinate::Slide(joint) => {
+                let joint = &all[joint];
+                let axis = joint.kind.axes().map_or_else(Vec2::zeros, |axes| axes[0]);
+                (Term::Inside(joint, axis), sign * factor)
+            }
+        };
+        let [first, second] = &own.coordinates;
+        let terms = first.iter().map(|own| of(own, -ratio)).chain(second.iter().map(|own| of(own, 1.0)));
+        rows.push(Row { terms: terms.collect(), rate: 0.0, is_zero: false });
+    }
+    Some(rows)
+}
+
+/// The equations that close a joint.
+fn closure(joint: &Joint) -> [Row<'_>; 2] {
+    let terms = match joint.kind.axes() {
+        None => [Vec2::x(), Vec2::y()].map(|way| Term::Along(joint, way)),
+        Some(axes) => [Term::Inside(joint, turned(axes[0])), Term::Axes(joint, axes)],
+    };
+    terms.map(|term| Row { terms: vec![(term, 1.0)], rate: 0.0, is_zero: true })
+}
+
+/// The equation of a driven joint: its coordinate changes at the rate `rate` per unit of the input.
+fn motion(joint: &Joint, rate: f64) -> Row<'_> {
+    let terms = match joint.kind.axes() {
+        Some(axes) => vec![(Term::Inside(joint, axes[0]), 1.0)],
+        None => vec![(Term::Angle(joint.second.link), 1.0), (Term::Angle(joint.first.link), -1.0)],
+    };
+    Row { terms, rate, is_zero: false }
+}
+
+/// Writes the derivatives of all equations at the middle into `derivative`.
+/// Returns the largest residual of every equation under the uniform motion.
+fn equations(
+    rows: &[Row],
+    tubes: &[Tube],
+    half: f64,
+    column: &impl Fn(LinkId) -> Option<usize>,
+    derivative: &mut Matrix,
+) -> Vec<f64> {
+    let residual = |(row, own): (usize, &Row)| {
+        let [mut value, mut rate, mut error] = [0.0; 3];
+        for &(term, weight) in &own.terms {
+            let found = term.linear(tubes, half, column, |column, value| derivative[(row, column)] += weight * value);
+            value += weight * found[0];
+            rate += weight * found[1];
+            error += weight.abs() * found[2];
+        }
+        let value = if own.is_zero { value.abs() } else { 0.0 };
+        value + (rate - own.rate).abs() * half + error
+    };
+    rows.iter().enumerate().map(residual).collect()
+}
+
+/// Bounds |F' - F'(middle)| r (docs/clearance.md) over the tubes, for all equations and the box `radii`.
+fn changes(
+    rows: &[Row],
+    tubes: &[Tube],
+    half: f64,
+    column: &impl Fn(LinkId) -> Option<usize>,
+    radii: &[f64],
+) -> Vec<f64> {
+    let of = |row: &Row| {
+        row.terms.iter().map(|(term, weight)| weight.abs() * term.change(tubes, half, column, radii)).sum::<f64>()
+    };
+    rows.iter().map(of).collect()
+}
+
+/// Widens the tubes of links until they provably contain the motion that the equations determine.
 /// Returns whether the proof succeeds.
-fn enclose(case: &Case, group: &Group, half: f64, tubes: &mut [Tube], rounding: f64) -> bool {
-    let size = 3 * group.links.len();
-    let joints: Vec<&Joint> =
-        group.inner.iter().chain(&group.outer).map(|&joint| &case.mechanism.joints()[joint]).collect();
-    if joints.iter().map(|joint| joint.kind.equations()).sum::<usize>() != size {
+fn enclose(rows: &[Row], links: &[LinkId], half: f64, tubes: &mut [Tube], rounding: f64) -> bool {
+    let size = 3 * links.len();
+    if rows.len() != size {
         return false;
     }
-    let column = |link: LinkId| group.links.iter().position(|&own| own == link).map(|index| 3 * index);
+    let column = |link: LinkId| links.iter().position(|&own| own == link).map(|index| 3 * index);
     let mut derivative = Matrix::zeros(size, size);
-    let mut open = vec![0.0; size];
-    let mut row = 0;
-    for joint in &joints {
-        equations(joint, tubes, half, &column, row, &mut derivative, &mut open);
-        row += joint.kind.equations();
-    }
+    let mut open = equations(rows, tubes, half, &column, &mut derivative);
     open.iter_mut().for_each(|open| *open += rounding);
     let Some(inverse) = derivative.clone().try_inverse() else { return false };
     let own = (Matrix::identity(size, size) - &inverse * &derivative).abs();
@@ -282,24 +406,16 @@ fn enclose(case: &Case, group: &Group, half: f64, tubes: &mut [Tube], rounding: 
     let mut radii = least.clone();
     for _ in 0..TRIALS {
         radii.iter_mut().for_each(|radius| *radius *= WIDER);
-        for (index, &link) in group.links.iter().enumerate() {
+        for (index, &link) in links.iter().enumerate() {
             let [x, y, twist] = [0, 1, 2].map(|k| radii[3 * index + k]);
             (tubes[link].off, tubes[link].twist) = (x.hypot(y), twist);
         }
-        // Upper bound of the change of every equation over the box.
-        let mut change = vec![0.0; size];
-        let mut row = 0;
-        for joint in &joints {
-            for own in changes(joint, tubes, half, &column, &radii).into_iter().take(joint.kind.equations()) {
-                change[row] = own;
-                row += 1;
-            }
-        }
+        let change = changes(rows, tubes, half, &column, &radii);
         let next: Vec<f64> = (0..size)
             .map(|i| least[i] + (0..size).map(|k| own[(i, k)] * radii[k] + inverse[(i, k)] * change[k]).sum::<f64>())
             .collect();
         if next.iter().zip(&radii).all(|(next, radius)| next < radius) {
-            for (index, &link) in group.links.iter().enumerate() {
+            for (index, &link) in links.iter().enumerate() {
                 let [x, y, twist] = [0, 1, 2].map(|k| next[3 * index + k]);
                 (tubes[link].off, tubes[link].twist) = (x.hypot(y) + rounding, twist + ROUNDING);
             }
@@ -313,88 +429,82 @@ fn enclose(case: &Case, group: &Group, half: f64, tubes: &mut [Tube], rounding: 
     false
 }
 
-/// Writes the derivative of a joint's two equations at the middle into `derivative`.
-/// Writes the largest residual of these equations under the uniform motion into `open`.
-/// Links of the group move uniformly. Links outside the group may be anywhere in their tubes.
-fn equations(
-    joint: &Joint,
-    tubes: &[Tube],
-    half: f64,
-    column: &impl Fn(LinkId) -> Option<usize>,
-    row: usize,
-    derivative: &mut Matrix,
-    open: &mut [f64],
-) {
-    let sides = [joint.first, joint.second];
-    let own = sides.map(|side| column(side.link));
-    let even = [0, 1].map(|k| {
-        let tube = tubes[sides[k].link];
-        if own[k].is_some() { Tube { off: 0.0, twist: 0.0, ..tube } } else { tube }
-    });
-    let [first, second] = [0, 1].map(|k| even[k].point(sides[k].local));
-    let arms = [0, 1].map(|k| rotated(even[k].direction, sides[k].local - even[k].centre));
-    let (gap, rate) = (second.at - first.at, second.rate - first.rate);
-    let error = first.error + second.error;
-    let Some(axes) = joint.kind.axes() else {
-        for k in 0..2 {
-            open[row + k] = gap[k].abs() + rate[k].abs() * half + error;
+impl Term<'_> {
+    /// Value at the middle, rate, and largest deviation from the linear course under the uniform motion.
+    /// Calls `put` with the columns of the derivative at the middle and its values.
+    /// Links of the group move uniformly. Links outside the group may be anywhere in their tubes.
+    fn linear(
+        self,
+        tubes: &[Tube],
+        half: f64,
+        column: &impl Fn(LinkId) -> Option<usize>,
+        mut put: impl FnMut(usize, f64),
+    ) -> [f64; 3] {
+        let even = |link: LinkId| match column(link) {
+            Some(_) => Tube { off: 0.0, twist: 0.0, ..tubes[link] },
+            None => tubes[link],
+        };
+        let (joint, way) = match self {
+            Term::Angle(link) => {
+                column(link).into_iter().for_each(|at| put(at + 2, 1.0));
+                return [0.0, tubes[link].spin, even(link).twist];
+            }
+            Term::Axes(joint, axes) => {
+                let ends = [joint.first.link, joint.second.link];
+                for (link, sign) in ends.into_iter().zip([-1.0, 1.0]) {
+                    column(link).into_iter().for_each(|at| put(at + 2, sign));
+                }
+                let [first, second] = ends.map(even);
+                let [along, other] = [rotated(first.direction, axes[0]), rotated(second.direction, axes[1])];
+                let angle = cross(along, other).atan2(along.dot(&other));
+                return [angle, second.spin - first.spin, first.twist + second.twist];
+            }
+            Term::Along(joint, way) | Term::Inside(joint, way) => (joint, way),
+        };
+        let sides = [joint.first, joint.second];
+        let [one, two] = sides.map(|side| even(side.link));
+        let [first, second] = [one.point(sides[0].local), two.point(sides[1].local)];
+        let (gap, rate, error) = (second.at - first.at, second.rate - first.rate, first.error + second.error);
+        let arms =
+            [(one, sides[0]), (two, sides[1])].map(|(tube, side)| rotated(tube.direction, side.local - tube.centre));
+        let turns = matches!(self, Term::Inside(..));
+        let way = if turns { rotated(one.direction, way) } else { way };
+        let own = if turns { turned(way).dot(&gap) } else { 0.0 };
+        if let Some(at) = column(sides[0].link) {
+            put(at, -way.x);
+            put(at + 1, -way.y);
+            put(at + 2, own - way.dot(&turned(arms[0])));
         }
-        for (side, sign) in [(0, -1.0), (1, 1.0)] {
-            let Some(at) = own[side] else { continue };
-            let lever = turned(arms[side]) * sign;
-            derivative[(row, at)] = sign;
-            derivative[(row + 1, at + 1)] = sign;
-            (derivative[(row, at + 2)], derivative[(row + 1, at + 2)]) = (lever.x, lever.y);
+        if let Some(at) = column(sides[1].link) {
+            put(at, way.x);
+            put(at + 1, way.y);
+            put(at + 2, way.dot(&turned(arms[1])));
         }
-        return;
-    };
-    let [along, other] = [0, 1].map(|k| rotated(even[k].direction, axes[k]));
-    let (normal, turn, twist) = (turned(along), even[0].turn(), even[0].twist);
-    let linear = normal.dot(&rate) - even[0].spin * along.dot(&gap);
-    open[row] = normal.dot(&gap).abs()
-        + linear.abs() * half
-        + error
-        + gap.norm() * (twist + turn * turn / 2.0)
-        + turn * rate.norm() * half;
-    let angle = cross(along, other).atan2(along.dot(&other));
-    open[row + 1] = angle.abs() + (even[1].spin - even[0].spin).abs() * half + twist + even[1].twist;
-    if let Some(at) = own[0] {
-        (derivative[(row, at)], derivative[(row, at + 1)]) = (-normal.x, -normal.y);
-        derivative[(row, at + 2)] = -along.dot(&gap) - normal.dot(&turned(arms[0]));
-        derivative[(row + 1, at + 2)] = -1.0;
+        let (turn, twist) = if turns { (one.turn(), one.twist) } else { (0.0, 0.0) };
+        let error = error + gap.norm() * (twist + turn * turn / 2.0) + turn * rate.norm() * half;
+        [way.dot(&gap), way.dot(&rate) + one.spin * own, error]
     }
-    if let Some(at) = own[1] {
-        (derivative[(row, at)], derivative[(row, at + 1)]) = (normal.x, normal.y);
-        derivative[(row, at + 2)] = normal.dot(&turned(arms[1]));
-        derivative[(row + 1, at + 2)] = 1.0;
-    }
-}
 
-/// Bounds |F' - F'(middle)| r (docs/clearance.md) over the tubes, for a joint's two equations and the box `radii`.
-fn changes(
-    joint: &Joint,
-    tubes: &[Tube],
-    half: f64,
-    column: &impl Fn(LinkId) -> Option<usize>,
-    radii: &[f64],
-) -> [f64; 2] {
-    let sides = [joint.first, joint.second];
-    let own = sides.map(|side| column(side.link));
-    let turns = sides.map(|side| tubes[side.link].turn());
-    let arms = sides.map(|side| (side.local - tubes[side.link].centre).norm());
-    if joint.kind.axes().is_none() {
-        let each = [0, 1].map(|k| own[k].map_or(0.0, |at| arms[k] * turns[k] * radii[at + 2]));
-        return [each[0] + each[1]; 2];
+    /// Part of the term in [`changes`].
+    fn change(self, tubes: &[Tube], half: f64, column: &impl Fn(LinkId) -> Option<usize>, radii: &[f64]) -> f64 {
+        let (Term::Along(joint, _) | Term::Inside(joint, _)) = self else { return 0.0 };
+        let sides = [joint.first, joint.second];
+        let own = sides.map(|side| column(side.link));
+        let turns = sides.map(|side| tubes[side.link].turn());
+        let arms = sides.map(|side| (side.local - tubes[side.link].centre).norm());
+        if matches!(self, Term::Along(..)) {
+            return (0..2).map(|k| own[k].map_or(0.0, |at| arms[k] * turns[k] * radii[at + 2])).sum();
+        }
+        let [first, second] = sides.map(|side| tubes[side.link].point(side.local));
+        let (gap, rate) = (second.at - first.at, second.rate - first.rate);
+        let moved = rate.norm() * half + first.error + second.error;
+        let mut sum = 0.0;
+        if let Some(at) = own[0] {
+            sum += turns[0] * (radii[at] + radii[at + 1]) + (turns[0] * gap.norm() + moved) * radii[at + 2];
+        }
+        if let Some(at) = own[1] {
+            sum += turns[0] * (radii[at] + radii[at + 1]) + arms[1] * (turns[0] + turns[1]) * radii[at + 2];
+        }
+        sum
     }
-    let [first, second] = sides.map(|side| tubes[side.link].point(side.local));
-    let (gap, rate) = (second.at - first.at, second.rate - first.rate);
-    let moved = rate.norm() * half + first.error + second.error;
-    let mut sum = 0.0;
-    if let Some(at) = own[0] {
-        sum += turns[0] * (radii[at] + radii[at + 1]) + (turns[0] * gap.norm() + moved) * radii[at + 2];
-    }
-    if let Some(at) = own[1] {
-        sum += turns[0] * (radii[at] + radii[at + 1]) + arms[1] * (turns[0] + turns[1]) * radii[at + 2];
-    }
-    [sum, 0.0]
 }

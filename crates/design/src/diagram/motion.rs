@@ -1,4 +1,4 @@
-//! Motion diagrams over one turn of the crank: displacement, velocity and acceleration, exact and by graphical methods.
+//! Motion diagrams over one turn of the crank, or over the stroke of a slide: displacement, velocity and acceleration, exact and by graphical methods.
 //!
 //! Differentiation: chords of the displacement give the velocity at the midpoints of the divisions.
 //! Chords of the chord velocity give the acceleration at the ends of the divisions.
@@ -8,10 +8,10 @@
 use super::chord::{closed_slopes, integral, slopes};
 use crate::sentences;
 use linkage::case::{Case, Grid, Wanted};
-use linkage::error::{Advice, Error, ErrorKind, Result};
+use linkage::error::{Error, ErrorKind, Result};
 use linkage::input::Input;
 use linkage::math::KeepNan;
-use linkage::math::statistics::{half_range, rms, share};
+use linkage::math::statistics::{ends, half_range, rms, share};
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, ChannelSubject, Stage};
 use std::f64::consts::TAU;
@@ -146,6 +146,8 @@ pub struct MotionDiagram {
     pub stride: usize,
     /// What the input measures.
     pub input: Input,
+    /// Whether the motion is a turn, after which it repeats.
+    pub is_closed: bool,
     /// Input of every row (SI unit, as the scenario defines it).
     pub cranks: Vec<f64>,
     /// Time of every row (s).
@@ -159,11 +161,13 @@ pub struct MotionDiagram {
 impl MotionDiagram {
     /// Computes the diagrams of `course` over one turn of the crank, with `divisions` equal divisions.
     /// The turn begins at the crank's start and follows its sense of rotation.
+    /// If the input is a slide, the range of the grid replaces the turn. Chords of chords then begin and end one division
+    /// inside.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for a number of divisions outside [`DIVISIONS`].
     /// [`ErrorKind::Unsupported`] if a drive has no constant speed, or if the solver does not provide a channel.
-    /// Those of the solver, if the crank cannot turn fully.
+    /// The errors of the solver, if the crank cannot turn fully.
     pub fn of(case: &Case, solver: &dyn Solver, course: &MotionCurve, divisions: usize) -> Result<Self> {
         if !DIVISIONS.contains(&divisions) {
             let (least, most) = DIVISIONS.into_inner();
@@ -174,15 +178,16 @@ impl MotionDiagram {
             let message = sentences::THE_CHORD_METHOD_DIVIDES_A_TURN;
             return Err(Error::new(ErrorKind::Unsupported, message).help(sentences::GIVE_THE_DRIVE_A_CONSTANT));
         }
-        let Some((turn, _)) = case.crank().input.period() else {
-            let message = sentences::a_diagram_needs_a_turn(&case.crank().input.noun());
-            return Err(Error::new(ErrorKind::Unsupported, message).help(Advice::SolutionTable));
+        let sense = case.crank().sense();
+        let [low, high] = ends(case.grid.inputs.iter().copied());
+        let (from, span, is_closed) = match case.crank().input.period() {
+            Some((turn, _)) => (case.crank().start, turn, true),
+            None => (if sense > 0.0 { low } else { high }, high - low, false),
         };
         // Every midpoint of a division, a half division or a quarter division is a row.
         let stride = 8 * CURVE.div_ceil(8 * divisions);
         let rows = divisions * stride;
-        let sense = case.crank().sense();
-        let crank = |row: usize| case.crank().start + sense * turn * (row as f64 / rows as f64);
+        let crank = |row: usize| from + sense * span * (row as f64 / rows as f64);
         let grid = Grid::of_inputs(case.crank(), (0..=rows).map(crank).collect());
         let wanted = Wanted::of(&[Stage::Positions, Stage::Velocities, Stage::Accelerations]);
         let trajectory = solver.solve(&case.on(grid)?.wanting(wanted))?;
@@ -197,7 +202,7 @@ impl MotionDiagram {
         let (cranks, times) = (trajectory.inputs().to_vec(), trajectory.times().to_vec());
         let scales = scales(&exact, (times[rows] - times[0]).abs());
         let found = Method::ALL.into_iter().map(|method| {
-            let runs = [stride, stride / 2, stride / 4].map(|stride| apply(method, stride, &times, &exact));
+            let runs = [stride, stride / 2, stride / 4].map(|stride| apply(method, stride, is_closed, &times, &exact));
             let errors = runs.each_ref().map(|(rows, values)| {
                 rows.iter().zip(values).map(|(&row, value)| value - exact[method.gives()][row]).collect::<Vec<f64>>()
             });
@@ -213,7 +218,7 @@ impl MotionDiagram {
         });
         let found = found.collect();
         let input = case.crank().input;
-        Ok(MotionDiagram { course: course.clone(), divisions, stride, input, cranks, times, exact, found })
+        Ok(MotionDiagram { course: course.clone(), divisions, stride, input, is_closed, cranks, times, exact, found })
     }
 
     /// Half the range of an exact curve (SI). Index 0 is the displacement, 1 the velocity, 2 the acceleration.
@@ -230,7 +235,13 @@ fn scales(exact: &[Vec<f64>; 3], period: f64) -> [f64; 3] {
 }
 
 /// Applies a method to divisions of `stride` rows. Returns the rows, and the method's values in these rows.
-fn apply(method: Method, stride: usize, times: &[f64], exact: &[Vec<f64>; 3]) -> (Vec<usize>, Vec<f64>) {
+fn apply(
+    method: Method,
+    stride: usize,
+    is_closed: bool,
+    times: &[f64],
+    exact: &[Vec<f64>; 3],
+) -> (Vec<usize>, Vec<f64>) {
     let ends: Vec<usize> = (0..times.len()).step_by(stride).collect();
     let middles: Vec<usize> = (stride / 2..times.len()).step_by(stride).collect();
     let at = |rows: &[usize], of: &[f64]| rows.iter().map(|&row| of[row]).collect::<Vec<f64>>();
@@ -239,13 +250,15 @@ fn apply(method: Method, stride: usize, times: &[f64], exact: &[Vec<f64>; 3]) ->
     let integrated = |of: usize| integral(exact[of][0], &places, &at(&middles, &exact[of + 1]));
     let values = match method {
         Method::ChordVelocity => velocity(),
-        Method::ChordAcceleration => closed_slopes(&places, &velocity()),
+        Method::ChordAcceleration if is_closed => closed_slopes(&places, &velocity()),
+        Method::ChordAcceleration => slopes(&at(&middles, times), &velocity()),
         Method::IntegratedDisplacement => integrated(0),
         Method::IntegratedVelocity => integrated(1),
     };
     let rows = match method {
         Method::ChordVelocity => middles,
-        Method::ChordAcceleration => ends[1..].to_vec(),
+        Method::ChordAcceleration if is_closed => ends[1..].to_vec(),
+        Method::ChordAcceleration => ends[1..ends.len() - 1].to_vec(),
         Method::IntegratedDisplacement | Method::IntegratedVelocity => ends,
     };
     (rows, values)

@@ -28,7 +28,7 @@ const THIN: f64 = 0.2;
 /// Draws a clearance question and its result. Many positions of each link show its swept area.
 ///
 /// # Errors
-/// Those of the pose solver.
+/// The errors of the pose solver.
 pub fn clearance(case: &Case, name: &str, asked: &ClearanceQuestion, found: &ClearanceResult) -> Result<String> {
     let [from, to] = found.range;
     let cranks: Vec<f64> = (0..=POSITIONS).map(|k| from + (to - from) * (k as f64 / POSITIONS as f64)).collect();

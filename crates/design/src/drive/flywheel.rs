@@ -32,7 +32,7 @@ impl Flywheel {
     /// # Errors
     /// [`ErrorKind::Input`] for a coefficient that is not positive.
     /// [`ErrorKind::Numeric`] for a coefficient that no flywheel reaches.
-    /// Those of [`ReducedModel::regime`].
+    /// The errors of [`ReducedModel::regime`].
     pub fn of(model: &ReducedModel, wanted: f64, accuracy: f64) -> Result<Self> {
         if !(wanted > 0.0 && wanted.is_finite()) {
             let message = sentences::a_coefficient_of_non_uniformity(&wanted);

@@ -91,7 +91,7 @@ impl MotorChoice {
     /// # Errors
     /// [`ErrorKind::Input`] for an efficiency of 0 or less or above 1, or if every motor is too weak.
     /// [`ErrorKind::Numeric`] if the mechanism needs no motor, or the motor has no steady speed.
-    /// Those of [`ReducedModel::of`] and of its extremes.
+    /// The errors of [`ReducedModel::of`] and of the search for its extremes.
     pub fn of(case: &Case, catalogue: &[CatalogueMotor], efficiency: f64) -> Result<Self> {
         if !(efficiency > 0.0 && efficiency <= 1.0) {
             return Err(Error::new(ErrorKind::Input, sentences::the_efficiency_is(&efficiency))

@@ -55,7 +55,7 @@ use linkage::solver::Solver;
 /// [`ErrorKind::Input`](linkage::ErrorKind::Input) for a step that is not positive and finite.
 /// [`ErrorKind::Unsupported`](linkage::ErrorKind::Unsupported) for names that MuJoCo does not accept, and for loads and
 /// drives that MJCF cannot express.
-/// Those of the solver.
+/// The errors of the solver.
 pub fn mjcf(case: &Case, solver: &dyn Solver, name: &str, step: f64) -> Result<String> {
     let start = first_state(case, solver)?;
     let model = MjcfModel::new(case, &start, name, step)?;

@@ -129,7 +129,7 @@ impl<'a> Planner<'a> {
 ///
 /// # Errors
 /// [`ErrorKind::Input`] for a crank angle too far away to be reached step by step.
-/// Those of the solver.
+/// The errors of the solver.
 pub fn state_at(case: &Case, solver: &dyn Solver, crank: f64) -> Result<State> {
     let grid = Grid::of_inputs(case.crank(), vec![crank]);
     grid.check(&case.drives).map_err(|message| {

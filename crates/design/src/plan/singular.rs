@@ -33,7 +33,7 @@ pub struct SingularPoint {
     pub velocity: Vec2,
     /// Accelerations of the point on the first and on the second base link (m/s^2).
     pub accelerations: [Vec2; 2],
-    /// Link, angular velocity (rad/s) and angular acceleration (rad/s^2): the two base links, then the two leads.
+    /// Links with angular velocity (rad/s) and angular acceleration (rad/s^2): the two base links, then the two leads.
     pub links: [(LinkId, f64, f64); 4],
 }
 

@@ -82,7 +82,7 @@ pub fn slides(mechanism: &Mechanism, places: &mut Vec<NamedPoint>) -> Vec<Slide>
     all
 }
 
-/// Returns `name` and its letter. The name and the letter get as many primes as make them unique.
+/// Returns `name` and its letter in the plans. Both get as many primes as make them unique.
 fn unused(name: String, places: &[NamedPoint], others: &[Named]) -> Named {
     let name = primed(name, |name| {
         let letter = name.to_lowercase();

@@ -88,7 +88,7 @@ impl Achieved {
     /// chosen.
     ///
     /// # Errors
-    /// Those of [`Achieved::of`].
+    /// The errors of [`Achieved::of`].
     pub fn of_either(task: &Task) -> Result<Self> {
         if let Some(forward) = task.forward {
             return Achieved::of(task, forward);

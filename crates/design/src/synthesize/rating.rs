@@ -17,7 +17,7 @@ use linkage::math::statistics::ends;
 /// Weight of two terms relative to motion in a dwell.
 /// The terms are motion in the wrong sense, and too little motion in a moving phase.
 const WRONG: f64 = 4.0;
-/// At the limit between two opposite motions, the output's rate should be zero.
+/// Where a motion ends and the opposite motion begins, the output's rate should be zero.
 /// The rate times this crank angle (rad, 20 deg) counts as a deviation (fraction of the stroke).
 const LATE: f64 = TAU / 18.0;
 /// Distance between a limit of a phase and each of the two rows beside it (rad, 0.25 deg).

@@ -22,7 +22,7 @@ use linkage::solver::Progress;
 use linkage::threads::{cores, made};
 use refine::{Candidate, even, free_zero, of_share, values};
 
-/// Number of equal parts of the turn for the cost of random candidates.
+/// Number of evenly spaced crank angles at which the cost of a random candidate is computed.
 const COARSE: usize = 72;
 /// Candidates per random stream.
 const BLOCK: usize = 4096;
@@ -63,8 +63,8 @@ pub struct SearchResult {
 /// `progress` is called with values from 0 to 1.
 ///
 /// # Errors
-/// Those of [`Task::check`]; [`ErrorKind::Numeric`] if no candidate assembles over the whole turn and nearly keeps the
-/// limits.
+/// The errors of [`Task::check`]; [`ErrorKind::Numeric`] if no candidate assembles over the whole turn and nearly keeps
+/// the limits.
 pub fn search(task: &Task, threads: usize, progress: Progress) -> Result<SearchResult> {
     task.check()?;
     let threads = if threads == 0 { cores() } else { threads.min(MOST_THREADS) };

@@ -37,7 +37,7 @@ impl TaskFile {
     /// # Errors
     /// [`ErrorKind::Io`] if a file cannot be read.
     /// [`ErrorKind::Input`] for a mistake in a file.
-    /// Those of [`Scenario::load`] and [`Task::check`].
+    /// The errors of [`Scenario::load`] and [`Task::check`].
     pub fn load(path: &Path) -> Result<Self> {
         let text = files::read_text(path).map_err(|error| {
             Error::new(ErrorKind::Io, sentences::the_synthesis_file_cannot_be_read(&path.display(), &error))

@@ -1,5 +1,5 @@
 //! The methods that are measured.
-//! They cover steps, sweeps, routes and extrapolations of every engine, and accuracies of the sides.
+//! The methods cover steps, sweeps, routes and extrapolations of every engine, and accuracies of the sides.
 
 use super::options::BenchOptions;
 use super::peer::Way;
@@ -53,7 +53,7 @@ impl Planned {
         }
     }
 
-    /// A peer's own way.
+    /// A method that a peer offers.
     pub(super) fn of_peer(index: usize, name: &str, way: Way) -> Self {
         let words = way.name.clone();
         let mut planned = Planned::new(name, MethodOwner::Peer, way.resolution.clone(), Runner::Peer(index, way));

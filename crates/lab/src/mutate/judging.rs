@@ -1,7 +1,7 @@
 //! Tests of the judgement, part by part.
 //! One quantity at a time is wrong, by an amount that does not depend on bounds.
 //! Each test names the checks that must find the fault.
-//! It fails if a bound is a thousand times too wide, or if a comparison is missing.
+//! A test fails if a bound is a thousand times too wide, or if a comparison is missing.
 
 use super::kinds::kinds;
 use super::mutant::FaultyParty;

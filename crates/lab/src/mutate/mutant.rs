@@ -16,7 +16,7 @@ linkage::words! {
         Engine = "engine",
         /// The code that all parties share.
         All = "trunk",
-        /// The formulas that are judged.
+        /// The judged formulas.
         Formulas = "formulas",
     }
 }

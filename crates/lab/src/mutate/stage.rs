@@ -186,7 +186,7 @@ impl<'a> Stage<'a> {
     }
 }
 
-/// The engine with cached runs. The first engine that is passed in makes these runs.
+/// The engine with cached runs. The engine of the first call makes these runs.
 fn kept_in(runs: &OnceLock<CachedEngine>, engine: Box<dyn Engine>) -> Box<dyn Engine> {
     runs.get_or_init(|| CachedEngine::new(engine.as_ref())).with(engine.settings())
 }

@@ -17,7 +17,7 @@ use super::sketch::RandomSource;
 const WHEEL: &str = "wheel";
 
 /// The mechanism of `case` with a wheel on one of its links, the carrier.
-/// The wheel is coupled to a link that is hinged to the carrier. Its mass centre is off its axle.
+/// The wheel is coupled to a link that is hinged to the carrier. The wheel's mass centre is off its axle.
 /// `None` if the structure does not allow the wheel.
 pub fn geared(random: &mut RandomSource, case: &Case) -> Option<Case> {
     let (joints, size) = (case.mechanism.joints(), case.mechanism.size());
@@ -32,7 +32,7 @@ pub fn geared(random: &mut RandomSource, case: &Case) -> Option<Case> {
     let local = joints[pin].on(carrier)? + unit(away) * distance;
     let kind = kind(random, distance);
     // The arm of a follower is half the distance of the axles.
-    // It is perpendicular to the line from the cam's axle to the roller's centre.
+    // The arm is perpendicular to the line from the cam's axle to the roller's centre.
     let start = if let TransmissionKind::Cam { .. } = kind { away + PI + FRAC_PI_3 } else { start };
     let wheel = LinkId(case.mechanism.links().len());
     let mut links = case.mechanism.links().to_vec();
@@ -51,7 +51,15 @@ pub fn geared(random: &mut RandomSource, case: &Case) -> Option<Case> {
     let [one, other] = [JointSide { link: carrier, local }, JointSide { link: wheel, local: Vec2::zeros() }];
     all.push(Joint { name: WHEEL.into(), kind: JointKind::Revolute, first: one, second: other, drawn: None });
     let joint = JointId(joints.len());
-    let design = TransmissionDesign { name: "pair".into(), kind, links: [first, wheel], carrier, joint, start };
+    let design = TransmissionDesign {
+        name: "pair".into(),
+        kind,
+        links: [first, wheel],
+        carrier,
+        joint,
+        start,
+        efficiency: [1.0; 2],
+    };
     let mechanism = Mechanism::new(links, all).ok()?.with_transmissions(vec![design]).ok()?;
     let mut pose = case.start.clone();
     let placed = mechanism.joints()[joint].driven(wheel, &pose.0[carrier], Input::Turn, start);

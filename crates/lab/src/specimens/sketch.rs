@@ -62,7 +62,7 @@ impl RandomSource {
 #[derive(Clone, Copy, Debug)]
 pub struct DrawnJoint {
     /// World positions of the joint on the two links, in the order of the arguments.
-    /// They coincide for a revolute joint; for a prismatic joint they are two points along the axis.
+    /// The two positions coincide for a revolute joint; for a prismatic joint they are two points along the axis.
     pub places: [Vec2; 2],
     /// World direction of a prismatic joint's axis; zero for a revolute joint.
     pub axis: Vec2,

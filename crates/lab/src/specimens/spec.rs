@@ -22,7 +22,7 @@ pub struct SpecimenLink {
 pub struct Pin {
     /// Name of the joint and of its point.
     pub name: String,
-    /// Its links.
+    /// The two links of the joint.
     pub links: [String; 2],
 }
 
@@ -32,7 +32,7 @@ pub struct Pin {
 pub struct Guide {
     /// Name.
     pub name: String,
-    /// Its links.
+    /// The two links of the joint.
     pub links: [String; 2],
     /// Names of the joint's points on the two links.
     pub points: [String; 2],
@@ -76,7 +76,7 @@ impl Ask {
 pub struct Start {
     /// The links of the group.
     pub links: Vec<String>,
-    /// Its configuration.
+    /// Requested configuration of the group.
     pub ask: Ask,
 }
 

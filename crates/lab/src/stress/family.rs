@@ -39,7 +39,7 @@ impl Setup {
 }
 
 /// Work allowed for an engine's search for settings at one point, in steps without sweeps.
-/// It is a hundredth of the work allowed for a proof.
+/// This limit is a hundredth of the work allowed for a proof.
 pub const WORK: f64 = 2e5;
 
 /// A family: mechanisms or settings with one varied parameter.

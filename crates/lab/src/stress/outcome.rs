@@ -22,13 +22,13 @@ linkage::words! {
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
     #[serde(rename_all = "lowercase")]
     pub enum PointEnd: word {
-        /// It agrees.
+        /// The proof agrees.
         Agree = "agree",
         /// The proof decides nothing.
         Inconclusive = "inconclusive",
-        /// It disagrees.
+        /// The proof disagrees.
         Disagree = "disagree",
-        /// It has no numbers.
+        /// The solver or engine gives no numbers.
         #[default]
         Fails = "fails",
     }
@@ -79,9 +79,9 @@ pub struct PartyAtPoint {
     /// Step (s) of the run that is judged.
     #[serde(rename = "step_s")]
     pub step: Option<f64>,
-    /// Its sweeps.
+    /// Number of sweeps of this run.
     pub sweeps: Option<usize>,
-    /// Its extrapolations.
+    /// Number of extrapolations of this run.
     pub extrapolated: Option<usize>,
     /// Number of steps in the duration of the grid.
     pub steps: Option<f64>,

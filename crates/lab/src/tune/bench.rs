@@ -29,7 +29,7 @@ const COARSER: f64 = 1.4;
 const GAIN: f64 = 0.95;
 /// Coarse steps, as rotations of the fastest driving link (rad), from which the lower limit of a run's cost is
 /// measured.
-/// With such a step, a run costs little more than its readings.
+/// With such a step, reading the results is most of a run's cost.
 /// The first step at which the engine runs is used.
 const ROUGH: [f64; 3] = [PI / 6.0, PI / 18.0, PI / 54.0];
 
@@ -197,7 +197,7 @@ impl Bench<'_> {
         }
     }
 
-    /// Lower limit of the cost of one method, from runs so coarse that they cost little more than their readings.
+    /// Lower limit of the cost of one method, from runs so coarse that reading the results is most of their cost.
     /// The measurement stops as soon as the cost is known to exceed `limit`.
     fn floor(&mut self, engine: &dyn Engine, way: &Settings, sweeps: &[usize], limit: f64) -> Floor {
         let rough = match engine.controls_error() {
@@ -263,7 +263,7 @@ impl Bench<'_> {
         let at = |factor: f64| Settings { resolution: settings.resolution * factor, ..settings };
         let mut rungs = vec![at(2.0), settings, at(0.5)];
         // The comparison run has twice the sweeps.
-        // Its iteration error is small compared with that of the run at `settings`.
+        // The iteration error of the comparison run is small compared with that of the run at `settings`.
         // The difference of the two runs is therefore the iteration error at `settings`.
         // (A proof compares with a run with half of the sweeps. That run costs a quarter of a run with twice the
         // sweeps, but its comparison overestimates the error.)

@@ -10,7 +10,7 @@ use linkage::work::{Count, counted};
 use prover::engines::EngineName;
 
 /// Additional steps of a run outside the interval from the first to the last instant.
-/// They are a few steps backwards, the same number of steps forwards, and some steps beyond the end.
+/// These are a few steps backwards, the same number of steps forwards, and some steps beyond the end.
 const EXTRA_STEPS: f64 = 16.0;
 /// Number of tiny steps of a probe in every world.
 const TINY_STEPS: f64 = 5.0;

@@ -29,7 +29,7 @@ pub(super) enum Found {
     Step {
         /// The step.
         resolution: f64,
-        /// Its run.
+        /// The run with this step.
         measured: Measured,
     },
     /// The request would cost more than the limit.
@@ -37,7 +37,7 @@ pub(super) enum Found {
     TooDear {
         /// The step.
         resolution: f64,
-        /// Its error.
+        /// Measured or expected error at this step.
         error: f64,
     },
     /// No step meets the error; the number is the smallest error found.

@@ -22,13 +22,14 @@ struct Wish {
     axes: Option<[f64; 2]>,
 }
 
-/// A transmission given by names: of itself, of its members and carrier, and of the joint that gives its start.
+/// A transmission by names: those of the transmission, its members, its carrier and the joint that sets its start.
 #[derive(Clone, Debug)]
 struct Coupling {
     name: String,
     kind: TransmissionKind,
     links: [String; 3],
     start: (String, f64),
+    efficiency: [f64; 2],
 }
 
 /// Builds a [`Case`] from names and numbers (SI units).
@@ -155,7 +156,15 @@ impl CaseBuilder {
         start: (&str, f64),
     ) -> Self {
         let links = [first, second, carrier].map(ToString::to_string);
-        self.transmissions.push(Coupling { name: name.into(), kind, links, start: (start.0.into(), start.1) });
+        let start = (start.0.into(), start.1);
+        self.transmissions.push(Coupling { name: name.into(), kind, links, start, efficiency: [1.0; 2] });
+        self
+    }
+
+    /// Gives the last transmission its efficiencies: if power flows from the first member to the second, and back.
+    #[must_use]
+    pub fn efficiency(mut self, efficiency: [f64; 2]) -> Self {
+        self.transmissions.iter_mut().next_back().into_iter().for_each(|own| own.efficiency = efficiency);
         self
     }
 
@@ -312,6 +321,7 @@ impl CaseBuilder {
             carrier: self.link_of(carrier, &key)?,
             joint: joint.ok_or_else(|| unknown("joint", &own.start.0, &key, known))?,
             start: own.start.1,
+            efficiency: own.efficiency,
         })
     }
 

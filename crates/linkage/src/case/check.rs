@@ -212,6 +212,11 @@ fn loads(parts: &CaseParts) -> Result<()> {
             return fault(sentences::friction_grows_without_bound(&own.name));
         }
     }
+    if parts.drives.crank().through
+        && let Some(own) = parts.mechanism.transmissions().iter().find(|own| own.losses.is_some())
+    {
+        return Err(wrong("transmissions", sentences::losses_grow_without_bound(&own.name())));
+    }
     Ok(())
 }
 

@@ -11,7 +11,7 @@ impl Case {
     /// Structure of the mechanism if the first drive moves `joint` instead of its present joint. Further drives stay.
     ///
     /// # Errors
-    /// Those of [`Structure::of_driven`].
+    /// The errors of [`Structure::of_driven`].
     pub fn structure_at(&self, joint: JointId) -> Result<Structure> {
         let further = self.drives.further().iter().map(|own| DrivenJoint { joint: own.joint, input: own.input });
         let (input, _) = Drive::of_joint(&self.mechanism.joints()[joint], &[], false);
@@ -21,10 +21,10 @@ impl Case {
 
     /// This case with the first drive at `joint`, from the same start pose.
     /// If this joint is the start joint of a transmission, the joint of its first member with the carrier replaces it.
-    /// `law` gives the law of motion for the kind of input. The grid has these times (s).
+    /// `law` gives the law of motion for the kind of input. The grid consists of `times` (s).
     ///
     /// # Errors
-    /// Those of [`Structure::of`] and [`Case::new`].
+    /// The errors of [`Structure::of`] and [`Case::new`].
     pub fn driven_at(&self, joint: JointId, law: impl FnOnce(Input) -> MotionLaw, times: Vec<f64>) -> Result<Case> {
         let driven: Vec<DrivenJoint> = self.structure_at(joint)?.drivers.iter().map(DrivenJoint::from).collect();
         let mechanism = self.with_start_beside(joint)?;

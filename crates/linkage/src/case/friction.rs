@@ -1,45 +1,80 @@
-//! Dry friction in the joints.
+//! Dry friction in the joints, and losses of transmissions.
 //!
 //! Friction acts against the sliding of a joint.
 //! Its size is the coefficient of friction mu times the sum of the normal forces of the joint's contacts.
 //! A journal of the radius r has one contact, with the force R of the joint: the moment is mu r |R|.
 //! A guide of the length l carries the force N and the moment M by contacts at its two ends.
-//! Their forces are N/2 + M/l and N/2 - M/l; the sum of the absolute values is the larger of |N| and 2 |M| / l.
+//! The contact forces are N/2 + M/l and N/2 - M/l; the sum of the absolute values is the larger of |N| and 2 |M| / l.
+//! A transmission with an efficiency loses a fraction of its power, which depends on the sense of the power.
+//! The loss acts like friction: a moment between carrier and first member, proportional to the force F of the transmission.
 //! See docs/numerics/friction.md.
 //! J. L. Meriam, L. G. Kraige, Engineering Mechanics: Statics, 7th ed., Wiley 2012, sections 6/3 and 6/6.
 //! The radius of the friction circle is mu r here. The forces of the two contacts follow from equilibrium.
 
 use super::{Case, STANDSTILL, fastest};
-use crate::drive::{Action, Load, Wrench};
+use crate::drive::{Action, Load, Senses, Wrench};
 use crate::math::{KeepNan, Motion, Vec2};
-use crate::mechanism::{Joint, JointId};
+use crate::mechanism::{Joint, JointId, LinkId, Losses, Transmission, TransmissionId};
 
-/// The friction of a joint.
+/// The friction of a joint, or the loss of a transmission.
 #[derive(Clone, Copy, Debug)]
 pub struct Friction<'a> {
     case: &'a Case,
-    /// Index of the friction in the loads of the case.
-    pub load: usize,
-    /// The joint.
+    /// Index of its sense in [`Case::senses`].
+    pub index: usize,
+    /// The joint. For a transmission, the joint whose coordinate shows the sense of the motion.
     pub joint: JointId,
-    coefficient: f64,
-    /// Radius of the journal, or length of the guide (m).
-    length: f64,
+    /// Whose friction it is.
+    pub seat: FrictionSeat,
+}
+
+/// Whose friction it is.
+#[derive(Clone, Copy, Debug)]
+pub enum FrictionSeat {
+    /// That of a joint.
+    Joint {
+        /// Coefficient of friction.
+        coefficient: f64,
+        /// Radius of the journal, or length of the guide (m).
+        length: f64,
+    },
+    /// The loss of a transmission.
+    Mesh {
+        /// The transmission.
+        transmission: TransmissionId,
+        /// The carrier and the first member.
+        links: [LinkId; 2],
+        /// The losses.
+        losses: Losses,
+    },
 }
 
 impl Case {
-    /// The joints with friction, in the order of the loads.
+    /// The joints with friction, in the order of the loads, then the transmissions with losses.
     pub fn frictions(&self) -> impl Iterator<Item = Friction<'_>> {
-        self.loads.iter().enumerate().filter_map(|(load, own)| {
+        let in_joints = self.loads.iter().enumerate().filter_map(|(index, own)| {
             let &Load::Friction { joint, links: _, coefficient, length } = own else { return None };
-            Some(Friction { case: self, load, joint, coefficient, length })
-        })
+            Some(Friction { case: self, index, joint, seat: FrictionSeat::Joint { coefficient, length } })
+        });
+        let in_meshes = self.mechanism.transmissions().entries().filter_map(|(transmission, own)| {
+            let losses = own.losses?;
+            let links = [own.design.carrier, own.design.links[0]];
+            let seat = FrictionSeat::Mesh { transmission, links, losses };
+            Some(Friction { case: self, index: self.loads.len() + transmission.index(), joint: losses.joint, seat })
+        });
+        in_joints.chain(in_meshes)
     }
 
-    /// Whether any joint has friction.
+    /// For every load, then for every transmission: the motion on whose sense it depends.
+    pub fn senses(&self) -> impl Iterator<Item = Senses> {
+        let of_mesh = |own: &Transmission| own.losses.map_or(Senses::Nothing, |losses| Senses::Joint(losses.joint));
+        self.loads.iter().map(|load| load.nature().senses).chain(self.mechanism.transmissions().iter().map(of_mesh))
+    }
+
+    /// Whether any joint has friction, or any transmission has losses.
     #[must_use]
     pub fn has_friction(&self) -> bool {
-        self.loads.iter().any(Load::is_friction)
+        self.frictions().next().is_some()
     }
 
     /// Rate of a joint's coordinate (rad/s or m/s).
@@ -54,8 +89,8 @@ impl Case {
 }
 
 impl Case {
-    /// Adds the friction of all joints to the loads on all links.
-    /// `efforts` is the friction on the second link of each joint (N m or N), in the order of [`Case::frictions`].
+    /// Adds all frictions to the loads on all links.
+    /// `efforts` contains [`Friction::effort`] of each friction, in the order of [`Case::frictions`].
     pub fn add_friction(&self, efforts: &[f64], motions: &[Motion], out: &mut [Wrench]) {
         for (friction, &effort) in self.frictions().zip(efforts) {
             for action in friction.act(effort, motions) {
@@ -66,12 +101,15 @@ impl Case {
 }
 
 /// Reactions of all joints on the second links: forces (N), and moments about the joints' points on these links (N m).
+/// Forces of all transmissions (N).
 #[derive(Clone, Copy, Debug)]
 pub struct JointReactions<'a> {
     /// One force per joint.
     pub forces: &'a [Vec2],
     /// One moment per joint.
     pub moments: &'a [f64],
+    /// One force per transmission.
+    pub transmitted: &'a [f64],
 }
 
 impl Friction<'_> {
@@ -79,33 +117,88 @@ impl Friction<'_> {
         &self.case.mechanism.joints()[self.joint]
     }
 
-    /// Sum of the contacts' normal forces (N), which is a norm of the reaction.
-    /// The reaction has a force (N), and a moment about the joint's point on the second link (N m).
+    /// Whether it is the loss of a transmission.
     #[must_use]
-    pub fn normal(&self, force: Vec2, moment: f64) -> f64 {
-        match self.of_joint().slides() && self.length > 0.0 {
-            true => force.norm().larger(2.0 * moment.abs() / self.length),
-            false => force.norm(),
+    pub fn is_mesh(&self) -> bool {
+        matches!(self.seat, FrictionSeat::Mesh { .. })
+    }
+
+    /// Name of the joint or transmission, and whether the friction is a force (N) instead of a moment (N m).
+    #[must_use]
+    pub fn name(&self) -> (&str, bool) {
+        match self.seat {
+            FrictionSeat::Joint { .. } => (&self.of_joint().name, self.of_joint().slides()),
+            FrictionSeat::Mesh { transmission, .. } => {
+                (self.case.mechanism.transmissions()[transmission].name(), false)
+            }
+        }
+    }
+
+    /// The reaction on which the friction depends: force (N) and moment (N m).
+    /// For a transmission, the force has the component F along x.
+    #[inline]
+    #[must_use]
+    pub fn reaction(&self, all: JointReactions) -> (Vec2, f64) {
+        match self.seat {
+            FrictionSeat::Joint { .. } => (all.forces[self.joint.index()], all.moments[self.joint.index()]),
+            FrictionSeat::Mesh { transmission, .. } => (Vec2::new(all.transmitted[transmission.index()], 0.0), 0.0),
+        }
+    }
+
+    /// Sum of the contacts' normal forces (N), which is a norm of the reaction. For a transmission: the force, times the
+    /// lost fraction of its power.
+    /// `sense` is the sense of [`rate`](Friction::rate).
+    #[must_use]
+    pub fn normal(&self, (force, moment): (Vec2, f64), sense: f64) -> f64 {
+        match self.seat {
+            FrictionSeat::Joint { length, .. } if self.of_joint().slides() && length > 0.0 => {
+                force.norm().larger(2.0 * moment.abs() / length)
+            }
+            FrictionSeat::Joint { .. } => force.norm(),
+            FrictionSeat::Mesh { losses, .. } => losses.normal(force.x, sense)[0],
+        }
+    }
+
+    /// The largest change of [`normal`](Friction::normal) for a change of the reaction.
+    #[must_use]
+    pub fn largest(&self, change: (Vec2, f64)) -> f64 {
+        match self.seat {
+            FrictionSeat::Joint { .. } => self.normal(change, 1.0),
+            FrictionSeat::Mesh { losses: Losses { lost: [forward, back], .. }, .. } => {
+                change.0.norm() * forward.larger(back)
+            }
         }
     }
 
     /// Friction divided by [`normal`](Friction::normal): mu r in a revolute joint (m), mu in a prismatic joint (1).
+    /// For a transmission, the lever of its force for the joint's coordinate.
     #[must_use]
     pub fn lever(&self) -> f64 {
-        if self.of_joint().slides() { self.coefficient } else { self.coefficient * self.length }
+        match self.seat {
+            FrictionSeat::Joint { coefficient, .. } if self.of_joint().slides() => coefficient,
+            FrictionSeat::Joint { coefficient, length } => coefficient * length,
+            FrictionSeat::Mesh { losses, .. } => (losses.lever * losses.per).abs(),
+        }
     }
 
     /// Sliding speed of the contact divided by the rate of the joint's coordinate: the radius of a journal (m), 1 for a
-    /// guide.
+    /// guide, 0 for a transmission.
     #[must_use]
     pub fn contact(&self) -> f64 {
-        if self.of_joint().slides() { 1.0 } else { self.length }
+        match self.seat {
+            FrictionSeat::Joint { length, .. } if !self.of_joint().slides() => length,
+            FrictionSeat::Joint { .. } => 1.0,
+            FrictionSeat::Mesh { .. } => 0.0,
+        }
     }
 
     /// Length of the guide (m). It is zero for a revolute joint, and if the moment of the guide causes no friction.
     #[must_use]
     pub fn guide(&self) -> f64 {
-        if self.of_joint().slides() { self.length } else { 0.0 }
+        match self.seat {
+            FrictionSeat::Joint { length, .. } if self.of_joint().slides() => length,
+            FrictionSeat::Joint { .. } | FrictionSeat::Mesh { .. } => 0.0,
+        }
     }
 
     /// [`Case::joint_rate`] of the joint.
@@ -114,19 +207,41 @@ impl Friction<'_> {
         self.case.joint_rate(motions, self.joint)
     }
 
-    /// Friction on the second link (N m or N) for these reactions, positive if it increases the joint's coordinate.
-    /// It is zero at standstill.
+    /// Friction for these reactions (N m or N), positive if it increases the joint's coordinate.
+    /// The friction of a joint is that on its second link. Friction is zero at standstill.
     #[must_use]
     pub fn effort(&self, motions: &[Motion], reactions: JointReactions) -> f64 {
-        let (rate, joint) = (self.rate(motions), self.joint.index());
-        let normal = self.normal(reactions.forces[joint], reactions.moments[joint]);
+        let rate = self.rate(motions);
+        let normal = self.normal(self.reaction(reactions), rate);
         if rate == 0.0 { 0.0 } else { -rate.signum() * self.lever() * normal }
     }
 
-    /// Actions of the friction on the joint's first link, then on its second link.
-    /// `effort` is the friction on the second link (N m or N), positive if it increases the joint's coordinate.
+    /// Actions of the friction on the joint's first link, then on its second link. For a transmission: on the carrier, then
+    /// on the first member.
+    /// `effort` is [`effort`](Friction::effort).
     #[must_use]
     pub fn act(&self, effort: f64, motions: &[Motion]) -> [Action; 2] {
-        Action::pair(self.of_joint(), effort, motions)
+        match self.seat {
+            FrictionSeat::Joint { .. } => Action::pair(self.of_joint(), effort, motions),
+            FrictionSeat::Mesh { links: [carrier, first], losses, .. } => {
+                // The power is effort times the rate of the joint's coordinate.
+                let moment = effort / losses.per;
+                [Action::of_moment(carrier, -moment), Action::of_moment(first, moment)]
+            }
+        }
+    }
+}
+
+impl Losses {
+    /// The force of the transmission (N) times the lost fraction of its power, and its derivative by the force.
+    /// `sense` is the sense of the joint's coordinate. Both are zero at standstill.
+    #[must_use]
+    pub fn normal(&self, force: f64, sense: f64) -> [f64; 2] {
+        if sense == 0.0 {
+            return [0.0; 2];
+        }
+        let way = if sense > 0.0 { self.lever.signum() } else { -self.lever.signum() };
+        let lost = if force * way >= 0.0 { self.lost[0] } else { -self.lost[1] };
+        [lost * way * force, lost * way]
     }
 }

@@ -6,7 +6,7 @@ use crate::drive::{Drive, Drives, Load};
 use crate::error::Result;
 use crate::mechanism::{
     AssemblyMode, DrivingLink, GROUND, Group, GroupId, Joint, JointId, JointSide, Link, LinkId, Mechanism, Ordinal,
-    PerLink, Pose, Structure, Transmission,
+    PerLink, Pose, Structure, Transmission, TransmissionDesign,
 };
 use crate::trajectory::{Channel, Stage};
 
@@ -218,8 +218,12 @@ impl<'a> Needs<'a> {
         };
         let joints = whole.joints().iter().filter(|joint| self.has_joint(joint)).map(own_joint).collect();
         let stays = |own: &&Transmission| own.links().into_iter().all(|link| self.moves[link]);
-        let own_transmission =
-            |own: &Transmission| own.design.renumbered(|link| link_number[link], |joint| joint_number[joint]);
+        let own_transmission = |own: &Transmission| {
+            let design = own.design.renumbered(|link| link_number[link], |joint| joint_number[joint]);
+            // Losses need the force of the transmission.
+            let is_known = own.links().into_iter().any(|link| link != GROUND && self.carries[link]);
+            if is_known { design } else { TransmissionDesign { efficiency: [1.0; 2], ..design } }
+        };
         let transmissions = whole.transmissions().iter().filter(stays).map(own_transmission).collect();
         let mechanism = Mechanism::new(self.links(), joints)?.with_transmissions(transmissions)?;
         let own_drive =

@@ -59,7 +59,7 @@ impl Case {
             };
             (subject, name, Seat::Drive(index))
         });
-        let frictions = self.frictions().map(move |own| {
+        let frictions = self.frictions().filter(|own| !own.is_mesh()).map(move |own| {
             let joint = &joints[own.joint];
             let subject = if joint.slides() { ChannelSubject::Guide } else { ChannelSubject::Journal };
             (subject, joint.name.as_str(), Seat::Joint(own.joint))

@@ -1,4 +1,4 @@
-//! A quantity that may depend on the crank angle.
+//! A quantity that may depend on the crank angle, or on the slide of the first drive.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -9,7 +9,10 @@ use crate::math::{Piecewise, just_below};
 /// At the stated crank angle, all solvers therefore find the value after the jump.
 const BEFORE: f64 = 4e-9;
 
-/// Values beside a jump are equal within this share.
+/// A table over a slide is constant up to this multiple of its largest slide plus 1 m.
+const FAR: f64 = 100.0;
+
+/// If the values on both sides of a knot differ relatively by no more than twice this number, there is no jump.
 const EQUAL: f64 = 1e-12;
 
 /// A constant, or a table of values against the crank angle.
@@ -17,12 +20,12 @@ const EQUAL: f64 = 1e-12;
 pub enum Course {
     /// The value, the same at every crank angle.
     Constant(f64),
-    /// A periodic function of the crank angle (rad, in the scenario's convention).
+    /// A function of the input of the first drive: crank angle (rad, in the scenario's convention) or slide (m).
     Table {
-        /// The function. Its period is `turns` revolutions of the crank.
+        /// The function, which is periodic.
         function: Arc<Piecewise>,
-        /// Period in revolutions of the crank.
-        turns: u32,
+        /// Period in revolutions of the crank; `None` for a table over a slide, which does not repeat.
+        turns: Option<u32>,
     },
 }
 
@@ -42,10 +45,23 @@ impl Course {
         } else {
             Piecewise::periodic_lines(points, period).with_jumps_before(BEFORE)
         };
-        Course::Table { function: Arc::new(function), turns }
+        Course::Table { function: Arc::new(function), turns: Some(turns) }
     }
 
-    /// Value at the crank angle `crank` (rad).
+    /// Returns a table through points of slide (m) and value, joined by straight lines.
+    /// There must be at least one point. The slides ascend. Beyond its ends the table keeps its first and last value.
+    /// Two points with the same slide make a jump, as in [`Course::table`].
+    #[must_use]
+    pub fn over_slide(points: &[(f64, f64)]) -> Self {
+        let [first, last] = [points[0], points[points.len() - 1]];
+        let far = FAR * (1.0 + first.0.abs() + last.0.abs());
+        let all: Vec<(f64, f64)> =
+            points.iter().copied().chain([(last.0 + far, last.1), (first.0 + 3.0 * far, first.1)]).collect();
+        let function = Piecewise::periodic_lines(&all, 4.0 * far).with_jumps_before(BEFORE);
+        Course::Table { function: Arc::new(function), turns: None }
+    }
+
+    /// Value at the crank angle `crank` (rad) or slide (m).
     #[inline]
     #[must_use]
     pub fn at(&self, crank: f64) -> f64 {
@@ -60,7 +76,9 @@ impl Course {
     pub fn is_sound(&self) -> bool {
         match self {
             Course::Constant(value) => value.is_finite(),
-            Course::Table { function, turns } => *turns > 0 && function.knots().iter().all(|knot| knot.is_finite()),
+            Course::Table { function, turns } => {
+                *turns != Some(0) && function.knots().iter().all(|knot| knot.is_finite())
+            }
         }
     }
 
@@ -75,25 +93,34 @@ impl Course {
         }
     }
 
-    /// Crank angles (rad) at which the table jumps, each with the period (rad) after which the jump repeats.
+    /// Inputs (rad or m) at which the table jumps, each with the period after which the jump repeats.
     pub fn jumps(&self) -> impl Iterator<Item = [f64; 2]> {
-        let (knots, turns) = self.knots().unwrap_or_default();
+        let (knots, period) = self.knots().unwrap_or_default();
         let differs = |a: f64, b: f64| (a - b).abs() > EQUAL * (a.abs() + b.abs());
         let jumps = knots
             .windows(2)
             .filter(move |pair| pair[1] <= pair[0] && differs(self.at(just_below(pair[0])), self.at(pair[0])));
-        jumps.map(move |pair| [pair[0], TAU * f64::from(turns)])
+        jumps.map(move |pair| [pair[0], period])
     }
 
-    /// Breakpoints of the function (crank angles) in one period, and the period in revolutions.
+    /// Breakpoints of the function (rad or m) in one period, and the period.
     /// Between two breakpoints the function is a single polynomial.
     /// `None` for a constant.
     #[must_use]
-    pub fn knots(&self) -> Option<(&[f64], u32)> {
+    pub fn knots(&self) -> Option<(&[f64], f64)> {
         match self {
             Course::Constant(_) => None,
-            Course::Table { function, turns } => Some((function.knots(), *turns)),
+            Course::Table { function, .. } => {
+                let knots = function.knots();
+                Some((knots, knots[knots.len() - 1] - knots[0]))
+            }
         }
+    }
+
+    /// Period of a table in revolutions of the crank: `None` inside for a table over a slide, `None` for a constant.
+    #[must_use]
+    pub fn turns(&self) -> Option<Option<u32>> {
+        if let Course::Table { turns, .. } = self { Some(*turns) } else { None }
     }
 }
 

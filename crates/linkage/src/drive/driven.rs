@@ -20,7 +20,7 @@ pub enum DriveMotion {
         /// Speed at t = 0 (rad/s), counter-clockwise positive.
         initial_speed: f64,
         /// Speed of the nominal motion (rad/s, not zero), counter-clockwise positive.
-        /// The sign of this speed is the motor's sense of rotation. Its absolute value is the reference for speeds.
+        /// The sign of this speed is the motor's sense of rotation. The absolute value is the reference for speeds.
         /// Crank angles refer to the nominal motion.
         nominal_speed: f64,
         /// Motor that drives the link.
@@ -69,8 +69,8 @@ impl Drive {
 
     /// Input and driving link of a drive at `joint`.
     /// A prismatic joint has its slide as input.
-    /// A revolute joint on the ground has the world angle of its moving link as input. So has the joint of a free link
-    /// on the link of one of the drives `before`.
+    /// A revolute joint on the ground has the world angle of its moving link as input.
+    /// The same holds for the joint between a free link and the link of a drive in `before`.
     /// Any other revolute joint has the angle between its two links as input.
     #[must_use]
     pub fn of_joint(joint: &Joint, before: &[Drive], is_free: bool) -> (Input, LinkId) {

@@ -26,7 +26,7 @@ pub struct InputState {
 #[derive(Clone, Debug, PartialEq)]
 pub enum MotionLaw {
     /// Constant angular velocity (rad/s), counter-clockwise positive.
-    /// It may be 0 in a drive that is not the first one: the drive then holds its joint.
+    /// Only a further drive may have the speed 0: it then holds its joint.
     ConstantSpeed(f64),
     /// Constant acceleration from rest to a final speed. After the acceleration the speed is constant.
     Ramp {
@@ -36,7 +36,7 @@ pub enum MotionLaw {
         time: f64,
     },
     /// Cycloidal motion from rest to rest: rise (s - sin(2 pi s) / 2 pi) with s = t / time.
-    /// Its acceleration, 2 pi rise / time^2 sin(2 pi s), begins and ends with zero.
+    /// The acceleration, 2 pi rise / time^2 sin(2 pi s), begins and ends with zero.
     /// Background: I. I. Artobolevsky, Theory of Mechanisms and Machines, 4th ed., Nauka 1988, on laws of motion of
     /// followers.
     Cycloidal {

@@ -16,7 +16,7 @@ pub enum MotorLaw {
     Linear {
         /// Torque of the straight line at standstill (N m).
         at_rest: f64,
-        /// Slope of the torque with respect to the speed (N m s). Negative for a stable motor.
+        /// Slope of the torque with respect to the speed (N m s), negative for a stable motor.
         slope: f64,
     },
     /// Induction motor after Kloss, with the stator's resistance neglected:

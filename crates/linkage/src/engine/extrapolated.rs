@@ -87,8 +87,8 @@ impl Weights {
             weights.iter().zip(states).fold(Vec2::zeros(), |sum, (weight, state)| sum + of(state) * *weight)
         };
         for (index, link) in case.mechanism.links().entries().skip(1) {
-            // As in the engine's bodies, a link moves by its mass centre, so the motions of the mass centre are
-            // combined. The origin of the link's frame follows from the combined motion.
+            // Engines integrate the motion of mass centres, so the motions of the mass centres are combined.
+            // The origin of the link's frame follows from the combined motion.
             let centre = link.mass_centre;
             let angle = mix(&self.position, &|state| state.angles[index]);
             into.angles[index] = angle;

@@ -60,7 +60,7 @@ impl CachedEngine {
         CachedEngine { inner: engine.with(plain), store: Arc::default() }
     }
 
-    /// Settings of the plain runs that engines at `settings` need and that are not stored yet, without duplicates.
+    /// Settings of the plain runs (without extrapolation) that engines at `settings` need and the store lacks.
     #[must_use]
     pub fn missing(&self, case: &Case, settings: &[Settings]) -> Vec<Settings> {
         let mut missing: Vec<Settings> = Vec::new();

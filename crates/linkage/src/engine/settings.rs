@@ -24,7 +24,7 @@ impl fmt::Display for Route {
     }
 }
 
-/// Settings of an engine. All of them influence results.
+/// Settings of an engine. Every setting influences the results.
 /// An engine lists the settings that it uses in [`told`](super::Engine::told).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {

@@ -11,7 +11,7 @@ pub trait Hook: Clone + Send + Sync + 'static {
     /// The case to solve instead of `case`; `None` to solve `case` itself.
     ///
     /// # Errors
-    /// If no case can be solved. The solver is then not called.
+    /// An error if no case can be solved. The solver is then not called.
     fn case(&self, case: &Case) -> Result<Option<Case>> {
         let _ = case;
         Ok(None)
@@ -31,9 +31,9 @@ pub trait Hook: Clone + Send + Sync + 'static {
 /// A solver or an engine with a [`Hook`]. Apart from the hook it behaves like the wrapped solver or engine.
 #[derive(Clone, Debug)]
 pub struct Wrapped<H, S: ?Sized> {
-    /// What it does differently.
+    /// The changes to the results.
     pub hook: H,
-    /// What it stands for.
+    /// The wrapped solver or engine.
     pub inner: Box<S>,
 }
 

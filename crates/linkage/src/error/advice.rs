@@ -107,7 +107,7 @@ impl Advice {
             _ if matches!(self, Advice::SmallerStep { .. }) => Advice::SmallerStep { to: Some(half) },
             _ if matches!(self, Advice::LargerStep { .. }) => Advice::LargerStep { to: Some(double) },
             _ if matches!(self, Advice::MoreSweeps { .. }) => Advice::MoreSweeps { to: Some(2 * sweeps) },
-            // Advice of any other variant than those above does not depend on an engine's settings and stays unchanged.
+            // All other variants do not depend on an engine's settings and stay unchanged.
             _ => self,
         }
     }

@@ -42,7 +42,7 @@ pub struct FormulaCurve {
     shift: f64,
     factor: f64,
     end: f64,
-    /// The derivative of the largest absolute value, with its sign. It is found once, because it takes many evaluations.
+    /// The first derivative with the largest absolute value, and its sign. Its search takes many evaluations.
     steepest: f64,
 }
 
@@ -150,7 +150,7 @@ impl Curve {
         }
     }
 
-    /// The first derivative of the largest absolute value, with its sign.
+    /// The first derivative with the largest absolute value, and its sign.
     #[must_use]
     pub fn steepest(&self) -> f64 {
         match self {

@@ -26,9 +26,9 @@ const INSTANTS: usize = 720;
 pub enum CamContact {
     /// A roller, or a knife edge if its radius is 0.
     Roller {
-        /// Its centre in the follower's frame (m).
+        /// Centre of the roller in the follower's frame (m).
         centre: Vec2,
-        /// Its radius (m), not negative.
+        /// Radius of the roller (m), not negative.
         radius: f64,
     },
     /// A flat face across the axis of a sliding follower, through this point of the follower's frame (m).
@@ -145,7 +145,7 @@ impl Cam {
     }
 
     /// The profile in the frame of the cam (m): `count` points at which it touches the follower in one turn.
-    /// `at` is the coordinates of cam and follower in any pose.
+    /// `at` contains the coordinates of cam and follower in any pose.
     #[must_use]
     pub fn profile(&self, at: [f64; 2], count: usize) -> Vec<Vec2> {
         let point = |q: [f64; 2]| {
@@ -156,7 +156,7 @@ impl Cam {
         self.turn(at, count).map(point).collect()
     }
 
-    /// Figures over one turn. `at` is the coordinates of cam and follower in any pose.
+    /// Figures over one turn. `at` contains the coordinates of cam and follower in any pose.
     #[must_use]
     pub fn figures(&self, at: [f64; 2]) -> CamFigures {
         let (lift, width) = (self.law.range(), self.contact.radius());

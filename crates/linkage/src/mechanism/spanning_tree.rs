@@ -44,7 +44,7 @@ impl SpanningTree {
 
     /// Trees such that each of the given joints is cut in at least one tree.
     /// The first tree is that of [`SpanningTree::of`].
-    /// Each further tree cuts as many of the joints as possible that no earlier tree cuts.
+    /// Each further tree cuts as many as possible of the joints that no earlier tree cuts.
     #[must_use]
     pub fn covering(mechanism: &Mechanism, joints: &[JointId]) -> Vec<Self> {
         let mut trees = vec![SpanningTree::of(mechanism)];

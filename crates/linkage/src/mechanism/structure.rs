@@ -59,7 +59,7 @@ impl Structure {
     }
 
     /// The structure in which the start pose is assembled.
-    /// Instead of the transmissions it has given coordinates: those of the joints that fix their phases, after the drives.
+    /// The joints that fix the phases of the transmissions have given coordinates instead, listed after the drives.
     /// Without transmissions it is the structure itself.
     #[must_use]
     pub fn at_start(&self) -> &Structure {
@@ -128,7 +128,7 @@ impl Structure {
     /// The structure of the motion alone, without that of the start pose ([`Structure::at_start`]).
     ///
     /// # Errors
-    /// Those of [`Structure::of`] that do not concern the start of transmissions.
+    /// The errors of [`Structure::of`] that do not concern the start of transmissions.
     pub fn of_driven(mechanism: &Mechanism, drives: &[DrivenJoint]) -> Result<Self> {
         check_connected(mechanism)?;
         check_angles(mechanism, drives)?;
@@ -197,8 +197,8 @@ impl Structure {
 
     /// A pose in which the driving links are placed at these coordinates, one for each drive, as in
     /// [`Drive::coordinate`](crate::drive::Drive::coordinate).
-    /// The links of a body with given joints have their pose relative to the lead of the body, whose frame is that of
-    /// the ground. All other links have the pose of the ground.
+    /// In a body with given joints, the lead has the pose of the ground, and the other links have their poses relative
+    /// to the lead. All other links have the pose of the ground.
     #[must_use]
     pub fn driving_pose(&self, mechanism: &Mechanism, coordinates: &[f64]) -> Pose {
         let mut pose = Pose(vec![LinkPose::GROUND; mechanism.links().len()].into());

@@ -1,7 +1,7 @@
 //! Transmissions: gear pairs, racks, screws, belts and cams that couple the coordinates of two members of one carrier.
 //!
 //! A member turns about an axle of the carrier, or slides in a guide of the carrier.
-//! The force between the members acts along a line of action. It is fixed in the carrier, except for cams.
+//! The force between the members acts along a line of action. This line is fixed in the carrier, except for cams.
 //! The line has the unit vector w. The force acts on each member at a point of the line, the member's foot.
 //! Along the line both members have the same speed: w . (v2 - v1) = 0 at the feet.
 //! With the coordinates q1 and q2 of the members relative to the carrier, q2' = f'(q1) q1', so q2 - f(q1) is constant.
@@ -44,8 +44,8 @@ pub enum TransmissionKind {
         pressure_angle: f64,
     },
     /// A screw, the first member, and a nut that slides in the carrier.
-    /// In the plane it is a pinion of the radius lead / (2 pi) and a rack without pressure angle. The axial force acts this
-    /// far beside the axle of the screw.
+    /// In the plane it is a rack without pressure angle and a pinion of the radius lead / (2 pi).
+    /// The axial force acts at this distance from the axle of the screw.
     Screw {
         /// Slide of the nut along the axis for a turn of the screw counter-clockwise (m), not zero.
         lead: f64,
@@ -63,7 +63,7 @@ pub enum TransmissionKind {
     Cam {
         /// Lift of the follower as a function of the cam's angle relative to the carrier.
         law: CamLaw,
-        /// What touches the cam.
+        /// The part of the follower that touches the cam.
         contact: CamContact,
     },
 }
@@ -95,8 +95,11 @@ pub struct TransmissionDesign {
     pub carrier: LinkId,
     /// The joint whose coordinate at t = 0 fixes the phase.
     pub joint: JointId,
-    /// That coordinate: the angle of the joint's second link minus that of its first link (rad), or the slide (m).
+    /// Coordinate of `joint` at t = 0: the angle of its second link minus that of its first (rad), or the slide (m).
     pub start: f64,
+    /// Efficiency if power flows from the first member to the second, above 0 and at most 1, and if it flows back, at most 1.
+    /// If the second efficiency is not positive, the transmission is self-locking: both members must be driven.
+    pub efficiency: [f64; 2],
 }
 
 /// A transmission between two members of a carrier.
@@ -112,6 +115,23 @@ pub struct Transmission {
     fixed: Contact,
     /// A cam and its follower; `None` for other transmissions.
     pub cam: Option<Cam>,
+    /// The losses; `None` if both efficiencies are 1.
+    pub losses: Option<Losses>,
+}
+
+/// The losses of a transmission, as a moment between the carrier and the first member, against their relative rotation.
+/// The force of the transmission is then that on the second member.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Losses {
+    /// A joint of the carrier with a member. The rate of the joint's coordinate gives the sense of the motion.
+    pub joint: JointId,
+    /// Rate of the first member relative to the carrier, divided by the rate of this joint's coordinate (1, or 1/m).
+    pub per: f64,
+    /// Moment of the losses for a force of 1 N in the first line of action, divided by the lost fraction (m).
+    /// It is positive if this force takes power from the first member while the joint's coordinate increases.
+    pub lever: f64,
+    /// Lost fraction of the power of the second member if power flows to it, and if power comes from it.
+    pub lost: [f64; 2],
 }
 
 /// An angle or slide that a transmission couples.
@@ -208,7 +228,42 @@ impl Transmission {
         };
         let coordinates = [against(Coordinate::Angle(first)), coupled];
         let fixed = Contact { lines, factor, turn: 0.0, drift: Vec2::zeros() };
-        Ok(Transmission { design, members, coordinates, fixed, cam })
+        let mut found = Transmission { design, members, coordinates, fixed, cam, losses: None };
+        found.losses = found.find_losses(joints)?;
+        Ok(found)
+    }
+
+    fn find_losses(&self, joints: &PerJoint<Joint>) -> Result<Option<Losses>> {
+        let [forward, back] = self.design.efficiency;
+        if [forward, back] == [1.0; 2] {
+            return Ok(None);
+        }
+        let fault = |message: &str, help| Err(self.design.fault(message, help));
+        if !(forward > 0.0 && forward <= 1.0 && back <= 1.0 && back.is_finite()) {
+            return fault(&sentences::the_efficiencies_are(&forward, &back), sentences::GIVE_EFFICIENCIES);
+        }
+        let Some(ratio) = self.ratio() else {
+            return fault(sentences::A_CAM_HAS_NO_EFFICIENCY, sentences::GIVE_FRICTION);
+        };
+        let links = self.design.links;
+        let shown = [(links[0], 1.0), (links[1], 1.0 / ratio)].into_iter().find_map(|(link, per)| {
+            let is_meant = |joint: &Joint| joint.on(link).is_some() && joint.on(self.design.carrier).is_some();
+            let (id, joint) = joints.entries().find(|(_, joint)| is_meant(joint))?;
+            // The slide of a rack has its sign in the ratio.
+            let sign = if joint.slides() { 1.0 } else { sense(joint, link) };
+            Some((id, per * sign))
+        });
+        let Some((joint, per)) = shown else {
+            return fault(sentences::NO_MEMBER_IS_JOINED_TO_THE_CARRIER, sentences::JOIN_A_MEMBER_TO_THE_CARRIER);
+        };
+        let lever = self.lever() * per.signum();
+        Ok(Some(Losses { joint, per, lever, lost: [1.0 / forward - 1.0, 1.0 - back] }))
+    }
+
+    /// Moment of a unit force in the first line of action about the axle of the first member (m).
+    fn lever(&self) -> f64 {
+        let line = &self.fixed.lines[0];
+        cross(line.feet[0] - self.members[0].place, line.direction)
     }
 
     /// Name.
@@ -232,9 +287,7 @@ impl Transmission {
     /// Ratio of the members' rates relative to the carrier, q2' / q1' (1, or m for a rack); `None` for a cam.
     #[must_use]
     pub fn ratio(&self) -> Option<f64> {
-        let line = &self.fixed.lines[0];
-        let lever = cross(line.feet[0] - self.members[0].place, line.direction);
-        self.cam.is_none().then(|| lever / self.fixed.factor)
+        self.cam.is_none().then(|| self.lever() / self.fixed.factor)
     }
 
     /// The law f: its value at the first member's coordinate (rad), and its first two derivatives.
@@ -270,7 +323,7 @@ impl Transmission {
     }
 
     /// Time (s) from a pose to the nearest end of a piece of a cam's law, before or after it, at the present speed.
-    /// It is infinite for other transmissions, and if the cam stands still.
+    /// The time is infinite for other transmissions, and if the cam stands still.
     #[must_use]
     pub fn time_to_knot(&self, joints: &PerJoint<Joint>, motions: &[Motion]) -> f64 {
         let Some(cam) = &self.cam else { return f64::INFINITY };

@@ -157,7 +157,7 @@ impl Sampler {
         for &(joint, subject, mask) in &self.frictions {
             let read = |of| match of {
                 OfFriction::Effort => {
-                    let own = case.frictions().find(|own| own.joint == joint);
+                    let own = case.frictions().find(|own| own.joint == joint && !own.is_mesh());
                     own.map_or(0.0, |own| own.effort(&state.motions, state.reactions()))
                 }
             };

@@ -90,10 +90,10 @@ impl State {
         (force, moment)
     }
 
-    /// Forces (N) and moments (N m) of all joints.
+    /// Forces (N) and moments (N m) of all joints, and forces of all transmissions (N).
     #[must_use]
     pub fn reactions(&self) -> JointReactions<'_> {
-        JointReactions { forces: &self.forces, moments: &self.moments }
+        JointReactions { forces: &self.forces, moments: &self.moments, transmitted: &self.transmitted }
     }
 
     /// Power of all drives on their links (W).
@@ -119,10 +119,10 @@ impl State {
         largest
     }
 
-    /// Largest moment (N m): of a drive, or of a force of a joint or drive at `arm` (m).
+    /// Largest moment (N m): that of a drive, or the force of a joint or drive times the lever arm `arm` (m).
     #[must_use]
     pub fn largest_moment(&self, case: &Case, arm: f64) -> f64 {
-        // A force acts at the arm, a moment acts as it is.
+        // A force is multiplied by the lever arm, a moment is used unchanged.
         let efforts = case.drives.iter().zip(&self.torques);
         let torques = efforts.map(|(drive, effort)| effort.abs() * drive.input.span(arm));
         self.forces.iter().map(|force| force.norm() * arm).chain(torques).fold(0.0, f64::larger)

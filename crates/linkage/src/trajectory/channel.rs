@@ -71,7 +71,7 @@ const fn row(reading: Reading, suffix: &'static str, quantity: &'static str, uni
 /// The torque of a drive acts on the driving link. At a joint between moving links it acts from the joint's first link
 /// on its second link.
 /// The force of a drive acts along the axis of its prismatic joint from the first link on the second link.
-/// It is positive if it increases the slide. The reaction of the joint does not include it.
+/// The force is positive if it increases the slide. The reaction of the joint does not include it.
 pub static CHANNELS: [ChannelKind; 31] = TABLE;
 
 const TABLE: [ChannelKind; 31] = {

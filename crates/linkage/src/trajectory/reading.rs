@@ -218,9 +218,9 @@ pub enum OfJoint {
 pub enum OfSlider {
     /// Slide.
     Slide,
-    /// Its rate.
+    /// Rate of the slide.
     Speed,
-    /// Its second derivative.
+    /// Second derivative of the slide.
     Acceleration,
     /// Moment of the first link on the second.
     Moment,

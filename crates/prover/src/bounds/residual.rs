@@ -79,7 +79,7 @@ pub fn scales(trajectory: &Trajectory) -> Vec<f64> {
 /// The scale of such a channel is a tenth of the natural size of its quantity.
 /// This scale corresponds to that of a constant channel, which is a tenth of the channel's value.
 ///
-/// If every quantity of the trajectory is rounding, the natural size is the size in `built`.
+/// If the whole trajectory consists of rounding errors, the natural sizes are those in `built`.
 /// Examples are a balanced rotor without gravity and a mechanism in equilibrium.
 #[must_use]
 pub(crate) fn scales_beyond(errors: &[f64], trajectory: &Trajectory, built: &Built) -> Vec<f64> {
@@ -152,8 +152,8 @@ fn is_coordinate(channel: &Channel) -> bool {
 }
 
 /// Size of the numbers in every channel, to which the rounding error is proportional.
-/// It is the largest absolute value among the channels of the quantity.
-/// It is at least the value that follows from a rotation of one radian and the largest coordinates and forces.
+/// The size is the largest absolute value among the channels of the quantity.
+/// The size is at least the value that follows from a rotation of one radian and the largest coordinates and forces.
 #[must_use]
 pub fn magnitudes(trajectory: &Trajectory) -> Vec<f64> {
     let sizes = largest_sizes(trajectory);
@@ -162,8 +162,8 @@ pub fn magnitudes(trajectory: &Trajectory) -> Vec<f64> {
 }
 
 /// As `magnitudes`, but by sets of channels.
-/// `sets[channel]` is the set of a channel. Its numbers are computed from all channels whose set feeds that set.
-/// `feeds(from, to)` tells whether set `from` feeds set `to`.
+/// `sets[channel]` is the set of a channel. `feeds(from, to)` tells whether numbers of the set `to` are computed from
+/// channels of the set `from`.
 pub(crate) fn magnitudes_by(trajectory: &Trajectory, sets: &[usize], feeds: &dyn Fn(usize, usize) -> bool) -> Vec<f64> {
     let largest = largest_sizes(trajectory);
     let count = 1 + sets.iter().copied().max().unwrap_or(0);
@@ -232,7 +232,7 @@ impl Sizes {
     }
 
     /// The largest size of the channel's quantity.
-    /// It is at least the value that follows from the crank's speed, its rotation `turn` (rad) and the sizes of
+    /// This size is at least the value that follows from the crank's speed, its rotation `turn` (rad) and the sizes of
     /// coordinates and forces.
     fn natural(&self, channel: &Channel, turn: f64) -> f64 {
         let own = self.of_quantity.get(channel.kind.quantity).copied().unwrap_or(0.0);

@@ -42,7 +42,7 @@ pub enum Verdict {
 }
 
 impl fmt::Display for Verdict {
-    /// Its word.
+    /// Writes the word for the verdict.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(self.word())
     }
@@ -185,7 +185,7 @@ pub struct Check {
     pub detail: String,
     /// The number.
     pub value: f64,
-    /// Its bound.
+    /// Bound on the number.
     pub bound: f64,
     /// Unit of number and bound; empty for relative numbers.
     pub unit: &'static str,

@@ -250,8 +250,8 @@ fn sought(trial: &mut Trial, claim: &Claim, course: &KnownTrajectory) -> Option<
     if trial.gives_one_number() && !trial.is_constant() {
         return Some(FormulaCause::Constant);
     }
-    // An approximation is not examined for this cause: it is right by chance at the instants at which it crosses the
-    // exact curve.
+    // An approximation is not examined for a change of branch: at the instants at which it crosses the exact curve, it
+    // is right by chance.
     let is_exact = trial.formula.error.is_none();
     if let Some(found) = leaves(&rows, course.trajectory.input()).filter(|_| is_exact) {
         return Some(found);

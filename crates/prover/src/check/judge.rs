@@ -9,7 +9,7 @@ use linkage::error::Result;
 use scenario::{Claim, Formula, Formulas};
 
 /// A claim and its derivatives along a trajectory.
-/// They are functions of the claim's values, its channels, and the first and second derivatives of these channels.
+/// All are functions of the claim's values, its channels, and the first and second derivatives of these channels.
 pub(super) struct Claimed<'a> {
     program: Program,
     columns: Vec<Column<'a>>,

@@ -1,7 +1,7 @@
 //! Missing terms and factors: finds from the numbers what one position of a formula lacks.
 //!
 //! At every position the missing summand or factor is calculated instant by instant.
-//! If it is proportional to an expression of the derivation, this expression is what is missing.
+//! If it is proportional to an expression of the derivation, this expression is missing.
 
 mod dictionary;
 mod monomials;

@@ -53,10 +53,10 @@ pub(super) struct Trial<'a> {
 }
 
 impl<'a> Trial<'a> {
-    /// Prepares the trial of a formula and its claim on a course.
+    /// Prepares a wrong formula for trying changes against the values of `course`.
     ///
     /// # Errors
-    /// If the course lacks a channel of the claim.
+    /// `course` lacks a channel of the claim.
     pub(super) fn of(
         formulas: &'a Formulas,
         index: usize,
@@ -158,7 +158,7 @@ impl<'a> Trial<'a> {
     }
 
     /// Whether a change of the sheet is worth examining at all instants.
-    /// At each instant of `few` the change must make the formula right or leave only little of the difference.
+    /// At each instant of `few`, the change must make the formula right or leave only a small part of the difference.
     /// `depending` lists the positions that depend on the changed positions.
     pub(super) fn is_promising(&mut self, changes: &[(usize, FormulaTree)], depending: &[usize]) -> bool {
         let claimed = self.formula.error.unwrap_or(0.0);
@@ -179,7 +179,7 @@ impl<'a> Trial<'a> {
     }
 
     /// Fraction of the difference that remains if the trees `changed` replace those of the file.
-    /// It is zero if the formula is right at every instant.
+    /// The fraction is zero if the formula is right at every instant.
     /// Otherwise it is the largest remaining difference at the instants of `few`, divided by the largest difference
     /// before.
     /// `None` if the changed formula has no value.

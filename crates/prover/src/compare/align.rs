@@ -87,7 +87,7 @@ pub(super) fn beside(one: &Side, other: &Side, how: &ComparisonRule) -> Result<S
 }
 
 /// Uncertainty of a column of the first party at the rows of the second.
-/// It is due to the limited digits of both parties' instants.
+/// The uncertainty is due to the limited digits of both parties' instants.
 fn drift(from: &RowKey, to: &RowKey, places: &[Place]) -> impl Fn(&[Rounded], Option<f64>) -> Vec<f64> + use<> {
     let widest = from.values.iter().map(|at| at.error).fold(0.0, f64::larger);
     let of = |(place, own): (&Place, &Rounded)| match place {

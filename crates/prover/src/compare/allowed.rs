@@ -15,8 +15,8 @@ use columns::Allowance;
 /// How two parties are compared.
 #[derive(Clone, Debug, Default)]
 pub struct ComparisonRule {
-    /// Allowed differences. If a channel has several of one kind, the last one counts. The kinds are: absolute,
-    /// relative to the scale, and relative to the value.
+    /// Allowed differences, of three kinds: absolute, relative to the scale, and relative to the value. If a channel
+    /// has several of one kind, the last one counts.
     pub allowed: Vec<Allowed>,
     /// Quantity by which rows are matched. `None`: times if both parties have times, otherwise crank angles.
     pub by: Option<By>,
@@ -145,7 +145,7 @@ impl Allowances<'_> {
     }
 }
 
-/// Allowed difference by all of `own`, with absolute sizes in `unit`.
+/// Allowed difference by all allowances in `own`, with absolute sizes in `unit`.
 /// If several allowances are of the same kind, the last one counts.
 fn allowance<'a>(own: impl Iterator<Item = &'a Allowed>, scale: f64, unit: f64) -> Option<Allowance> {
     let mut sizes: [Option<f64>; 3] = [None; 3];
@@ -191,7 +191,7 @@ mod tests {
         ] {
             assert_eq!(how(&said).allowances().of(&claim, 4.0), allowed, "{said:?}");
         }
-        // The crank accepts an allowance in degrees or as a fraction of its range. It ignores an allowance for another
+        // The crank accepts an allowance in degrees or as a fraction of its range, and ignores an allowance for another
         // channel.
         let crank = |said: &[(Option<&str>, Size)]| how(said).allows_crank(4.0, Input::Angle).map(|own| own.fixed);
         assert_eq!(crank(&[(Some("crank"), absolute(180.0))]), Some(std::f64::consts::PI));

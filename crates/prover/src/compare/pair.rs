@@ -97,7 +97,7 @@ impl SidePair {
 /// The cause may be two runs in one table, or a time that does not advance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contradiction {
-    /// Their numbers, from 0.
+    /// Indices of the two rows, from 0.
     pub rows: [usize; 2],
     /// The instant: a time (s) or a value of the input (SI).
     pub at: f64,

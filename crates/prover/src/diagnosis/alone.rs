@@ -8,7 +8,7 @@ use linkage::trajectory::{Channel, Trajectory};
 pub struct DiagnosedParty<'a> {
     /// Name for reports.
     pub name: &'a str,
-    /// Its results.
+    /// Results of the party.
     pub trajectory: &'a Trajectory,
     /// Bound on the party's error in every channel in which it is judged, in the channel's unit.
     /// Channels without such a bound do not count.

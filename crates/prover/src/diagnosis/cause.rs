@@ -217,15 +217,15 @@ pub enum CasePart {
 /// How a part of a case is different.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PartChange {
-    /// It is missing.
+    /// The part is missing.
     Missing,
     /// The part has the opposite sign.
     Reversed,
-    /// It counts twice.
+    /// The part counts twice.
     Twice,
-    /// Half of it counts.
+    /// Half of the part counts.
     Half,
-    /// The part is multiplied by a number with a meaning. The text states the meaning.
+    /// The part is multiplied by a number; the text says what the number means.
     Times(f64, &'static str),
     /// The part is at a joint.
     AtJoint(String),
@@ -246,7 +246,7 @@ pub enum PartChange {
     Swapped,
     /// Another assembly mode (by name) or configuration (by number).
     Other(String),
-    /// It has another value.
+    /// The part has another value.
     Instead {
         /// The value that explains the disagreement.
         found: f64,

@@ -13,7 +13,7 @@ use super::tries::{Candidate, Tries};
 use super::whole::whole_changes;
 
 /// Largest number of changed cases that are solved on thinned grids to find changes without a number.
-/// As many again may be solved to find numbers and other instants.
+/// The same number of cases may be solved to find numbers and other instants.
 /// For a prescribed motion of at most `LINKS` links, which costs little, both limits are `CHEAP` times as high.
 const MOST: usize = 120;
 const CHEAP: usize = 3;
@@ -22,7 +22,7 @@ const LINKS: usize = 16;
 /// Largest number of causes that are confirmed on the whole grid.
 const CONFIRMED: usize = 6;
 /// Claims (sums of changes divided by bounds) are rounded to multiples of 1 / this number before they are compared.
-/// Differences below such a multiple are rounding.
+/// Smaller differences of claims are rounding.
 const CLAIMED: f64 = 1e3;
 /// Limit of cases solved on the whole grid to confirm causes. It allows several cases per cause, because a value may
 /// need correction.

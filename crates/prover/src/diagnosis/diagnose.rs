@@ -53,8 +53,8 @@ impl Diagnosis {
 /// Examines a disagreement. `None` if no channel exceeds its bound.
 ///
 /// Causes are tried from the simplest to the most complicated.
-/// The cause that explains the most disagreeing channels within their bounds is named. No agreeing channel may then
-/// disagree.
+/// The cause that explains the most disagreeing channels within their bounds is named. It must not make an agreeing
+/// channel disagree.
 /// Further causes that explain the same channels are mentioned.
 #[must_use]
 pub fn diagnose(question: &DiagnosisInput, parties: &[DiagnosedParty]) -> Option<Diagnosis> {

@@ -142,7 +142,7 @@ impl Search<'_, '_> {
         self.clock_candidate(&misfit, factor, None)
     }
 
-    /// The number at which `is_found` holds. The secant method begins at `origin`, where nothing changes.
+    /// A number for which `is_found` is true. The secant method begins at `origin`, where nothing changes.
     fn secant(
         &self,
         origin: f64,

@@ -211,7 +211,7 @@ fn within(knob: &Knob, [low, high]: [f64; 2]) -> Vec<f64> {
 
 /// Whether a found number may have been meant. Any smooth error resembles a tiny change of some number.
 /// So the found number must satisfy one of three criteria.
-/// It differs noticeably from the given number, has few digits, or is known to a small fraction of its change.
+/// The number differs noticeably from the given number, has few digits, or is known to a small fraction of its change.
 /// The third criterion is satisfied if `excess`, the ratio of the differences to their bounds, is large.
 pub(super) fn is_sure(change: &Change, excess: f64) -> bool {
     let PartChange::Instead { found, given, unit } = change.how else { return true };
@@ -254,7 +254,7 @@ mod tests {
     use crate::diagnosis::cause::CasePart;
 
     /// A number that is wrong by less than a thousandth and has many digits is unlikely to have been typed.
-    /// It counts only if the difference is a hundred times its bound.
+    /// Such a number counts only if the difference is a hundred times its bound.
     #[test]
     fn a_tiny_change_of_many_digits_is_no_cause() {
         let degrees = f64::to_radians;

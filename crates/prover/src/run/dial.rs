@@ -7,7 +7,7 @@ use crate::sentences;
 
 impl Proof {
     /// This proof, judged again with every bound multiplied by `dial`.
-    /// A factor `dial` below 1 is stricter. At 0 only an exact zero agrees.
+    /// A factor `dial` below 1 is stricter. With `dial` = 0, only a residual of exactly zero agrees.
     ///
     /// Residuals do not change.
     /// Inconclusive verdicts do not change either, because their bounds decide nothing whatever the factor.

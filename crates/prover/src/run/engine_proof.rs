@@ -90,7 +90,7 @@ pub enum SearchEnd {
     /// Every channel has the target accuracy. Alternatively, every channel is conclusive and the work allowed for
     /// further refinement is spent.
     Decided,
-    /// A finer step would add more rounding error than it removes.
+    /// A finer step would add more rounding error than the truncation error that it removes.
     Rounding,
     /// The allowed work is done.
     Budget,
@@ -176,10 +176,10 @@ impl EngineProof {
         }
     }
 
-    /// The part of the engine's verdict that comes from its own forces.
+    /// The part of the verdict that comes from the forces that the engine itself exerts.
     /// If they are inconclusive, they are reported but do not change the verdict, because the motion and its forces are
     /// judged without them.
-    /// Impulses converge with a lower order than the motion. They need the true masses and many sweeps.
+    /// Impulses converge with a lower order than the motion. Impulses need the true masses and many sweeps.
     #[must_use]
     pub fn added(&self) -> Option<&Verdict> {
         let own = self.own_forces.as_ref().map(|own| &own.verdict);

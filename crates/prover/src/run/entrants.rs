@@ -80,7 +80,7 @@ impl ObservedSides {
     /// Solves a problem with both sides. The problem's case may be only a part (the scene) of the case `whole`.
     ///
     /// # Errors
-    /// Those of the sides.
+    /// The errors of the sides.
     pub fn of(
         problem: Problem,
         whole: &Case,
@@ -154,7 +154,7 @@ impl ObservedSides {
     /// Judges formulas against both sides. Judges every claim whose channels the sides have.
     ///
     /// # Errors
-    /// Those of [`check::judge`].
+    /// The errors of [`check::judge`].
     pub(crate) fn judged(&self, case: &Case, formulas: &Formulas) -> Result<Judgement> {
         let sides = self.claimed(case, formulas)?;
         let (mut causes, mut undefined) = (Vec::new(), BTreeMap::new());
@@ -189,7 +189,7 @@ impl ObservedSides {
     /// Judgements of both sides on every claim whose channels they have. Causes of wrong formulas are not sought.
     ///
     /// # Errors
-    /// Those of [`check::judge`].
+    /// The errors of [`check::judge`].
     pub fn claimed(&self, case: &Case, formulas: &Formulas) -> Result<EachSide<Vec<Vec<JudgedFormula>>>> {
         EachSide::tried(|side| self.on_course(case, side, |course| check::judge(formulas, course)))
     }

@@ -20,7 +20,7 @@ const KNOWN: f64 = 1e-11;
 /// rounding.
 ///
 /// # Errors
-/// Those of [`Measured::value`].
+/// The errors of [`Measured::value`].
 pub(super) fn claimed(
     formulas: &Formulas,
     case: &Case,
@@ -56,7 +56,7 @@ impl<'a> Measured<'a> {
     /// A figure in SI units.
     ///
     /// # Errors
-    /// Those of the means over a revolution.
+    /// The errors of the means over a revolution.
     /// An error if the motor cannot balance the resistance at any speed.
     pub(super) fn value(&mut self, figure: MechanismFigure) -> Result<f64> {
         Ok(match figure {

@@ -169,7 +169,7 @@ impl<'a> Judge<'a> {
     }
 
     /// Largest growth of the differences between runs with increasing numbers of sweeps.
-    /// It is the maximum over all positions with differences that are not negligible.
+    /// The growth is the maximum over all positions with differences that are not negligible.
     /// If the engine's own forces are judged, it is the maximum over these forces, because they come from other
     /// simulations than the motion.
     fn growth(&self, runs: &Runs) -> f64 {

@@ -53,7 +53,7 @@ pub(super) fn of_condition(stage: Stage, condition: f64) -> f64 {
 }
 
 /// Factor on rounding errors due to distant mass centres, at least 1.
-/// It is the largest distance between points of a link, mass centre included, divided by the largest distance without
+/// This is the largest distance between points of a link, mass centre included, divided by the largest distance without
 /// the mass centre.
 /// Side 2 calculates with the positions of mass centres.
 /// So a joint is as uncertain as the last digit of its distance from the mass centre.
@@ -134,7 +134,7 @@ impl Known {
     /// Known errors of both sides' trajectories, with side 1 as the reference.
     ///
     /// # Errors
-    /// Those of the tighter runs.
+    /// The errors of the tighter runs.
     #[cfg(test)]
     pub(super) fn of(case: &Case, [first, second]: [&Trajectory; 2]) -> Result<Self> {
         let sides: EachSide<(&dyn Solver, &Trajectory)> =
@@ -146,7 +146,7 @@ impl Known {
     /// Each trajectory comes with the solver of its tighter run. `solver` is the solver of the reference.
     ///
     /// # Errors
-    /// Those of the tighter runs.
+    /// The errors of the tighter runs.
     pub(super) fn beside(
         case: &Case,
         reference: Reference,
@@ -203,7 +203,7 @@ impl Known {
     /// The measurement is needed if the errors of a trajectory exceed those of well-conditioned poses.
     ///
     /// # Errors
-    /// Those of the solver.
+    /// The errors of the solver.
     pub(super) fn measure(&mut self, case: &Case, solver: &dyn Solver) -> Result<()> {
         let sets = &self.dependence.sets;
         let mut worst = vec![1.0; sets.len()];
@@ -411,7 +411,7 @@ mod tests {
                 let relative = share((values[0] - values[1]).abs(), known.magnitudes[index]);
                 assert!(relative <= apart, "{count} from {from} m, {channel}: {relative:e} {apart:e}");
                 beyond += usize::from(relative > usual(stage));
-                // A fault of a ten-millionth is found at any distance. The last digit of a position is 1.5e-11 m.
+                // A relative fault of 1e-7 is found at any distance. The last digit of a position is 1.5e-11 m.
                 assert!(apart < 1e-7, "{count} from {from} m, {channel}: {apart:e}");
                 // The bound on a coordinate is its last digit only: the distance from the origin is not counted twice.
                 let coordinate = channel.kind.unit == Unit::Metre;

@@ -15,7 +15,7 @@ use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
 
 /// A difference of at most this fraction of the quantity's largest value counts as rounding.
-/// The fraction equals the bound on forces between the two analytic sides, which solve as many linear equations.
+/// The bound on forces between the two analytic sides is the same fraction: their linear systems are equally large.
 const BOUND: f64 = 1e-10;
 
 /// The compared quantities: directions, angular velocities, angular accelerations, forces.

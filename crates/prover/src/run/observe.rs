@@ -31,7 +31,7 @@ pub(super) struct Observed {
     /// Largest opening of a joint (m) at every instant: the distance between the joint's positions on its two links.
     pub(super) opening: Vec<f64>,
     /// For every instant and load, the velocity that determines the direction of the load.
-    /// It is the angular velocity of a link (rad/s, as x) or the velocity of a point (m/s).
+    /// This velocity is the angular velocity of a link (rad/s, as x) or the velocity of a point (m/s).
     pub(super) senses: Senses,
     /// Largest distance of a joint from the origin (m).
     pub(super) reach: f64,
@@ -139,7 +139,7 @@ pub(super) fn observe(
     let mut torque = power.clone();
     let (arm, size, steady) = (case.drive_arm(), case.mechanism.size(), case.is_steady());
     let mut opening = if watch == Watch::Senses { Vec::new() } else { vec![0.0; case.grid.len()] };
-    let with_sense = case.loads.iter().filter(|load| load.has_sense());
+    let with_sense = case.senses().filter(|senses| *senses != LoadSenses::Nothing);
     let tables: Vec<[f64; 2]> = case.load_jumps().collect();
     let mut senses = Senses::new(with_sense.count() + tables.len(), case.grid.len());
     let (mut reach, mut moment, mut fastest): (f64, f64, f64) = (0.0, 0.0, 0.0);
@@ -154,7 +154,9 @@ pub(super) fn observe(
             *nearest = times.fold(f64::INFINITY, f64::smaller);
         }
         let crank = case.input_in(&state.motions, &state.angles);
-        let sensed = case.loads.iter().filter_map(|load| Some((sensed(case, state, load)?, load.jump(crank) > 0.0)));
+        let jump = |index: usize| case.loads.get(index).is_none_or(|load| load.jump(crank) > 0.0);
+        let sensed = case.senses().enumerate();
+        let sensed = sensed.filter_map(|(index, senses)| Some((sensed_in(case, state, senses)?, jump(index))));
         let beside = tables.iter().map(|&jump| (beside(crank, jump), true));
         let own = senses.values.iter_mut().zip(&mut senses.jumps).skip(row * senses.each);
         own.zip(sensed.chain(beside)).for_each(|((value, jumps), now)| (*value, *jumps) = now);
@@ -215,8 +217,8 @@ pub(super) fn observe(
 }
 
 /// The velocity whose direction a load depends on (rad/s as the first component, or m/s); zero at standstill.
-fn sensed(case: &Case, state: &State, load: &Load) -> Option<Vec2> {
-    match load.nature().senses {
+fn sensed_in(case: &Case, state: &State, senses: LoadSenses) -> Option<Vec2> {
+    match senses {
         LoadSenses::Nothing => None,
         LoadSenses::Link(link) => Some(Vec2::new(case.spin(&state.motions, link), 0.0)),
         LoadSenses::Joint(joint) => Some(Vec2::new(case.joint_rate(&state.motions, joint), 0.0)),
@@ -243,7 +245,7 @@ fn reduced_torque(case: &Case, state: &State) -> f64 {
 }
 
 /// A vector that reverses only where the crank passes a jump of a table.
-/// Its length is the distance of the crank from the nearest jump (rad).
+/// The length of the vector is the distance of the crank from the nearest jump (rad).
 fn beside(crank: f64, [jump, period]: [f64; 2]) -> Vec2 {
     let share = ((crank - jump) / period).rem_euclid(1.0);
     unit(PI * share) * (period * share.smaller(1.0 - share))
@@ -254,7 +256,8 @@ fn beside(crank: f64, [jump, period]: [f64; 2]) -> Vec2 {
 /// yet.
 fn open(case: &Case, state: &State, crank: f64) -> [f64; 2] {
     let mut open = [0.0; 2];
-    let of_state = |load: &&Load| load.joint().is_none() && sensed(case, state, load) == Some(Vec2::zeros());
+    let of_state =
+        |load: &&Load| load.joint().is_none() && sensed_in(case, state, load.nature().senses) == Some(Vec2::zeros());
     for load in case.loads.iter().filter(of_state) {
         let (jump, point) = (load.jump(crank), load.sensed_point());
         let lever = point.map(|at| state.motions[at.link].point(at.local).norm());
@@ -263,8 +266,7 @@ fn open(case: &Case, state: &State, crank: f64) -> [f64; 2] {
     }
     for friction in case.frictions().filter(|own| own.rate(&state.motions) == 0.0) {
         let joint = &case.mechanism.joints()[friction.joint];
-        let size =
-            2.0 * friction.lever() * friction.normal(state.forces[friction.joint], state.moments[friction.joint]);
+        let size = 2.0 * friction.lever() * friction.largest(friction.reaction(state.reactions()));
         let place = state.motions[joint.second.link].point(joint.second.local).norm();
         open[0] += if joint.slides() { size } else { 0.0 };
         open[1] += size * if joint.slides() { place } else { 1.0 };

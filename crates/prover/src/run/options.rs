@@ -69,7 +69,7 @@ impl Chosen {
         Chosen { engine: around(self.engine), ..self }
     }
 
-    /// This choice, without the forces that the engine itself exerts.
+    /// This choice with the default route as a given one, so that forces that the engine itself exerts are not judged.
     pub(crate) fn by_motion_alone(mut self) -> Self {
         self.given.route = EngineSetting::of(self.engine.settings().route);
         self
@@ -151,7 +151,7 @@ impl Options {
     /// A setting is free if it is given neither by the options nor by the scenario's settings `own`.
     ///
     /// # Errors
-    /// Those of [`Options::set_engines`].
+    /// The errors of [`Options::set_engines`].
     pub fn chosen(&self, own: &EngineSettings, case: &Case) -> Result<Vec<Chosen>> {
         self.chosen_at(own, engines::coarse_step(case))
     }

@@ -33,7 +33,7 @@ const NEGLIGIBLE: f64 = 0.01;
 /// Returns whether there are such channels.
 ///
 /// # Errors
-/// Those of a run. A numeric error is not returned, because it shows nothing about the order.
+/// The errors of a run. A numeric error is not returned, because it shows nothing about the order.
 pub(super) fn look(judge: &Judge, bank: &mut Bank, proof: &mut EngineProof) -> Result<bool, Stopped> {
     let wanted = judge.problem.engine_rel;
     // Across a knot of a law of motion or of a cam the third derivative jumps, so second differences have order 1 at the

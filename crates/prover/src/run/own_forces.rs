@@ -28,7 +28,7 @@ const ENOUGH: usize = 32;
 const SHARE: f64 = 0.05;
 
 /// Whether the engine's own forces are judged.
-/// They are not judged if no force is requested or if the route is given.
+/// The forces are not judged if no force is requested or if the route is given.
 /// If the engine's default route already gives its own forces, [`judged`] finds no route for them.
 pub(super) fn are_asked(judge: &Judge, chosen: &Chosen) -> bool {
     chosen.given.route.is_free() && judge.asking(judge.asked).of_own_forces().has_channels()
@@ -45,7 +45,7 @@ pub(super) fn judged(
 ) -> Option<EngineProof> {
     let effort = motion.search.as_ref().map_or(0.0, |search| search.effort);
     // If the motion has needed more work than is allowed for the engine's own forces, they are not judged.
-    // Impulses are of a lower order than the motion. They need as many sweeps as the motion, with the true masses.
+    // Impulses are of a lower order than the motion. Impulses need as many sweeps as the motion, with the true masses.
     if effort > SHARE * chosen.budget {
         let told = sentences::the_motion_has_taken_the_work(&error(effort), &error(SHARE * chosen.budget));
         let failure = Error::new(ErrorKind::Unsupported, told);
@@ -73,8 +73,8 @@ pub(super) fn judged(
 }
 
 /// A result without comparison.
-/// If the only reason is too little work, `work` is the amount that was needed so far. The advice then names a
-/// sufficient amount.
+/// If the only reason is too little work, `work` is the work that was needed so far.
+/// The advice then names a sufficient amount of work.
 fn failed(engine: &dyn Engine, failure: Error, work: Option<f64>) -> EngineProof {
     // A power of ten that is certainly enough for the next attempt.
     let advice = work.map(|work| Advice::MoreWork { to: 10f64.powf((work / SHARE).log10().ceil()) });

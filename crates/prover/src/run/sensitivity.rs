@@ -14,11 +14,11 @@ use linkage::trajectory::Trajectory;
 const CHANGE: f64 = 1e-6;
 
 /// Sensitivity of every channel of `reference`, in its order and in the channel's unit.
-/// It is the largest change of the channel's values over the run, per relative change of gravity and motor torque.
+/// This is the largest change of the channel's values over the run, per relative change of gravity and motor torque.
 /// Empty for a motion that does not depend on forces.
 ///
 /// # Errors
-/// Those of the solver.
+/// The errors of the solver.
 pub(super) fn of(case: &Case, solver: &dyn Solver, reference: &Trajectory) -> Result<Vec<f64>> {
     if !case.is_free() {
         return Ok(Vec::new());

@@ -210,7 +210,7 @@ impl<'a, 'b> Settling<'a, 'b> {
                         self.leave_out_less(&trial.judged);
                     }
                     // A later round replaces the best round if the later round disagrees, or if its need is less.
-                    // It also replaces a disagreeing best round if the later round is decided.
+                    // A later round also replaces a disagreeing best round if the later round is decided.
                     let better = best.as_ref().is_none_or(|best| {
                         let refuted = decided && !best.judged.proof.against().is_empty();
                         disagrees || refuted || trial.need < best.need

@@ -64,7 +64,7 @@ pub fn is_exact(at: f64, error: f64) -> bool {
 /// So changes are found for rates and forces too, and at instants at which a rate vanishes.
 ///
 /// # Errors
-/// Those of the solver, if a shifted instant is beyond the reach of the mechanism, and those of `then`.
+/// The errors of the solver, if a shifted instant is beyond the reach of the mechanism, and those of `then`.
 pub fn shifted(
     case: &Case,
     own: &Trajectory,
@@ -122,7 +122,7 @@ impl RoundedInstants {
     /// neighbouring rows.
     ///
     /// # Errors
-    /// Those of the solver at the instants themselves.
+    /// The errors of the solver at the instants themselves.
     pub(super) fn of<'a>(
         case: &Case,
         points: impl Iterator<Item = &'a OraclePoint>,

@@ -27,7 +27,7 @@ pub fn known_at_least(trajectory: &Trajectory) -> Vec<f64> {
 }
 
 /// Smallest errors of an analytic side's trajectory that has all channels of a case.
-/// The error of a channel follows from the numbers of the groups on which the channel depends.
+/// The error of a channel follows from the size of the numbers in the groups on which the channel depends.
 #[must_use]
 pub fn known_of_complete(case: &Case, trajectory: &Trajectory) -> Vec<f64> {
     let depends = Dependence::of(case, trajectory.channels());
@@ -77,8 +77,8 @@ impl Solved {
     /// Solves the channels that some claims of a scenario need, at the instants of a grid.
     ///
     /// # Errors
-    /// Those of the sides, with the crank angle.
-    /// Also if the drive does not reach an instant of the grid.
+    /// The errors of the sides, with the crank angle.
+    /// An error also if the drive does not reach an instant of the grid.
     pub fn of<'a>(scenario: &Scenario, grid: Grid, claims: impl IntoIterator<Item = &'a Claim>) -> Result<Self> {
         let asked: Vec<Channel> = claims.into_iter().flat_map(|claim| asked(claim, &scenario.case)).collect();
         let (case, sides) = of_asked(scenario, &scenario.case.on(grid)?, &asked, &Formulas::over(Vec::new()))?;
@@ -99,7 +99,7 @@ impl Solved {
     /// Calls `then` with the results of the reference and their errors.
     ///
     /// # Errors
-    /// Those of `then`.
+    /// The errors of `then`.
     pub fn on_course<T>(&self, then: impl FnOnce(&KnownTrajectory) -> Result<T>) -> Result<T> {
         self.sides.on_course(&self.case, Reference::Assur, |course| then(&course.known_at_least(&self.least)))
     }

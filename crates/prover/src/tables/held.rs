@@ -93,7 +93,7 @@ pub struct Held {
 }
 
 /// Indices of a party's columns, by the text of the column and by its channel. If several columns match, the first one
-/// counts. Expressions have no entry by channel. A magnitude is a separate channel.
+/// counts. An expression is not found by its channel. A magnitude is a separate channel.
 /// The maps are needed for speed: a party has as many columns as a mapping has lines, and each column is looked up.
 #[derive(Clone, Debug, Default)]
 struct Places {
@@ -135,7 +135,7 @@ impl Held {
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for an unknown column or channel, with its location.
-    /// Also if nothing states the instants of the rows or the meaning of a column.
+    /// The same error if nothing states the instants of the rows or the meaning of a column.
     pub fn of_table(raw: &Raw, mapping: &Mapping) -> Result<Held> {
         let mut reader = Reader::of(raw);
         let mut at = Instants::default();
@@ -236,7 +236,7 @@ impl Held {
     }
 
     /// The party's numbers for a claim, in the claim's unit.
-    /// They come from a column with the same text, or with the same channel in another unit.
+    /// The numbers come from a column with the same text, or with the same channel in another unit.
     #[must_use]
     pub fn values_of(&self, claim: &Claim) -> Option<Cow<'_, [Rounded]>> {
         match self.column_of(claim)? {

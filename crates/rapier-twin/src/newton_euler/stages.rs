@@ -46,7 +46,7 @@ impl Row {
         Row { number, columns: columns.collect(), known: known.collect() }
     }
 
-    /// Passes the coefficients to `put`, by column, and returns the right-hand side.
+    /// Calls `put` for every column and coefficient of the equation, and returns the right-hand side.
     /// Coefficients and right-hand side follow from the limb's joint and from the needs of its link.
     #[inline]
     pub(super) fn equation(

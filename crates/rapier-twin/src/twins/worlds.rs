@@ -78,7 +78,7 @@ struct Place {
     multibody: usize,
     /// Index of the link's first coordinate in its multibody.
     dof: usize,
-    /// Its number there.
+    /// Number of the link in its multibody.
     id: usize,
 }
 

@@ -10,7 +10,7 @@ use crate::unit::{
 pub struct Section {
     /// Keys that lead to this table from the top of the file, separated by dots. `*` means any name.
     pub path: &'static str,
-    /// Its keys.
+    /// Keys of the table.
     pub keys: &'static [FileKey],
 }
 

@@ -8,7 +8,7 @@ use crate::reader::asked;
 use crate::{Scenario, files_in};
 
 /// Changes of a scenario that make readers request keys that no scenario of the repository has.
-const CHANGES: [(&str, &str, &str); 17] = [
+const CHANGES: [(&str, &str, &str); 18] = [
     (
         "crank_rocker",
         "speed_rpm = 130",
@@ -54,6 +54,11 @@ const CHANGES: [(&str, &str, &str); 17] = [
     ),
     ("ov7_base", "file = ", "digits = 3\nfile = "),
     ("boom_lift", "law = \"cycloidal\"", "law = \"harmonic\"\namplitude_mm = 9\nperiod_s = 1"),
+    (
+        "boom_lift",
+        "[start]",
+        "[[loads]]\ntype = \"slide_force\"\njoint = \"S\"\ntable = [{ crank_mm = 0, thrust_N = 1 }]\n[start]",
+    ),
     ("boom_lift", "from_s = 0\nto_s = 4\nstep_s = 0.05\n", "from_mm = 1\nto_mm = 2\nstep_mm = 1\n"),
     (
         "boom_lift",
@@ -111,7 +116,7 @@ fn every_key_of_the_table_is_read() {
     for section in sections() {
         // The same keys occur in several sections, for example positions and printed numbers. A single reader reads all
         // sections with the same keys.
-        // It therefore suffices that the key is requested in one of these sections.
+        // Therefore it suffices that the key is requested in one of these sections.
         let alike = || sections().filter(|other| names(other) == names(section));
         for spelling in section.keys.iter().flat_map(super::FileKey::spellings) {
             if !alike().any(|own| asked.get(own.path).is_some_and(|keys| keys.contains(&spelling))) {

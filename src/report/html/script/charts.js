@@ -1,7 +1,7 @@
-// Channels: both sides over time or crank angle, and the size of their difference below, with its bound.
+// Channels: both sides over time or crank angle; below, the magnitude of their difference with its bound.
 
 const PLOT = { width: 340, left: 56, right: 8, upper: 110, gap: 25, lower: 66, axis: 28, head: 18 };
-/** Units that people read. */
+/** Units of the page in place of SI units. */
 const READ = { rad: ['deg', 180 / Math.PI], m: ['mm', 1e3] };
 const readUnit = (unit) => READ[unit] || [nice(unit), 1];
 
@@ -10,7 +10,7 @@ const isOneWay = crank.every((value, k) => k === 0 || (value - crank[k - 1]) * (
 const abscissa = () => (over === 'crank' ? crank.map((value) => value * input.factor) : time);
 const abscissaUnit = () => (over === 'crank' ? `${input.word}, ${input.unit}` : 't, s');
 
-/** Functions of what is near the window, called at every instant shown. */
+/** Update functions of charts near the window, called at every instant shown. */
 const near = new Map();
 const nearWatcher = new IntersectionObserver((entries) => {
   for (const entry of entries) {
@@ -25,10 +25,10 @@ function follow(element, move) {
   move();
 }
 followers.push(() => { for (const own of near.values()) if (own.isNear) own.move(); });
-// Paper has no window: everything shows the same instant.
+// Before printing, all charts are updated to the instant shown.
 window.addEventListener('beforeprint', () => near.forEach((own) => own.move()));
 
-/** Least and greatest with some room, never the same. What is far below `natural` is rounding, not a curve. */
+/** A range with margins and a positive width. Variation far below `natural` is rounding error and is not magnified. */
 function roomy([low, high], natural = 0) {
   const size = Math.max(Math.abs(low), Math.abs(high), natural) || 1;
   const room = Math.max(0.06 * (high - low), 1e-6 * size);
@@ -50,12 +50,12 @@ function axes(svg, box, xs, ys, labels) {
   draw(svg, 'rect', { class: 'frame', x: x0, y: y0, width: x1 - x0, height: y1 - y0 });
 }
 
-/** A straight scale from numbers to a part of a picture. */
+/** A linear scale from numbers to a part of a picture. */
 function scale(low, high, from, to, name = null) {
   return { low, high, name, at: (value) => from + (value - low) / (high - low) * (to - from) };
 }
 
-/** The largest size among an instant and two on either side: at the level of rounding, sizes jump. */
+/** Largest magnitude among an instant and two on either side, because magnitudes of rounding errors jump. */
 function envelope(column, row) {
   let most = NaN;
   for (let k = Math.max(row - 2, 0); k <= Math.min(row + 2, last); k += 1) if (!(most >= Math.abs(column[k]))) most = Math.abs(column[k]);
@@ -167,7 +167,7 @@ function card(parent, index) {
   later(element, () => chart(element, index));
 }
 
-/** All channels by quantity; those open that disagree, and the first and the worst. */
+/** All channels by quantity; groups with disagreeing channels, the first group and the worst channel are open. */
 function setUpCharts() {
   const list = byId('charts');
   list.replaceChildren();

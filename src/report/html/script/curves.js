@@ -1,6 +1,6 @@
-// Hodographs, curves over the crank angle and of the motor.
+// Hodographs, curves over the crank angle, and curves of the motor.
 
-/** A square picture around a pole, for vectors up to `most`: its element, and places in it. */
+/** A square picture around a pole, for vectors up to `most`: its element, and the map to positions in it. */
 function poled(parent, label, most, unit, size = 200) {
   const svg = draw(parent, 'svg', { class: 'curve', viewBox: `0 0 ${size} ${size}`, role: 'img', 'aria-label': label });
   const reach = 0.42 * size / (most > 0 ? most : 1);
@@ -42,7 +42,7 @@ function hodograph(parent, name, columns, unit) {
 
 function setUpHodographs() {
   const list = byId('hodograph-list');
-  // Taken away where there are none.
+  // The section is removed if there are no curves.
   if (list === null || motion === null) return false;
   list.replaceChildren();
   const sorts = [
@@ -61,7 +61,7 @@ function setUpHodographs() {
   return list.children.length > 0;
 }
 
-/** A curve with its mean, and a dot that `now` places; x and y are told by name and unit. */
+/** A curve with its mean, and a dot at the position `now`; the axes have names and units. */
 function curve(parent, title, [x, y], [across, along], mean, told, now) {
   const element = put(parent, 'div', 'card');
   put(element, 'h3', '', title);

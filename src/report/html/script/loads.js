@@ -1,28 +1,28 @@
-// What acts on the mechanism besides reactions: hollow arrows for loads, drives and weights, numbers at springs.
+// Forces other than reactions: hollow arrows for loads, drives and weights, numbers at springs.
 
 const loads = page.loads || null;
 /** Half the width of an arrow's shaft, and half the width and the length of its head, in units. */
 const SHAFT = 0.55;
 const HEAD = [1.6, 3.2];
-/** Radii of arrows around a place: of loads, and of drives, whose sense is drawn between the two. */
+/** Radii of arrows of moments: for loads and for drives; the mark of the drive's sense lies between the two radii. */
 const AROUND = { load: 5.6, drive: 10.4 };
-/** Room between the tip of an arrow and the edge of the picture, in units. */
+/** Distance between the tip of an arrow and the edge of the picture, in units. */
 const EDGE = 4;
-/** The largest moment's arrow goes so far around (rad). */
+/** Angle of the arrow of the largest moment (rad). */
 const SWEEP = 1.5 * Math.PI;
-/** Arrows that are shorter are not drawn, in units. */
+/** Shorter arrows are not drawn (units). */
 const SHORTEST = 0.8;
-/** The numbers of more weights than these are in the table only. */
+/** If there are more weights than this, their numbers are in the table only. */
 const FEW = 4;
-/** Those that are shorter have their number in the table only. */
+/** The number of a shorter arrow is in the table only (units). */
 const READABLE = 3;
-/** Share of the longest reaction from which on the longest load is drawn to the same scale. */
+/** If the largest load is at least this fraction of the largest reaction, loads and reactions have one scale. */
 const ALIKE = 0.25;
 
 /** A column that may be one number for all rows. */
 const columnOf = (own) => (typeof own === 'number' ? new Float64Array(time.length).fill(own) : singles(own));
 
-/** Loads and weights: name, foot and components by row; moments with their size by row. */
+/** Loads and weights: name, point of application and components by row; moments with their magnitude by row. */
 const pushing = loads === null ? [] : [
   ...loads.arrows.filter((own) => own.force !== null).map((own) => ({ ...own, force: own.force.map(columnOf) })),
   ...loads.weights.map((own) => ({ ...own, force: own.force.map(columnOf), isQuiet: loads.weights.length > FEW })),
@@ -33,7 +33,7 @@ const turning = loads === null ? [] : [
 ];
 const between = loads === null ? [] : loads.between.map((own) => ({ ...own, size: columnOf(own.size) }));
 
-/** Something with a number in the picture: its parts, and a function that places them. Numbers lie above all arrows. */
+/** A mark with a number in the picture, and a function that moves both. Numbers lie above all arrows. */
 function sign(name, move) {
   const shown = [draw(byId('loads'), 'g', { 'data-name': name }), draw(byId('load-numbers'), 'g')];
   draw(shown[0], 'title', {}, name);
@@ -44,14 +44,14 @@ function sign(name, move) {
   });
 }
 
-/** Rooms of the numbers in the picture at the instant shown. */
+/** Boxes of the numbers in the picture at the instant shown. */
 let numberRooms = [];
 following.push(() => {
   const [left, top, , height] = motion.view;
   numberRooms = [[left, top + height - 17, left + 45, top + height]];
 });
 
-/** Writes a number beside a place of the picture, on the side of (u, v) if there is room. */
+/** Writes a number beside a point of the picture, on the side of (u, v) if there is space. */
 function tell(text, said, place, [u, v]) {
   text.textContent = said;
   const [left, top, width, height] = motion.view;
@@ -68,7 +68,7 @@ function tell(text, said, place, [u, v]) {
   text.setAttribute('y', box[3] - 0.22 * LETTER);
 }
 
-/** A hollow arrow between two places of the picture: foot, head, foot. */
+/** Outline of a hollow arrow between two points of the picture. */
 function hollow([x, y], [p, q]) {
   const length = Math.hypot(p - x, q - y);
   const [u, v] = [(p - x) / length, (q - y) / length];
@@ -80,7 +80,7 @@ function hollow([x, y], [p, q]) {
     + `L${at(length - head, -shaft)}L${at(0, -shaft)}Z`;
 }
 
-/** A hollow arrow around a place: counter-clockwise for a sweep above 0, in the picture, whose y goes down. */
+/** Outline of a hollow arrow around a point, counter-clockwise for a positive sweep; y of the picture points down. */
 function hollowTurn([x, y], radius, sweep) {
   const [start, sense] = [-0.25 * Math.PI, Math.sign(sweep)];
   const end = start + sweep;
@@ -95,7 +95,7 @@ function hollowTurn([x, y], radius, sweep) {
 let loadScale = 0;
 let [largestLoad, largestMoment] = [0, 0];
 
-/** Scales of loads, and room for all arrows of the run in the picture. */
+/** Determines the scales of loads, and enlarges the picture for all arrows of the run. */
 function scaleLoads() {
   largestLoad = pushing.reduce((found, own) => Math.max(found, largestOf(own.force)), 0);
   largestMoment = turning.reduce((found, own) => Math.max(found, largestOf([own.size])), 0);
@@ -118,7 +118,7 @@ function scaleLoads() {
     }
   }
   setRow(0, 0);
-  // The bars of the scales stand below all arrows.
+  // The bars of the scales lie below all arrows.
   bottom = Math.max(bottom, lowest + 18);
   motion.view = [left, top, right - left, bottom - top];
   picture.setAttribute('viewBox', motion.view.join(' '));
@@ -178,7 +178,7 @@ function setUpLoads() {
   return largestLoad > 0 || largestMoment > 0 || between.length > 0 || gravity > 0;
 }
 
-/** What hollow arrows mean, and their scales. */
+/** Writes the legend of the hollow arrows, with their scales. */
 function tellLoads() {
   const said = [];
   if (largestLoad > 0) {
@@ -189,10 +189,10 @@ function tellLoads() {
   byId('load-scale').textContent = `hollow arrows: what acts in addition to the reactions (loads, drives, weights, gravity)${said.map((own) => `; ${own}`).join('')}`;
 }
 
-/** Numbers of all forces at the instant shown: loads first, then reactions. */
+/** Table of all forces at the instant shown: loads first, then reactions. */
 function setUpForces() {
   const body = byId('force-rows');
-  // What is smaller beside the largest of the run is rounding.
+  // Smaller values are rounding errors of the largest forces of the run.
   const naturalForce = 1e-12 * Math.max(largestForce(), largestLoad);
   const naturalMoment = Math.max(naturalForce * motion.size, 1e-12 * largestMoment);
   const seen = (size, natural) => (Math.abs(size) > natural ? size : 0);

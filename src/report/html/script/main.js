@@ -13,13 +13,13 @@ function show() {
   byId('readout').textContent = `${told} (instant ${shown.row + 1} of ${last + 1})`;
 }
 
-/** Shows an instant that was solved, exactly. */
+/** Shows a solved instant. */
 function goTo(row) {
   setRow(Math.min(Math.max(row, 0), last), 0);
   show();
 }
 
-/** Shows a time: between instants that are close to each other too. */
+/** Shows a time, which may lie between two neighbouring instants. */
 function goToTime(when) {
   const row = rowAt(when);
   const step = row < last ? time[row + 1] - time[row] : 1;
@@ -68,7 +68,7 @@ function setPlaying(isOn) {
   requestAnimationFrame(frame);
 }
 
-/** One instant or several on or back; stops what plays. */
+/** Stops playing, and moves forwards or backwards by one or several instants. */
 function step(by) {
   setPlaying(false);
   goTo(shown.row + by);
@@ -102,7 +102,7 @@ document.addEventListener('keydown', (event) => {
   act(event.shiftKey);
 });
 
-/** Shows and hides a part of the picture. */
+/** Sets up the box that shows or hides a part of the picture. */
 function setUpBox(part) {
   const box = byId(`show-${part}`);
   if (box && picture) box.addEventListener('change', () => picture.classList.toggle(`no-${part}`, !box.checked));

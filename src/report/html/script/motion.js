@@ -1,12 +1,12 @@
 // The mechanism in motion: links, springs, reactions, paths.
 
 const picture = byId('picture');
-/** Length of the longest arrow, in units of the picture: shorter where the mechanism is low. */
+/** Length of the longest arrow, in units of the picture; shorter if the picture is low. */
 const LONGEST = motion === null ? 26 : Math.min(26, Math.max(0.5 * (motion.view[3] - 30), 12));
 const hasEngine = page.engines.some((engine) => engine.channels.some((own) => own.errors !== undefined));
 const following = [];
 
-/** World place (m) in units of the picture. */
+/** World position (m) in units of the picture. */
 const toPicture = ([x, y]) => [x / motion.unit, -y / motion.unit];
 
 function matrix(at) {
@@ -34,7 +34,7 @@ function setUpLinks() {
   }
 }
 
-/** Joints have their names where the pointer is. */
+/** Shows the name of a joint under the pointer. */
 function setUpJoints() {
   const parent = draw(null, 'g', { id: 'joints' });
   byId('arrows').before(parent);
@@ -52,7 +52,7 @@ function setUpJoints() {
   }
 }
 
-/** Both sides of something that is drawn anew at every instant: `make` gives an element, `move` draws it. */
+/** Elements of both sides that are redrawn at every instant: `make` creates an element, `move` draws it. */
 function onBothSides(parent, make, move) {
   for (const isEngine of hasEngine ? [false, true] : [false]) {
     const own = draw(parent, 'g', { class: isEngine ? 'other' : 'own' });
@@ -61,7 +61,7 @@ function onBothSides(parent, make, move) {
   }
 }
 
-/** World place (m) of a place on a link, [number, x, y]; null where the link has none. */
+/** World position (m) of a point of a link, [number, x, y]; null if the link has no pose. */
 function worldOf([number, x, y], isEngine) {
   const at = pose(number, isEngine);
   return at === null ? null : placeOn(at, x, y);
@@ -126,7 +126,7 @@ function setUpArrows() {
   byId('arrow-scale').textContent = `reactions: force of a joint's first link on its second, at the joint; the bar marked ${digits(bar)} N is to scale, the longest arrow is ${digits(most, 3)} N`;
 }
 
-/** The bars that tell lengths and forces, in the lower left corner. */
+/** The scale bars of lengths and forces, in the lower left corner. */
 function setUpScales() {
   const [left, top, width, height] = motion.view;
   const scales = byId('scales');
@@ -172,7 +172,7 @@ function setUpPaths() {
   return drawn.some((own) => own !== null);
 }
 
-/** Factors by which differences between the sides can be magnified until they are seen. */
+/** Factors by which differences between the sides can be magnified. */
 function magnifications() {
   let most = 0;
   for (const link of motion.links) {
@@ -186,7 +186,7 @@ function magnifications() {
   return [1, factor / 100, factor / 10, factor].filter((own, k) => k === 0 || (own > 1 && Number.isFinite(own)));
 }
 
-/** Whether there are reactions, loads and paths to show. */
+/** Sets up the picture. Returns whether there are reactions, loads, paths and forces to show. */
 function setUpPicture() {
   if (motion === null) return { arrows: false, loads: false, paths: false, forces: false };
   setUpLinks();

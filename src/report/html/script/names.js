@@ -1,25 +1,25 @@
-// Names in the picture: each stands where it covers least, and stays on its side as long as that is about as good.
+// Names in the picture: each name is placed where it covers least, and changes its side only for a clear improvement.
 
 /** Height of letters, and width of one, in units of the picture. */
 const LETTER = matchMedia('(max-width: 30rem)').matches ? 5 : 3.3;
 const WIDE = 0.62 * LETTER;
-/** Least length of a link that shows its number, in units. */
+/** Shorter links do not show their number (units). */
 const ROOM = 24;
-/** Distance of a name's middle from its place, beside half its own size, in units. */
+/** Distance of a name's edge from its point, in units. */
 const AWAY = 2;
-/** Height of a pivot below its place, in units. */
+/** Height of a pivot's symbol below its point, in units. */
 const PIVOT = 5;
-/** What covering costs: another name, a place, a line; and what changing the side costs. */
+/** Cost of covering another name, a point or a line, and cost of changing the side. */
 const COSTS = { name: 6, place: 3, line: 1, change: 1.5 };
 const SIDES = Array.from({ length: 8 }, (_, k) => [Math.cos(k * Math.PI / 4), Math.sin(k * Math.PI / 4)]);
 
-/** Names by place: those of one place stand beside each other. */
+/** Names by point; the names of one point are written side by side. */
 function namesByPlace() {
   const extent = (number) => {
     const xs = motion.links[number - 1].points.map((point) => [point[1], point[2]]);
     return Math.max(0, ...xs.flatMap((a) => xs.map((b) => Math.hypot(a[0] - b[0], a[1] - b[1])))) / motion.unit;
   };
-  // A link that is short in the picture has no room for its number; its colour is in the table of links.
+  // A link that is short in the picture shows no number; the table of links has its colour.
   const hasRoom = (own) => own.names !== 'centre' && (own.names !== 'link' || extent(own.on[0]) > ROOM);
   const found = [];
   for (const label of motion.labels.filter(hasRoom)) {
@@ -30,11 +30,11 @@ function namesByPlace() {
     if (same) same.text += `, ${label.text}`;
     else found.push({ text: label.text, on: label.on, at, isLink, kind: isLink ? `link k${label.text}` : label.names, side: null });
   }
-  // Names of points first: numbers of links find room anywhere.
+  // Names of points are placed first, because numbers of links can be placed anywhere.
   return found.sort((a, b) => a.isLink - b.isLink);
 }
 
-/** Lines of the links in the picture, and of pivots on the ground, as pairs of places. */
+/** Lines of links and of ground pivots in the picture, as pairs of points. */
 function linesNow() {
   const lines = [];
   for (const { on } of motion.labels.filter((label) => label.on[0] === 0)) {
@@ -51,7 +51,7 @@ function linesNow() {
   return lines;
 }
 
-/** Whether a line meets a box, [left, top, right, bottom]: what is left of it between the sides. */
+/** Whether a line meets a box, [left, top, right, bottom], by clipping the line. */
 function meets([[x, y], [u, v]], [left, top, right, bottom]) {
   let [from, to] = [0, 1];
   for (const [start, way, low, high] of [[x, u - x, left, right], [y, v - y, top, bottom]]) {
@@ -68,7 +68,7 @@ function meets([[x, y], [u, v]], [left, top, right, bottom]) {
 
 const overlap = (a, b) => a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
 
-/** Where a name stands on one of the eight sides of its place. */
+/** Box of a name on one of the eight sides of its point. */
 function boxOn([x, y], text, [u, v]) {
   const [half, high] = [0.5 * WIDE * text.length, 0.5 * LETTER];
   const [a, b] = [x + u * (AWAY + half), y + v * (AWAY + high)];

@@ -1,12 +1,12 @@
 // Plans of velocities and accelerations: the vectors of `linkproof plan` at the instant shown.
 
-/** Half the width of a plan, and the room for its vectors. */
+/** Half the width of a plan, and the space for its vectors. */
 const MIDDLE = 190;
 const REACH = 160;
 /** Height of a plan's letters, and width of one. */
 const SIGN = [12, 6.8];
 
-/** The smallest round number that is not below a number. */
+/** The smallest round number that is at least `least`. */
 function roundUp(least) {
   if (!(least > 0) || !Number.isFinite(least)) return 1;
   const power = 10 ** Math.floor(Math.log10(least));
@@ -16,7 +16,7 @@ function roundUp(least) {
 const tipColumns = once((number, tip) => page.plans.plans[number].tips[tip].map(columnOf));
 const letterOf = new Map(page.plans ? page.plans.letters : []);
 
-/** The layout of a plan at the instant shown, and the ends of its vectors. Between two layouts nothing is made up. */
+/** The layout of a plan at the instant shown, and the ends of its vectors. Layouts are not interpolated. */
 function planNow(number) {
   const own = page.plans.plans[number];
   const which = (row) => (own.which === null ? 0 : own.which[row]);
@@ -26,14 +26,14 @@ function planNow(number) {
   return { ...layout, at: layout.tips.map((_, tip) => tipColumns(number, tip).map(read)) };
 }
 
-/** The vectors of a link, or all (0), and the absolute ones to their ends. */
+/** The vectors of a link with the absolute vectors to their ends; for 0, all vectors. */
 function chosen(vectors, link) {
   const own = vectors.filter((vector) => link === 0 || vector[4] === link);
   const ends = new Set(own.flatMap((vector) => [vector[2], vector[3]]));
   return vectors.filter((vector) => own.includes(vector) || ((vector[1] === 'absolute' || vector[1] === 'centre') && ends.has(vector[3])));
 }
 
-/** The name of a vector as it is written: a_BA^n with subscript and superscript. */
+/** Writes the name of a vector, such as a_BA^n, with subscript and superscript. */
 function named(parent, name) {
   const [, letter, of, part] = /^([^_]+)_([^^]+)\^?(.*)$/.exec(name) || [null, name, '', ''];
   parent.append(letter);
@@ -43,12 +43,12 @@ function named(parent, name) {
 
 const GRADES = { absolute: 0, centre: 0, relative: 1, normal: 2, tangential: 2, coriolis: 2, sliding: 2 };
 
-/** Draws the plan of the instant into `content`: the ends of all vectors as [place, letters]. */
+/** Draws the plan of the instant into `content`. Returns the ends of all vectors as [point, letters]. */
 function drawPlan(content, own, now, link) {
   const vectors = chosen(now.vectors, link);
   const used = new Set(vectors.flatMap((vector) => [vector[2], vector[3]]));
   const [x, y] = [0, 1].map((axis) => range([[0, ...[...used].map((tip) => now.at[tip][axis])]]));
-  // The scale goes in steps, so that a plan is neither tiny nor too large, and lengths can be read.
+  // The scale changes in round steps, so that a plan is neither too small nor too large, and lengths can be read.
   const whole = roundUp(Math.max(x[1] - x[0], y[1] - y[0]));
   const reach = 2 * REACH / whole;
   const place = ([a, b]) => [MIDDLE + (a - (x[0] + x[1]) / 2) * reach, MIDDLE - (b - (y[0] + y[1]) / 2) * reach];
@@ -83,7 +83,7 @@ function drawPlan(content, own, now, link) {
   letter(content, places);
 }
 
-/** Letters beside their places, on the side where they cover least. */
+/** Writes letters beside their points, on the side where they cover least. */
 function letter(content, places) {
   const taken = places.map(([[x, y]]) => [x - 3, y - 3, x + 3, y + 3]);
   places.forEach(([[x, y], letters]) => {

@@ -15,11 +15,11 @@ const singles = (text) => new Float32Array(bytes(text));
 
 const time = doubles(page.time);
 const crank = doubles(page.crank);
-/** Names of the input, and the unit in which people read it. */
+/** Names of the input, and its unit on the page. */
 const input = page.input || { noun: 'crank angle', word: 'crank', unit: 'deg', factor: 180 / Math.PI };
 const last = time.length - 1;
 
-/** A function that calculates once for each of its numbers. */
+/** A function that stores its result for each argument. */
 function once(make) {
   const known = new Map();
   return (...key) => {
@@ -34,13 +34,13 @@ const values = once((index) => {
   const own = page.channels[index];
   return own.wide ? doubles(own.values) : singles(own.values);
 });
-/** Engine minus reference; null where the engine has no such channel. */
+/** Engine minus reference; null if the engine lacks the channel. */
 const errors = once((engine, index) => {
   const own = engine < page.engines.length ? page.engines[engine].channels[index].errors : undefined;
   return own === undefined ? null : singles(own);
 });
 
-/** What is shown: an instant between two rows, and which engine. */
+/** The instant shown, between two rows, and the engine shown. */
 const shown = { row: 0, share: 0, time: time[0], engine: 0, magnify: 1 };
 
 /** Shows a row, or an instant `share` of the way to the next one. */
@@ -50,7 +50,7 @@ function setRow(row, share) {
   shown.time = row < last ? time[row] + shown.share * (time[row + 1] - time[row]) : time[row];
 }
 
-/** The last row that is not after a time. */
+/** The last row at or before a time. */
 function rowAt(when) {
   let low = 0;
   let high = last;
@@ -61,7 +61,7 @@ function rowAt(when) {
   return low;
 }
 
-/** A channel at the instant shown, straight between rows. */
+/** Value of a channel at the instant shown, linear between rows. */
 function linear(column) {
   const { row, share } = shown;
   return share > 0 ? column[row] + share * (column[row + 1] - column[row]) : column[row];
@@ -72,7 +72,7 @@ function atInstant() {
   return `t = ${shown.time.toPrecision(6)} s, ${input.noun} ${(linear(crank) * input.factor).toFixed(2)} ${input.unit}`;
 }
 
-/** A place at the instant shown, smooth between rows: cubic, with the rates at both. */
+/** A coordinate at the instant shown: between rows, a cubic with the rates of both rows. */
 function smooth(column, rates) {
   const { row, share } = shown;
   if (share === 0) return column[row];
@@ -82,7 +82,7 @@ function smooth(column, rates) {
     + step * share * rest * (rest * rates[row] - share * rates[row + 1]);
 }
 
-// Between rows that are farther apart nothing is made up: the earlier one is held.
+// Rows that are farther apart are not interpolated; the earlier row is shown.
 const FARTHEST = 0.2;
 const motion = page.motion || null;
 const isClose = new Uint8Array(time.length);
@@ -95,7 +95,7 @@ if (motion !== null && motion.links.every((link) => link.rates !== null)) {
 
 const GROUND = { x: 0, y: 0, cos: 1, sin: 0 };
 
-/** Pose of a link (number as in the mechanism) of the reference, or of the engine shown; null where it has none. */
+/** Pose of a link (number as in the mechanism) of the reference or of the engine shown; null if it has no pose. */
 function pose(number, isEngine) {
   if (number === 0) return GROUND;
   const link = motion.links[number - 1];
@@ -114,10 +114,10 @@ function pose(number, isEngine) {
   return { x: x - (cos * a - sin * b), y: y - (sin * a + cos * b), cos, sin };
 }
 
-/** World place (m) of a point of a link. */
+/** World position (m) of a point of a link. */
 const placeOn = (at, x, y) => [at.x + at.cos * x - at.sin * y, at.y + at.sin * x + at.cos * y];
 
-/** A number with some digits that count. */
+/** A number with `count` significant digits. */
 function digits(value, count = 4) {
   if (!Number.isFinite(value)) return '-';
   if (value === 0) return '0';
@@ -125,7 +125,7 @@ function digits(value, count = 4) {
   if (size < 1e-3 || size >= 1e6) return value.toExponential(Math.min(count - 1, 2)).replace('e+', 'e');
   return String(Number(value.toPrecision(count)));
 }
-/** The largest of 1, 2, 5 times a power of ten that is not above a number. */
+/** The largest number of the form 1, 2 or 5 times a power of ten that is at most `most`. */
 function round(most) {
   if (!(most > 0) || !Number.isFinite(most)) return 1;
   const power = 10 ** Math.floor(Math.log10(most));

@@ -20,7 +20,7 @@ function put(parent, name, className = '', text = null) {
   return own;
 }
 
-/** The way through points, broken where one is no number. */
+/** Path through points, interrupted at points that are not numbers. */
 function way(count, x, y) {
   let d = '';
   let pen = 'M';
@@ -36,7 +36,7 @@ function way(count, x, y) {
   return d;
 }
 
-/** Least and greatest of several columns. */
+/** Least and greatest value of several columns. */
 function range(columns) {
   let [low, high] = [Infinity, -Infinity];
   for (const column of columns) {
@@ -48,7 +48,7 @@ function range(columns) {
   return low <= high ? [low, high] : [0, 0];
 }
 
-/** The largest size of a vector, given its columns. */
+/** Largest magnitude of a vector, given its columns. */
 function largestOf(columns) {
   let most = 0;
   for (let row = 0; row <= last; row += 1) most = Math.max(most, Math.hypot(...columns.map((column) => column[row])) || 0);
@@ -85,5 +85,5 @@ window.addEventListener('beforeprint', () => {
   }
 });
 
-/** What moves with the instant: functions that are called at every one. */
+/** Functions that are called at every instant shown. */
 const followers = [];

@@ -51,7 +51,7 @@ impl<'a> Anchors<'a> {
     /// Returns the anchors for the higher groups of a case; `None` if it has no higher group.
     ///
     /// # Errors
-    /// Those of [`PoseSolver::new`].
+    /// The errors of [`PoseSolver::new`].
     pub(super) fn of(case: &'a Case, groups: &Groups) -> Result<Option<Self>> {
         let links: Vec<LinkId> = groups.chains().flat_map(|(chain, _)| chain.links().to_vec()).collect();
         if links.is_empty() {

@@ -14,7 +14,7 @@ use linkage::math::Vec2;
 use linkage::trajectory::Stage;
 
 /// Acceleration of the tip of the vector v on a rotating link, relative to the foot of v.
-/// It is v rotated by 90 degrees, times alpha, minus omega^2 v.
+/// This acceleration is v rotated by 90 degrees, times alpha, minus omega^2 v.
 #[inline(always)]
 pub(super) fn swung<S: Simd>(v: Plane<S>, omega: Lanes<S>, alpha: Lanes<S>) -> Plane<S> {
     v.turned() * alpha - v * (omega * omega)

@@ -4,7 +4,9 @@ use linkage::case::Case;
 use linkage::drive::{Drive, Load, Wrench};
 use linkage::input::Input;
 use linkage::math::{Motion, Vec2, cross};
-use linkage::mechanism::{Group, JointId, JointSide, LinkId, Mechanism, PerJoint, PerTransmission, TransmissionId};
+use linkage::mechanism::{
+    Group, JointId, JointSide, LinkId, Mechanism, PerJoint, PerTransmission, Transmission, TransmissionId,
+};
 
 /// Reactions that the first link of every joint exerts on the second. They are filled in from the last group to the
 /// first.
@@ -136,12 +138,13 @@ impl Body {
         let coupled = coupled.filter(|(id, own)| settled.transmissions[*id] && own.design.links.contains(&link));
         let hanging = on_link.map(|&index| Action::of(case, index, link)).collect();
         let body = &case.mechanism.links()[link];
+        let loses = |own: &Transmission| own.losses.is_some() && own.links().contains(&link);
         Body {
             link,
             mass: body.mass,
             inertia: body.inertia,
             centre: body.mass_centre,
-            is_loaded: case.loads.iter().any(is_loaded),
+            is_loaded: case.loads.iter().any(is_loaded) || case.mechanism.transmissions().iter().any(loses),
             hanging,
             coupled: coupled.map(|(id, _)| id).collect(),
         }

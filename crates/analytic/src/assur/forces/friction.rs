@@ -11,7 +11,7 @@
 //! By Collatz and Wielandt, the spectral radius is at most the largest ratio (L v)_i / v_i, for any v > 0.
 
 use crate::sentences;
-use linkage::case::{Case, Friction};
+use linkage::case::{Case, Friction, FrictionSeat};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::dense::Lu;
 use linkage::math::{KeepNan, Motion, Vec2};
@@ -51,7 +51,7 @@ pub(crate) struct Dry {
     /// Sense of the sliding of every joint: +1, -1, or 0 at standstill.
     pub(crate) senses: Vec<f64>,
     /// Sense of sliding that is assumed for a joint at standstill: 0 for no friction.
-    /// It differs from 0 only while the interval of the driving force is computed.
+    /// The sense differs from 0 only while the interval of the driving force is computed.
     pub(crate) at_rest: Vec<f64>,
     normals: Vec<f64>,
     /// Normal forces at which the reactions are linearised.
@@ -92,11 +92,11 @@ impl Dry {
 
     /// Finds the reactions with friction.
     /// `react` receives the friction of each joint on its second link (N m or N) and writes the reactions to the state.
-    /// They must be linear in the friction while no transmission changes its line of action.
+    /// The reactions must be linear in the friction while no transmission changes its line of action.
     ///
     /// # Errors
-    /// Those of `react`; [`ErrorKind::Numeric`] if the friction locks the mechanism, or if several states of the forces
-    /// are in equilibrium.
+    /// The errors of `react`; [`ErrorKind::Numeric`] if the friction locks the mechanism, or if several states of the
+    /// forces are in equilibrium.
     pub(crate) fn settle(
         &mut self,
         case: &Case,
@@ -108,8 +108,8 @@ impl Dry {
         for round in 0..ROUNDS {
             self.react(case, 0.0, 0, state, react)?;
             for (k, friction) in case.frictions().enumerate() {
-                self.base[k] = reaction(&friction, state);
-                self.normals[k] = friction.normal(self.base[k].0, self.base[k].1);
+                self.base[k] = friction.reaction(state.reactions());
+                self.normals[k] = friction.normal(self.base[k], self.senses[k]);
             }
             let largest = self.normals.iter().chain(&self.at).fold(0.0f64, |most, own| most.larger(*own));
             let change = self.normals.iter().zip(&self.at).fold(0.0f64, |most, (a, b)| most.larger((a - b).abs()));
@@ -122,7 +122,7 @@ impl Dry {
             for i in 0..self.normals.len() {
                 self.react(case, unit, i, state, react)?;
                 for (j, friction) in case.frictions().enumerate() {
-                    let ((force, moment), base) = (reaction(&friction, state), self.base[j]);
+                    let ((force, moment), base) = (friction.reaction(state.reactions()), self.base[j]);
                     self.columns[i * self.normals.len() + j] = ((force - base.0) / unit, (moment - base.1) / unit);
                 }
             }
@@ -133,7 +133,7 @@ impl Dry {
         Err(stuck(case, state, &Stuck::Locked))
     }
 
-    /// Finds the reactions for the normal forces `self.at`; `more` (N) is added to the one with the number `index`.
+    /// Finds the reactions for the normal forces `self.at`; `more` (N) is added to the normal force number `index`.
     fn react(
         &mut self,
         case: &Case,
@@ -201,10 +201,7 @@ impl Dry {
             let (mut most, mut sum) = (0.0f64, 0.0);
             before.copy_from_slice(&v);
             for (j, friction) in case.frictions().enumerate() {
-                let of = |i: usize| {
-                    let (force, moment) = self.columns[i * n + j];
-                    friction.normal(force, moment) * before[i]
-                };
+                let of = |i: usize| friction.largest(self.columns[i * n + j]) * before[i];
                 let own: f64 = (0..n).map(of).sum();
                 most = most.larger(own / before[j]);
                 // v + L v stays positive, even if L v has zeros.
@@ -224,8 +221,7 @@ impl Dry {
         for _ in 0..MOST {
             let (mut change, mut largest) = (0.0f64, 0.0f64);
             for (j, friction) in case.frictions().enumerate() {
-                let (force, moment) = self.linear(start, j);
-                self.next[j] = friction.normal(force, moment);
+                self.next[j] = friction.normal(self.linear(start, j), self.senses[j]);
                 change = change.larger((self.next[j] - start[j]).abs());
                 largest = largest.larger(self.next[j]);
             }
@@ -248,14 +244,14 @@ impl Dry {
             self.matrix.clear();
             let mut largest = 0.0f64;
             for (j, friction) in case.frictions().enumerate() {
-                let (force, moment) = self.linear(start, j);
-                let normal = friction.normal(force, moment);
+                let reaction = self.linear(start, j);
+                let normal = friction.normal(reaction, self.senses[j]);
                 self.next[j] = start[j] - normal;
                 largest = largest.larger(normal).larger(start[j].abs());
                 self.matrix.add(j, j, 1.0);
                 for i in 0..n {
                     let column = self.columns[i * n + j];
-                    self.matrix.add(j, i, -slope(&friction, (force, moment), column));
+                    self.matrix.add(j, i, -slope(&friction, reaction, column, self.senses[j]));
                 }
             }
             if !self.matrix.factor() {
@@ -274,13 +270,11 @@ impl Dry {
     }
 }
 
-/// Reaction of a joint with friction.
-fn reaction(friction: &Friction, state: &State) -> Reaction {
-    (state.forces[friction.joint], state.moments[friction.joint])
-}
-
 /// Derivative of [`Friction::normal`] at a reaction, in the direction of a change of the reaction.
-fn slope(friction: &Friction, (force, moment): Reaction, change: Reaction) -> f64 {
+fn slope(friction: &Friction, (force, moment): Reaction, change: Reaction, sense: f64) -> f64 {
+    if let FrictionSeat::Mesh { losses, .. } = friction.seat {
+        return losses.normal(force.x, sense)[1] * change.0.x;
+    }
     let (size, guide) = (force.norm(), friction.guide());
     if guide > 0.0 && 2.0 * moment.abs() / guide > size {
         return 2.0 * moment.signum() * change.1 / guide;

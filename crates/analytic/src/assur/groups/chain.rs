@@ -8,7 +8,7 @@
 //! Each transmission gives one equation too (`train.rs`).
 //! There are as many unknowns as equations.
 //! The gap of a closing joint is the sum of the link and slide vectors along both paths to this joint.
-//! Its derivative by an angle is the sum of the vectors that turn with that angle, rotated by 90 degrees. Its
+//! The gap's derivative by an angle is the sum of the vectors that turn with that angle, rotated by 90 degrees. Its
 //! derivative by a slide is the axis.
 //! Velocities and accelerations follow from the same Jacobian: J q' = -(velocity of the ends), J q'' = -(acceleration
 //! of the ends) + centripetal and Coriolis parts.
@@ -60,7 +60,7 @@ const SMALLEST_STEP: f64 = 1e-6;
 /// A pose is singular if the ratio of its determinant to the largest determinant so far is below this value.
 /// At a change point the determinant is linear in the driving angles.
 /// Within [`SMALLEST_STEP`] of the change point, Newton's method cannot distinguish the branches.
-/// It may then change to the branch on which the determinant keeps its sign.
+/// Newton's method may then change to the branch on which the determinant keeps its sign.
 /// At a dead point the determinant falls with the square root of the distance, and its sign distinguishes the branches.
 const SINGULAR: f64 = 1e-6;
 

@@ -99,7 +99,7 @@ impl Rpr {
     }
 
     /// Writes the bounds of the dyad's links. The bounds hold while the gauge stays above the lower end of `band`.
-    /// They follow from the formulas of omega and alpha.
+    /// The bounds follow from the formulas of omega and alpha.
     pub(super) fn bound(&self, band: [f64; 2], links: &mut Bounds) {
         let [Some(first), Some(second)] = self.pins.map(|pin| pin.rates(links)) else { return };
         let (speed, rate) = (first[0] + second[0], first[1] + second[1]);

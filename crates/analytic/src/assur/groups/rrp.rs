@@ -109,7 +109,7 @@ impl Rrp {
 
     /// Writes the bounds of the dyad's links. The bounds hold while the gauge stays in `band`, for `FAR` steps of the
     /// crank.
-    /// They follow from the formulas of omega and alpha, with |e . r| >= l s.
+    /// The bounds follow from the formulas of omega and alpha, with |e . r| >= l s.
     pub(super) fn bound(&self, band: [f64; 2], step: f64, motions: &[Motion], links: &mut Bounds) {
         let Some((pin, zero, guide, distance)) = self.outer_rates(links, motions, FAR * step) else { return };
         let length = self.span.norm();

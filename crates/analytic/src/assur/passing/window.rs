@@ -3,8 +3,8 @@
 //! At the distance x from the change point, the rounding error of a pose grows as 1 / x.
 //! The rounding error of the second transfer functions grows as 1 / x^3.
 //! The error of the polynomials grows with the distance of the nodes from the change point.
-//! Each side has ten nodes at the Chebyshev points of x^2. Their distances are from a tenth of the half width to the
-//! full half width.
+//! On each side of the change point, ten nodes lie at the Chebyshev points of x^2. Their distances are from a tenth of
+//! the half width to the full half width.
 //! This choice is nearly the best compromise between rounding error and polynomial error.
 //! Let r be the distance from the change point to the next singular pose (real or complex).
 //! Second transfer functions then have errors of about 5e-13 for r = 2 rad, 1e-12 for 1 rad, 4e-12 for 0.6 rad and

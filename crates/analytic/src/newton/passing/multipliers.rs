@@ -22,7 +22,7 @@ const LEAST: f64 = 1e-12;
 
 /// If a pose is nearer to a change point than this (rad), multipliers with a nonzero product are not reported.
 /// The position of the change point has an error of about 1e-14 rad.
-/// The relative error of these multipliers is this error divided by the distance.
+/// The relative error of these multipliers is the error of the position, divided by the distance.
 const NEAREST: f64 = 1e-7;
 
 /// Writes the loads on all links at their motions and angles (rad).

@@ -263,7 +263,7 @@ fn crossing(spots: &[Spot], block: usize) -> Option<f64> {
         return None;
     }
     // The first estimate comes from inverse interpolation.
-    // It is improved by the secant method for the polynomial through all poses.
+    // The secant method improves this estimate, for the polynomial through all poses.
     let first = neville(&shares[inner.clone()], |k| spots[inner.start + k].angle, 0.0);
     let places: Vec<f64> = spots.iter().map(|spot| spot.angle - first).collect();
     let share = |x: f64| neville(&places, |k| shares[k], x);

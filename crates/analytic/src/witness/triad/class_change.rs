@@ -24,7 +24,7 @@
 //! In the second kind, the crank and lead 3 are in line.
 //! Both ground leads then stand still, and both are equally unsuitable as the driver.
 //! The second dyad then changes from one of its two configurations to the other.
-//! Its closing condition holds for both configurations and is smooth in theta.
+//! The closing condition of the second dyad holds for both configurations and is smooth in theta.
 //! This condition is solved instead of the angle of the dyad, so such points are passed without difficulty.
 //! A dead point of the group itself, q . F' = 0, cannot be passed.
 
@@ -60,7 +60,7 @@ pub struct Transfer {
     /// The conditional driver: 0, 1 or 2 as in [`Triad::leads`].
     pub driver: usize,
     /// Factor by which rounding errors of the angles can be amplified, at least 1.
-    /// It follows from the inverse sines of two angles.
+    /// The factor follows from the inverse sines of two angles.
     /// The first angle is between the base link and the ground lead that does not drive.
     /// The second angle is between lead 3 and the path of its head.
     pub condition: f64,
@@ -261,7 +261,7 @@ impl ClassChange {
 struct Ended;
 
 /// The zero next to `guess` (rad) of a function, found by Newton's method with bisection between bounds.
-/// `gap` returns the function and its derivative.
+/// `gap` returns the value of the function and its derivative.
 /// `None` if there is no zero within [`MAX_TURN`], or if the function is undefined before the zero.
 fn zero(gap: impl Fn(f64) -> Option<(f64, f64)>, guess: f64) -> Option<f64> {
     let (value, slope) = gap(guess)?;

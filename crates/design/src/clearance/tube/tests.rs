@@ -71,6 +71,8 @@ struct Sample {
     tubes: [Tube; 2],
     own: [bool; 2],
     half: f64,
+    /// Rate of the joint's coordinate.
+    rate: f64,
 }
 
 impl Sample {
@@ -104,14 +106,33 @@ impl Sample {
     ) -> Sample {
         let joint = Joint { name: "j".into(), kind, first, second, drawn: None };
         let own = if random.yes() { [true, random.yes()] } else { [false, true] };
-        Sample { joint, tubes, own, half }
+        Sample { joint, tubes, own, half, rate: random.some(1.0) }
     }
 
-    /// Residuals of the joint's two equations.
+    /// Residuals of the joint's equations at the distance `by` from the middle.
     /// For a revolute joint, the equations state that the two links' points coincide.
     /// For a prismatic joint, the equations state that the second link's point lies on the first link's line, and that
-    /// the axes of both links are parallel.
-    fn open(&self, places: [Place; 2]) -> [f64; 2] {
+    /// the axes of both links are parallel. The third equation states that the coordinate changes at its rate.
+    fn open(&self, places: [Place; 2], by: f64) -> [f64; 3] {
+        let (now, middle) = (self.coordinate(places), self.coordinate(self.middle()));
+        let [first, second] = self.gaps(places);
+        [first, second, now - middle - self.rate * by]
+    }
+
+    fn middle(&self) -> [Place; 2] {
+        self.tubes.map(|tube| (tube.at, tube.direction.y.atan2(tube.direction.x)))
+    }
+
+    fn coordinate(&self, places: [Place; 2]) -> f64 {
+        let [first, second] =
+            [0, 1].map(|k| point(&self.tubes[k], places[k], [self.joint.first, self.joint.second][k].local));
+        match self.joint.kind.axes() {
+            Some(axes) => rotated(unit(places[0].1), axes[0]).dot(&(second - first)),
+            None => places[1].1 - places[0].1,
+        }
+    }
+
+    fn gaps(&self, places: [Place; 2]) -> [f64; 2] {
         let sides = [self.joint.first, self.joint.second];
         let [first, second] = [0, 1].map(|k| point(&self.tubes[k], places[k], sides[k].local));
         let gap = second - first;
@@ -123,7 +144,7 @@ impl Sample {
     /// Derivative of the equations with respect to the poses of the group's links, by central differences.
     fn derivative(&self, places: [Place; 2]) -> Matrix {
         const STEP: f64 = 1e-5;
-        let mut found = Matrix::zeros(2, 6);
+        let mut found = Matrix::zeros(3, 6);
         for column in (0..6).filter(|column| self.own[column / 3]) {
             let [ahead, behind] = [STEP, -STEP].map(|step| {
                 let mut moved = places;
@@ -133,9 +154,9 @@ impl Sample {
                     1 => at.y += step,
                     _ => *angle += step,
                 }
-                self.open(moved)
+                self.open(moved, 0.0)
             });
-            for row in 0..2 {
+            for row in 0..3 {
                 found[(row, column)] = (ahead[row] - behind[row]) / (2.0 * STEP);
             }
         }
@@ -147,9 +168,13 @@ impl Sample {
         move |link: LinkId| own[link].then_some(3 * link.index())
     }
 
+    fn rows(&self) -> Vec<Row<'_>> {
+        closure(&self.joint).into_iter().chain([motion(&self.joint, self.rate)]).collect()
+    }
+
     fn equations(&self) -> (Matrix, Vec<f64>) {
-        let (mut derivative, mut open) = (Matrix::zeros(2, 6), vec![0.0; 2]);
-        equations(&self.joint, &self.tubes, self.half, &self.column(), 0, &mut derivative, &mut open);
+        let mut derivative = Matrix::zeros(3, 6);
+        let open = equations(&self.rows(), &self.tubes, self.half, &self.column(), &mut derivative);
         (derivative, open)
     }
 }
@@ -181,7 +206,7 @@ fn points_stay_within_the_error_of_their_tracks() {
 #[test]
 fn closure_errors_are_within_their_bound() {
     let mut random = Random(2);
-    let mut tightest = [[0.0; 2]; 2];
+    let mut tightest = [[0.0; 3]; 2];
     for _ in 0..JOINTS {
         let sample = Sample::of(&mut random);
         let (_, open) = sample.equations();
@@ -192,7 +217,7 @@ fn closure_errors_are_within_their_bound() {
                 let even = Tube { off: 0.0, twist: 0.0, ..*tube };
                 place(if sample.own[k] { &even } else { tube }, by, &mut random)
             });
-            for (row, found) in sample.open(places).into_iter().enumerate() {
+            for (row, found) in sample.open(places, by).into_iter().enumerate() {
                 let bound = open[row] * (1.0 + 1e-12) + 1e-14;
                 assert!(found.abs() <= bound, "row {row}: {found} {open:?} {:?}", sample.joint.kind);
                 let slides = usize::from(sample.joint.kind.axes().is_some());
@@ -209,8 +234,7 @@ fn the_derivative_is_the_limit_of_differences() {
     let mut random = Random(3);
     for _ in 0..JOINTS {
         let sample = Sample::of(&mut random);
-        let middle = sample.tubes.map(|tube| (tube.at, tube.direction.y.atan2(tube.direction.x)));
-        let off = (sample.equations().0 - sample.derivative(middle)).amax();
+        let off = (sample.equations().0 - sample.derivative(sample.middle())).amax();
         assert!(off < 1e-8, "{off} {:?}", sample.joint.kind);
     }
 }
@@ -228,7 +252,7 @@ fn the_change_of_the_derivative_is_within_its_bound() {
             radii[3 * link..3 * link + 3].copy_from_slice(&[x, y, twist]);
             (sample.tubes[link].off, sample.tubes[link].twist) = (x.hypot(y), twist);
         }
-        let changes = changes(&sample.joint, &sample.tubes, sample.half, &sample.column(), &radii);
+        let changes = changes(&sample.rows(), &sample.tubes, sample.half, &sample.column(), &radii);
         let (middle, _) = sample.equations();
         for _ in 0..POSES {
             let by = distance(sample.half, &mut random);

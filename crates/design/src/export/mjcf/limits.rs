@@ -35,10 +35,12 @@ pub(super) fn check(load: &Load) -> Result<()> {
 /// # Errors
 /// [`ErrorKind::Unsupported`] for a cam.
 pub(super) fn check_transmission(transmission: &Transmission) -> Result<()> {
-    match transmission.cam {
-        None => Ok(()),
-        Some(_) => Err(refused(sentences::a_cam(&transmission.name()), sentences::LEAVE_IT_OUT_OF_THE_SCENARIO)),
-    }
+    let what = match (&transmission.cam, transmission.losses) {
+        (None, None) => return Ok(()),
+        (Some(_), _) => sentences::a_cam(&transmission.name()),
+        (None, Some(_)) => sentences::the_losses_of(&transmission.name()),
+    };
+    Err(refused(what, sentences::LEAVE_IT_OUT_OF_THE_SCENARIO))
 }
 
 /// Checks that a drive can be written.

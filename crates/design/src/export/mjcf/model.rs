@@ -55,7 +55,7 @@ impl<'a> MjcfModel<'a> {
     /// The model of a case whose state at t = 0 is `start`; see [`mjcf`](super::mjcf).
     ///
     /// # Errors
-    /// Those of [`mjcf`](super::mjcf) that do not come from the solver.
+    /// The errors of [`mjcf`](super::mjcf) that do not come from the solver.
     pub fn new(case: &'a Case, start: &State, name: &'a str, step: f64) -> Result<Self> {
         if !(step > 0.0 && step.is_finite()) {
             return Err(Error::new(ErrorKind::Input, sentences::the_time_step_is_but_must(&step))

@@ -2,11 +2,12 @@
 
 use std::f64::consts::TAU;
 
+use super::geometry::coupled;
 use super::kind::kinds;
 use linkage::case::Case;
 use linkage::drive::load::Acts;
 use linkage::drive::{Course, Drive, Load};
-use linkage::mechanism::{Joint, LinkId};
+use linkage::mechanism::{Joint, LinkId, TransmissionDesign};
 use prover::diagnosis::remade;
 
 kinds! { Load, Case:
@@ -91,6 +92,11 @@ kinds! { Load, Case:
         let has_moment = case.mechanism.joints()[joint].slides() && length > 0.0;
         has_moment.then_some(Load::Friction { joint, links, coefficient, length: 0.0 })
     });
+    "efficiency" (1e-2): "the efficiency of the first transmission is too small by a relative amount",
+        |case, size| lossy(case, |[forward, back]| [forward * (1.0 - size), back - size * back.abs()]);
+    "efficiency-missing": "the first transmission loses no power", |case, _| lossy(case, |_| [1.0; 2]);
+    "efficiency-side": "the efficiencies of the first transmission are exchanged",
+        |case, _| lossy(case, |[forward, back]| if back > 0.0 { [back, forward] } else { [forward, forward] });
     "damper-missing": "the first damper is missing", |case, _| times(case, damped(case)?, 0.0);
     "damper-sign": "the first damper has the wrong sign", |case, _| times(case, damped(case)?, -1.0);
     "damper" (1e-2): "the first damper is too strong by a relative amount", |case, size| times(case, damped(case)?, 1.0 + size);
@@ -128,7 +134,16 @@ fn sprung(case: &Case) -> Option<usize> {
 
 /// Index of the first friction in a joint that `is_meant` accepts.
 fn rubbed(case: &Case, is_meant: impl Fn(&Joint) -> bool) -> Option<usize> {
-    case.frictions().find(|own| is_meant(&case.mechanism.joints()[own.joint])).map(|own| own.load)
+    case.frictions().find(|own| !own.is_mesh() && is_meant(&case.mechanism.joints()[own.joint])).map(|own| own.index)
+}
+
+/// Changes the efficiencies of the first transmission.
+fn lossy(case: &Case, change: impl Fn([f64; 2]) -> [f64; 2]) -> Option<Case> {
+    coupled(case, |own| {
+        let efficiency = change(own.efficiency);
+        (efficiency != own.efficiency && own.efficiency != [1.0; 2])
+            .then(|| TransmissionDesign { efficiency, ..own.clone() })
+    })
 }
 
 fn damped(case: &Case) -> Option<usize> {

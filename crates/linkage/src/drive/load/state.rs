@@ -47,8 +47,8 @@ impl Action {
         Action { link, force: Vec2::zeros(), place: Vec2::zeros(), moment }
     }
 
-    /// Actions of a moment (N m) in a revolute joint, or of a force (N) along the axis of a prismatic joint: on the joint's
-    /// first link, then on its second link. `effort` is that on the second link.
+    /// Actions of a moment (N m) in a revolute joint, or of a force (N) along the axis of a prismatic joint: on the
+    /// joint's first link, then on its second link. `effort` is the moment or force on the second link.
     #[must_use]
     pub fn pair(joint: &Joint, effort: f64, motions: &[Motion]) -> [Action; 2] {
         let ends = [(joint.first.link, -effort), (joint.second.link, effort)];

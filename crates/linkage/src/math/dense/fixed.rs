@@ -1,4 +1,4 @@
-//! The elimination of the parent module for orders known at compile time. The compiler unrolls its loops.
+//! The elimination of the parent module for orders known at compile time. The compiler unrolls the loops.
 //!
 //! The operations and their order are those of the general elimination, so the results agree bit for bit.
 //! In contrast to the general elimination, this elimination rejects NaN in any position.

@@ -13,7 +13,7 @@ pub struct Blame {
     pub group: GroupId,
     /// Number of the configuration in which the later group can be placed, counted from 1.
     pub rank: usize,
-    /// Its mode.
+    /// Assembly mode of this configuration.
     pub mode: AssemblyMode,
 }
 

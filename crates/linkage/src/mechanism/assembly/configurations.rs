@@ -9,7 +9,7 @@ use crate::sentences;
 
 /// All real configurations of a group. `pose` contains the poses of the links of earlier groups.
 /// If the group has given joints, the links of every body have the right pose relative to each other in `pose`, as in
-/// [`Structure::driving_pose`](crate::mechanism::Structure::driving_pose); a driven link has its pose.
+/// [`Structure::driving_pose`](crate::mechanism::Structure::driving_pose); a driven link is already placed.
 /// A dyad has up to two configurations, a group of four links up to six.
 ///
 /// # Errors

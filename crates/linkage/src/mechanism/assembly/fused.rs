@@ -5,7 +5,7 @@ use crate::mechanism::assembly::{Configuration, StartGroup};
 use crate::mechanism::{Group, JointId, JointKind, JointSide, LinkId, LinkPose, Mechanism, Pose};
 
 /// A group whose bodies are rigid.
-/// The leads of the bodies are its links. Joints on other links of a body are moved to the body's lead.
+/// One link of each body, its lead, represents the body. Joints on other links of the body are moved to the lead.
 pub(super) struct Fused {
     pub(super) mechanism: Mechanism,
     pub(super) group: Group,

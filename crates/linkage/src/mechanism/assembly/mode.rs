@@ -44,7 +44,7 @@ impl AssemblyMode {
 /// One real configuration of a group, for a given pose of the links that are solved before the group.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Configuration {
-    /// Its mode.
+    /// Assembly mode of the configuration.
     pub mode: AssemblyMode,
     /// Pose of each of the group's links, in the order of [`Group::links`](crate::mechanism::Group::links).
     pub links: Vec<LinkPose>,
@@ -66,7 +66,7 @@ pub struct StartGroup {
 /// second nearest configuration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ConfigurationChoice {
-    /// Its assembly mode.
+    /// Assembly mode of the configuration.
     pub mode: AssemblyMode,
     /// Largest distance of the configuration's points from their approximate positions (m), if any were given.
     pub nearest_m: Option<f64>,

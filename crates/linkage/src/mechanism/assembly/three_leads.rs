@@ -74,7 +74,7 @@ impl Conditions {
     }
 
     /// p and q of two conditions, measured from the centre of the circle of the third condition.
-    /// The third condition is that of the longest lead. Also returns that centre and the radius.
+    /// The third condition is that of the longest lead. Also returns centre and radius of this circle.
     fn reduced(&self, b: Vec2) -> ([(f64, Vec2); 2], Vec2, f64) {
         let length = |one: &Condition| if let Condition::Circle { length, .. } = one { *length } else { -1.0 };
         let pivot = (0..3).max_by(|&i, &j| length(&self.all[i]).total_cmp(&length(&self.all[j]))).unwrap_or(0);
@@ -186,7 +186,7 @@ impl Conditions {
         (0..8).map(|k| of(f64::from(k) * std::f64::consts::FRAC_PI_4)).fold(0.0, f64::larger)
     }
 
-    /// Refines a candidate to rounding error. Adds it if it satisfies the conditions and was not found before.
+    /// Refines a candidate to rounding error, and adds the result if it is a new solution of the conditions.
     /// If Newton's method fails because the base can move, adds a nearby pose that satisfies the conditions.
     fn keep(&self, found: &mut Vec<Found>, candidate: Found) {
         let apart = |known: &Found, one: &Found| {

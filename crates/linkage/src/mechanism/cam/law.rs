@@ -132,7 +132,7 @@ impl CamLaw {
     }
 
     /// Distance of an angle of the cam (rad) from the nearest end of a piece, at which the third derivative jumps.
-    /// It is pi for a law without pieces.
+    /// The distance is pi for a law without pieces.
     #[must_use]
     pub fn to_knot(&self, angle: f64) -> f64 {
         let away = |end: f64| ((angle - end + PI).rem_euclid(TAU) - PI).abs();

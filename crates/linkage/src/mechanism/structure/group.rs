@@ -21,12 +21,12 @@ pub enum GroupKind {
     /// Any group with more than two rigid bodies, and any group of several links with a transmission.
     Higher,
     /// A link whose pose follows from a given joint on a link of an earlier group, or from a transmission between earlier
-    /// links. It is a driving link (class I).
+    /// links. Such a link is a driving link (class I).
     Driven,
 }
 
 impl GroupKind {
-    /// The assembly modes of a dyad with two configurations, that with the positive sine first; `None` for other kinds.
+    /// The assembly modes of a dyad with two configurations, the mode with positive sine first; `None` for other kinds.
     #[must_use]
     pub const fn modes(self) -> Option<&'static [AssemblyMode; 2]> {
         match self {

@@ -41,14 +41,14 @@ pub(super) enum Source {
     Transmission(TransmissionId),
 }
 
-/// One scalar equation and the links that it concerns. One of these links will own it.
+/// One scalar equation and the links that it concerns. One of these links becomes its owner.
 #[derive(Clone, Copy)]
 struct Equation {
     of: Source,
     ends: [LinkId; 3],
 }
 
-/// The links of an equation of a joint, the second one twice.
+/// The links of a joint's equation; the second link is repeated to fill the array.
 fn joined([first, second]: [LinkId; 2]) -> [LinkId; 3] {
     [first, second, second]
 }

@@ -14,7 +14,15 @@ fn two_wheels(kind: TransmissionKind) -> Result<Transmission> {
     let mechanism = mechanism(links, &pins).unwrap();
     let [carrier, first, second] = ["carrier", "first", "second"].map(|name| mechanism.link_named(name).unwrap());
     let links = [first, second];
-    let design = TransmissionDesign { name: "t".into(), kind, links, carrier, joint: JointId(2), start: 0.0 };
+    let design = TransmissionDesign {
+        name: "t".into(),
+        kind,
+        links,
+        carrier,
+        joint: JointId(2),
+        start: 0.0,
+        efficiency: [1.0; 2],
+    };
     Transmission::of(mechanism.links(), mechanism.joints(), mechanism.size(), design)
 }
 

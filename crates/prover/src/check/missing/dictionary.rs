@@ -8,7 +8,7 @@ use linkage::math::KeepNan;
 
 /// Largest number of angles whose sines and cosines are included.
 const ANGLES: usize = 10;
-/// Largest number of steps tried. They are the last steps before the formula.
+/// Largest number of steps tried. These are the last steps before the formula.
 /// The number of products of two steps grows with the square of this number.
 const STEPS: usize = 60;
 
@@ -16,7 +16,7 @@ const STEPS: usize = 60;
 #[derive(Clone, Debug)]
 pub(super) struct Entry {
     pub(super) tree: FormulaTree,
-    /// Its complexity.
+    /// Complexity of the expression.
     pub(super) weight: usize,
     /// Values of the expression at the few instants of the trial.
     pub(super) values: Vec<f64>,

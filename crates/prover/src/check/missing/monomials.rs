@@ -9,7 +9,7 @@ const MOST: usize = 14;
 /// Largest number of different products kept for one value.
 const SIMPLEST: usize = 100;
 
-/// All products, by their value.
+/// All products of known quantities, found by their value.
 pub(in crate::check) struct Monomials {
     quantities: Vec<(FormulaTree, f64)>,
     products: Products,

@@ -81,7 +81,7 @@ pub(in crate::check) struct Tried {
     /// The correction with the smallest remainder among those that do not make the formula right. `None` if no
     /// remainder is small.
     pub(in crate::check) nearest: Option<Mended>,
-    /// How many were tried.
+    /// Number of corrections tried.
     pub(in crate::check) count: usize,
 }
 

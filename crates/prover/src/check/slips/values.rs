@@ -1,7 +1,7 @@
 //! Finds wrong numbers in a formula and wrong parameters.
 //!
 //! The right number is calculated instant by instant.
-//! It must be the same at all instants, and must have few digits, like numbers that people write.
+//! The right number must be the same at all instants, and must have few digits, like numbers that people write.
 //! If the formula is wrong by a factor or is constant, any of its numbers could be wrong.
 //! A number is then reported only if its digits are confused: exchanged, lost, added or doubled.
 

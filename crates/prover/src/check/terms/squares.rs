@@ -22,7 +22,7 @@ pub struct Wrong<'a> {
 pub struct TermBasis {
     /// Name of the quantity; empty for a constant.
     pub text: String,
-    /// Its unit.
+    /// Unit of the quantity.
     pub unit: &'static str,
     values: Vec<f64>,
 }

@@ -33,7 +33,7 @@ const OF_DICTIONARY: i64 = 7;
 const VALUES: i64 = 1;
 
 /// Checks the description of a file.
-/// For no group may it state more columns than the description has bytes. Columns must not be nested too deeply.
+/// No group may state more columns than the description has bytes. Columns must not be nested too deeply.
 pub(super) fn check_description(file: &File) -> io::Result<()> {
     let whole = file.metadata()?.len();
     let mut tail = [0; TAIL as usize];

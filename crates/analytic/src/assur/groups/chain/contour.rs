@@ -107,7 +107,7 @@ pub(in crate::assur) struct Stretch {
     /// Index in [`Contours::arrows`], and the sign of the arrow on this path.
     pub(in crate::assur) arrow: usize,
     pub(in crate::assur) sign: f64,
-    /// As in [`Arrow`].
+    /// Carrier and spin of the arrow, as in [`Arrow`].
     pub(super) carrier: LinkId,
     pub(super) spin: Option<usize>,
     /// The node whose slide is this arrow; `None` for a vector fixed to a link.
@@ -121,7 +121,7 @@ pub struct ClosingJoint {
     pub joint: JointId,
     /// Nodes of the joint's first and second link; `None` if that link is outside the group.
     pub nodes: [Option<usize>; 2],
-    /// The joint on its second link.
+    /// Position of the joint on its second link.
     place: JointSide,
     /// Indices of the known joints at which the two paths start, with the signs of the paths: +1 for the path to the
     /// second link, -1 for the path to the first link.

@@ -159,7 +159,7 @@ impl Chain {
     }
 
     /// The nodes that turn with links outside the group, parents first.
-    /// Their angles are not unknowns of the group: their rotation is known before the group is solved.
+    /// The angles of these nodes are not unknowns of the group: their rotation is known before the group is solved.
     fn led(&self) -> impl Iterator<Item = &Node> {
         let nodes: &[Node] = if self.is_sliding { &self.contours.nodes } else { &[] };
         nodes.iter().filter(|node| node.spin.is_none())

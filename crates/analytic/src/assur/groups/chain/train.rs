@@ -65,7 +65,7 @@ impl Term {
         self.sign * self.now
     }
 
-    /// Rate of a coordinate outside the group: `of_link` is that of an angle. The `order` of its derivative is 1 or 2.
+    /// Derivative (`order` 1 or 2) of a coordinate outside the group; `of_link` returns that of a link's angle.
     fn known(&self, order: usize, of_link: impl Fn(&Motion) -> f64, motions: &[Motion]) -> f64 {
         match &self.of {
             _ if self.column.is_some() => 0.0,

@@ -8,7 +8,7 @@ use linkage::math::{Vec2, cross, rotated, turned};
 pub(super) struct Grounded {
     /// Foot of the lead (m, world axes).
     pub(super) foot: Vec2,
-    /// Its length (m).
+    /// Length of the lead (m).
     pub(super) length: f64,
     /// Head of the lead in the base link's frame (m).
     pub(super) on_base: Vec2,
@@ -76,7 +76,7 @@ impl Chain {
 
 impl Place {
     /// Signed sine of the angle between the base link and the ground lead that does not drive.
-    /// It is zero if the conditional driver has a dead point in the first dyad.
+    /// The sine is zero if the conditional driver has a dead point in the first dyad.
     pub(super) fn sine(&self) -> f64 {
         cross(self.base, self.other) / (self.base.norm() * self.other.norm())
     }

@@ -196,7 +196,7 @@ fn a_group_that_can_move_is_refused() {
     }
 }
 
-/// Reference 7: link 2 A-C-B, link 3 BD, link 4 CE, link 5 K-E-D, crank OA at 70 deg.
+/// `scenarios/fourth_class.toml`: link 2 A-C-B, link 3 BD, link 4 CE, link 5 K-E-D, crank OA at 70 deg.
 #[test]
 fn val_fourth_class_configurations_at_70_degrees() {
     let mut total = 0;

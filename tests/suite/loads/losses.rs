@@ -1,0 +1,164 @@
+//! Efficiencies of transmissions: epicyclic trains, screws at the limit of self-locking, and motions under forces.
+
+use std::path::Path;
+
+use linkage::case::Case;
+use linkage::error::ErrorKind;
+use linkage::solver::State;
+use scenario::Scenario;
+
+use super::friction::apart;
+use crate::common::{assert_within, states};
+
+fn parsed(text: &str) -> Case {
+    Scenario::parse(text, Path::new("test.toml")).unwrap_or_else(|error| panic!("{error}")).case
+}
+
+/// The text of a shipped scenario without formulas, published numbers and gravity.
+fn plain(text: &str) -> String {
+    text.split("[[formula]]")
+        .next()
+        .unwrap()
+        .split("[[oracle]]")
+        .next()
+        .unwrap()
+        .replace("y_m_s2 = \"-g\"", "y_m_s2 = 0")
+}
+
+/// A planetary train with the basic ratio i = z3 / z1. If the sun drives, M_arm = -M_sun (1 + i eta) with the product
+/// eta of the efficiencies of both engagements; if the arm drives, M_arm = -M_sun (1 + i / eta).
+/// H. W. Mueller, Epicyclic Drive Trains, Wayne State University Press 1982, chapter on efficiencies.
+#[test]
+fn val_efficiency_of_a_planetary_train() {
+    let text = plain(include_str!("../../../scenarios/planetary_train.toml"));
+    let give = |text: &str, name: &str, [forward, back]: [f64; 2]| {
+        let head = format!("name = \"{name}\"\n");
+        text.replace(&head, &format!("{head}efficiency = {forward}\nefficiency_back = {back}\n"))
+    };
+    let (inner, outer, i) = ([0.9, 0.7], [0.8, 0.85], 56.0 / 24.0);
+    let text = give(&give(&text, "inner", inner), "outer", outer);
+    for (moment, factor) in [(-3.0, 1.0 + i * inner[0] * outer[1]), (3.0, 1.0 + i / (outer[0] * inner[1]))] {
+        let case = parsed(&text.replace("load_N_m = -3", &format!("load_N_m = {moment}")));
+        for solver in analytic::all() {
+            let torque = states(solver, &case, &[0.5]).unwrap()[0].torques[0];
+            assert_within!((torque + moment / factor).abs(), 1e-12 * 3.0, "{} {moment}", solver.name());
+        }
+    }
+}
+
+/// A square thread with the lead angle alpha and the angle of friction phi: the moments are F d/2 tan(phi + alpha) up and
+/// F d/2 tan(phi - alpha) down. Beyond phi = alpha, the screw is self-locking.
+#[test]
+fn val_screws_on_both_sides_of_self_locking() {
+    let (lead, force, diameter) = (0.008, 6400.0, 0.03);
+    let text = plain(include_str!("../../../scenarios/lifting_screw.toml"));
+    let alpha = (lead / (std::f64::consts::PI * diameter) as f64).atan();
+    for share in [0.5, 0.999, 1.001, 1.8] {
+        let phi = share * alpha;
+        let (up, down) = ((alpha + phi).tan(), (phi - alpha).tan());
+        let line = |key: &str| text.lines().find(|line| line.starts_with(&format!("{key} ="))).unwrap();
+        let text = text
+            .replace(line("efficiency"), &format!("efficiency = {}", alpha.tan() / up))
+            .replace(line("efficiency_back"), &format!("efficiency_back = {}", -down / alpha.tan()));
+        let case = parsed(&text);
+        for solver in analytic::all() {
+            let found = states(solver, &case, &[1.0, 5.0]).unwrap();
+            for (state, expected) in found.iter().zip([up, -down]) {
+                let inertia = 1e-5 * force * diameter;
+                assert_within!(
+                    (state.torques[0] - force * diameter / 2.0 * expected).abs(),
+                    inertia,
+                    "{} {share}",
+                    solver.name()
+                );
+            }
+        }
+    }
+}
+
+const PENDULUM: &str = r#"
+format = 1
+name = "geared_pendulum"
+title = "Pendulum on a wheel whose gears lose power"
+ground.points = { O = { x_mm = 0, y_mm = 0 }, W = { x_mm = 120, y_mm = 0 } }
+joints = [
+    { name = "O", type = "revolute", links = ["ground", "pinion"] },
+    { name = "W", type = "revolute", links = ["ground", "wheel"] },
+]
+start.crank_deg = 20
+gravity = { x_m_s2 = 0, y_m_s2 = -9.81 }
+grid = { from_s = 0, to_s = 2, step_s = 0.001 }
+drive = { joint = "O", motion = "free", speed_rad_s = 10, initial_speed_rad_s = 30 }
+[links.pinion]
+points = { O = { x_mm = 0, y_mm = 0 } }
+mass_kg = 0.5
+mass_centre = { x_mm = 0, y_mm = 0 }
+inertia_kg_m2 = 2e-3
+[links.wheel]
+points = { W = { x_mm = 0, y_mm = 0 }, T = { x_mm = 200, y_mm = 0 } }
+mass_kg = 2
+mass_centre = { x_mm = 120, y_mm = 0 }
+inertia_kg_m2 = 2e-2
+[[transmissions]]
+name = "gears"
+type = "gears"
+links = ["pinion", "wheel"]
+teeth = [20, 60]
+start_deg = -60
+efficiency = 0.9
+efficiency_back = 0.8
+"#;
+
+/// A pendulum that swings through gears loses the energy that the gears dissipate, and both sides agree.
+#[test]
+fn losses_of_a_swinging_pendulum_take_its_energy() {
+    let case = parsed(PENDULUM);
+    assert_within!(apart(&case, [&analytic::AssurSolver, &analytic::NewtonSolver]), 1e-9, "sides");
+    let times = &case.grid.times;
+    for solver in analytic::all() {
+        let found = states(solver, &case, times).unwrap();
+        let energy = |state: &State| -> f64 {
+            let bodies = case.mechanism.links().iter().zip(&state.motions).skip(1);
+            let own = bodies.map(|(body, motion)| {
+                let (v, place) = (motion.point_velocity(body.mass_centre), motion.point(body.mass_centre));
+                0.5 * (body.mass * v.norm_squared() + body.inertia * motion.omega.powi(2))
+                    - body.mass * case.gravity.dot(&place)
+            });
+            own.sum()
+        };
+        let power = |state: &State| case.load_power(&state.motions, &state.angles, state.reactions());
+        let spent: f64 = found.windows(2).map(|pair| 0.5e-3 * (power(&pair[0]) + power(&pair[1]))).sum();
+        let lost = energy(&found[found.len() - 1]) - energy(&found[0]);
+        assert_within!((lost - spent).abs(), 1e-4 * lost.abs(), "{}: {lost} {spent}", solver.name());
+        assert!(lost < -0.5, "{lost}");
+    }
+}
+
+/// A self-locking gear pair holds the pendulum at rest.
+#[test]
+fn a_self_locking_transmission_holds_a_mechanism_at_rest() {
+    let text = PENDULUM
+        .replace("efficiency_back = 0.8", "efficiency_back = -0.1")
+        .replace("initial_speed_rad_s = 30", "initial_speed_rad_s = 0");
+    let case = parsed(&text);
+    for solver in analytic::all() {
+        let error = states(solver, &case, &[0.0, 0.1]).unwrap_err();
+        assert!(error.to_string().contains("friction holds link \"pinion\""), "{}: {error}", solver.name());
+    }
+}
+
+/// Invalid efficiencies are refused, and the error names the key.
+#[test]
+fn wrong_efficiencies_are_refused() {
+    for (from, to, key) in [
+        ("efficiency = 0.9", "efficiency = 0", "efficiency"),
+        ("efficiency = 0.9", "efficiency = 1.1", "efficiency"),
+        ("efficiency_back = 0.8", "efficiency_back = 1.1", "efficiency_back"),
+        ("efficiency_back = 0.8", "efficiency_back = nan", "efficiency_back"),
+    ] {
+        let text = PENDULUM.replace(from, to);
+        let error = Scenario::parse(&text, Path::new("test.toml")).unwrap_err();
+        assert_eq!(error.kind(), ErrorKind::Input);
+        assert!(error.to_string().contains(key), "{to}: {error}");
+    }
+}
