@@ -35,7 +35,7 @@ linkage::sentences! {
     // friction.rs
     friction_has_no_equilibrium(t) = "friction locks the mechanism at t = {t:.6} s; no forces in the joints are in equilibrium with their friction";
     LOWER_A_COEFFICIENT_OF_FRICTION = "lower a coefficient of friction or the radius of a journal, or end the grid before this instant";
-    THE_ROUTE_KNOWS_NO_FRICTION = "joints have friction, which the reports of Rapier's joints do not contain";
+    THE_ROUTE_KNOWS_NO_FRICTION = "Rapier's joints report no friction and no losses of transmissions";
     the_reactions_are_not_determined(t) = "the reactions are not determined at t = {t:.6} s (dead point)";
     // reactions.rs
     THE_MOTION_IS_FREE_BUT_A_PROBE = "the motion is free, but a probe needs prescribed speeds";

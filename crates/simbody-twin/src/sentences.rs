@@ -11,7 +11,7 @@ linkage::sentences! {
     PRESCRIBED_COORDINATES_UNDER_FORCES_MOTOR = "prescribed coordinates; under forces, motor and loads at every evaluation";
     SPANNING_TREE_OF_PINS_AND_SLIDERS = "spanning tree of pins and sliders, loops closed by two point-in-plane constraints each";
     a_drive_with_the_law_is_not_handed(drive) = "a drive with the law \"{drive}\" is not supported with Simbody in this version";
-    FRICTION_IS_NOT_HANDED = "friction in joints is not supported with Simbody in this version";
+    FRICTION_IS_NOT_HANDED = "friction and losses of transmissions are not supported with Simbody in this version";
     a_transmission_is_not_handed(name) = "transmission \"{name}\": transmissions are not supported with Simbody in this version";
     GIVE_AN_ACCURACY_BETWEEN_AND_FOR_ONE = "give an accuracy between 0 and 1, such as 1e-8";
     the_engine_accuracy_is(accuracy) = "the engine's accuracy is {accuracy}";

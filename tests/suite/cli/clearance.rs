@@ -68,6 +68,11 @@ fn a_collision_is_an_outcome_and_no_error() {
 fn unanswerable_questions_are_refused() {
     let place = Place::new();
     place.refused("clearance scenarios/crank_rocker.toml", &["has no section `[clearance]`", "[clearance]"]);
+    // Two drives with changing speeds: the pose does not follow from the angle of the first.
+    for (file, says) in [("belt_arm.toml", "constant speeds only"), ("cam_follower.toml", "not proven for cams")] {
+        place.edited(file, "asked.toml", &[("[grid]", "[clearance]\nradius_mm = 5\n\n[grid]")]);
+        place.refused("clearance scenarios/asked.toml", &[says]);
+    }
     let outcome = place.run("clearance scenarios/crankcase.toml scenarios/crank_rocker.toml --json -");
     assert_eq!(outcome.code, 2);
     let found: Value = serde_json::from_str(&outcome.stdout).unwrap();
