@@ -1,4 +1,4 @@
-//! The command line. Only this part uses standard output, paths, the clock, the environment and exit codes.
+//! The command line. Only this part and `testing::folder` print, or read arguments, clock or environment.
 
 mod accept;
 mod advice;

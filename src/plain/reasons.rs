@@ -7,8 +7,10 @@ use super::style::wrapped;
 use super::{Tell, diagnosis};
 use crate::sentences;
 use analytic::assur::effort_at_rest;
+use linkage::case::FrictionSeat;
 use linkage::error::Advice;
 use linkage::input::Input;
+use linkage::math::KeepNan;
 use linkage::math::statistics::distinct;
 use prover::bounds::{Check, Verdict};
 use prover::numbers::{input_in, quantity};
@@ -53,17 +55,38 @@ pub fn expected(proof: &Proof, tell: Tell, text: &mut String) {
 /// Largest number of instants at rest that are solved for the interval of the driving force.
 const MOST_AT_REST: usize = 20;
 
-/// Reports joints with friction that rest, and the widest interval of the first drive's moment or force there.
+/// A member rests on its carrier if its relative speed is below this fraction of the largest speed.
+const AT_REST: f64 = 1e-12;
+
+/// Reports joints with friction, and transmissions with losses, that rest, and the widest interval of the first drive's moment or force there.
 fn at_rest(proof: &Proof, width: Option<usize>, text: &mut String) {
     let (case, reference) = (&proof.scene.case, &proof.reference_trajectory);
     if case.is_free() {
         return;
     }
     for friction in case.frictions() {
-        let name = &case.mechanism.joints()[friction.joint].name;
+        let (name, _) = friction.name();
         let of = |suffix: &str| reference.named(&format!("joint.{name}.{suffix}"));
-        let Some(own) = of("friction_N_m").or_else(|| of("friction_N")) else { continue };
-        let rows: Vec<usize> = (0..own.len()).filter(|&row| own[row] == 0.0).collect();
+        let count = reference.times().len();
+        let rows: Vec<usize> = match friction.seat {
+            FrictionSeat::Joint { .. } => {
+                let Some(own) = of("friction_N_m").or_else(|| of("friction_N")) else { continue };
+                (0..count).filter(|&row| own[row] == 0.0).collect()
+            }
+            FrictionSeat::Mesh { links, .. } => {
+                let spins = links.map(|link| {
+                    let name = &case.mechanism.links()[link].name;
+                    reference.named(&format!("link.{name}.omega_rad_s"))
+                });
+                let at = |row: usize| spins.map(|own| own.map_or(0.0, |own| own[row]));
+                let top = (0..count).flat_map(at).fold(0.0f64, |most, own| most.larger(own.abs()));
+                let rests = |&row: &usize| {
+                    let [carrier, first] = at(row);
+                    (first - carrier).abs() <= AT_REST * top
+                };
+                (0..count).filter(rests).collect()
+            }
+        };
         let solved = rows.iter().step_by(rows.len().div_ceil(MOST_AT_REST).max(1));
         let ranges = solved.filter_map(|&row| Some((row, effort_at_rest(case, row).ok()??)));
         let widest = ranges.max_by(|(_, a), (_, b)| (a[1] - a[0]).total_cmp(&(b[1] - b[0])));
@@ -71,7 +94,8 @@ fn at_rest(proof: &Proof, width: Option<usize>, text: &mut String) {
         let unit = if case.crank().input == Input::Slide { "N" } else { "N m" };
         let [least, most] = range.map(|own| quantity(own, unit));
         let at = input_in(reference.told(row), 1);
-        let told = sentences::the_joint_rests(name, &rows.len(), &own.len(), &at, &least, &most);
+        let what = if friction.is_mesh() { "Transmission" } else { "Joint" };
+        let told = sentences::it_rests(&what, &name, &rows.len(), &count, &at, &least, &most);
         say!(text, "\n{}", wrapped(&told, width, 2));
     }
 }

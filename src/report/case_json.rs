@@ -38,9 +38,18 @@ pub(crate) fn text(name: &str, case: &Case, start: &State) -> String {
             "axes": joint.kind.axes().map(|axes| axes.map(pair)),
         })
     });
+    let transmissions = case.mechanism.transmissions().iter().map(|own| {
+        let (design, joints) = (&own.design, case.mechanism.joints());
+        json!({
+            "name": design.name, "type": design.kind.name(), "links": design.links.map(|link| self::name(case, link)),
+            "carrier": self::name(case, design.carrier), "joint": joints[design.joint].name, "start": design.start,
+            "ratio": own.ratio(), "efficiency": design.efficiency,
+        })
+    });
     let value = json!({
         "format": FORMAT, "name": name, "gravity_m_s2": pair(case.gravity),
         "links": links.collect::<Vec<_>>(), "joints": joints.collect::<Vec<_>>(),
+        "transmissions": transmissions.collect::<Vec<_>>(),
         "drives": case.drives.iter().map(|own| drive(case, own)).collect::<Vec<_>>(),
         "loads": case.loads.iter().map(|own| load(case, own)).collect::<Vec<_>>(),
         "size_m": case.mechanism.size(), "top_speed_rad_s": case.drives.top_speed(case.mechanism.size()),

@@ -6,13 +6,14 @@ use serde_json::json;
 use super::pretty::{list, pretty};
 use design::diagram::MotionDiagram;
 use design::draw::significant;
+use linkage::input::Input;
 use prover::numbers;
 use scenario::Scenario;
 
 /// The diagram as text: the largest error, the rms error and the observed orders of every method.
 pub(crate) fn text(scenario: &Scenario, diagram: &MotionDiagram) -> String {
     let mut text = String::new();
-    let range = if diagram.is_closed { "one turn" } else { "the stroke" };
+    let range = if diagram.input == Input::Slide { "the stroke" } else { "one turn" };
     say!(text, sentences::over_one_turn_in_divisions(&scenario.name, &diagram.course.0[0], &range, &diagram.divisions));
     for (which, channel) in diagram.course.0.iter().enumerate() {
         let half = significant(diagram.half_range(which));

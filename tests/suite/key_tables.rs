@@ -81,7 +81,7 @@ fn every_section_has_a_table_in_the_document() {
     }
 }
 
-/// The text outside the tables explains every word, because the tables only list the words.
+/// Text outside the tables mentions every permitted value; the tables only list values.
 #[test]
 fn every_word_is_explained() {
     let outside: String = DOCUMENT

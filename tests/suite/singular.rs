@@ -88,7 +88,7 @@ fn dead_points_are_refused() {
 }
 
 /// Symptom: 1e-9 deg from a dead point, side 2 gave the acceleration of the crank pin wrong by 176 %.
-/// Cause: rounding of the huge accelerations of the neighbouring group entered through one elimination over all rows.
+/// Cause: one elimination over all rows let in the rounding of the neighbouring group's huge accelerations.
 /// The motion of the crank depends on its drive alone, and is exact in this test.
 /// The mechanism is ten times as large as that of the fault report, because lever arms above 1 m become pivots of the
 /// elimination.

@@ -51,6 +51,8 @@ linkage::sentences! {
     SOLVE_WITH_ANOTHER_SOLVER = "solve with another solver";
     does_not_provide(solver, channel) = "{solver} does not provide {channel}";
     GIVE_THE_DRIVE_A_CONSTANT = "give the drive a constant speed";
+    THE_GRID_HAS_NO_STROKE = "all instants of the grid have the same slide";
+    EXTEND_THE_GRID = "extend the grid over the stroke";
     THE_CHORD_METHOD_DIVIDES_A_TURN = "the chord method divides the motion into equal times, but the drive's speed changes";
     give_from_to_divisions(least, most) = "give from {least} to {most} divisions";
     a_turn_cannot_be_divided(divisions) = "the motion cannot be divided into {divisions} parts here";

@@ -19,7 +19,7 @@ use crate::drive::load::sense_of;
 use crate::drive::{Action, Course, Drive, InputState, Load, LoadState, Motor, Senses, Wrench};
 use crate::input::{Input, InputValue};
 use crate::math::{KeepNan, Motion, Vec2};
-use crate::mechanism::{GROUND, JointSide, LinkId};
+use crate::mechanism::{GROUND, JointId, JointSide, LinkId};
 use crate::trajectory::{CHANNELS, Channel, ChannelSubject, OfLink, Reading, Stage};
 
 pub use builder::CaseBuilder;
@@ -40,8 +40,8 @@ const STANDSTILL: f64 = 1e-12;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Case {
     parts: CaseParts,
-    /// For every link: whether the link can turn.
-    turning: Vec<bool>,
+    /// For every link: a link with the same angle up to a constant.
+    classes: Vec<LinkId>,
 }
 
 impl Deref for Case {
@@ -69,8 +69,8 @@ impl Case {
     /// The errors of [`Structure::of`](crate::mechanism::Structure::of) and [`Grid::check`] are passed on.
     pub fn new(parts: CaseParts) -> Result<Case> {
         check::all(&parts)?;
-        let turning = turning::turning(&parts);
-        Ok(Case { parts, turning })
+        let classes = turning::classes(&parts);
+        Ok(Case { parts, classes })
     }
 
     /// Returns a case made of `parts`, without any check.
@@ -79,14 +79,14 @@ impl Case {
     #[doc(hidden)]
     #[must_use]
     pub fn unchecked(parts: CaseParts) -> Case {
-        let turning = turning::turning(&parts);
-        Case { parts, turning }
+        let classes = turning::classes(&parts);
+        Case { parts, classes }
     }
 
     /// Returns a case made of `parts`, the changed parts of this case.
-    /// The set of links that can turn is copied from this case, so the change must not affect this set.
+    /// The classes of links with the same angle are copied from this case, so the change must not affect them.
     fn of_parts(&self, parts: CaseParts) -> Case {
-        Case { parts, turning: self.turning.clone() }
+        Case { parts, classes: self.classes.clone() }
     }
 
     /// Returns the parts of this case. To make a new case, change the parts and pass them to [`Case::new`].
@@ -370,7 +370,14 @@ impl Case {
     #[inline]
     #[must_use]
     pub fn can_turn(&self, link: LinkId) -> bool {
-        self.turning[link]
+        self.classes[link] != self.classes[GROUND]
+    }
+
+    /// Whether a joint can move. The links of some revolute joints keep their angle, as in two sliders joined by a pin.
+    #[must_use]
+    pub fn can_move(&self, joint: JointId) -> bool {
+        let joint = &self.mechanism.joints()[joint];
+        joint.slides() || self.classes[joint.first.link] != self.classes[joint.second.link]
     }
 
     /// Angular velocity of a link (rad/s), for loads that depend on its sense of rotation.

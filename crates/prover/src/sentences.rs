@@ -113,7 +113,7 @@ linkage::sentences! {
     in_at(channel, reference) = "in {channel} at {reference:.3}";
     TWO_SOLVERS_WITHOUT_A_COMMON = "two solvers without a common equation, each accurate to the rounding error of its poses and to the integration error that a tighter run shows";
     SHAKING_FORCE_AND_MOMENT_FROM_REACTIONS = "shaking force and moment from reactions and from momentum";
-    SUMS_OF_AS_MANY_FORCES_AS_THERE = "sums of as many forces as there are links";
+    SUMS_OF_AS_MANY_FORCES_AS_THERE = "sums with one force per link";
     BALANCING_MOMENT_FROM_EQUILIBRIUM_AND_FROM_POWERS = "balancing moment from equilibrium and from powers";
     SUMS_OF_A_FEW_FORCES_AND_POWERS = "sums of a few forces and powers";
     CLOSURE_OF_ALL_JOINTS_2 = "closure of all joints";
@@ -262,7 +262,7 @@ linkage::sentences! {
     A_PAGE_IS_LONGER_THAN_ITS_COLUMN = "a page is longer than its column";
     A_PAGE_HAS_NO_SIZE = "a page has no size";
     THE_SIZE_OF_A_PAGE_IS_NO_NUMBER = "the size of a page is not a number";
-    a_page_announces_bytes(number) = "a page announces {number} bytes";
+    a_page_announces_bytes(number) = "invalid page header: {number}";
     more_than_of_its_columns(deepest) = "its columns are nested more than {deepest} deep";
     IT_ANNOUNCES_COLUMNS_THAT_ARE_NOT_THERE = "it announces columns that do not exist";
     ITS_END_IS_NOT_THAT_OF_A_PARQUET = "its end is not that of a Parquet file";

@@ -32,7 +32,7 @@ enum Source<'a> {
 }
 
 impl<'a> Reactions<'a> {
-    /// The source of reactions in the engine's settings, and the worlds of the run.
+    /// The source that the engine's settings select, and the worlds of the run.
     /// The first world moves the mechanism.
     /// The other worlds only report the joints that the first world does not report.
     /// Reports begin with step `from`.

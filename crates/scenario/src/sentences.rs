@@ -199,13 +199,13 @@ linkage::sentences! {
     found_but_a_table_repeats(other, most_turns) = "found {other}, but a table repeats after 1 to {most_turns} turns of the crank";
     A_TABLE_REPEATS_AFTER_A_TURN = "a table repeats after one turn or after `turns` turns: leave out its last point if it repeats the first";
     the_table_is_longer_than_its_period(u64) = "the table is longer than its period, {u64} deg";
-    WRITE_THE_POINTS_IN_ASCENDING = "write the points in ascending order of the crank angle, each angle once";
+    WRITE_THE_POINTS_IN_ASCENDING = "write the points in ascending order of the input, each input once";
     GIVE_THE_INPUT = "give the crank angle, or the slide of the first drive";
     A_TABLE_OVER_A_SLIDE_IS_NOT_PERIODIC = "a table over a slide has slides in all rows, straight lines and no `turns`";
     GIVE_SLIDES_IN_ALL_ROWS = "give `crank_m` or `crank_mm` in all rows, and leave out `turns` and `interpolation`";
     A_SPLINE_CANNOT_JUMP = "the table jumps here, but its interpolation is smooth";
     TAKE_LINES_FOR_JUMPS = "write `interpolation = \"linear\"`, or give each crank angle once";
-    A_JUMP_HAS_TWO_POINTS = "three points have the same crank angle";
+    A_JUMP_HAS_TWO_POINTS = "three points have the same input";
     THE_CRANK_ANGLES_OF_THE_TABLE = "the crank angles or slides of the table do not ascend";
     A_TABLE_OVER_THE_CRANK_ANGLE = "a table needs at least one point";
     WRITE_A_CONSTANT_OR_ADD_POINTS = "write a constant, or add points";

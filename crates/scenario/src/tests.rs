@@ -1,4 +1,4 @@
-//! The scenarios of the repository are checked from outside: printed first rows, hand computation, and random damage.
+//! Checks the repository's scenarios with printed first rows, hand computation and random damage.
 
 use std::path::{Path, PathBuf};
 

@@ -91,7 +91,7 @@ fn regress_42_a_slider_out_of_reach_is_an_error_with_its_crank_angle() {
     assert!(error.message().contains("crank angle 261.34"), "{error}");
 }
 
-/// Symptom: 2 deg from the dead point of a class III group, both builds jumped to the wrong branch without a message.
+/// Symptom: 2 deg from the dead point of a class III group, both Rapier builds silently took the wrong branch.
 /// Cause: the loops had opened by only 0.2 %.
 /// A run that reaches the end must stay on its branch; a run that changes branch must be stopped.
 #[test]

@@ -5,6 +5,7 @@ use std::path::Path;
 use linkage::case::Case;
 use linkage::error::ErrorKind;
 use linkage::solver::State;
+use prover::run::{Options, prove};
 use scenario::Scenario;
 
 use super::friction::apart;
@@ -51,7 +52,7 @@ fn val_efficiency_of_a_planetary_train() {
 #[test]
 fn val_screws_on_both_sides_of_self_locking() {
     let (lead, force, diameter) = (0.008, 6400.0, 0.03);
-    let text = plain(include_str!("../../../scenarios/lifting_screw.toml"));
+    let text = include_str!("../../../scenarios/lifting_screw.toml").split("[[oracle]]").next().unwrap();
     let alpha = (lead / (std::f64::consts::PI * diameter) as f64).atan();
     for share in [0.5, 0.999, 1.001, 1.8] {
         let phi = share * alpha;
@@ -62,12 +63,13 @@ fn val_screws_on_both_sides_of_self_locking() {
             .replace(line("efficiency_back"), &format!("efficiency_back = {}", -down / alpha.tan()));
         let case = parsed(&text);
         for solver in analytic::all() {
-            let found = states(solver, &case, &[1.0, 5.0]).unwrap();
+            // In the middle of the oscillation, the accelerations are zero.
+            let found = states(solver, &case, &[0.0, 4.0]).unwrap();
             for (state, expected) in found.iter().zip([up, -down]) {
-                let inertia = 1e-5 * force * diameter;
+                let torque = force * diameter / 2.0 * expected;
                 assert_within!(
-                    (state.torques[0] - force * diameter / 2.0 * expected).abs(),
-                    inertia,
+                    (state.torques[0] - torque).abs(),
+                    1e-11 * force * diameter,
                     "{} {share}",
                     solver.name()
                 );
@@ -160,5 +162,60 @@ fn wrong_efficiencies_are_refused() {
         let error = Scenario::parse(&text, Path::new("test.toml")).unwrap_err();
         assert_eq!(error.kind(), ErrorKind::Input);
         assert!(error.to_string().contains(key), "{to}: {error}");
+    }
+}
+
+/// A pinion between an arm and a rack on the frame. Both drives are free and at rest.
+const TURNTABLE: &str = r#"
+format = 1
+name = "turntable"
+title = "Pinion on an arm and a rack on the frame"
+ground.points = { O = { x_mm = 0, y_mm = 25 }, G = { x_mm = 0, y_mm = 0 } }
+joints = [
+    { name = "H", type = "revolute", point = "O", links = ["ground", "arm"] },
+    { name = "S", type = "revolute", point = "O", links = ["arm", "pinion"] },
+    { name = "guide", type = "prismatic", links = ["ground", "rack"], points = ["G", "R"], axis_deg = 0 },
+]
+transmissions = [
+    { name = "teeth", type = "rack", links = ["pinion", "rack"], start_mm = 0, efficiency = 0.3, efficiency_back = 0.1 },
+]
+drive = [
+    { joint = "H", motion = "free", speed_rad_s = 2 },
+    { joint = "S", motion = "free", speed_rad_s = 10, start_deg = 0 },
+]
+loads = [{ type = "slide_force", joint = "guide", thrust_N = -30 }]
+start.crank_deg = 20
+gravity = { x_m_s2 = 0, y_m_s2 = -9.81 }
+grid = { from_s = 0, to_s = 0.1, step_s = 0.002 }
+[links.arm]
+mass_kg = 2
+mass_centre = { x_mm = 40, y_mm = 0 }
+inertia_kg_m2 = 0.02
+points = { O = { x_mm = 0, y_mm = 0 }, P = { x_mm = 60, y_mm = 0 } }
+[links.pinion]
+mass_kg = 0.4
+mass_centre = { x_mm = 0, y_mm = 0 }
+inertia_kg_m2 = 3e-4
+points.O = { x_mm = 0, y_mm = 0 }
+[links.rack]
+mass_kg = 0.7
+mass_centre = { x_mm = 0, y_mm = 0 }
+inertia_kg_m2 = 1e-3
+points = { R = { x_mm = 0, y_mm = 0 }, T = { x_mm = 50, y_mm = -5 } }
+"#;
+
+/// Symptoms: both disagreed falsely. Causes: the acceleration of the first step, from which the engine computes its
+/// friction, lacks half of the centripetal part; the open moment of a loss at rest was taken for a force in a guide.
+#[test]
+fn regress_free_motions_with_losses_never_disagree() {
+    let five_bar = include_str!("../../../scenarios/geared_five_bar.toml").split("[[formula]]").next().unwrap();
+    let five_bar = five_bar
+        .replace("type = \"gears\"\n", "type = \"gears\"\nefficiency = 0.9\nefficiency_back = 0.7\n")
+        .replace("speed_rpm = 60", "motion = \"free\"\nspeed_rad_s = 6\ninitial_speed_rad_s = 9")
+        .replace("from_deg = 30\nto_deg = 750\nstep_deg = 4", "from_s = 0\nto_s = 0.3\nstep_s = 0.01");
+    for text in [&five_bar, TURNTABLE] {
+        let scenario = Scenario::parse(text, Path::new("test.toml")).unwrap_or_else(|error| panic!("{error}"));
+        let proof = prove(&scenario, &Options::default()).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(proof.verdict.word(), "agree", "{}: {:?}", scenario.name, proof.verdict);
     }
 }

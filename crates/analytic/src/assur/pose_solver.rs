@@ -356,7 +356,7 @@ impl<'a> PoseSolver<'a> {
         self.case.told(if self.by_time { self.case.crank().at(crank).value } else { crank })
     }
 
-    /// One step, not divided.
+    /// Takes a single step.
     #[inline]
     fn place(&mut self, target: f64) -> std::result::Result<(), OutOfReach> {
         self.turn(target);

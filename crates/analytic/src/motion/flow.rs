@@ -68,6 +68,7 @@ type Sensed = (usize, Senses);
 fn sensed(case: &Case, senses: Senses) -> Senses {
     match senses {
         Senses::Link(link) if !case.can_turn(link) => Senses::Nothing,
+        Senses::Joint(joint) if !case.can_move(joint) => Senses::Nothing,
         senses @ (Senses::Nothing | Senses::Link(_) | Senses::Point(_) | Senses::Joint(_)) => senses,
     }
 }

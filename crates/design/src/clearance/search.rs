@@ -28,7 +28,7 @@ type Bounds = (RangePart, bool, Vec<(usize, f64)>);
 pub struct Smallest {
     /// Smallest distance found (m), at `crank` and between `points`; 0 if the bodies meet.
     pub distance: f64,
-    /// Lower bound of the distance over the range (m). The bound excludes parts of the range without a proof.
+    /// Lower bound of the distance over the range (m). The bound ignores unproven parts of the range.
     pub least: f64,
     /// Crank angle of the smallest distance (rad).
     pub crank: f64,

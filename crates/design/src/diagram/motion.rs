@@ -24,6 +24,8 @@ const CURVE: usize = 720;
 /// The limit is needed because the errors of a nearly constant derivative come from the displacement.
 /// The range of such a derivative would be too small a scale for these errors.
 const SMALLEST: f64 = 1e-3;
+/// A motion repeats if its rates at both ends differ by less than this fraction of their half range.
+const REPEATS: f64 = 1e-6;
 /// If an error is below this fraction of its scale, it is rounding error and no order is computed from it.
 const ROUNDING: f64 = 1e-11;
 /// Suffixes of a channel and its two derivatives.
@@ -146,7 +148,7 @@ pub struct MotionDiagram {
     pub stride: usize,
     /// What the input measures.
     pub input: Input,
-    /// Whether the motion is a turn, after which it repeats.
+    /// Whether velocity and acceleration repeat after the range.
     pub is_closed: bool,
     /// Input of every row (SI unit, as the scenario defines it).
     pub cranks: Vec<f64>,
@@ -161,8 +163,8 @@ pub struct MotionDiagram {
 impl MotionDiagram {
     /// Computes the diagrams of `course` over one turn of the crank, with `divisions` equal divisions.
     /// The turn begins at the crank's start and follows its sense of rotation.
-    /// If the input is a slide, the range of the grid replaces the turn. Chords of chords then begin and end one division
-    /// inside.
+    /// If the input is a slide, the range of the grid replaces the turn.
+    /// If the motion does not repeat after the range, chords of chords begin and end one division inside.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for a number of divisions outside [`DIVISIONS`].
@@ -180,10 +182,15 @@ impl MotionDiagram {
         }
         let sense = case.crank().sense();
         let [low, high] = ends(case.grid.inputs.iter().copied());
-        let (from, span, is_closed) = match case.crank().input.period() {
-            Some((turn, _)) => (case.crank().start, turn, true),
-            None => (if sense > 0.0 { low } else { high }, high - low, false),
+        let (from, span) = match case.crank().input.period() {
+            Some((turn, _)) => (case.crank().start, turn),
+            None => (if sense > 0.0 { low } else { high }, high - low),
         };
+        if !(span > 0.0) {
+            return Err(
+                Error::new(ErrorKind::Input, sentences::THE_GRID_HAS_NO_STROKE).help(sentences::EXTEND_THE_GRID)
+            );
+        }
         // Every midpoint of a division, a half division or a quarter division is a row.
         let stride = 8 * CURVE.div_ceil(8 * divisions);
         let rows = divisions * stride;
@@ -200,6 +207,9 @@ impl MotionDiagram {
         let [x, v, a] = &course.0;
         let exact = [column(x)?, column(v)?, column(a)?];
         let (cranks, times) = (trajectory.inputs().to_vec(), trajectory.times().to_vec());
+        // With transmissions or several drives, the motion may repeat only after several turns.
+        let repeats = |own: &Vec<f64>| (own[rows] - own[0]).abs() <= REPEATS * half_range(own);
+        let is_closed = case.crank().input.period().is_some() && exact[1..].iter().all(repeats);
         let scales = scales(&exact, (times[rows] - times[0]).abs());
         let found = Method::ALL.into_iter().map(|method| {
             let runs = [stride, stride / 2, stride / 4].map(|stride| apply(method, stride, is_closed, &times, &exact));

@@ -211,13 +211,13 @@ const LEAST: f64 = 1e-16;
 /// Factor from the whole size to the first guess, if there is no margin, and between successive sizes of the upward
 /// search.
 const STEP: f64 = 10.0;
-/// The search ends if the smallest size that is found is at most this multiple of a size that is not found.
+/// The search ends if the smallest detected size is at most this multiple of an undetected size.
 const FACTOR: f64 = 2.0;
 /// One search makes fewer proofs than this number.
 const MOST: usize = 24;
 
 /// The smallest size for which `is_found` returns true, to a factor of two.
-/// `margin` is the margin with which the size `whole` is found.
+/// At size `whole`, the difference is `margin` times its bound.
 pub(super) fn smallest(whole: f64, margin: f64, is_found: &dyn Fn(f64) -> bool) -> f64 {
     let mut left = MOST;
     let mut is_found = |size: f64| {

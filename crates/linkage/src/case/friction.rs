@@ -78,13 +78,18 @@ impl Case {
     }
 
     /// Rate of a joint's coordinate (rad/s or m/s).
-    /// The result is zero if the rate may be only a rounding error of the mechanism's speeds.
+    /// The result is zero for a joint that cannot move, and if the rate may be only a rounding error of the mechanism's
+    /// speeds or of the drives' top speeds.
     #[must_use]
     pub fn joint_rate(&self, motions: &[Motion], joint: JointId) -> f64 {
+        if !self.can_move(joint) {
+            return 0.0;
+        }
         let joint = &self.mechanism.joints()[joint];
         let (rate, unit) = (joint.rates(motions)[0], if joint.slides() { self.mechanism.size() } else { 1.0 });
         // A rate that is NaN counts as zero.
-        if rate.abs() > STANDSTILL * fastest(motions) * unit { rate } else { 0.0 }
+        let fastest = fastest(motions).larger(self.drives.top_speed(self.mechanism.size()));
+        if rate.abs() > STANDSTILL * fastest * unit { rate } else { 0.0 }
     }
 }
 

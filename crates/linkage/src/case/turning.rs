@@ -1,4 +1,4 @@
-//! Determines which links can turn, from the joints and the start pose.
+//! Determines which links can turn, and turn against each other, from the joints and the start pose.
 //!
 //! Links connected by a prismatic joint have the same angle up to a constant.
 //! Opposite links of a parallelogram also have the same angle up to a constant, and so do all links in a chain of such
@@ -9,7 +9,7 @@
 
 use super::CaseParts;
 use crate::math::Vec2;
-use crate::mechanism::{GROUND, Joint, LinkId};
+use crate::mechanism::{Joint, LinkId};
 
 /// If opposite sides of a quadrilateral differ by less than this fraction of the mechanism's size, they count as equal.
 /// The quadrilateral is then a parallelogram.
@@ -23,16 +23,13 @@ struct Bridge {
     link: LinkId,
 }
 
-/// For every link, whether it can turn while the mechanism stays on the branch of its start pose.
-pub(super) fn turning(parts: &CaseParts) -> Vec<bool> {
+/// For every link, one of the links with the same angle up to a constant, on the branch of the start pose.
+/// It is the same link for all of them, so equal entries mean that there is no relative rotation.
+pub(super) fn classes(parts: &CaseParts) -> Vec<LinkId> {
     let mechanism = &parts.mechanism;
     let mut classes: Vec<LinkId> = mechanism.links().ids().collect();
-    let mut unite = |a: LinkId, b: LinkId| {
-        let (from, to) = (classes[a], classes[b]);
-        classes.iter_mut().filter(|class| **class == from).for_each(|class| *class = to);
-    };
     for joint in mechanism.joints().iter().filter(|joint| joint.keeps_angle()) {
-        unite(joint.first.link, joint.second.link);
+        unite(&mut classes, joint.first.link, joint.second.link);
     }
     let mut bridges = bridges(parts);
     bridges.sort_by_key(|bridge| bridge.ends);
@@ -43,13 +40,27 @@ pub(super) fn turning(parts: &CaseParts) -> Vec<bool> {
                 // Two opposite sides of the quadrilateral: one on each of the two links that `one` and `other` connect.
                 let sides = [0, 1].map(|end| other.places[end] - one.places[end]);
                 if (sides[0] - sides[1]).norm() <= equal && sides[0].norm() > equal {
-                    unite(one.ends[0], one.ends[1]);
-                    unite(one.link, other.link);
+                    unite(&mut classes, one.ends[0], one.ends[1]);
+                    unite(&mut classes, one.link, other.link);
                 }
             }
         }
     }
-    classes.iter().map(|&class| class != classes[GROUND]).collect()
+    // A wheel that is coupled to a member at rest on the carrier is at rest on the carrier.
+    let transmissions = mechanism.transmissions();
+    for own in transmissions.iter().flat_map(|_| transmissions).filter(|own| own.slide().is_none()) {
+        let ([first, second, carrier], is_cam) = (own.links(), own.cam.is_some());
+        let is_first = classes[first] == classes[carrier];
+        if is_first || (!is_cam && classes[second] == classes[carrier]) {
+            unite(&mut classes, if is_first { second } else { first }, carrier);
+        }
+    }
+    classes
+}
+
+fn unite(classes: &mut [LinkId], a: LinkId, b: LinkId) {
+    let (from, to) = (classes[a], classes[b]);
+    classes.iter_mut().filter(|class| **class == from).for_each(|class| *class = to);
 }
 
 fn bridges(parts: &CaseParts) -> Vec<Bridge> {

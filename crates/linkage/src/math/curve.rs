@@ -21,7 +21,7 @@ pub trait Smooth: Debug + Send + Sync {
 pub enum Curve {
     /// A spline through points.
     Table(Piecewise),
-    /// amplitude (sin(2 pi x / period + phase) - sin(phase)), which is 0 at x = 0 and never ends.
+    /// amplitude (sin(2 pi x / period + phase) - sin(phase)), for all x. It is 0 at x = 0.
     Harmonic {
         /// Amplitude, not zero.
         amplitude: f64,

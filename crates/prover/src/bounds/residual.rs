@@ -138,8 +138,8 @@ impl Built {
         }
     }
 
-    /// Returns `size`. If `size` is only a rounding error of the size that the case has for this unit, returns the size
-    /// of the case instead.
+    /// Returns `size`. If `size` is mere rounding error of the case's size for this unit, returns the case's size
+    /// instead.
     pub(crate) fn unless(&self, size: f64, unit: Unit) -> f64 {
         let own = self.of(unit, 1.0);
         if size <= VANISHING * own { own } else { size }

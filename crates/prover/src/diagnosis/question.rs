@@ -45,7 +45,7 @@ pub(super) struct Found {
 }
 
 impl Found {
-    /// A slip in the values of the channels that it explains.
+    /// A slip in the values of the channels `explained`.
     pub(super) fn of_values(slip: DataSlip, rank: Rank, explained: Vec<Channel>) -> Found {
         Found { cause: DisagreementCause::Values { slip, channels: explained.clone() }, rank, explained }
     }

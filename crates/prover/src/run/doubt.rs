@@ -29,6 +29,9 @@ const IMPULSES: f64 = 5.0;
 /// The velocities of these runs differ by about a twelfth of the square of the step.
 const APART: f64 = 0.25;
 
+/// As `STEPS`, for accelerations and forces at the start of a free motion with friction.
+/// The acceleration of the first step, from which the engine computes its friction, lacks half of the centripetal part.
+const START: f64 = 2.0;
 /// As `STEPS`, for accelerations and forces at the end of a piece of a cam's law.
 const KNOT: f64 = 2.0;
 /// An instant nearer to the end of a piece than this fraction of a step lies at this end.
@@ -63,12 +66,17 @@ impl Doubt {
         let times = &case.grid.times;
         let reach = STEPS * 2.0 * resolution;
         let mut all = vec![Doubtful::default(); times.len()];
+        let starts_with_friction = case.is_free() && case.has_friction();
         for (row, (&t, own)) in times.iter().zip(&mut all).enumerate() {
             let (turns, is_singular) = (drive_turns(case, t, reach), singular.get(row) == Some(&true));
             if turns || is_singular {
                 // At the instant of the reversal itself, no step is fine enough.
                 let by_step = turns && !drive_turns(case, t, 0.0);
                 *own = Doubtful { rates: true, accelerations: true, forces: true, by_step };
+            }
+            if starts_with_friction && t <= START * 2.0 * resolution {
+                (own.accelerations, own.forces) = (true, true);
+                own.by_step |= t > 0.0;
             }
             if let Some(away) = to_knot.get(row).filter(|away| **away <= KNOT * 2.0 * resolution) {
                 (own.accelerations, own.forces) = (true, true);

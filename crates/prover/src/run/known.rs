@@ -80,7 +80,7 @@ const PLACES: f64 = 4.0;
 /// Rounding error of the positions of groups (m, in units of [`ULPS`]), and the length of the shortest link (m).
 /// The length of a link is the largest distance between its pins.
 /// A group far from the origin is known only to the last digit of its distance from the origin.
-/// For its angles, this error is divided by that length.
+/// For angles, the error is divided by the shortest length.
 /// The errors of successive groups are independent. Their sum grows with the square root of the number of groups.
 fn placed(case: &Case, groups: &[GroupId]) -> [f64; 2] {
     let (mut far, mut arm) = (0.0f64, f64::INFINITY);

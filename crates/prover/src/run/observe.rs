@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use analytic::range::is_singular;
 use analytic::witness::{momentum, power};
-use linkage::case::Case;
+use linkage::case::{Case, FrictionSeat};
 use linkage::drive::{Drive, Load, Senses as LoadSenses};
 use linkage::error::Error;
 use linkage::math::statistics::share;
@@ -265,8 +265,12 @@ fn open(case: &Case, state: &State, crank: f64) -> [f64; 2] {
         open[1] += jump * lever.unwrap_or(1.0);
     }
     for friction in case.frictions().filter(|own| own.rate(&state.motions) == 0.0) {
-        let joint = &case.mechanism.joints()[friction.joint];
-        let size = 2.0 * friction.lever() * friction.largest(friction.reaction(state.reactions()));
+        let largest = 2.0 * friction.largest(friction.reaction(state.reactions()));
+        if let FrictionSeat::Mesh { losses, .. } = friction.seat {
+            open[1] += largest * losses.lever.abs();
+            continue;
+        }
+        let (joint, size) = (&case.mechanism.joints()[friction.joint], largest * friction.lever());
         let place = state.motions[joint.second.link].point(joint.second.local).norm();
         open[0] += if joint.slides() { size } else { 0.0 };
         open[1] += size * if joint.slides() { place } else { 1.0 };

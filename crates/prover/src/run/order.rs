@@ -2,7 +2,7 @@
 //!
 //! The cause is a value computed half a step late, or a wrong weight.
 //! A bound from the engine's runs covers such an error at every step, so the size of the error never reveals the fault.
-//! Five runs give three estimates of the order. The order counts if all three estimates are near the same whole number.
+//! Five runs give three estimates of the order. The order is reliable only if all three are near the same whole number.
 //! See docs/numerics/bounds.md.
 
 use crate::sentences;

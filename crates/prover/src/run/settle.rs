@@ -310,7 +310,7 @@ impl<'a, 'b> Settling<'a, 'b> {
             BoundPart::Iteration if self.given.sweeps.is_free() && self.now.sweeps < self.most_sweeps => {
                 next.sweeps *= factor
             }
-            // If the step is given, only the sweeps can be increased. Too few sweeps hide the order of the step.
+            // If the step is given, only the sweeps can be increased. Too few sweeps hide the order of convergence.
             BoundPart::Discretisation
                 if self.is_finest() && self.given.sweeps.is_free() && self.now.sweeps < self.judge.asked.sweeps =>
             {

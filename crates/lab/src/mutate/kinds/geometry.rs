@@ -57,7 +57,7 @@ kinds! { Geometry, Case:
 }
 
 /// Changes the first transmission.
-pub(super) fn coupled(case: &Case, change: impl Fn(&TransmissionDesign) -> Option<TransmissionDesign>) -> Option<Case> {
+fn coupled(case: &Case, change: impl Fn(&TransmissionDesign) -> Option<TransmissionDesign>) -> Option<Case> {
     remade(case, |parts| {
         let other = change(&parts.mechanism.transmissions().first()?.design);
         recoupled(parts, TransmissionId(0), other)

@@ -2,13 +2,12 @@
 
 use std::f64::consts::TAU;
 
-use super::geometry::coupled;
 use super::kind::kinds;
 use linkage::case::Case;
 use linkage::drive::load::Acts;
 use linkage::drive::{Course, Drive, Load};
 use linkage::mechanism::{Joint, LinkId, TransmissionDesign};
-use prover::diagnosis::remade;
+use prover::diagnosis::{recoupled, remade};
 
 kinds! { Load, Case:
     "load-missing": "the first load is missing", |case, _| times(case, 0, 0.0);
@@ -137,13 +136,13 @@ fn rubbed(case: &Case, is_meant: impl Fn(&Joint) -> bool) -> Option<usize> {
     case.frictions().find(|own| !own.is_mesh() && is_meant(&case.mechanism.joints()[own.joint])).map(|own| own.index)
 }
 
-/// Changes the efficiencies of the first transmission.
+/// Changes the efficiencies of the first transmission with losses.
 fn lossy(case: &Case, change: impl Fn([f64; 2]) -> [f64; 2]) -> Option<Case> {
-    coupled(case, |own| {
-        let efficiency = change(own.efficiency);
-        (efficiency != own.efficiency && own.efficiency != [1.0; 2])
-            .then(|| TransmissionDesign { efficiency, ..own.clone() })
-    })
+    let (id, own) = case.mechanism.transmissions().entries().find(|(_, own)| own.losses.is_some())?;
+    let efficiency = change(own.design.efficiency);
+    let other = TransmissionDesign { efficiency, ..own.design.clone() };
+    (other != own.design).then_some(())?;
+    remade(case, |parts| recoupled(parts, id, Some(other)))
 }
 
 fn damped(case: &Case) -> Option<usize> {

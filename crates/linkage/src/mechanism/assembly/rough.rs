@@ -2,8 +2,8 @@
 //!
 //! Each link is first placed by the approximate positions of its points, and by its joints with links already placed.
 //! Then a Newton method with Levenberg-Marquardt damping closes all joints of the group at once:
-//! (J^T J + lambda) dx = -J^T f. The vector f contains the gaps of all joints. The number of gaps equals the number of
-//! unknowns.
+//! (J^T J + lambda) dx = -J^T f. The vector f contains the gaps of all joints. The vector has one component per
+//! unknown.
 
 use super::dyads::turn;
 use super::mode::{AssemblyMode, ConfigurationChoice};

@@ -6,7 +6,7 @@ use linkage::math::{ColumnVector, KeepNan, Matrix};
 
 /// Numbers that are wrong.
 pub struct Wrong<'a> {
-    /// Rows of the course that the wrong numbers belong to.
+    /// Rows of the trajectory with the wrong numbers.
     pub rows: &'a [usize],
     /// Amounts to add to the numbers to make them right.
     pub differences: Vec<f64>,
