@@ -175,6 +175,9 @@ joints = [
     { name = "H", type = "revolute", point = "O", links = ["ground", "arm"] },
     { name = "S", type = "revolute", point = "O", links = ["arm", "pinion"] },
     { name = "guide", type = "prismatic", links = ["ground", "rack"], points = ["G", "R"], axis_deg = 0 },
+    { name = "P", type = "revolute", links = ["arm", "rod"] },
+    { name = "B", type = "revolute", links = ["rod", "block"] },
+    { name = "bore", type = "prismatic", links = ["ground", "block"], points = ["O", "B"], axis_deg = 0 },
 ]
 transmissions = [
     { name = "teeth", type = "rack", links = ["pinion", "rack"], start_mm = 0, efficiency = 0.3, efficiency_back = 0.1 },
@@ -184,9 +187,19 @@ drive = [
     { joint = "S", motion = "free", speed_rad_s = 10, start_deg = 0 },
 ]
 loads = [{ type = "slide_force", joint = "guide", thrust_N = -30 }]
-start.crank_deg = 20
+start = { crank_deg = 20, groups = [{ links = ["rod", "block"], mode = "ahead" }] }
 gravity = { x_m_s2 = 0, y_m_s2 = -9.81 }
 grid = { from_s = 0, to_s = 0.1, step_s = 0.002 }
+[links.rod]
+mass_kg = 0.1
+mass_centre = { x_mm = 50, y_mm = 0 }
+inertia_kg_m2 = 1e-4
+points = { P = { x_mm = 0, y_mm = 0 }, B = { x_mm = 200, y_mm = 0 } }
+[links.block]
+mass_kg = 0.1
+mass_centre = { x_mm = 0, y_mm = 0 }
+inertia_kg_m2 = 1e-4
+points.B = { x_mm = 0, y_mm = 0 }
 [links.arm]
 mass_kg = 2
 mass_centre = { x_mm = 40, y_mm = 0 }

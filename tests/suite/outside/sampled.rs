@@ -172,7 +172,8 @@ impl Row<'_> {
             // Power that reaches the second member, or comes from it.
             let power = self.read(&format!("transmission.{}.force_N", own.name())) * lever * spin;
             let lost = if power > 0.0 { power / forward - power } else { -power * (1.0 - back) };
-            let moment = if spin == 0.0 { 0.0 } else { -lost / spin };
+            let rests = spin.abs() <= 1e-12 * self.case.drives.top_speed(self.case.mechanism.size());
+            let moment = if rests { 0.0 } else { -lost / spin };
             all.extend([couple(first, moment), couple(own.design.carrier, -moment)]);
         }
         all
