@@ -20,7 +20,7 @@ mod server;
 mod stage;
 #[cfg(feature = "live")]
 mod viewer;
-#[cfg(feature = "live")]
+
 use crate::sentences;
 use std::path::PathBuf;
 

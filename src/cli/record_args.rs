@@ -9,7 +9,6 @@ use super::{advice, number, output};
 use crate::report::{layout, recorded};
 use files::{self, OutputTarget};
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::math::KeepNan;
 use linkage::math::statistics::ends;
 use prover::run::Proof;
 use recording::{self, RecordedSide, Recording, RecordingPlace, Show};
@@ -17,6 +16,7 @@ use scenario::Scenario;
 #[cfg(feature = "live")]
 use {
     linkage::case::Case,
+    linkage::math::KeepNan,
     linkage::trajectory::Trajectory,
     recording::{Level, LogEntry, Reel},
 };

@@ -51,9 +51,9 @@ fn val_efficiency_of_a_planetary_train() {
 /// F d/2 tan(phi - alpha) down. Beyond phi = alpha, the screw is self-locking.
 #[test]
 fn val_screws_on_both_sides_of_self_locking() {
-    let (lead, force, diameter) = (0.008, 6400.0, 0.03);
+    let (lead, force, diameter): (f64, f64, f64) = (0.008, 6400.0, 0.03);
     let text = include_str!("../../../scenarios/lifting_screw.toml").split("[[oracle]]").next().unwrap();
-    let alpha = (lead / (std::f64::consts::PI * diameter) as f64).atan();
+    let alpha = (lead / (std::f64::consts::PI * diameter)).atan();
     for share in [0.5, 0.999, 1.001, 1.8] {
         let phi = share * alpha;
         let (up, down) = ((alpha + phi).tan(), (phi - alpha).tan());

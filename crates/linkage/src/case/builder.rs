@@ -162,7 +162,6 @@ impl CaseBuilder {
     }
 
     /// Gives the last transmission its efficiencies: if power flows from the first member to the second, and back.
-    #[must_use]
     pub fn efficiency(mut self, efficiency: [f64; 2]) -> Self {
         self.transmissions.iter_mut().next_back().into_iter().for_each(|own| own.efficiency = efficiency);
         self
