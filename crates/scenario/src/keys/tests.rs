@@ -56,8 +56,8 @@ const CHANGES: [(&str, &str, &str); 18] = [
     ("boom_lift", "law = \"cycloidal\"", "law = \"harmonic\"\namplitude_mm = 9\nperiod_s = 1"),
     (
         "boom_lift",
-        "[start]",
-        "[[loads]]\ntype = \"slide_force\"\njoint = \"S\"\ntable = [{ crank_mm = 0, thrust_N = 1 }]\n[start]",
+        "[grid]",
+        "[[loads]]\ntype = \"slide_force\"\njoint = \"S\"\ntable = [{ crank_mm = 0, thrust_N = 1 }]\n[grid]",
     ),
     ("boom_lift", "from_s = 0\nto_s = 4\nstep_s = 0.05\n", "from_mm = 1\nto_mm = 2\nstep_mm = 1\n"),
     (
