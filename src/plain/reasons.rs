@@ -74,17 +74,12 @@ fn at_rest(proof: &Proof, width: Option<usize>, text: &mut String) {
                 (0..count).filter(|&row| own[row] == 0.0).collect()
             }
             FrictionSeat::Mesh { links, .. } => {
-                let spins = links.map(|link| {
-                    let name = &case.mechanism.links()[link].name;
-                    reference.named(&format!("link.{name}.omega_rad_s"))
-                });
+                let all = case.mechanism.links();
+                let spins = links.map(|link| reference.named(&format!("link.{}.omega_rad_s", all[link].name)));
                 let at = |row: usize| spins.map(|own| own.map_or(0.0, |own| own[row]));
                 let top = (0..count).flat_map(at).fold(0.0f64, |most, own| most.larger(own.abs()));
-                let rests = |&row: &usize| {
-                    let [carrier, first] = at(row);
-                    (first - carrier).abs() <= AT_REST * top
-                };
-                (0..count).filter(rests).collect()
+                let slip = |row: usize| at(row)[1] - at(row)[0];
+                (0..count).filter(|&row| slip(row).abs() <= AT_REST * top).collect()
             }
         };
         let solved = rows.iter().step_by(rows.len().div_ceil(MOST_AT_REST).max(1));

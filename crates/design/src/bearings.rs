@@ -116,9 +116,8 @@ pub fn over_range(case: &Case) -> Result<Peaks> {
     }
     let mut samples = vec![Vec::with_capacity(cranks.len()); quantities.len()];
     let none = |friction: Friction| {
-        let (name, is_force) = friction.name();
-        let (name, is_mesh) = (name.to_string(), friction.is_mesh());
-        FrictionLoss { name, is_mesh, is_force, largest: 0.0, work: 0.0, pressure_speed: 0.0 }
+        let ((name, is_force), is_mesh) = (friction.name(), friction.is_mesh());
+        FrictionLoss { name: name.into(), is_mesh, is_force, largest: 0.0, work: 0.0, pressure_speed: 0.0 }
     };
     let mut frictions: Vec<FrictionLoss> = case.frictions().map(none).collect();
     let mut drive_work = 0.0;

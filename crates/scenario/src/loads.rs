@@ -297,16 +297,14 @@ fn courses<const N: usize>(table: &mut TomlTable, names: [&str; N]) -> Result<[C
             row.finish()
         });
         read?;
-        check_crank(&row, &points[0], if slides == Some(true) { None } else { Some(turns) }, smooth)?;
+        check_crank(&row, &points[0], (slides != Some(true)).then_some(turns), smooth)?;
     }
     if points[0].is_empty() {
         let help = sentences::WRITE_A_CONSTANT_OR_ADD_POINTS;
         return table.refuse("table", sentences::A_TABLE_OVER_THE_CRANK_ANGLE, help);
     }
-    Ok(points.map(|points| match slides {
-        Some(true) => Course::over_slide(&points),
-        Some(false) | None => Course::table(&points, turns, smooth),
-    }))
+    let is_slide = slides == Some(true);
+    Ok(points.map(|own| if is_slide { Course::over_slide(&own) } else { Course::table(&own, turns, smooth) }))
 }
 
 /// Checks that the last point lies after the point before it and within the period of the table.

@@ -381,10 +381,8 @@ fn changes(
     column: &impl Fn(LinkId) -> Option<usize>,
     radii: &[f64],
 ) -> Vec<f64> {
-    let of = |row: &Row| {
-        row.terms.iter().map(|(term, weight)| weight.abs() * term.change(tubes, half, column, radii)).sum::<f64>()
-    };
-    rows.iter().map(of).collect()
+    let of = |(term, weight): &(Term, f64)| weight.abs() * term.change(tubes, half, column, radii);
+    rows.iter().map(|row| row.terms.iter().map(of).sum()).collect()
 }
 
 /// Widens the tubes of links until they provably contain the motion that the equations determine.

@@ -91,9 +91,7 @@ impl Case {
         let fastest = fastest(motions).larger(self.drives.top_speed(self.mechanism.size()));
         if rate.abs() > STANDSTILL * fastest * unit { rate } else { 0.0 }
     }
-}
 
-impl Case {
     /// Adds all frictions to the loads on all links.
     /// `efforts` contains [`Friction::effort`] of each friction, in the order of [`Case::frictions`].
     pub fn add_friction(&self, efforts: &[f64], motions: &[Motion], out: &mut [Wrench]) {

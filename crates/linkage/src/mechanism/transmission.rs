@@ -256,8 +256,8 @@ impl Transmission {
         let Some((joint, per)) = shown else {
             return fault(sentences::NO_MEMBER_IS_JOINED_TO_THE_CARRIER, sentences::JOIN_A_MEMBER_TO_THE_CARRIER);
         };
-        let lever = self.lever() * per.signum();
-        Ok(Some(Losses { joint, per, lever, lost: [1.0 / forward - 1.0, 1.0 - back] }))
+        let lost = [1.0 / forward - 1.0, 1.0 - back];
+        Ok(Some(Losses { joint, per, lever: self.lever() * per.signum(), lost }))
     }
 
     /// Moment of a unit force in the first line of action about the axle of the first member (m).

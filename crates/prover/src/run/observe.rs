@@ -155,8 +155,7 @@ pub(super) fn observe(
         }
         let crank = case.input_in(&state.motions, &state.angles);
         let jump = |index: usize| case.loads.get(index).is_none_or(|load| load.jump(crank) > 0.0);
-        let sensed = case.senses().enumerate();
-        let sensed = sensed.filter_map(|(index, senses)| Some((sensed_in(case, state, senses)?, jump(index))));
+        let sensed = case.senses().enumerate().filter_map(|(k, own)| Some((sensed_in(case, state, own)?, jump(k))));
         let beside = tables.iter().map(|&jump| (beside(crank, jump), true));
         let own = senses.values.iter_mut().zip(&mut senses.jumps).skip(row * senses.each);
         own.zip(sensed.chain(beside)).for_each(|((value, jumps), now)| (*value, *jumps) = now);

@@ -139,8 +139,7 @@ fn rubbed(case: &Case, is_meant: impl Fn(&Joint) -> bool) -> Option<usize> {
 /// Changes the efficiencies of the first transmission with losses.
 fn lossy(case: &Case, change: impl Fn([f64; 2]) -> [f64; 2]) -> Option<Case> {
     let (id, own) = case.mechanism.transmissions().entries().find(|(_, own)| own.losses.is_some())?;
-    let efficiency = change(own.design.efficiency);
-    let other = TransmissionDesign { efficiency, ..own.design.clone() };
+    let other = TransmissionDesign { efficiency: change(own.design.efficiency), ..own.design.clone() };
     (other != own.design).then_some(())?;
     remade(case, |parts| recoupled(parts, id, Some(other)))
 }
