@@ -6,11 +6,10 @@ use super::judged::{Grade, grade, unproven};
 use super::style::wrapped;
 use super::{Tell, diagnosis};
 use crate::sentences;
-use analytic::assur::effort_at_rest;
+use analytic::assur::{effort_at_rest, rows_at_rest};
 use linkage::case::FrictionSeat;
 use linkage::error::Advice;
 use linkage::input::Input;
-use linkage::math::KeepNan;
 use linkage::math::statistics::distinct;
 use prover::bounds::{Check, Verdict};
 use prover::numbers::{input_in, quantity};
@@ -55,33 +54,26 @@ pub fn expected(proof: &Proof, tell: Tell, text: &mut String) {
 /// Largest number of instants at rest that are solved for the interval of the driving force.
 const MOST_AT_REST: usize = 20;
 
-/// A member rests on its carrier if its relative speed is below this fraction of the largest speed.
-const AT_REST: f64 = 1e-12;
-
-/// Reports joints with friction, and transmissions with losses, that rest, and the widest interval of the first drive's moment or force there.
+/// Reports joints with friction, and transmissions with losses, that rest.
+/// Also reports the widest interval of the first drive's moment or force there.
 fn at_rest(proof: &Proof, width: Option<usize>, text: &mut String) {
     let (case, reference) = (&proof.scene.case, &proof.reference_trajectory);
     if case.is_free() {
         return;
     }
-    for friction in case.frictions() {
-        let (name, _) = friction.name();
-        let of = |suffix: &str| reference.named(&format!("joint.{name}.{suffix}"));
-        let count = reference.times().len();
-        let rows: Vec<usize> = match friction.seat {
-            FrictionSeat::Joint { .. } => {
-                let Some(own) = of("friction_N_m").or_else(|| of("friction_N")) else { continue };
-                (0..count).filter(|&row| own[row] == 0.0).collect()
-            }
-            FrictionSeat::Mesh { links, .. } => {
-                let all = case.mechanism.links();
-                let spins = links.map(|link| reference.named(&format!("link.{}.omega_rad_s", all[link].name)));
-                let at = |row: usize| spins.map(|own| own.map_or(0.0, |own| own[row]));
-                let top = (0..count).flat_map(at).fold(0.0f64, |most, own| most.larger(own.abs()));
-                let slip = |row: usize| at(row)[1] - at(row)[0];
-                (0..count).filter(|&row| slip(row).abs() <= AT_REST * top).collect()
-            }
+    // The sides have solved all rows before.
+    let Some(all) = case.has_friction().then(|| rows_at_rest(case).ok()).flatten() else { return };
+    let count = reference.times().len();
+    for (friction, rows) in case.frictions().zip(all) {
+        let (name, is_force) = friction.name();
+        let channel = match friction.seat {
+            FrictionSeat::Joint { .. } if is_force => format!("joint.{name}.friction_N"),
+            FrictionSeat::Joint { .. } => format!("joint.{name}.friction_N_m"),
+            FrictionSeat::Mesh { .. } => format!("transmission.{name}.force_N"),
         };
+        if reference.named(&channel).is_none() {
+            continue;
+        }
         let solved = rows.iter().step_by(rows.len().div_ceil(MOST_AT_REST).max(1));
         let ranges = solved.filter_map(|&row| Some((row, effort_at_rest(case, row).ok()??)));
         let widest = ranges.max_by(|(_, a), (_, b)| (a[1] - a[0]).total_cmp(&(b[1] - b[0])));

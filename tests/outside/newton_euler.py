@@ -523,7 +523,7 @@ def main():
 
 # If true, points, sliders and the frame are printed too, as in tests/outside/scenarios.
 ALL = False
-SOURCE = "tests/outside/newton_euler.py: a reader, a closure and equations of its own"
+SOURCE = "tests/outside/newton_euler.py: separate reader, closure and equations"
 
 
 def print_timed(m, start, twists, instant, want):
@@ -565,7 +565,7 @@ def print_start(m, q):
     a, b = m.at(q, link, m.points[link][end]), m.points["ground"][other]
     distance = mp.nstr(mp.nint(mp.hypot(a[0] - b[0], a[1] - b[1]) * 10**9) / mpf(10) ** 9, 20)
     print('\n[[oracle]]\nname = "start"\nbasis = "recomputed"')
-    print('source = "tests/outside/newton_euler.py: a reader of its own"')
+    print('source = "tests/outside/newton_euler.py: separate reader"')
     print(f'figures = [{{ figure = "distance_m", points = ["{end}", "{other}"], value = {distance}, digits = 9 }}]')
 
 

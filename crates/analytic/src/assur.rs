@@ -17,4 +17,4 @@ mod watch;
 mod whole_turns;
 
 pub use pose_solver::PoseSolver;
-pub use standstill::effort_at_rest;
+pub use standstill::{effort_at_rest, rows_at_rest};

@@ -42,6 +42,8 @@ pub struct Case {
     parts: CaseParts,
     /// For every link: a link with the same angle up to a constant.
     classes: Vec<LinkId>,
+    /// Speed below which all links stand still (rad/s): a rounding error of the drives' top speeds.
+    standstill: f64,
 }
 
 impl Deref for Case {
@@ -70,7 +72,12 @@ impl Case {
     pub fn new(parts: CaseParts) -> Result<Case> {
         check::all(&parts)?;
         let classes = turning::classes(&parts);
-        Ok(Case { parts, classes })
+        Ok(Case::made(parts, classes))
+    }
+
+    fn made(parts: CaseParts, classes: Vec<LinkId>) -> Case {
+        let standstill = STANDSTILL * parts.drives.top_speed(parts.mechanism.size());
+        Case { parts, classes, standstill }
     }
 
     /// Returns a case made of `parts`, without any check.
@@ -80,13 +87,13 @@ impl Case {
     #[must_use]
     pub fn unchecked(parts: CaseParts) -> Case {
         let classes = turning::classes(&parts);
-        Case { parts, classes }
+        Case::made(parts, classes)
     }
 
     /// Returns a case made of `parts`, the changed parts of this case.
     /// The classes of links with the same angle are copied from this case, so the change must not affect them.
     fn of_parts(&self, parts: CaseParts) -> Case {
-        Case { parts, classes: self.classes.clone() }
+        Case::made(parts, self.classes.clone())
     }
 
     /// Returns the parts of this case. To make a new case, change the parts and pass them to [`Case::new`].

@@ -334,8 +334,8 @@ fn finished(
     let start = placed.pose;
     let (loads, gravity, grid, wanted) = (stated.loads, stated.gravity, stated.grid, Wanted::ALL);
     let input = drives.crank().input;
-    let differs = |turns: Option<u32>| turns.is_none() != (input == Input::Slide);
-    if let Some(load) = loads.iter().find(|load| load.courses().filter_map(Course::turns).any(differs)) {
+    let differs = |table: &Course| table.knots().is_some() && table.turns().is_none() != (input == Input::Slide);
+    if let Some(load) = loads.iter().find(|load| load.courses().any(differs)) {
         let over = if input == Input::Slide { "an angle" } else { "a slide" };
         let message = sentences::a_table_of_a_load_is_over(&load.sort(), &over, &input.noun());
         return Err(Error::new(ErrorKind::Unsupported, message).key("loads").help(sentences::GIVE_THE_LOAD_A_CONSTANT));

@@ -153,10 +153,6 @@ fn transmission(
         return Err(table.wrong(ErrorKind::Input, "motion", message).help(sentences::GIVE_LIFTS_LIKE_THE_JOINT));
     }
     let efficiency = [forward, back];
-    if efficiency != [1.0; 2] && matches!(kind, TransmissionKind::Cam { .. }) {
-        let key = if forward < 1.0 { "efficiency" } else { "efficiency_back" };
-        return table.refuse(key, sentences::A_CAM_HAS_NO_EFFICIENCY, sentences::GIVE_FRICTION_INSTEAD);
-    }
     Ok(TransmissionDesign { name, kind, links: members, carrier, joint, start, efficiency })
 }
 

@@ -10,6 +10,21 @@ use linkage::trajectory::Stage;
 /// Largest number of joints at rest whose friction is varied. All combinations of their senses are solved.
 const MOST_RESTING: usize = 8;
 
+/// For every friction of [`Case::frictions`], the instants of the grid at which its contact stands still.
+///
+/// # Errors
+/// The errors of [`PoseSolver::solve_row`].
+pub fn rows_at_rest(case: &Case) -> Result<Vec<Vec<usize>>> {
+    let mut poses = PoseSolver::new(case)?;
+    let mut all = vec![Vec::new(); case.frictions().count()];
+    for row in 0..case.grid.len() {
+        let motions = &poses.solve_row(row, Stage::Velocities)?.motions;
+        let resting = all.iter_mut().zip(case.frictions()).filter(|(_, friction)| friction.rate(motions) == 0.0);
+        resting.for_each(|(rows, _)| rows.push(row));
+    }
+    Ok(all)
+}
+
 /// Smallest and largest moment (N m) or force (N) of the first drive at the instant `row` of the grid.
 /// The friction of each joint at rest is varied: it acts in either sense, or is zero in all of these joints.
 /// `None` if every joint with friction is in motion.

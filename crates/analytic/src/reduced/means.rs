@@ -132,7 +132,7 @@ pub fn kinks(case: &Case) -> Result<Kinks> {
     }
     let tables = || case.loads.iter().flat_map(Load::courses).filter_map(Course::knots);
     let mut all = turns;
-    for own in case.loads.iter().flat_map(Load::courses).filter_map(Course::turns).flatten() {
+    for own in case.loads.iter().flat_map(Load::courses).filter_map(Course::turns) {
         all = all.map(|all| all.lcm(&own));
         if let Some(turns) = all.filter(|&turns| turns > MOST_TURNS) {
             let message = sentences::mechanism_and_tables_of_loads(&turns, &MOST_TURNS);

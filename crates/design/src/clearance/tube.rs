@@ -25,14 +25,15 @@ use std::rc::Rc;
 
 use analytic::PoseSolver;
 use linkage::case::Case;
+use linkage::drive::Drive;
 use linkage::error::Result;
 use linkage::input::Input;
 use linkage::math::{KeepNan, Matrix, Vec2, cross, rotated, turned};
 use linkage::mechanism::{Coordinate, GROUND, Joint, JointId, LinkId, TransmissionId};
 use linkage::trajectory::Stage;
 
-/// Upper limit of the width of the first parts, into which the range is divided at the beginning (rad, or fraction of the
-/// mechanism's size for a slide).
+/// Upper limit of the width of the first parts, into which the range is divided at the beginning.
+/// It is an angle (rad), or for a slide a fraction of the mechanism's size.
 const FIRST: f64 = std::f64::consts::PI / 24.0;
 /// Upper limit of the number of halvings of a first part.
 /// The width of the smallest part is about 1.5e-8 times the width of the first part.
@@ -157,6 +158,8 @@ pub struct Tubes<'a> {
     case: &'a Case,
     solver: PoseSolver<'a>,
     centres: Vec<Vec2>,
+    /// The links that are solved together, with their equations, in the order of solution.
+    units: Vec<(&'a [LinkId], Vec<Row<'a>>)>,
     /// Both ends of the range (rad), in the direction of motion.
     pub range: [f64; 2],
     first: u64,
@@ -186,6 +189,7 @@ impl<'a> Tubes<'a> {
             case,
             solver: PoseSolver::new(case)?,
             centres: mechanism.links().ids().map(centre).collect(),
+            units: units(case),
             range,
             first,
             scale: mechanism.size() + ground + extent,
@@ -246,39 +250,31 @@ impl<'a> Tubes<'a> {
             *tube = Tube { centre, at, rate, direction, spin, off: rounding, twist: ROUNDING, half };
         }
         for drive in case.drives.iter().filter(|drive| drive.input == Input::Angle) {
-            // A crank turns uniformly about its pivot on the ground. A link on a driven guide of the ground moves uniformly.
+            // A crank turns uniformly about its pivot on the ground.
+            // A link on a driven guide of the ground moves uniformly.
             let pivot = case.mechanism.joints()[drive.joint].on(drive.link).unwrap_or_else(Vec2::zeros);
             let (tube, motion) = (&mut tubes[drive.link], &state.motions[drive.link]);
             (tube.centre, tube.at, tube.rate) = (pivot, motion.point(pivot), Vec2::zeros());
         }
-        let rates: Vec<f64> =
-            case.drives.iter().map(|drive| case.drive_state(drive, &state.motions, &state.angles).rate).collect();
-        let rate_of = |joint: JointId| case.drives.iter().position(|own| own.joint == joint).map_or(0.0, |k| rates[k]);
-        let sound = units(case).all(|(links, joints, given, trains)| {
-            let rows = rows(case, &joints, given, trains, rate_of);
-            rows.is_some_and(|rows| enclose(&rows, links, half, &mut tubes, rounding))
-        });
+        let sound = self.units.iter().all(|(links, rows)| enclose(rows, links, half, &mut tubes, rounding));
         Ok(Slice { crank, half, tubes, sound })
     }
 }
 
-/// Links that are solved together, with their joints, the driven ones among them, and their transmissions.
-type Unit<'a> = (&'a [LinkId], Vec<JointId>, &'a [JointId], &'a [TransmissionId]);
-
-/// The driving links on moving links, and the groups, in the order of solution.
-fn units(case: &Case) -> impl Iterator<Item = Unit<'_>> {
+/// The driving links on moving links, and the groups, each with their equations, in the order of solution.
+fn units(case: &Case) -> Vec<(&[LinkId], Vec<Row<'_>>)> {
     let mechanism = &case.mechanism;
     let drivers = case.structure.leading().map(|(_, driver)| driver);
     let moved = drivers.filter(|driver| mechanism.joints()[driver.joint].other(driver.link).link != GROUND);
     let moved = moved.map(|own| {
-        let one = std::slice::from_ref(&own.joint);
-        (std::slice::from_ref(&own.link), one.to_vec(), one, &[][..])
+        let joint = std::slice::from_ref(&own.joint);
+        (std::slice::from_ref(&own.link), rows(case, joint.iter(), joint, &[]))
     });
     let groups = case.structure.groups.iter().map(|group| {
-        let joints = group.inner.iter().chain(&group.outer).copied().collect();
-        (&group.links[..], joints, &group.given[..], &group.trains[..])
+        let joints = group.inner.iter().chain(&group.outer);
+        (&group.links[..], rows(case, joints, &group.given, &group.trains))
     });
-    moved.chain(groups)
+    moved.chain(groups).collect()
 }
 
 /// An equation: the sum of its terms is zero, or changes at a known rate.
@@ -303,20 +299,20 @@ enum Term<'a> {
     Axes(&'a Joint, [Vec2; 2]),
 }
 
-/// The equations of joints, driven joints and transmissions. `None` for a cam, whose equation is not linear.
+/// The equations of joints, driven joints and transmissions.
+/// A cam has no ratio, so nothing is proven for its links.
 fn rows<'a>(
     case: &'a Case,
-    joints: &[JointId],
+    joints: impl Iterator<Item = &'a JointId>,
     given: &[JointId],
     trains: &[TransmissionId],
-    rate_of: impl Fn(JointId) -> f64,
-) -> Option<Vec<Row<'a>>> {
+) -> Vec<Row<'a>> {
     let all = case.mechanism.joints();
-    let mut rows: Vec<Row> = joints.iter().flat_map(|&id| closure(&all[id])).collect();
-    rows.extend(given.iter().map(|&id| motion(&all[id], rate_of(id))));
+    let mut rows: Vec<Row> = joints.flat_map(|&id| closure(&all[id])).collect();
+    rows.extend(given.iter().map(|&id| motion(&all[id], rate(case, id))));
     for &id in trains {
         let own = &case.mechanism.transmissions()[id];
-        let ratio = own.ratio()?;
+        let ratio = own.ratio().unwrap_or(f64::NAN);
         let of = |(coordinate, sign): &(Coordinate, f64), factor: f64| match *coordinate {
             Coordinate::Angle(link) => (Term::Angle(link), sign * factor),
             Coordinate::Slide(joint) => {
@@ -329,7 +325,14 @@ fn rows<'a>(
         let terms = first.iter().map(|own| of(own, -ratio)).chain(second.iter().map(|own| of(own, 1.0)));
         rows.push(Row { terms: terms.collect(), rate: 0.0, is_zero: false });
     }
-    Some(rows)
+    rows
+}
+
+/// Rate of a driven joint's coordinate, per unit of the input. Several drives have constant speeds.
+fn rate(case: &Case, joint: JointId) -> f64 {
+    let further = case.drives.further().iter().find(|drive| drive.joint == joint);
+    let speed = |drive: &Drive| drive.constant_speed().unwrap_or(f64::NAN);
+    further.map_or(1.0, |drive| speed(drive) / speed(case.crank()))
 }
 
 /// The equations that close a joint.

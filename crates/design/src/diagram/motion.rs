@@ -1,4 +1,5 @@
-//! Motion diagrams over one turn of the crank, or over the stroke of a slide: displacement, velocity and acceleration, exact and by graphical methods.
+//! Motion diagrams over one turn of the crank, or over the stroke of a slide.
+//! They show displacement, velocity and acceleration, exact and by graphical methods.
 //!
 //! Differentiation: chords of the displacement give the velocity at the midpoints of the divisions.
 //! Chords of the chord velocity give the acceleration at the ends of the divisions.
@@ -148,8 +149,6 @@ pub struct MotionDiagram {
     pub stride: usize,
     /// What the input measures.
     pub input: Input,
-    /// Whether velocity and acceleration repeat after the range.
-    pub is_closed: bool,
     /// Input of every row (SI unit, as the scenario defines it).
     pub cranks: Vec<f64>,
     /// Time of every row (s).
@@ -228,7 +227,7 @@ impl MotionDiagram {
         });
         let found = found.collect();
         let input = case.crank().input;
-        Ok(MotionDiagram { course: course.clone(), divisions, stride, input, is_closed, cranks, times, exact, found })
+        Ok(MotionDiagram { course: course.clone(), divisions, stride, input, cranks, times, exact, found })
     }
 
     /// Half the range of an exact curve (SI). Index 0 is the displacement, 1 the velocity, 2 the acceleration.

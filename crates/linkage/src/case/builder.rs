@@ -163,7 +163,9 @@ impl CaseBuilder {
 
     /// Gives the last transmission its efficiencies: if power flows from the first member to the second, and back.
     pub fn efficiency(mut self, efficiency: [f64; 2]) -> Self {
-        self.transmissions.iter_mut().next_back().into_iter().for_each(|own| own.efficiency = efficiency);
+        if let Some(last) = self.transmissions.last_mut() {
+            last.efficiency = efficiency;
+        }
         self
     }
 

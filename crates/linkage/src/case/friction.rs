@@ -6,7 +6,7 @@
 //! A guide of the length l carries the force N and the moment M by contacts at its two ends.
 //! The contact forces are N/2 + M/l and N/2 - M/l; the sum of the absolute values is the larger of |N| and 2 |M| / l.
 //! A transmission with an efficiency loses a fraction of its power, which depends on the sense of the power.
-//! The loss acts like friction: a moment between carrier and first member, proportional to the force F of the transmission.
+//! The loss acts like friction: a moment between carrier and first member, in proportion to the transmission's force F.
 //! See docs/numerics/friction.md.
 //! J. L. Meriam, L. G. Kraige, Engineering Mechanics: Statics, 7th ed., Wiley 2012, sections 6/3 and 6/6.
 //! The radius of the friction circle is mu r here. The forces of the two contacts follow from equilibrium.
@@ -88,8 +88,8 @@ impl Case {
         let joint = &self.mechanism.joints()[joint];
         let (rate, unit) = (joint.rates(motions)[0], if joint.slides() { self.mechanism.size() } else { 1.0 });
         // A rate that is NaN counts as zero.
-        let fastest = fastest(motions).larger(self.drives.top_speed(self.mechanism.size()));
-        if rate.abs() > STANDSTILL * fastest * unit { rate } else { 0.0 }
+        let least = (STANDSTILL * fastest(motions)).larger(self.standstill);
+        if rate.abs() > least * unit { rate } else { 0.0 }
     }
 
     /// Adds all frictions to the loads on all links.
@@ -148,8 +148,8 @@ impl Friction<'_> {
         }
     }
 
-    /// Sum of the contacts' normal forces (N), which is a norm of the reaction. For a transmission: the force, times the
-    /// lost fraction of its power.
+    /// Sum of the contacts' normal forces (N), which is a norm of the reaction.
+    /// For a transmission: the force, times the lost fraction of its power.
     /// `sense` is the sense of [`rate`](Friction::rate).
     #[must_use]
     pub fn normal(&self, (force, moment): (Vec2, f64), sense: f64) -> f64 {
@@ -219,8 +219,8 @@ impl Friction<'_> {
         if rate == 0.0 { 0.0 } else { -rate.signum() * self.lever() * normal }
     }
 
-    /// Actions of the friction on the joint's first link, then on its second link. For a transmission: on the carrier, then
-    /// on the first member.
+    /// Actions of the friction on the joint's first link, then on its second link.
+    /// For a transmission: on the carrier, then on the first member.
     /// `effort` is [`effort`](Friction::effort).
     #[must_use]
     pub fn act(&self, effort: f64, motions: &[Motion]) -> [Action; 2] {

@@ -117,10 +117,10 @@ impl Course {
         }
     }
 
-    /// Period of a table in revolutions of the crank: `None` inside for a table over a slide, `None` for a constant.
+    /// Period of a table over the crank angle in revolutions of the crank; `None` for other quantities.
     #[must_use]
-    pub fn turns(&self) -> Option<Option<u32>> {
-        if let Course::Table { turns, .. } = self { Some(*turns) } else { None }
+    pub fn turns(&self) -> Option<u32> {
+        if let Course::Table { turns, .. } = self { *turns } else { None }
     }
 }
 

@@ -97,7 +97,8 @@ pub struct TransmissionDesign {
     pub joint: JointId,
     /// Coordinate of `joint` at t = 0: the angle of its second link minus that of its first (rad), or the slide (m).
     pub start: f64,
-    /// Efficiency if power flows from the first member to the second, above 0 and at most 1, and if it flows back, at most 1.
+    /// Efficiency if power flows from the first member to the second, above 0 and at most 1.
+    /// Then the efficiency if it flows back, at most 1.
     /// If the second efficiency is not positive, the transmission is self-locking: both members must be driven.
     pub efficiency: [f64; 2],
 }
