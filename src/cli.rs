@@ -19,6 +19,7 @@ mod export;
 mod grid;
 mod html;
 mod inspect;
+mod instant;
 mod jobs;
 mod list;
 mod live;
@@ -105,7 +106,7 @@ commands! {
         /// Draw mechanisms, also those that cannot be assembled yet, and all configurations: SVG, PNG, animated GIF and
         /// WebP
         Draw(draw::Args) = draw::draw,
-        /// Velocity and acceleration plans at one crank angle, as a table, as JSON or drawn to scale
+        /// Velocity and acceleration plans at one instant, as a table, as JSON or drawn to scale
         Plan(plan::Args) = plan::plan,
         /// Velocity and acceleration by the chord method, velocity and displacement by graphical integration, and their
         /// errors

@@ -19,19 +19,19 @@ const AMONG: [f64; 2] = [100.0, 96.0];
 /// Draws a mechanism; returns the bytes of a file.
 ///
 /// ```
-/// use linkproof::parts::{Medium, PictureOptions};
+/// use linkproof::parts::{Medium, PictureOptions, When};
 /// use linkproof::{Scenario, draw};
 ///
 /// # std::env::set_current_dir(env!("CARGO_MANIFEST_DIR"))?;
 /// let scenario = Scenario::load("scenarios/crank_rocker.toml")?;
-/// let picture = draw(scenario, &PictureOptions { crank: Some(0.5), ..PictureOptions::default() }, Medium::Svg)?;
+/// let picture = draw(scenario, &PictureOptions { at: Some(When::Crank(0.5)), ..PictureOptions::default() }, Medium::Svg)?;
 /// assert!(String::from_utf8(picture)?.starts_with("<svg"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
 /// # Errors
-/// [`ErrorKind::Input`](crate::parts::ErrorKind::Input) for an invalid crank angle or an unknown point.
-/// The error that prevents assembly at the crank angle is returned as well.
+/// [`ErrorKind::Input`](crate::parts::ErrorKind::Input) for an invalid instant or an unknown point.
+/// The error that prevents assembly at the instant is returned as well.
 pub fn draw(scenario: Scenario, wish: &PictureOptions, medium: Medium) -> Result<Vec<u8>> {
     let drawn = Drawn::of(scenario, wish, medium)?;
     match &drawn.fault {

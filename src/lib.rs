@@ -112,7 +112,7 @@ pub mod parts {
     pub use crate::check::FormulaQuestion;
     #[cfg(feature = "command")]
     pub use crate::draw::{Medium, PictureOptions};
-    pub use linkage::case::{CaseBuilder, Grid, Wanted};
+    pub use linkage::case::{CaseBuilder, Grid, Wanted, When};
     pub use linkage::drive::{Load, MotionLaw};
     pub use linkage::engine::Route;
     pub use linkage::error::{Advice, Error, ErrorKind};

@@ -4,6 +4,7 @@ use crate::sentences;
 use std::path::PathBuf;
 
 use super::engine_args::side;
+use super::instant::InstantArgs;
 use super::output::{self, refused};
 use super::{load, number};
 use crate::draw::{Drawn, Medium, Note, PictureOptions, picture};
@@ -22,9 +23,8 @@ pub(super) struct Args {
     /// [default: FILE.svg, for several files mechanisms.svg, in this directory]
     #[arg(long, short, value_name = "PICTURE", value_parser = target)]
     output: Option<PathBuf>,
-    /// Crank angle (deg), or slide (mm), as the scenario states it [default: that of the start]
-    #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = number::finite)]
-    crank_deg: Option<f64>,
+    #[command(flatten)]
+    instant: InstantArgs,
     /// Start a group in a different assembly mode from that of the file, as in `linkproof run`
     #[arg(long, value_name = "LINK,LINK=MODE")]
     mode: Vec<String>,
@@ -91,7 +91,7 @@ pub(super) fn draw(args: &Args) -> Result<()> {
     let medium = medium.map_err(|message| Error::new(ErrorKind::Input, message).key("--output"))?;
     fits(args, medium)?;
     let wish = PictureOptions {
-        crank: None,
+        at: None,
         each_mode: args.each_mode,
         loads: args.loads,
         dimensions: args.dimensions,
@@ -104,19 +104,16 @@ pub(super) fn draw(args: &Args) -> Result<()> {
         traces_key: Some("--trace"),
     };
     let asked = StartRequest { modes: args.mode.clone(), set: args.set.clone(), ..StartRequest::default() };
-    let with_crank = |input: Input| {
-        let crank = args.crank_deg.map(|value| input.read(value));
-        PictureOptions { crank, ..wish.clone() }
-    };
+    let at_instant = |input: Input| PictureOptions { at: args.instant.of(input), ..wish.clone() };
     let drawn = |file: &PathBuf| match load::as_asked(file, &asked) {
         Ok(scenario) => {
-            let wish = with_crank(scenario.case.crank().input);
-            Drawn::of(scenario, &wish, medium).map_err(|error| error.key("--crank-deg"))
+            let wish = at_instant(scenario.case.crank().input);
+            Drawn::of(scenario, &wish, medium).map_err(|error| args.instant.blamed(error))
         }
         // If the text itself has errors, reading the draft reports them.
         Err(error) => {
             let draft = load::draft(file, &asked)?;
-            let wish = with_crank(draft.input());
+            let wish = at_instant(draft.input());
             Drawn::of_draft(draft, &wish, error)
         }
     };

@@ -2,14 +2,15 @@
 
 use std::path::PathBuf;
 
+use super::instant::InstantArgs;
 use super::outputs::{Outputs, results};
-use super::{load, number};
+use super::{load, number, output};
 use crate::report::drivers::Drivers;
 use crate::report::fixed::FixedStructure;
 use crate::report::{inspect as report, modes, range};
 use crate::sentences;
 use analytic::range::explained;
-use linkage::case::{Case, Grid};
+use linkage::case::{Case, When};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::mechanism::JointId;
 use linkage::work::limited;
@@ -29,9 +30,8 @@ pub(super) struct Args {
     /// transmission angles
     #[arg(long, conflicts_with = "modes")]
     range: bool,
-    /// Crank angle (deg), or slide (mm), for --modes, as the scenario states it [default: that of the start]
-    #[arg(long, value_name = "DEG", allow_hyphen_values = true, requires = "modes", value_parser = number::finite)]
-    at_crank_deg: Option<f64>,
+    #[command(flatten)]
+    instant: InstantArgs,
     /// Show the structure for another driven joint: its groups and its class; `all` shows every joint
     #[arg(long, value_name = "JOINT", conflicts_with_all = ["modes", "range"])]
     driver: Option<String>,
@@ -50,6 +50,9 @@ results! { Inspected {
 } }
 
 pub(super) fn inspect(args: &Args) -> Result<()> {
+    if let (false, (option, true)) = (args.modes, args.instant.told()) {
+        return output::refused(option, sentences::ONLY_MODES_HAS_AN_INSTANT, sentences::LEAVE_IT_OUT_OR_ADD_MODES);
+    }
     let asked = StartRequest { modes: args.mode.clone(), ..StartRequest::default() };
     // If the file leaves the configuration open, a list of all configurations is most useful, so `to_list` accepts such
     // a file.
@@ -65,11 +68,11 @@ pub(super) fn inspect(args: &Args) -> Result<()> {
     let case = &scenario.case;
     let modes = match args.modes {
         true => {
-            let crank = args.at_crank_deg.map_or(case.crank().start, |value| case.crank().input.read(value));
-            Grid::of_inputs(case.crank(), vec![crank])
-                .check(&case.drives)
-                .map_err(|message| Error::new(ErrorKind::Input, message).help("check --at-crank-deg"))?;
-            Some((crank, analytic::modes::all(case, crank).map_err(|error| explained(case, error))?))
+            let when = args.instant.of(case.crank().input).unwrap_or(When::Crank(case.crank().start));
+            let grid = when.grid(case.crank());
+            let fault = |message: String| args.instant.blamed(Error::new(ErrorKind::Input, message));
+            grid.check(&case.drives).map_err(fault)?;
+            Some((grid.inputs[0], analytic::modes::all(case, when).map_err(|error| explained(case, error))?))
         }
         false => None,
     };
@@ -94,8 +97,7 @@ fn without_drive(args: &Args, asked: &StartRequest, error: Error) -> Result<()> 
     if !draft.is_fixed() {
         return Err(error);
     }
-    let moving =
-        [("--range", args.range), ("--driver", args.driver.is_some()), ("--at-crank-deg", args.at_crank_deg.is_some())];
+    let moving = [("--range", args.range), ("--driver", args.driver.is_some()), args.instant.told()];
     if let Some((option, _)) = moving.into_iter().find(|(_, is_given)| *is_given) {
         let error = Error::new(ErrorKind::Input, sentences::THE_STRUCTURE_DOES_NOT_MOVE).key(option);
         return Err(error.help(sentences::TAKE_IT_OUT_OR_ADD_A_DRIVE));

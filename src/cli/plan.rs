@@ -3,14 +3,16 @@
 use crate::sentences;
 use std::path::PathBuf;
 
+use super::advice;
 use super::engine_args::side;
+use super::instant::InstantArgs;
 use super::load::plain;
 use super::outputs::{Outputs, results};
-use super::{advice, number};
 use crate::report::plan as report;
 use analytic::range::explained;
 use design::draw;
 use design::plan::{Plans, SingularPoint, state_at};
+use linkage::case::When;
 use linkage::error::{Error, ErrorKind, Result};
 use prover::run::Reference;
 
@@ -20,9 +22,8 @@ pub(super) struct Args {
     /// Scenario file; `-` for standard input
     #[arg(value_name = "FILE")]
     file: PathBuf,
-    /// Crank angle (deg), or slide (mm), as the scenario states it [default: that of the start]
-    #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = number::finite)]
-    crank_deg: Option<f64>,
+    #[command(flatten)]
+    instant: InstantArgs,
     /// Show only the vectors of this point, or of this link with its points; may be given several times
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     only: Vec<String>,
@@ -52,10 +53,11 @@ pub(super) fn plan(args: &Args) -> Result<()> {
         let message = sentences::has_points_and_a_plan_has_a_vector(&name, &count, &POINTS);
         return Err(Error::new(ErrorKind::Input, message).help(sentences::LEAVE_OUT_POINTS_THAT_THE_PLAN));
     }
-    let crank = args.crank_deg.map_or(case.crank().start, |value| case.crank().input.read(value));
+    let crank = case.crank();
+    let when = args.instant.of(crank.input).unwrap_or(When::Crank(crank.start));
     let solver = args.with.solver();
-    let state = state_at(case, solver, crank).map_err(|error| explained(case, error))?;
-    let plans = Plans::of(case, solver, &state, crank);
+    let state = state_at(case, solver, when).map_err(|error| args.instant.blamed(explained(case, error)))?;
+    let plans = Plans::of(case, solver, &state, when.grid(crank).inputs[0]);
     let plans =
         if args.only.is_empty() { plans } else { plans.only(&args.only).map_err(|error| error.key("--only"))? };
     let singular: Vec<Result<SingularPoint>> = case

@@ -6,14 +6,15 @@ use std::path::Path;
 use drawing::bitmap::{Bitmap, bitmap, to_gif, to_png, to_webp};
 use drawing::paper::document::document;
 use drawing::paper::figure::DrawnFigure;
+use linkage::case::When;
 use linkage::error::Result;
 use prover::run::Reference;
 
 /// Options of a picture.
 #[derive(Clone, Debug, Default)]
 pub struct PictureOptions {
-    /// Value of the input (rad or m, as the scenario states it); `None` for that of the start.
-    pub crank: Option<f64>,
+    /// Instant of the picture; `None` for the start.
+    pub at: Option<When>,
     /// Whether to draw all configurations at the crank angle, each with the modes of its groups.
     pub each_mode: bool,
     /// Whether to draw gravity, and forces and moments as arrows with their sizes.

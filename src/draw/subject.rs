@@ -9,6 +9,7 @@ use drawing::lay::{GroupPlacement, Laid, all_modes, lay, lay_loose};
 use drawing::sheet::SheetCell;
 use drawing::view::{DrawnSubject, Extras, Shot, Trace, cells};
 use drawing::{Sketch, Travels, acting, unit};
+use linkage::case::When;
 use linkage::drive::Drive;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
@@ -54,22 +55,22 @@ pub(crate) struct Drawn {
 impl Drawn {
     /// A mechanism that can be assembled at some crank angle.
     pub(crate) fn of(scenario: Scenario, wish: &PictureOptions, medium: Medium) -> Result<Drawn> {
-        let crank = wish.crank.unwrap_or(scenario.case.crank().start);
+        let when = wish.at.unwrap_or(When::Crank(scenario.case.crank().start));
         let drawn = match wish.each_mode {
-            true => Drawn::each_mode(draft_of(&scenario), crank, None),
-            false => Drawn::whole(scenario, crank, wish, medium),
+            true => Drawn::each_mode(draft_of(&scenario), when, None),
+            false => Drawn::whole(scenario, when, wish, medium),
         };
         Ok(drawn?.with_unknown_traces(wish))
     }
 
     /// The readable part of a mechanism whose file is not a valid scenario, because of an error.
     pub(crate) fn of_draft(draft: Draft, wish: &PictureOptions, error: Error) -> Result<Drawn> {
-        let crank = wish.crank.unwrap_or(draft.crank);
+        let when = wish.at.unwrap_or(When::Crank(draft.crank));
         // For links that cannot move, a missing drive is no error.
         let error = Some(error).filter(|_| !draft.is_fixed());
         let drawn = match wish.each_mode && draft.structure.is_ok() {
-            true => Drawn::each_mode(draft, crank, error)?,
-            false => Drawn::partial(draft, crank, error),
+            true => Drawn::each_mode(draft, when, error)?,
+            false => Drawn::partial(draft, when, error),
         };
         Ok(drawn.with_unknown_traces(wish))
     }
@@ -101,8 +102,9 @@ impl Drawn {
         all
     }
 
-    fn new(draft: Draft, crank: f64, shots: Vec<Shot>) -> Drawn {
+    fn new(draft: Draft, when: When, shots: Vec<Shot>) -> Drawn {
         let has_mistakes = draft.mistakes.is_some();
+        let crank = draft.drives.first().map_or(draft.crank, |drive| when.grid(drive).inputs[0]);
         let input = (!draft.is_fixed()).then(|| format!(", {}", draft.input().marked(crank)));
         let headline = draft.name.clone() + &input.unwrap_or_default();
         let drives = if draft.is_driven_by_guess { Vec::new() } else { draft.drives };
@@ -129,21 +131,21 @@ impl Drawn {
         }
     }
 
-    /// The mechanism at a crank angle (rad), or its motion.
-    fn whole(scenario: Scenario, crank: f64, wish: &PictureOptions, medium: Medium) -> Result<Drawn> {
+    /// The mechanism at an instant, or its motion.
+    fn whole(scenario: Scenario, when: When, wish: &PictureOptions, medium: Medium) -> Result<Drawn> {
         let (frames, solver) = (medium.frames(wish), wish.solver.solver());
         let (points, _) = traced(&scenario.case.mechanism, wish);
         let is_motion_seen = frames > 1 || !points.is_empty();
         let own = if is_motion_seen { swung(&scenario.case, solver) } else { None };
         let scenario = scenario.nominal();
         let case = &scenario.case;
-        let first = match state_at(case, solver, crank) {
+        let first = match state_at(case, solver, when) {
             Ok(state) => state,
             Err(error) if error.kind() == ErrorKind::Input => return Err(error),
             Err(error) => {
                 let error = analytic::range::explained(case, error);
                 let travels = turned(case, solver).1;
-                return Ok(Drawn { travels, ..Drawn::partial(draft_of(&scenario), crank, Some(error)) });
+                return Ok(Drawn { travels, ..Drawn::partial(draft_of(&scenario), when, Some(error)) });
             }
         };
         let (states, travels) = own.map_or_else(|| turned(case, solver), |states| with_travels(case, states));
@@ -161,7 +163,7 @@ impl Drawn {
         };
         let path = |link: LinkId, local: Vec2| states.iter().map(|state| state.motions[link].point(local)).collect();
         let traces = points.iter().map(|&(link, local)| (link, path(link, local))).collect();
-        let mut drawn = Drawn { traces, ..Drawn::new(draft_of(&scenario), crank, shots) };
+        let mut drawn = Drawn { traces, ..Drawn::new(draft_of(&scenario), when, shots) };
         let own = std::mem::replace(&mut drawn.travels, travels);
         // A single picture shows the requested instant, which lies between two instants of the computed path.
         // The travels are therefore widened by the pose at this instant.
@@ -171,9 +173,9 @@ impl Drawn {
         Ok(drawn)
     }
 
-    /// A mechanism, placed as far as possible at a crank angle (rad), with the error that stops it.
-    fn partial(draft: Draft, crank: f64, error: Option<Error>) -> Drawn {
-        let angles = angles(&draft.drives, crank);
+    /// A mechanism, placed as far as possible at an instant, with the error that stops it.
+    fn partial(draft: Draft, when: When, error: Option<Error>) -> Drawn {
+        let angles = angles(&draft.drives, when);
         let laid = match &draft.structure {
             Ok(structure) => lay(&draft.mechanism, structure, &angles, &draft.starts),
             Err(fault) => {
@@ -200,13 +202,13 @@ impl Drawn {
             (gaps, _) => Some(Note::Said(format!("{}: {}", draft.name, gaps.join(", ")))),
         };
         let shots = vec![Shot { laid, acting: Vec::new() }];
-        Drawn { fault: error, note, ..Drawn::new(draft, crank, shots) }
+        Drawn { fault: error, note, ..Drawn::new(draft, when, shots) }
     }
 
-    /// All configurations at a crank angle (rad).
-    fn each_mode(draft: Draft, crank: f64, error: Option<Error>) -> Result<Drawn> {
+    /// All configurations at an instant.
+    fn each_mode(draft: Draft, when: When, error: Option<Error>) -> Result<Drawn> {
         let structure = draft.structure.clone()?;
-        let angles = structure.given_at_start(&draft.mechanism, &angles(&draft.drives, crank));
+        let angles = structure.given_at_start(&draft.mechanism, &angles(&draft.drives, when));
         let structure = structure.at_start();
         let mut all = all_modes(&draft.mechanism, structure, &angles, &draft.starts, MOST + 1);
         let is_cut = all.len() > MOST;
@@ -224,7 +226,7 @@ impl Drawn {
         let first = all.first().and_then(|laid| laid.faults.first().cloned());
         let fault = error.or(first).filter(|_| !is_answered);
         let shots = all.into_iter().map(|laid| Shot { laid, acting: Vec::new() }).collect();
-        Ok(Drawn { headings, note, fault, ..Drawn::new(draft, crank, shots) })
+        Ok(Drawn { headings, note, fault, ..Drawn::new(draft, when, shots) })
     }
 }
 
@@ -248,9 +250,14 @@ fn of_guess(draft: &Draft) -> Option<String> {
     Some(sentences::no_drive_could_be_read_drawn(&draft.name, &link))
 }
 
-/// World angles of the driving links: the crank at an angle (rad), the other driving links at their start angles.
-fn angles(drives: &[Drive], crank: f64) -> Vec<f64> {
-    let angle = |(index, drive): (usize, &Drive)| drive.coordinate(if index == 0 { crank } else { drive.start });
+/// Coordinates of the drives at an instant.
+/// If the time is not known, as in a free motion, further drives stand at their start.
+fn angles(drives: &[Drive], when: When) -> Vec<f64> {
+    let at = drives.first().map(|drive| when.grid(drive)).unwrap_or_default();
+    let angle = |(index, drive): (usize, &Drive)| {
+        let value = if index == 0 { at.inputs[0] } else { drive.at(at.times[0]).value };
+        drive.coordinate(if value.is_finite() { value } else { drive.start })
+    };
     drives.iter().enumerate().map(angle).collect()
 }
 

@@ -51,6 +51,8 @@ linkage::sentences! {
     comparing_rows(rows) = "comparing {rows} rows";
     the_table(path) = "the table {path}";
     LEAVE_IT_OUT = "leave it out";
+    LEAVE_IT_OUT_OR_ADD_MODES = "leave it out, or add --modes";
+    ONLY_MODES_HAS_AN_INSTANT = "only --modes lists configurations at an instant";
     NEITHER_OF_THE_TWO_IS_A_RECORDING = "neither A nor B is a recording";
     BOTH_ARE_SCENARIOS_WHICH_ARE_SOLVED = "A and B are scenarios: each is solved at the requested instants, so interpolation is not needed";
     MAP_IS_FOR = "use --map for B";

@@ -193,13 +193,12 @@ def check_plans(tab, data, linkproof, scenario):
     drives = given["drive"] if isinstance(given["drive"], list) else [given["drive"]]
     if not plans or any(own.get("motion") == "free" for own in drives):
         return
-    slides = any(own["name"] == drives[0]["joint"] and own["type"] == "prismatic" for own in given["joints"])
     show(tab, "#plan-list")
     count = tab.evaluate("() => time.length")
     for at in sorted({count // 7, count // 3, 5 * count // 6}):
         tab.evaluate(GO_TO, at)
-        crank = tab.evaluate("() => crank[shown.row]")
-        made = subprocess.run([linkproof, "plan", scenario, f"--crank-deg={crank * 1e3 if slides else math.degrees(crank)!r}", "-o", "-"], capture_output=True, text=True)
+        when = tab.evaluate("() => time[shown.row]")
+        made = subprocess.run([linkproof, "plan", scenario, f"--time={when!r}", "-o", "-"], capture_output=True, text=True)
         need(made.returncode == 0, made.stderr)
         right = json.loads(made.stdout)
         for number, plan in enumerate(plans):

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use analytic::AssurSolver;
 use assert_cmd::Command;
 use design::plan::state_at;
+use linkage::case::When;
 use linkage::math::{KeepNan, Vec2};
 use linkproof::Scenario;
 
@@ -54,7 +55,7 @@ fn texts(document: &roxmltree::Document) -> Vec<String> {
 fn pins_are_drawn_at_the_solved_positions() {
     for (name, degrees) in [("crank_rocker", 30.0), ("ov7_base", -120.0), ("class3_group", 200.0)] {
         let case = Scenario::load(file(name)).unwrap().case;
-        let state = state_at(&case, &AssurSolver, f64::to_radians(degrees)).unwrap();
+        let state = state_at(&case, &AssurSolver, When::Crank(f64::to_radians(degrees))).unwrap();
         let text = svg(&[&file(name), "--crank-deg", &degrees.to_string()]);
         let document = roxmltree::Document::parse(&text).unwrap();
         let drawn = pins(&document);
@@ -338,7 +339,7 @@ fn a_prismatic_pair_is_drawn_as_the_file_says() {
 fn numbers_move_with_links_in_an_animation() {
     let case = Scenario::load(file("crank_rocker")).unwrap().case;
     let places = |degrees: f64| {
-        let state = state_at(&case, &AssurSolver, f64::to_radians(degrees)).unwrap();
+        let state = state_at(&case, &AssurSolver, When::Crank(f64::to_radians(degrees))).unwrap();
         let pose = |motion: &linkage::math::Motion| {
             let angle = motion.direction.y.atan2(motion.direction.x);
             linkage::mechanism::LinkPose { origin: motion.origin, angle }

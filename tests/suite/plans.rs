@@ -14,7 +14,7 @@ use std::path::Path;
 use analytic::{AssurSolver, NewtonSolver};
 use design::plan::state_at;
 use design::plan::{Plans, SingularPoint, TipKind, Vector, VectorKind, VectorPlan};
-use linkage::case::Case;
+use linkage::case::{Case, When};
 use linkage::math::{KeepNan, Vec2, rotated, unit};
 use linkage::mechanism::GroupId;
 use linkage::solver::Solver;
@@ -42,7 +42,7 @@ fn scenario(name: &str) -> Scenario {
 /// The plans of a case at a crank angle (deg).
 fn plans_of(case: &Case, solver: &dyn Solver, degrees: f64) -> linkage::Result<Plans> {
     let crank = degrees.to_radians();
-    Ok(Plans::of(case, solver, &state_at(case, solver, crank)?, crank))
+    Ok(Plans::of(case, solver, &state_at(case, solver, When::Crank(crank))?, crank))
 }
 
 /// Access to parts of a plan by name.
@@ -237,7 +237,8 @@ fn the_singular_point_gives_the_solvers_velocities_and_accelerations() {
     let group = &case.structure.groups[GroupId(0)];
     for solver in [&AssurSolver as &dyn Solver, &NewtonSolver] {
         for degrees in 0..72 {
-            let state = design::plan::state_at(&case, solver, (5.0 * f64::from(degrees)).to_radians()).unwrap();
+            let state =
+                design::plan::state_at(&case, solver, When::Crank((5.0 * f64::from(degrees)).to_radians())).unwrap();
             let point = SingularPoint::of(&case, group, &state.motions).unwrap().unwrap();
             assert_eq!(point.lines(), "BD x CE");
             // The farther S is from the group, the more digits cancel.
@@ -268,7 +269,7 @@ fn the_singular_point_gives_the_solvers_velocities_and_accelerations() {
     }
     for name in ["crank_rocker", "ov7_new"] {
         let case = scenario(name).case;
-        let state = design::plan::state_at(&case, &AssurSolver, 0.3).unwrap();
+        let state = design::plan::state_at(&case, &AssurSolver, When::Crank(0.3)).unwrap();
         for group in &case.structure.groups {
             assert_eq!(SingularPoint::of(&case, group, &state.motions).unwrap(), None, "{name}");
         }

@@ -11,7 +11,7 @@ use crate::common::{assert_within, four_link};
 use analytic::range::{Extent, FourBar, FourBarType, Range, Singularity, SingularityKind, explained};
 use analytic::{AssurSolver, NewtonSolver, PoseSolver, all, modes};
 use linkage::ErrorKind;
-use linkage::case::{Case, Grid};
+use linkage::case::{Case, Grid, When};
 use linkage::error::Advice;
 use linkage::math::angle::wrapped;
 use linkage::mechanism::assembly::configurations;
@@ -372,7 +372,7 @@ fn an_unreachable_angle_is_refused_with_the_reachable_range() {
         for solver in all() {
             check(solver.solve(&asked(&case, degrees)).unwrap_err(), solver.name());
         }
-        check(modes::all(&case, degrees.to_radians()).unwrap_err(), "modes");
+        check(modes::all(&case, When::Crank(degrees.to_radians())).unwrap_err(), "modes");
     }
 }
 
@@ -381,7 +381,7 @@ fn coinciding_configurations_have_no_velocities() {
     let lengths = [0.4, 0.35, 0.3, 0.2];
     let case = started(lengths, true).unwrap().scenario().unwrap().case;
     let [_, to] = closed_form(lengths, case.crank().start).unwrap();
-    let far = modes::all(&case, case.crank().start).unwrap();
+    let far = modes::all(&case, When::Crank(case.crank().start)).unwrap();
     assert!(
         far[0]
             .modes
@@ -389,7 +389,7 @@ fn coinciding_configurations_have_no_velocities() {
             .all(|mode| mode.omegas.as_ref().is_some_and(|all| all.iter().all(|omega| omega.is_finite())))
     );
     // 1e-14 rad before the limit the determinant is of the order of 1e-7, so no angular velocities are reported.
-    let near = modes::all(&case, to - 1e-14).unwrap();
+    let near = modes::all(&case, When::Crank(to - 1e-14)).unwrap();
     assert!(near[0].modes.len() == 2 && near[0].modes.iter().all(|mode| mode.omegas.is_none()), "{near:?}");
 }
 

@@ -6,7 +6,7 @@ use crate::common::chain::four_bars;
 use crate::common::spec::{Spec, four_bar};
 use crate::common::{assert_within, shipped};
 use analytic::{AssurSolver, NewtonSolver};
-use linkage::case::{Case, Grid};
+use linkage::case::{Case, Grid, When};
 use linkage::error::ErrorKind;
 use linkage::math::KeepNan;
 use linkage::mechanism::LinkId;
@@ -185,7 +185,7 @@ fn regress_configurations_beyond_a_dead_point_are_found() {
     let limit = ((0.16f64 + 0.16 - 0.09) / 0.32).acos().to_degrees();
     let case = at(lengths, true, limit + 10.0, &[limit + 10.0]);
     let there = (limit + 20.0 - 360.0).to_radians();
-    let modes = analytic::modes::all(&case, there).unwrap_or_else(|error| panic!("{error}"));
+    let modes = analytic::modes::all(&case, When::Crank(there)).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(modes[0].modes.iter().filter(|mode| mode.is_followed).count(), 1);
 }
 

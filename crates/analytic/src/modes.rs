@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::range::is_singular;
 use crate::PoseSolver;
 use crate::assur::groups::SolutionPlan;
-use linkage::case::Case;
+use linkage::case::{Case, Grid, When};
 use linkage::error::{ErrorKind, Result};
 use linkage::math::unit;
 use linkage::mechanism::assembly::{Configuration, configurations};
@@ -35,32 +35,32 @@ pub struct Modes {
     pub unknown: Option<String>,
 }
 
-/// Moves the mechanism to a crank angle (rad).
+/// Moves the mechanism to a time (s), at which the crank angle is `crank` (rad).
 /// If a dead point lies on the path, moves the crank in the opposite direction to the same pose of the crank.
 /// Returns the crank angle reached.
-fn reached(case: &Case, crank: f64) -> Result<(PoseSolver<'_>, f64)> {
+fn reached(case: &Case, t: f64, crank: f64) -> Result<(PoseSolver<'_>, f64)> {
     let mut poses = PoseSolver::counting_turns(case)?;
-    let Err(error) = poses.solve_place(crank, Stage::Positions) else { return Ok((poses, crank)) };
+    let Err(error) = poses.solve_place(t, crank, Stage::Positions) else { return Ok((poses, crank)) };
     if error.kind() == ErrorKind::Geometry && case.drives.further().is_empty() {
         let other = crank - TAU.copysign(crank - case.crank().start);
         let mut round = PoseSolver::counting_turns(case)?;
-        if round.solve_place(other, Stage::Positions).is_ok() {
+        if round.solve_place(case.crank().time_of(other), other, Stage::Positions).is_ok() {
             return Ok((round, other));
         }
     }
     Err(error)
 }
 
-/// The real configurations of every group (in the order of the structure) at the crank angle `crank` (rad, as the
-/// scenario states it).
+/// The real configurations of every group (in the order of the structure) at an instant.
 /// The links before a group have the pose that the case follows.
 ///
 /// # Errors
 /// [`ErrorKind::Geometry`] if the crank angle cannot be reached on the case's branch.
-pub fn all(case: &Case, crank: f64) -> Result<Vec<Modes>> {
+pub fn all(case: &Case, when: When) -> Result<Vec<Modes>> {
     let mechanism = &case.mechanism;
-    let (mut poses, crank) = reached(case, crank)?;
-    poses.solve_place(crank, Stage::Velocities)?;
+    let Grid { times, inputs } = when.grid(case.crank());
+    let (mut poses, crank) = reached(case, times[0], inputs[0])?;
+    poses.solve_place(times[0], crank, Stage::Velocities)?;
     let state = poses.with_angles().clone();
     let [angles, omegas] = [poses.coordinates().to_vec(), poses.speeds().to_vec()];
     let followed: Vec<LinkPose> =

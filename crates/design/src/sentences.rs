@@ -63,7 +63,7 @@ linkage::sentences! {
     is_a_derivative_already_a_motion(name) = "\"{name}\" is already a derivative; a motion diagram starts from a position or an angle";
     the_mechanism_has_no_channel(name) = "the mechanism has no channel \"{name}\"";
     // plan/planner.rs
-    give_a_number_in(noun, unit) = "give a {noun} in {unit}, such as 70 or -30";
+    give_a_number_in(noun, unit) = "give a {noun} in {unit}, such as 70 or -30; or a time in s";
     name_some_of(all) = "name one or several of {all}";
     no_point_and_no_link_is_called(name) = "no point or link is called \"{name}\"";
     // plan/singular.rs

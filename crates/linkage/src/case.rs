@@ -24,7 +24,7 @@ use crate::trajectory::{CHANNELS, Channel, ChannelSubject, OfLink, Reading, Stag
 
 pub use builder::CaseBuilder;
 pub use friction::{Friction, FrictionSeat, JointReactions};
-pub use grid::Grid;
+pub use grid::{Grid, When};
 pub use parts::{CaseParts, Wanted};
 pub use scene::{LeftOut, Scene};
 pub use seats::{Seat, Seats};

@@ -46,9 +46,9 @@ crate::sentences! {
     gravity_is(x, y) = "gravity is ({x}, {y}) m/s²";
     // case/grid.rs
     the_grid_leads_turns_away(most, value) = "the grid extends to {most} turns from zero; the limit is {value}";
-    the_grid_leads_to_but_the_drive(t, name, end) = "the grid extends to {t} s, but the drive's law \"{name}\" is defined from 0 to {end} s";
-    the_grid_leads_to_but_drive(t, number, name, end) = "the grid extends to {t} s, but the law \"{name}\" of drive {number} is defined from 0 to {end} s";
-    the_drive_law_does_not_come(name, drive) = "the drive's law \"{name}\" does not reach a {drive} of the grid at exactly one time";
+    the_grid_leads_to_but_the_drive(t, name, end) = "the time {t} s is requested, but the drive's law \"{name}\" is defined from 0 to {end} s";
+    the_grid_leads_to_but_drive(t, number, name, end) = "the time {t} s is requested, but the law \"{name}\" of drive {number} is defined from 0 to {end} s";
+    the_drive_law_does_not_come(name, drive) = "the drive's law \"{name}\" does not reach a requested {drive} at exactly one time";
     THE_MOTION_IS_FREE_WHEN_THE_CRANK = "the motion is free: the time at which the input reaches a value depends on the forces";
     // engine/bodies.rs
     GIVE_EVERY_LINK_BOTH = "give every link a mass and a moment of inertia";

@@ -50,10 +50,11 @@ pub use asked::{StartRequest, Undecided};
 pub use draft::Draft;
 pub use engine::{EngineName, EngineSettings};
 pub use figure::{FigureValue, MechanismFigure, OracleFigure};
+pub use linkage::case::When;
 pub use oracle::{Oracle, OracleBasis};
 pub use parameters::{INPUTS, Parameter};
 pub use printed::{Printed, PrintedChannel};
-pub use series::{ExpectedCell, OraclePoint, OracleSeries, When, within};
+pub use series::{ExpectedCell, OraclePoint, OracleSeries, within};
 pub use setting::{EngineSetting, SettingOrigin};
 
 use std::path::{Path, PathBuf};

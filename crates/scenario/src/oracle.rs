@@ -5,10 +5,11 @@ use super::figure::{self, OracleFigure};
 use super::keys::key::{FileKey, Section, ValueKind, needed, optional};
 use super::printed::{Correction, Printed, PrintedChannel, number};
 use super::reader::{Faults, TomlTable};
-use super::series::{ExpectedCell, Known, OraclePoint, OracleSeries, When, instant};
+use super::series::{ExpectedCell, Known, OraclePoint, OracleSeries, instant};
 use super::table_file;
 use crate::sentences;
 use linkage::case::Case;
+use linkage::case::When;
 use linkage::error::Result;
 
 const NUMBER: &[FileKey] = &[

@@ -8,10 +8,9 @@ use super::reader::{Sign, TomlTable};
 use super::unit::{NamedUnit, TIME, of_input};
 use super::words::suggestion;
 use formula::Rounded;
-use linkage::case::{Case, Grid};
+use linkage::case::{Case, Grid, When};
 use linkage::drive::Drive;
 use linkage::error::Result;
-use linkage::input::Input;
 use linkage::math::KeepNan;
 use linkage::trajectory::{CHANNELS, Channel};
 
@@ -47,39 +46,6 @@ pub struct OraclePoint {
     pub bound: f64,
     /// Number of printed decimals, in the printed unit.
     pub digits: i32,
-}
-
-/// Where a value holds.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum When {
-    /// At a value of the input: a crank angle, for example (SI unit, as the scenario measures the input).
-    /// If forces determine the motion, the value is valid for the nominal motion.
-    Crank(f64),
-    /// At a time (s) of the motion of the scenario.
-    Time(f64),
-}
-
-impl When {
-    /// The crank angle (rad), if the value is valid at a crank angle.
-    #[must_use]
-    pub fn crank(self) -> Option<f64> {
-        if let When::Crank(crank) = self { Some(crank) } else { None }
-    }
-
-    /// The time (s), if the value is valid at a time.
-    #[must_use]
-    pub fn time(self) -> Option<f64> {
-        if let When::Time(time) = self { Some(time) } else { None }
-    }
-
-    /// The instant in words, for a scenario with this input.
-    #[must_use]
-    pub fn told(self, input: Input) -> String {
-        match self {
-            When::Crank(value) => format!("{:.3}", input.at(value)),
-            When::Time(time) => format!("{time} s"),
-        }
-    }
 }
 
 /// A printed value that is known to be wrong. The mechanism must reproduce the correct value, not the printed one.

@@ -8,12 +8,13 @@ use std::path::{Path, PathBuf};
 use super::malformed::has_decimal_comma;
 use super::printed::{Correction, Printed, PrintedChannel, check_apart, digits, finding};
 use super::reader::{Sign, TomlTable};
-use super::series::{self, ExpectedCell, Known, OraclePoint, OracleSeries, When, instant};
+use super::series::{self, ExpectedCell, Known, OraclePoint, OracleSeries, instant};
 use super::source::Source;
 use super::words::suggestion;
 use columns::{Records, Twice};
 use formula::Rounded;
 use linkage::case::Case;
+use linkage::case::When;
 use linkage::error::{Advice, Error, ErrorKind, Place, Result};
 use linkage::mechanism::is_unseen;
 

@@ -33,7 +33,7 @@ fn laws_and_their_grids() {
             table("{ time_s = 0, angle_deg = 0 }, { time_s = 1, angle_deg = 9 }"),
             "[grid]",
             "grid",
-            &["does not reach a crank angle of the grid at exactly one time"],
+            &["does not reach a requested crank angle at exactly one time"],
         ),
     ];
     for (text, at, key, words) in cases {

@@ -30,7 +30,7 @@ fn inspect_shows_the_structure() {
 #[test]
 fn inspect_lists_all_configurations() {
     let place = Place::new();
-    let shown = place.ok("inspect scenarios/fourth_class.toml --modes --at-crank-deg 70 --json -");
+    let shown = place.ok("inspect scenarios/fourth_class.toml --modes --crank-deg 70 --json -");
     let found: Value = serde_json::from_str(&shown).unwrap();
     let modes = found["modes"]["groups"][0]["modes"].as_array().unwrap();
     assert_eq!(modes.iter().map(|mode| mode["followed"] == json!(true)).collect::<Vec<_>>(), [true, false]);
@@ -46,7 +46,7 @@ fn inspect_lists_all_configurations() {
     let text = place.ok("inspect scenarios/ov7_base.toml --modes");
     assert_eq!(text.matches("2 real configurations").count(), 3, "{text}");
     assert_eq!(text.matches("right, chosen by the scenario").count(), 3, "{text}");
-    assert_eq!(place.run("inspect scenarios/ov7_base.toml --at-crank-deg 70").code, 2);
+    assert_eq!(place.run("inspect scenarios/ov7_base.toml --crank-deg 70").code, 2);
 }
 
 /// A platform on three rods of given length has up to six configurations; Hunt 1978, chapter on parallel manipulators.

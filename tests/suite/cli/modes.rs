@@ -238,12 +238,12 @@ fn a_group_of_six_links_lists_its_followed_configuration() {
     let place = Place::new();
     let drawn = [("B", 50.0, 120.0), ("C", 200.0, 110.0), ("E", 450.0, 100.0)];
     six(&place, &near(&drawn));
-    let text = place.ok("inspect scenarios/six.toml --modes --at-crank-deg 5");
+    let text = place.ok("inspect scenarios/six.toml --modes --crank-deg 5");
     let words = "only the configuration chosen by the scenario is shown; \
                  the configurations of a group of 6 links of class 3 are not all known";
     assert!(text.contains(words) && text.contains("1, chosen by the scenario"), "{text}");
     let found: Value =
-        serde_json::from_str(&place.ok("inspect scenarios/six.toml --modes --at-crank-deg 5 --json -")).unwrap();
+        serde_json::from_str(&place.ok("inspect scenarios/six.toml --modes --crank-deg 5 --json -")).unwrap();
     let group = &found["modes"]["groups"][0];
     assert_eq!((&group["all_known"], group["modes"].as_array().unwrap().len()), (&json!(false), 1), "{group}");
     assert!(group["others_absent"].as_str().unwrap().contains("not all known"), "{group}");

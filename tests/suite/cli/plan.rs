@@ -76,6 +76,38 @@ fn diagrams_of_motions_that_do_not_repeat_have_order_two() {
     place.refused("diagram scenarios/still.toml --channel link.boom.angle_rad", &["the same slide", "stroke"]);
 }
 
+/// A drive that reverses reaches an angle several times, so only a time names the instant.
+#[test]
+fn an_instant_may_be_a_time() {
+    let place = Place::new();
+    for (file, t, point) in [("lifting_screw", 0.3, "N"), ("lifting_screw", 3.7, "N"), ("robot_arm", 0.9, "T")] {
+        let plans = place.run(&format!("plan scenarios/{file}.toml --time {t} -o -")).json();
+        let name = format!("v_{point}");
+        let vectors = plans["velocity"]["vectors"].as_array().unwrap();
+        let drawn = vectors.iter().find(|vector| vector["name"] == name).unwrap();
+        let csv = place.ok(&format!("solve scenarios/{file}.toml --with newton --times {t}"));
+        let mut lines = csv.lines().map(|line| line.split(',').collect::<Vec<_>>());
+        let [heads, row] = [lines.next().unwrap(), lines.next().unwrap()];
+        let solved = |name: &str| row[heads.iter().position(|head| *head == name).unwrap()].parse::<f64>().unwrap();
+        assert_within!((plans["crank_rad"].as_f64().unwrap() - solved("crank_rad")).abs(), 1e-12, "{file} {t}");
+        let right = solved(&format!("point.{point}.vy_m_s"));
+        assert_within!((drawn["y"].as_f64().unwrap() - right).abs(), 1e-12, "{file} {t}: {right}");
+        assert!(right != 0.0);
+    }
+    assert!(place.run("plan scenarios/lifting_screw.toml --crank-deg 30").stderr.contains("or a time in s"));
+    for command in ["plan", "draw -o beyond.svg", "inspect --modes"] {
+        let beyond = place.run(&format!("{command} scenarios/robot_arm.toml --time 99"));
+        assert!(beyond.code == 2 && beyond.stderr.contains("`--time`: the time 99 s is requested"), "{}", beyond.stderr);
+    }
+    let modes = place.ok("inspect scenarios/platform_3rpr.toml --modes --time 3");
+    let start = place.ok("inspect scenarios/platform_3rpr.toml --modes");
+    assert_ne!(modes, start);
+    place.ok("draw scenarios/robot_arm.toml --time 0.9 -o later.svg");
+    place.ok("draw scenarios/robot_arm.toml -o start.svg");
+    let picture = |name: &str| std::fs::read(place.path(name)).unwrap();
+    assert_ne!(picture("later.svg"), picture("start.svg"));
+}
+
 #[test]
 fn invalid_requests_are_refused() {
     let place = Place::new();

@@ -55,7 +55,7 @@ fn a_limited_crank_is_reported_with_its_limits() {
         "solve scenarios/limited.toml --with assur",
         "solve scenarios/limited.toml --with newton",
         "run scenarios/limited.toml --no-record",
-        "inspect scenarios/limited.toml --modes --at-crank-deg 0",
+        "inspect scenarios/limited.toml --modes --crank-deg 0",
     ] {
         place.refused(command, &["; reachable crank angles: ", &interval, "deg on this branch"]);
     }

@@ -1,5 +1,6 @@
 //! Motion diagrams by chords and by graphical integration.
 
+use linkage::case::When;
 use linkage::math::KeepNan;
 use std::f64::consts::{PI, TAU};
 
@@ -176,6 +177,6 @@ fn invalid_channels_are_refused_with_a_remedy() {
         assert!(error.way_out().unwrap().contains("from 4 to 1000"), "{error}");
     }
     for crank in [f64::NAN, f64::INFINITY, 1e30] {
-        assert!(state_at(&case, &AssurSolver, crank).is_err());
+        assert!(state_at(&case, &AssurSolver, When::Crank(crank)).is_err());
     }
 }

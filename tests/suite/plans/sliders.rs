@@ -6,7 +6,7 @@ use analytic::{AssurSolver, NewtonSolver};
 use design::draw;
 use design::plan::state_at;
 use design::plan::{TipKind, VectorKind};
-use linkage::case::Case;
+use linkage::case::{Case, When};
 use linkage::math::{KeepNan, Vec2, cross, rotated, turned};
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
@@ -21,7 +21,7 @@ const MOVING: [(&str, &str, &str, &str); 3] =
     [("quick_return", "slot", "A", "A3"), ("scotch_yoke", "slot", "A", "A3"), ("tangent", "slot", "B", "B1")];
 
 fn state(case: &Case, degrees: f64) -> State {
-    state_at(case, &AssurSolver, degrees.to_radians()).unwrap()
+    state_at(case, &AssurSolver, When::Crank(degrees.to_radians())).unwrap()
 }
 
 #[test]

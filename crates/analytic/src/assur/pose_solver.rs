@@ -322,15 +322,15 @@ impl<'a> PoseSolver<'a> {
         self.solve(input, drive.rate, drive.acceleration, deepest)
     }
 
-    /// The state at an input of the first drive, for a list of configurations.
+    /// The state at time `t` (s), at which the first drive has this input, for a list of configurations.
     /// If the speeds of the drives vary, the first drive has its top speed, and further drives have theirs in proportion.
     /// If several drives have separate laws, they have the rates of these laws.
-    pub(crate) fn solve_place(&mut self, input: f64, deepest: Stage) -> Result<&State> {
+    pub(crate) fn solve_place(&mut self, t: f64, input: f64, deepest: Stage) -> Result<&State> {
         let drive = self.case.crank();
         if self.by_time {
-            return self.solve_at(input, deepest);
+            return self.solve_when(t, input, deepest);
         }
-        let omega = if self.case.is_steady() { drive.at(drive.time_of(input)).rate } else { drive.top_speed() };
+        let omega = if self.case.is_steady() { drive.at(t).rate } else { drive.top_speed() };
         self.solve(input, omega, 0.0, deepest)
     }
 

@@ -23,7 +23,7 @@ use super::scheme::Scheme;
 use super::sliding::{Slide, slides, travels};
 use super::vectors::{Quantity, VectorPlan};
 use crate::sentences;
-use linkage::case::{Case, Grid, Wanted};
+use linkage::case::{Case, Wanted, When};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::input::Input;
 use linkage::mechanism::{LinkId, Mechanism};
@@ -124,16 +124,17 @@ impl<'a> Planner<'a> {
     }
 }
 
-/// Computes the state of `case` at the value `crank` of its input (SI unit, as the scenario defines it), up to
-/// accelerations.
+/// Computes the state of `case` at an instant, up to accelerations.
 ///
 /// # Errors
-/// [`ErrorKind::Input`] for a crank angle too far away to be reached step by step.
+/// [`ErrorKind::Input`] for an instant too far away to be reached step by step, for a time outside the laws of motion,
+/// and for a crank angle that the law of motion does not reach at exactly one time.
 /// The errors of the solver.
-pub fn state_at(case: &Case, solver: &dyn Solver, crank: f64) -> Result<State> {
-    let grid = Grid::of_inputs(case.crank(), vec![crank]);
+pub fn state_at(case: &Case, solver: &dyn Solver, when: When) -> Result<State> {
+    let grid = when.grid(case.crank());
     grid.check(&case.drives).map_err(|message| {
-        let (noun, unit) = (case.crank().input.noun(), case.crank().input.shown_in().0.replace("deg", "degrees"));
+        let input = case.crank().input;
+        let (noun, unit) = (input.noun(), input.shown_in().0.replace("deg", "degrees"));
         Error::new(ErrorKind::Input, message).help(sentences::give_a_number_in(&noun, &unit))
     })?;
     let wanted = Wanted::of(&[Stage::Positions, Stage::Velocities, Stage::Accelerations]);

@@ -4,6 +4,7 @@ use crate::sentences;
 use std::f64::consts::TAU;
 
 use crate::drive::{Drive, Drives};
+use crate::input::Input;
 use crate::math::KeepNan;
 use crate::math::statistics::ascending;
 
@@ -101,5 +102,47 @@ impl Grid {
     #[must_use]
     pub fn ascending(&self) -> Vec<usize> {
         ascending(&self.times)
+    }
+}
+
+/// An instant of the motion: where a value holds, or a picture is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum When {
+    /// At a value of the input: a crank angle, for example (SI unit, as the scenario measures the input).
+    /// If forces determine the motion, the value is valid for the nominal motion.
+    Crank(f64),
+    /// At a time (s) of the motion of the scenario.
+    Time(f64),
+}
+
+impl When {
+    /// The crank angle (rad), if the value is valid at a crank angle.
+    #[must_use]
+    pub fn crank(self) -> Option<f64> {
+        if let When::Crank(crank) = self { Some(crank) } else { None }
+    }
+
+    /// The time (s), if the value is valid at a time.
+    #[must_use]
+    pub fn time(self) -> Option<f64> {
+        if let When::Time(time) = self { Some(time) } else { None }
+    }
+
+    /// The grid of this instant only.
+    #[must_use]
+    pub fn grid(self, drive: &Drive) -> Grid {
+        match self {
+            When::Crank(crank) => Grid::of_inputs(drive, vec![crank]),
+            When::Time(time) => Grid::of_times(drive, vec![time]),
+        }
+    }
+
+    /// The instant in words, for a scenario with this input.
+    #[must_use]
+    pub fn told(self, input: Input) -> String {
+        match self {
+            When::Crank(value) => format!("{:.3}", input.at(value)),
+            When::Time(time) => format!("{time} s"),
+        }
     }
 }
