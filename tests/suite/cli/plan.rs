@@ -97,7 +97,11 @@ fn an_instant_may_be_a_time() {
     assert!(place.run("plan scenarios/lifting_screw.toml --crank-deg 30").stderr.contains("or a time in s"));
     for command in ["plan", "draw -o beyond.svg", "inspect --modes"] {
         let beyond = place.run(&format!("{command} scenarios/robot_arm.toml --time 99"));
-        assert!(beyond.code == 2 && beyond.stderr.contains("`--time`: the time 99 s is requested"), "{}", beyond.stderr);
+        assert!(
+            beyond.code == 2 && beyond.stderr.contains("`--time`: the time 99 s is requested"),
+            "{}",
+            beyond.stderr
+        );
     }
     let modes = place.ok("inspect scenarios/platform_3rpr.toml --modes --time 3");
     let start = place.ok("inspect scenarios/platform_3rpr.toml --modes");

@@ -35,7 +35,12 @@ impl Driving {
     pub(super) fn solve(&self, case: &Case, motions: &[Motion], reactions: &mut Reactions) {
         let pole = self.joint.pivot.place(motions);
         let (force, moment) = self.body.resultant(case, motions, reactions, pole);
-        self.joint.balance(force, moment, pole, motions, reactions);
+        if self.joint.input == Input::Angle {
+            self.joint.pivot.put(-force, reactions);
+            reactions.efforts[self.joint.index] = -moment;
+        } else {
+            self.joint.balance(force, moment, pole, motions, reactions);
+        }
     }
 }
 

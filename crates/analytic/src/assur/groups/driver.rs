@@ -33,8 +33,8 @@ pub(in crate::assur) struct Driver {
     /// Position of the joint in the link's frame and in the frame of the link's base.
     pub(super) pivot: Vec2,
     pub(super) place: Vec2,
-    /// Whether the joint is the origin of the link's frame. The vector from the origin to the joint is then zero.
-    at_origin: bool,
+    /// Whether the link is a crank on the ground whose joint is the origin of its frame: the origin then stays at rest.
+    is_plain: bool,
     way: Way,
 }
 
@@ -52,8 +52,8 @@ impl Driver {
                 Way::Slide { axis, turn: turn_between(axis, own), sign }
             }
         };
-        let at_origin = pivot == Vec2::zeros();
-        Driver { link: driver.link, base: base.link, index, pivot, place: base.local, at_origin, way }
+        let is_plain = pivot == Vec2::zeros() && base.link == GROUND && driver.input == Input::Angle;
+        Driver { link: driver.link, base: base.link, index, pivot, place: base.local, is_plain, way }
     }
 
     /// Whether the given coordinate is a slide.
@@ -112,13 +112,19 @@ impl Driver {
     }
 
     /// Position, velocity and acceleration in one pass.
-    #[inline]
+    #[inline(always)]
     pub(super) fn place_at(&self, [coordinate, rate, second]: [f64; 3], motions: &mut [Motion]) {
-        if self.base == GROUND && self.at_origin && self.is_crank() {
+        if self.is_plain {
             let (direction, omega, alpha) = (unit(coordinate), rate, second);
             motions[self.link] = Motion { origin: self.place, direction, omega, alpha, ..Motion::REST };
-            return;
+        } else {
+            self.place_carried([coordinate, rate, second], motions);
         }
+    }
+
+    /// [`Driver::place_at`] of any link.
+    #[inline(never)]
+    fn place_carried(&self, [coordinate, rate, second]: [f64; 3], motions: &mut [Motion]) {
         if let Way::Slide { axis, turn, sign } = self.way {
             // The link turns with its base: its origin is a point of the base that moves along the axis.
             let base = &motions[self.base];
