@@ -5,8 +5,8 @@
 //!   The server of Foxglove's library supports only the present name.
 //!   Lichtblick and the open Foxglove Studio offer only the former name.
 //!   Therefore `tungstenite` does handshake and frames, and `report::live` has the messages.
-//! - Clock: the times sent are log times of the recording.
-//!   The clock of the machine decides only when they are sent; no byte depends on it.
+//! - Clock: messages contain log times of the recording.
+//!   The machine's clock decides when a message is sent. The bytes of the message do not depend on this clock.
 //! - Viewers: each has a thread and a position in the reel.
 //!   A viewer that pauses, seeks or is slow does not disturb the other viewers.
 //! - Stage: while the engine works, viewers see only the reference; afterwards they see everything.

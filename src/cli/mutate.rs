@@ -88,7 +88,7 @@ pub(super) fn run(args: &Args) -> Result<u8> {
     })
 }
 
-/// A kind or family by name.
+/// Reads the name of a kind or family of faults.
 fn kind(text: &str) -> std::result::Result<String, String> {
     if named(text).is_some() || all().any(|kind| kind.family.name() == text) {
         return Ok(text.into());

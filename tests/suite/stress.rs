@@ -1,6 +1,6 @@
 //! Numerical stability.
 //! The double-double reference is compared with closed forms, and the sides with the double-double reference.
-//! Tests without these comparisons cover faults that `stress` has found.
+//! Further tests cover faults that `stress` has found.
 
 mod precise;
 

@@ -168,7 +168,7 @@ mod tests {
             (["0", "30", "45", "60", "90"], degrees, true),
             (["0", "30", "45", "60", "90"], any, false),
             (["0", "3", "5", "8", "10"], degrees, false),
-            // The trailing zeros of these degrees show that they were chosen.
+            // The trailing zeros show that these angles were chosen.
             (["0.000", "17.000", "46.000", "63.000", "90.000"], degrees, true),
             (["0.000", "0.200", "0.500", "0.600", "1.000"], any, true),
             (["0.0000", "0.0333", "0.0667", "0.2000", "0.5000"], any, false),

@@ -70,7 +70,7 @@ pub fn of_load(mechanism: &Mechanism, number: usize, load: &Load) -> Option<Load
     }
 }
 
-/// The symbol of a torsional spring or damper, and the link of the symbol. `None` for loads of any other kind.
+/// The symbol of a torsional spring or damper, and the link to which the symbol is fixed. `None` for other loads.
 pub fn twisted(mechanism: &Mechanism, load: &Load, u: f64) -> Option<(LinkId, Vec<Mark>)> {
     let On::Links(links) = load.nature().on else { return None };
     let JointSide { link, local } = place_between(mechanism, links);

@@ -1,4 +1,4 @@
-//! Work and precision: error against time and against exact effort, for every solver, engine and setting.
+//! Work and precision of every solver, engine and setting: error against time, and against counts of operations.
 //!
 //! Each method of solving a scenario is a [`BenchPoint`].
 //! Methods that fail are kept, with the reason.

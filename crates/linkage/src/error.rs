@@ -309,7 +309,7 @@ impl Error {
         self.0.reached
     }
 
-    /// Whether the error is marked as a pose out of reach on the case's branch, and the mark has not been removed.
+    /// Whether the error carries the mark set by [`Error::out_of_reach`] and removed by [`Error::explained`].
     #[must_use]
     pub fn is_out_of_reach(&self) -> bool {
         self.0.out_of_reach

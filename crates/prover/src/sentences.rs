@@ -47,7 +47,7 @@ linkage::sentences! {
     MOST_OF_IT_IS_THE_REFERENCE = "; most of it is the error of the reference";
     MOST_OF_IT_IS_LEFT_BY_THE_SWEEPS = "; most of it is iteration error: too few sweeps";
     MOST_OF_IT_IS_ROUNDING = "; most of it is rounding error";
-    the_engine_error_may_reach(reached, proves) = "the engine's error may reach {reached} of the channel's scale; only up to {proves} is conclusive";
+    the_engine_error_may_reach(reached, proves) = "the engine's error may reach {reached} of the channel's scale; more than {proves} is inconclusive";
     the_engine_converges_with_order(observed, formal) = "the engine converges with order {observed:.2} instead of {formal:.0} here: its error cannot be estimated";
     THE_SWEEPS_HAVE_HARDLY_BEGUN = "the sweeps have hardly begun to converge here: the error cannot be estimated";
     THE_REFERENCE_IS_ZERO_THROUGHOUT = "the reference is zero throughout, so there is no scale for the error; masses, loads or more instants would give one";

@@ -86,7 +86,7 @@ impl Window {
     /// A window of a free motion. The window begins at step 0 with the pose and the velocities of a world.
     /// An artificial step before step 0 leads to this pose without acceleration.
     pub(super) fn beginning(case: &Case, settings: &Settings, guard: &Guard) -> Self {
-        // Before the beginning there is nothing to interpolate.
+        // A free motion has no steps before its start, so step 2 is the earliest centre of an interpolation.
         // To first order, the instant of the step to which the velocities belong does not matter. The window therefore
         // has one substep.
         let mut window = Window::new(case, &Settings { substeps: 1, ..*settings }, -1);

@@ -101,7 +101,7 @@ fn regress_higher_groups_do_not_change_branch_unnoticed() {
     /// The value is twice the largest error found at steps of 4 deg.
     const FAR: f64 = 17.0;
     let (mut stopped, mut through) = (0, 0);
-    // These specimens are groups of class III of order 3 and 4, and of class IV of order 2.
+    // These specimens contain groups of class III of order 3 and 4, and of class IV of order 2.
     for index in [28, 158, 298, 328] {
         let text = specimen(1, index, &mut Default::default()).toml(false);
         let case = Scenario::parse(&text, Path::new("limits.toml")).unwrap().case;

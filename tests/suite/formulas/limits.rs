@@ -122,8 +122,8 @@ fn regress_chained_claims_are_judged_once_each() {
     }
 }
 
-/// Symptom: a dictionary of possibly missing terms grew with the square of the number of previous steps, and its work
-/// was not counted.
+/// Symptom: the dictionary of possibly missing terms grew with the square of the number of previous steps.
+/// The work of building the dictionary was not counted.
 #[test]
 fn regress_a_search_after_many_steps_has_bounded_work() {
     let step = |index: usize| {

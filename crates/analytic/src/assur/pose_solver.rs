@@ -323,8 +323,9 @@ impl<'a> PoseSolver<'a> {
     }
 
     /// The state at time `t` (s), at which the first drive has this input, for a list of configurations.
-    /// If the speeds of the drives vary, the first drive has its top speed, and further drives have theirs in proportion.
-    /// If several drives have separate laws, they have the rates of these laws.
+    /// At a varying speed, the state has the top speed of the first drive.
+    /// Further drives keep their speed ratios to the first drive.
+    /// Drives with separate laws have the rates of these laws.
     pub(crate) fn solve_place(&mut self, t: f64, input: f64, deepest: Stage) -> Result<&State> {
         let drive = self.case.crank();
         if self.by_time {

@@ -100,7 +100,8 @@ struct Work<'a> {
 }
 
 impl Held {
-    /// The sense of a link or point, as a unit vector. For a link, the first component is +1 or -1.
+    /// The sense of motion of a link, joint or point, as a unit vector.
+    /// For a link or joint, the first component is +1 or -1.
     fn sense(&self, (index, senses): Sensed) -> Vec2 {
         match senses {
             Senses::Nothing => Vec2::zeros(),
@@ -111,8 +112,8 @@ impl Held {
 }
 
 impl Work<'_> {
-    /// Velocity of a link or point at the present inputs. For a link, the first component is its angular velocity
-    /// (rad/s).
+    /// Velocity of a link, joint or point at the present inputs.
+    /// For a link, the first component is the angular velocity (rad/s); for a joint, the rate (rad/s or m/s).
     fn rate(&mut self, (_, senses): Sensed) -> Result<Vec2> {
         match senses {
             Senses::Nothing => Ok(Vec2::zeros()),
@@ -122,7 +123,7 @@ impl Work<'_> {
         }
     }
 
-    /// Derivative of the velocity of a link or point after the last call of [accelerate](side::Side::accelerate).
+    /// Time derivative of [`Work::rate`] after the last call of [accelerate](side::Side::accelerate).
     fn second(&mut self, (_, senses): Sensed) -> Vec2 {
         match senses {
             Senses::Nothing => Vec2::zeros(),
@@ -132,7 +133,7 @@ impl Work<'_> {
         }
     }
 
-    /// Stores the sense of the present motion of a link or point.
+    /// Stores the sense of the present motion of a link, joint or point.
     fn take_sense(&mut self, own: Sensed) -> Result<()> {
         let rate = self.rate(own)?;
         match own.1 {

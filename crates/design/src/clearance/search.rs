@@ -1,7 +1,7 @@
 //! Smallest distances and first meetings of pairs over the range.
 //!
-//! The search halves a part of the range until it proves that no distance in the part is below the smallest distance
-//! found by more than the tolerance.
+//! The search halves a part of the range until it proves a lower bound on every distance in the part.
+//! The lower bound is the smallest distance found, minus the tolerance.
 //! The search ends when every part is proven, so no instant is skipped.
 //! Parts of the smallest size that remain unproven are reported, and so are parts that remain when the budget is used
 //! up.

@@ -431,9 +431,10 @@ fn enclose(rows: &[Row], links: &[LinkId], half: f64, tubes: &mut [Tube], roundi
 }
 
 impl Term<'_> {
-    /// Value at the middle, rate, and largest deviation from the linear course under the uniform motion.
+    /// The term as a linear function of the crank angle, for a uniform motion of the group's links.
+    /// Returns the term's value at the middle, its rate, and its largest deviation from the linear function.
+    /// Links outside the group may be anywhere in their tubes.
     /// Calls `put` with the columns of the derivative at the middle and its values.
-    /// Links of the group move uniformly. Links outside the group may be anywhere in their tubes.
     fn linear(
         self,
         tubes: &[Tube],

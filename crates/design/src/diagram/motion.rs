@@ -132,9 +132,9 @@ pub struct MethodResult {
     /// velocity.
     pub share: f64,
     /// Observed orders of convergence of the root mean square error.
-    /// The first order compares the error at `divisions` with the error at twice as many divisions.
-    /// The second order compares the error at twice as many divisions with the error at four times as many.
-    /// An order is `None` if the error at its finer division is rounding error.
+    /// `orders[0]` compares the errors at N and 2 N divisions, `orders[1]` those at 2 N and 4 N; N is
+    /// [`MotionDiagram::divisions`].
+    /// An order is `None` if the error at the finer division is rounding error.
     pub orders: [Option<f64>; 2],
 }
 

@@ -20,7 +20,7 @@ const SHORT: f64 = 5e-3;
 const MOST: f64 = 1000.0;
 /// If a run is longer than this (s), a side or an engine is timed at most twice, and a peer once.
 const LONG: f64 = 0.2;
-/// Largest number of rounds for long runs of sides and engines, and for short runs of peers.
+/// A long run of a side or an engine takes part in at most this number of rounds, and so does a short run of a peer.
 const FEW: usize = 2;
 /// Largest length of a reason, in characters.
 const REASON: usize = 300;

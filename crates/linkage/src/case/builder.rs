@@ -22,7 +22,7 @@ struct Wish {
     axes: Option<[f64; 2]>,
 }
 
-/// A transmission by names: those of the transmission, its members, its carrier and the joint that sets its start.
+/// A transmission. Its members, its carrier and the joint that sets its start are given by name.
 #[derive(Clone, Debug)]
 struct Coupling {
     name: String,

@@ -221,7 +221,7 @@ impl Friction<'_> {
 
     /// Actions of the friction on the joint's first link, then on its second link.
     /// For a transmission: on the carrier, then on the first member.
-    /// `effort` is [`effort`](Friction::effort).
+    /// `effort` is the result of [`Friction::effort`].
     #[must_use]
     pub fn act(&self, effort: f64, motions: &[Motion]) -> [Action; 2] {
         match self.seat {

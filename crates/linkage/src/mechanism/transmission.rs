@@ -285,7 +285,8 @@ impl Transmission {
         self.coordinates[1].iter().find_map(|(of, _)| of.joint())
     }
 
-    /// Ratio of the members' rates relative to the carrier, q2' / q1' (1, or m for a rack); `None` for a cam.
+    /// Ratio of the members' rates relative to the carrier, q2' / q1' (in m for a rack, otherwise without unit).
+    /// `None` for a cam.
     #[must_use]
     pub fn ratio(&self) -> Option<f64> {
         self.cam.is_none().then(|| self.lever() / self.fixed.factor)

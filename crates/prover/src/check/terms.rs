@@ -123,7 +123,7 @@ impl Term {
 }
 
 /// Explains the differences of numbers that have no formula: by one term, or by two terms if these leave no difference.
-/// Returns the terms and the fraction of the largest difference that remains.
+/// Returns the terms, and the remaining difference as a fraction of the largest difference.
 #[must_use]
 pub fn missing_in_numbers(course: &KnownTrajectory, wrong: &Wrong) -> Option<(Vec<Term>, f64)> {
     let terms = |parts: Vec<WeightedTerm>| parts.iter().map(Term::plain).collect::<Vec<_>>();

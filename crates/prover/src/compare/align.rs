@@ -164,7 +164,7 @@ pub(super) struct Course {
 }
 
 impl Course {
-    /// Creates a column from its instants and values, sorted by instants.
+    /// Creates a column from its instants, in ascending order, and its values.
     /// Rows without a number are left out. Angles may jump by multiples of `turn`.
     pub(super) fn new(at: &[f64], values: &[Rounded], turn: Option<f64>) -> Self {
         let rows: Vec<(f64, Rounded)> =

@@ -80,8 +80,8 @@ pub fn diagnose(question: &DiagnosisInput, parties: &[DiagnosedParty]) -> Option
     let first = named.next();
     let explained = first.as_ref().map_or(&[][..], |one| &one.explained[..]);
     let left_over: Vec<Channel> = wrong.iter().filter(|channel| !explained.contains(channel)).cloned().collect();
-    // A fitted number is no better explanation than a slip without a number.
-    // Several partial explanations would only confuse, unless they concern the same part.
+    // If the first cause is a slip, a fitted number adds nothing and is not mentioned.
+    // Several partial explanations would only confuse, unless they explain the same channels.
     let says_more = |one: &Found| one.rank != Rank::Fitted || first.as_ref().is_some_and(|own| own.rank != Rank::Slip);
     let also = named.filter(|one| one.explained == explained && says_more(one)).map(|one| one.cause);
     let also = also.take(MENTIONED).collect();

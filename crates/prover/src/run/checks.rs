@@ -153,7 +153,7 @@ pub(super) fn of_engine(problem: Problem, engine: &dyn Engine, runs: &Runs) -> V
 
 /// Checks the opening of the engine's loops.
 /// A closed loop has no opening, so any opening is an error.
-/// The opening must vanish with the step at the rate that the runs show.
+/// As the step is refined, the opening must vanish with the observed order of convergence.
 fn closure(problem: Problem, engine: &dyn Engine, runs: &Runs) -> Check {
     let size = problem.case.mechanism.size();
     let kind = Channel::named("point.A.x_m").expect("the table has positions of points").kind;

@@ -70,7 +70,7 @@ pub struct ObservedSides {
     pub(super) known: Known,
     /// Checks on both sides, published numbers included.
     pub checks: Vec<Check>,
-    /// Figures that formulas claim.
+    /// Values of the figures that formulas claim, by both sides.
     figures: EachSide<Vec<(MechanismFigure, Rounded)>>,
     /// Judgement of the formulas; `None` if no formula claims anything.
     pub judgement: Option<Judgement>,

@@ -244,9 +244,12 @@ impl<'a> Judge<'a> {
             .collect()
     }
 
-    /// The case without the first instants of a free motion. At these instants, second differences use later steps.
-    /// `None` if nothing is left out: in a prescribed motion, in a motion that is not longer than its beginning, or if
-    /// accelerations and forces are conclusive despite the rounding error of these differences.
+    /// The case without the beginning of a free motion, where second differences use later steps.
+    /// `None` if no instant is left out:
+    /// - in a prescribed motion;
+    /// - in a motion that is not longer than its beginning;
+    /// - if no impulses are judged, and accelerations and forces are conclusive despite the rounding error of second
+    ///   differences.
     fn after_the_beginning(&self, engine: &dyn Engine) -> Result<Option<Case>> {
         let case = self.problem.case;
         let last = case.grid.times.iter().copied().fold(0.0, f64::larger);

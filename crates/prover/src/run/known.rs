@@ -413,7 +413,8 @@ mod tests {
                 beyond += usize::from(relative > usual(stage));
                 // A relative fault of 1e-7 is found at any distance. The last digit of a position is 1.5e-11 m.
                 assert!(apart < 1e-7, "{count} from {from} m, {channel}: {apart:e}");
-                // The bound on a coordinate is its last digit only: the distance from the origin is not counted twice.
+                // A coordinate already contains the distance from the origin, so the distance does not enlarge the
+                // relative bound of the coordinate.
                 let coordinate = channel.kind.unit == Unit::Metre;
                 assert!(!coordinate || apart < 1.1e-12, "{count} from {from} m, {channel}: {apart:e}");
             }

@@ -1,4 +1,4 @@
-//! The search for a change point, from one side.
+//! The search for a change point, in one direction of the crank's rotation.
 
 use crate::assur::groups::{Misfit, OutOfReach, SingularityDistance, SolutionPlan};
 use crate::assur::turns::FOLLOWED_STEP;

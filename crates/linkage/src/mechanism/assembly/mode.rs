@@ -15,12 +15,12 @@ crate::words! {
         /// link's outer joint.
         Right = "right",
         /// RRP dyad: along the axis of its prismatic pair, the inner joint lies ahead of the outer pin.
-        /// RPR dyad: along the axis of its prismatic pair, one outer pin lies ahead of the second outer pin.
-        /// The pin ahead is on the pair's second link, the pin behind on the pair's first link.
+        /// RPR dyad: along the axis of its prismatic pair, the outer pin of the pair's second link lies ahead of
+        /// the outer pin of the pair's first link.
         Ahead = "ahead",
         /// RRP dyad: along the axis of its prismatic pair, the inner joint lies behind the outer pin.
-        /// RPR dyad: along the axis of its prismatic pair, one outer pin lies behind the second outer pin.
-        /// The pin behind is on the pair's second link, the pin ahead on the pair's first link.
+        /// RPR dyad: along the axis of its prismatic pair, the outer pin of the pair's second link lies behind
+        /// the outer pin of the pair's first link.
         Behind = "behind",
         /// RPP or PRP dyad, which has only one configuration.
         Only = "only",

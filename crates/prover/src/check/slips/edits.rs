@@ -6,7 +6,7 @@ use formula::Operator::{Minus, Over, Plus, Power, Times};
 use formula::{FormulaTree, NodeShape};
 use scenario::Parameter;
 
-/// Written values of the gravitational acceleration (m/s^2).
+/// Values that authors write for the gravitational acceleration (m/s^2).
 pub(super) const GRAVITY: [f64; 5] = [9.81, 9.806_65, 9.8, 9.807, 10.0];
 
 /// Returns the possible corrections of a part for one kind of slip. `names` are the names of quantities. Corrections
