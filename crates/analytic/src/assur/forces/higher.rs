@@ -84,12 +84,10 @@ impl Higher {
         for cut in &mut self.cut {
             *cut = (Vec2::zeros(), 0.0);
         }
-        for (given, multiplier) in chain.given().iter().zip(&self.multipliers[2 * chain.closings().len()..]) {
-            reactions.efforts[given.drive] = given.factor * multiplier;
-            self.hung[given.node].put_moment(*multiplier, reactions);
-        }
-        // A driving moment on a link acts on its parent in the opposite sense.
         for (given, moment) in chain.given().iter().zip(&self.multipliers[2 * chain.closings().len()..]) {
+            reactions.efforts[given.drive] = given.factor * moment;
+            self.hung[given.node].put_moment(*moment, reactions);
+            // A driving moment on a link acts on its parent in the opposite sense.
             if let (false, Some(parent)) = (given.is_slide, nodes[given.node].parent_node) {
                 self.cut[given.node].1 += moment;
                 self.cut[parent].1 -= moment;

@@ -388,9 +388,23 @@ impl Chain {
             self.unknown[row] = gap.x;
             self.unknown[row + 1] = gap.y;
         }
-        let first = 2 * closings.len();
+        if self.has_given() {
+            self.assemble_given(angles, motions);
+        }
+    }
+
+    /// Whether the group has equations besides those of its contours.
+    #[inline]
+    fn has_given(&self) -> bool {
+        2 * self.contours.closings.len() < self.unknown.len()
+    }
+
+    /// Writes the equations of the given coordinates and of the transmissions.
+    #[inline(never)]
+    fn assemble_given(&mut self, angles: &[f64], motions: &[Motion]) {
+        let first = 2 * self.contours.closings.len();
         for (row, given) in self.given.iter().enumerate() {
-            let node = &nodes[given.node];
+            let node = &self.contours.nodes[given.node];
             let coordinate = given.sign * angles[given.drive];
             self.jacobian.add(first + row, given.node, 1.0);
             self.unknown[first + row] = if given.is_slide {

@@ -15,6 +15,7 @@ impl Chain {
 
     /// Writes the right-hand sides of the given coordinates and transmissions. The `order` is 1 for rates and 2 for
     /// accelerations. `of` contains those of the drives; `led` returns that of a known angle.
+    #[inline(never)]
     fn put_given(&mut self, order: usize, of: &[f64], led: impl Fn(&Motion) -> f64, motions: &[Motion]) {
         let first = 2 * self.contours.closings.len();
         for (row, given) in self.given.iter().enumerate() {
@@ -51,7 +52,9 @@ impl Chain {
             }
             (rates[0], rates[1]) = (rate.x, rate.y);
         }
-        self.put_given(1, of_drives, |parent| parent.omega, motions);
+        if self.has_given() {
+            self.put_given(1, of_drives, |parent| parent.omega, motions);
+        }
         let Contours { nodes, arrows, .. } = &self.contours;
         let World { arrows: vectors, roots: ends, joints, .. } = &mut self.world;
         self.jacobian.solve(&mut self.unknown);
@@ -122,7 +125,9 @@ impl Chain {
             }
             (rates[0], rates[1]) = (second.x, second.y);
         }
-        self.put_given(2, of_drives, |parent| parent.alpha, motions);
+        if self.has_given() {
+            self.put_given(2, of_drives, |parent| parent.alpha, motions);
+        }
         self.jacobian.solve(&mut self.unknown);
         let Contours { nodes, arrows, .. } = &self.contours;
         let World { arrows: vectors, centripetal, roots: ends, joints } = &mut self.world;
