@@ -68,9 +68,9 @@ fn comment(plan: &Plan) -> String {
     let mut text = format!("# Given pose: alpha = {}, beta = {}, gamma = {}", v.alpha, v.beta, v.gamma);
     text += &if v.rocker.is_some() { format!(", phi = {}, theta = {} deg.", v.phi, v.theta) } else { " deg.".into() };
     text += if v.rocker.is_some() {
-        " O2 and the guide through G, where B is in that pose, follow from it.\n"
+        " It determines O2 and the guide,\n# which passes through G, the position of B in this pose.\n"
     } else {
-        " O2 follows from it.\n"
+        " It determines O2.\n"
     };
     text += "# ASSUMED masses: uniform bars of 10 kg/m (inertia m l^2 / 12)";
     text += if v.rocker.is_some() { "; slider 1 kg at B, without inertia.\n" } else { ".\n" };
@@ -85,10 +85,10 @@ fn bad_pose(plan: &Plan) -> String {
         return String::new();
     }
     let pose = match plan.given {
-        given if given < 1e-4 => "is singular (rod across the guide)".into(),
-        given => format!("has only {given:.2}"),
+        given if given < 1e-4 => "is singular (rod perpendicular to the guide)".into(),
+        given => format!("has only {given:.2} deg"),
     };
-    format!(" The given pose {pose} and stays outside.")
+    format!("\n# The given pose {pose} and lies outside.")
 }
 
 fn mechanism(plan: &Plan) -> String {
