@@ -290,7 +290,6 @@ linkage::sentences! {
     THE_SLIP_AND_THE_SPEED_OF_BREAKDOWN = "breakdown slip and breakdown speed are both given";
     GIVE_ONE_OF_THE_TWO_BREAKDOWN = "give one of the two: `breakdown_slip`, or `breakdown_speed_rpm` or `breakdown_speed_rad_s`";
     GIVE_A_SHARE_FOR = "give a fraction: 0.92 for 92 %";
-    found_but_back_an_efficiency_is(efficiency) = "found {efficiency}, but an efficiency is at most 1";
     found_but_an_efficiency_lies(efficiency) = "found {efficiency}, but an efficiency is above 0 and at most 1";
     GIVE_THE_SPEED_OF_THE_MOTOR = "give the speed of the motor divided by that of the crank; 1 without a reducer";
     IS_NO_LAW_OF_A_MOTOR = "is not a law of a motor";

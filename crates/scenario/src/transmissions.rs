@@ -120,10 +120,6 @@ fn transmission(
     let (kind, lift) = kind(table, &links[members[1]])?;
     let forward = efficiency(table)?;
     let back = table.optional_number("efficiency_back")?.unwrap_or(forward);
-    if !(back.is_finite() && back <= 1.0) {
-        let message = sentences::found_but_back_an_efficiency_is(&back);
-        return table.refuse("efficiency_back", message, sentences::GIVE_A_SHARE_FOR);
-    }
     let carrier = table.optional_string("carrier")?.unwrap_or_else(|| "ground".into());
     let stated = table.optional_string("start_joint")?;
     let Some((family, start)) = table.optional_si_of("start")? else {

@@ -232,3 +232,16 @@ fn regress_free_motions_with_losses_never_disagree() {
         assert_eq!(proof.verdict.word(), "agree", "{}: {:?}", scenario.name, proof.verdict);
     }
 }
+
+/// Symptom: with an efficiency of 1e-9, the two sides disagreed, because the losses leave no digits of the useful power.
+#[test]
+fn efficiencies_beyond_their_limits_are_refused() {
+    let text = include_str!("../../../scenarios/lifting_screw.toml");
+    for (key, value) in [("efficiency", "1e-9"), ("efficiency_back", "-1e9"), ("efficiency_back", "1.2")] {
+        let line = text.lines().find(|line| line.starts_with(&format!("{key} ="))).unwrap();
+        let error =
+            Scenario::parse(&text.replace(line, &format!("{key} = {value}")), Path::new("test.toml")).unwrap_err();
+        assert_eq!((error.kind(), error.scenario_key()), (ErrorKind::Input, Some("transmissions.thread")), "{error}");
+        assert!(error.to_string().contains("from 1e-6 to 1"), "{error}");
+    }
+}

@@ -97,11 +97,14 @@ pub struct TransmissionDesign {
     pub joint: JointId,
     /// Coordinate of `joint` at t = 0: the angle of its second link minus that of its first (rad), or the slide (m).
     pub start: f64,
-    /// Efficiency if power flows from the first member to the second, above 0 and at most 1.
-    /// Then the efficiency if it flows back, at most 1.
+    /// Efficiency if power flows from the first member to the second, from 1e-6 to 1.
+    /// Then the efficiency if it flows back, from -1e6 to 1.
     /// If the second efficiency is not positive, the transmission is self-locking: both members must be driven.
     pub efficiency: [f64; 2],
 }
+
+/// Largest ratio of lost power to useful power. With a larger ratio, rounding errors of the reactions exceed all bounds.
+const LARGEST_LOSS: f64 = 1e6;
 
 /// A transmission between two members of a carrier.
 #[derive(Clone, Debug, PartialEq)]
@@ -240,7 +243,7 @@ impl Transmission {
             return Ok(None);
         }
         let fault = |message: &str, help| Err(self.design.fault(message, help));
-        if !(forward > 0.0 && forward <= 1.0 && back <= 1.0 && back.is_finite()) {
+        if !(1.0 / forward <= LARGEST_LOSS && forward <= 1.0 && (-LARGEST_LOSS..=1.0).contains(&back)) {
             return fault(&sentences::the_efficiencies_are(&forward, &back), sentences::GIVE_EFFICIENCIES);
         }
         let Some(ratio) = self.ratio() else {
