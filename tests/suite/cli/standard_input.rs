@@ -72,8 +72,8 @@ fn settings_are_not_written_to_standard_input() {
     assert!(!place.path("-").exists());
 }
 
-/// Settings apply only to the mechanism for which they were found: the mechanism of the file, not one with changed
-/// parameters.
+/// Settings found for changed parameters, another mode or another start are not valid for the mechanism in the file.
+/// The option `--write` therefore refuses such options.
 #[test]
 fn settings_found_for_other_numbers_are_not_written() {
     let place = Place::new();

@@ -25,7 +25,7 @@ fn path(name: &str) -> PathBuf {
     Path::new(FOREIGN).join(name)
 }
 
-/// Compares a table by the map of a correct table, with that table's scenario.
+/// Compares a table with a scenario; the map and the scenario are those of the correct table `right`.
 /// `lines` replace lines of the map for the same channels.
 fn compared(right: &str, table: &str, lines: &[&str]) -> PartyComparison {
     let (map, of, _) = RIGHT.into_iter().find(|(map, ..)| *map == right).unwrap();

@@ -25,7 +25,7 @@ const OUTSIDE: [(&str, &str); 14] = [
     ("0*exp(-1/0)", "(-1)/0 is undefined"),
 ];
 
-/// Symptom: `phi*180/pi + 0*ln(-1)` was right.
+/// Symptom: the formula `phi*180/pi + 0*ln(-1)` was judged right.
 /// Causes: the parser simplified 0*x, 0/x and x^0, although only derivatives need this; and IEEE 754 gives 1/(1/0) a
 /// value.
 #[test]
