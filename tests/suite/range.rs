@@ -95,7 +95,7 @@ fn limits_of_random_four_bars_are_those_of_the_law_of_cosines() {
     assert_within!(worst, EXACT, "{worst:e}");
 }
 
-/// Following the linkage finds the joints that rotate fully.
+/// The joints that rotate fully are found by following the linkage, and compared with the Grashof type.
 /// Each pair of neighbouring links serves in turn as frame and driving link.
 #[test]
 fn grashof_types_agree_with_traced_rotations() {
@@ -400,7 +400,7 @@ fn coinciding_configurations_have_no_velocities() {
 /// Accelerations are divided by the same determinant again.
 /// Relative to their size, however, velocities and accelerations both lose a factor of k^2.
 /// The measured factors are 2.5, 2.1 and 6.4, and nearly the same at 30 and at 0.3 degrees.
-/// The condition number is therefore the whole cause.
+/// The condition number is therefore the only cause of the loss of digits.
 /// The bound allows twice the measured factors, for other mathematical libraries.
 #[test]
 fn loss_of_digits_at_a_dead_point_follows_the_condition_number() {

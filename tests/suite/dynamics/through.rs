@@ -390,7 +390,7 @@ fn higher_groups_pass_their_change_points() {
     }
 }
 
-/// With several driving links, singular poses are not isolated angles.
+/// With several driving links, singular poses do not lie at isolated angles of the drives.
 /// Both sides refuse to pass singular poses, in free motion too.
 #[test]
 fn several_driving_links_do_not_pass_change_points() {
@@ -461,8 +461,8 @@ fn regress_an_instant_exactly_at_a_change_point_is_passed() {
 }
 
 /// Symptom: the error at a change point said "shorten the grid" or "change a length", but did not mention `through`.
-/// If a load does work on the branch that is not followed, reactions have a pole at the change point, and the error
-/// states this pole too.
+/// If a load would do work in a motion along the second branch, reactions have a pole at the change point.
+/// If reactions are requested there, the error names this pole.
 #[test]
 fn the_error_at_a_change_point_suggests_the_key_through() {
     for step in [10.0, 7.0] {

@@ -131,7 +131,8 @@ fn regress_64_loops_open_by_the_local_error_of_a_step() {
 
 /// Story 70.
 /// With two substeps, the same step of 0.08 deg meets every required figure at once.
-/// The figures are fractions of the range: 1e-6 for angles.
+/// The figures are fractions of the range.
+/// For angles: 1e-6.
 /// For reactions in all joints and the balancing moment: 3e-6 by differences, 1e-7 extrapolated, 1e-6 by probe.
 /// Loops close to 1e-7 of the mechanism's size.
 #[test]
