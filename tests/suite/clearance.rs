@@ -1,6 +1,5 @@
 //! Clearance against brute force.
-//! The distances come from independent formulas, at poses of side 2, on a grid many times finer than the scenario's
-//! grid.
+//! The distances come from independent formulas, at poses of side 2, on a fine grid of crank angles.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -19,7 +18,7 @@ use crate::common::sketch::RandomSource;
 use crate::common::specimens::specimen;
 use crate::common::{assert_within, draws, shipped, states};
 
-/// Number of instants of the brute-force check.
+/// Number of intervals between the crank angles of the brute-force check.
 const FINE: usize = 800;
 
 /// An outline in the world: its corners, and whether its interior belongs to the shape.
