@@ -60,7 +60,7 @@ class Case:
         return self.exact[f"link{link}{what}"]
 
     def errors(self, crank, force):
-        """Errors of crank angle and reaction as fractions of their ranges, and the instant of the latter; the reaction may have either sign."""
+        """Errors of crank angle and reaction as fractions of their ranges, and the instant of the largest reaction error. The reaction may have either sign."""
         exact = np.c_[self.exact["jointBfx_N"], self.exact["jointBfy_N"]]
         if np.abs(exact + force).max() < np.abs(exact - force).max():
             force = -force

@@ -43,7 +43,7 @@ def value(arithmetic, columns):
         known[f"column{number}"] = columns[name]
         text = text.replace(f"`{name}`", f"column{number}")
         text = re.sub(rf"(?<![\w.`]){re.escape(name)}(?![\w.`])", f"column{number}", text)
-    return eval(text, {"__builtins__": {}}, known)  # the mappings are ours
+    return eval(text, {"__builtins__": {}}, known)  # the mappings are files of this repository
 
 
 def mapped(path, mapping):

@@ -3,7 +3,7 @@
 
     linkproof bench scenarios/crank_rocker.toml -o bench --peer exudyn='python3 examples/peers/exudyn_peer.py'
 
-The time is that of the solver alone, without building the model and without writing.
+The measured time is the time of the solver alone, without building the model and without writing.
 """
 
 import math
@@ -228,7 +228,8 @@ def solve(request, case, way):
         motion.velocity[name] = speed[:, :2] - across * speed[:, 2:]
         motion.acceleration[name] = rate[:, :2] - across * rate[:, 2:] + arm * speed[:, 2:] ** 2
     if "reactions" in case.stages:
-        # Exudyn gives the force of the second marker on the first; ours is that of the first link on the second.
+        # Exudyn gives the force of the second marker on the first; `linkproof` expects the force of the first link on
+        # the second.
         motion.force = {name: -model.read(sensor)[:, :2] for name, sensor in model.forces.items()}
         if all(load["type"] in ("resistance", "moment") for load in case.loads):
             motion.torque = [torque(case, model, motion, drive, sensor) for drive, sensor in zip(case.drives, model.torques)]

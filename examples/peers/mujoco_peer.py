@@ -3,8 +3,8 @@
 
     linkproof bench scenarios/crank_rocker.toml -o bench --peer mujoco='python3 examples/peers/mujoco_peer.py'
 
-The time is that of the steps and of one forward computation at every instant, without building the model. Velocities,
-accelerations and forces are read afterwards from stored states, which is not timed.
+The measured time covers the steps and one forward computation at every instant, but not the building of the model.
+Velocities, accelerations and forces are read afterwards from stored states; this is not timed.
 """
 
 import math
@@ -21,7 +21,7 @@ COUNTS = (250, 500, 1000, 2000, 4000, 8000, 16000)
 # Time constant of the loops, in steps. With None, as in the file, constraints close a gap in one step.
 LOOPS = {"implicitfast": None, "RK4": None, "RK4, loops of 3 steps": 3.0}
 REPEATS = 3
-# Start speed of a motion under forces from rest (rad/s), so that loads oppose the right sense at t = 0.
+# Start speed for a motion under forces from rest (rad/s), so that resistances have the right sense at t = 0.
 START = 1e-7
 
 
@@ -47,7 +47,7 @@ def model_of(request, case, way):
 
 
 def harden(model, way):
-    """Sets the time constant of the loops, in present steps."""
+    """Sets the time constant of the loops, as a multiple of the present step."""
     softness = LOOPS[way["name"]]
     if softness is not None:
         model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_REFSAFE
@@ -120,7 +120,7 @@ def reaction(case, model, data, joint):
         return force, None
     moment = moment_of(case, model, data, name) * sense
     if sense < 0.0:
-        # The sensor's point is that of the carried body.
+        # The sensor's moment is about the joint's point on the carried body, here the first link.
         first, second = (data.site(f"{name}.{side}").xpos for side in ("first", "second"))
         arm = first - second
         moment += arm[0] * force[1] - arm[1] * force[0]

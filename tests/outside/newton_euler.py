@@ -8,10 +8,10 @@ time in seconds with its unit (0.35s). With --all the program also prints number
 The program reads the scenario file (tomllib) and has a separate table of units. It closes all joints by Newton's method,
 follows the motion from the start in small steps, differentiates the closed poses by differences in 40 digits, and solves
 the Newton-Euler equations of all links at once. Each drive adds an equation for the coordinate of its joint, and its
-force or moment as an unknown. transmissions.py has the equations of gears, racks, belts and cams, friction.py those of
-friction. The binary (`linkproof solve`) only gives a first guess of the start pose; assembly modes are checked against
-docs/scenario.md. Numbers at a crank angle use the nominal speed of a free motion. For numbers at a time, free_motion.py
-integrates the motion in double precision, and halves the step until no printed digit changes.
+force or moment as an unknown. transmissions.py has the equations of gears, racks, belts and cams, and friction.py has the
+equations of friction. The binary (`linkproof solve`) only gives a first guess of the start pose; assembly modes are
+checked against docs/scenario.md. Numbers at a crank angle use the nominal speed of a free motion. For numbers at a time,
+free_motion.py integrates the motion in double precision, and halves the step until no printed digit changes.
 """
 
 import re
@@ -313,7 +313,7 @@ def course(load, stem, crank):
     period = 2 * mp.pi * load.get("turns", 1)
     points = [(quantity(row, "crank"), quantity(row, stem)) for row in load["table"]]
     if any(key in ("crank_m", "crank_mm") for key in load["table"][0]):
-        # Over a slide: lines, and constant values beyond the ends.
+        # A table over a slide is linear between its points, and constant beyond its ends.
         after = [k for k, (x, _) in enumerate(points) if x <= crank]
         k = after[-1] if after else 0
         if not after or k + 1 == len(points):
@@ -521,7 +521,7 @@ def main():
         print_oracle(m, where, key, SOURCE + ", 40 digits", q, v, a, f, loads, want)
 
 
-# If true, points, sliders and the frame are printed too, as in tests/outside/scenarios.
+# If true, the program also prints numbers of points, sliders and the frame, as in tests/outside/scenarios.
 ALL = False
 SOURCE = "tests/outside/newton_euler.py: separate reader, closure and equations"
 

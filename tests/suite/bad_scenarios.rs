@@ -14,7 +14,7 @@ const TABLE: &str = "crank_deg,Bx_mm\n0,301.12\n90,298.5\n";
 
 /// One bad scenario.
 struct Bad<'a> {
-    /// Replacements in the good scenario; the replaced text of each must occur.
+    /// Replacements in the good scenario; each text to be replaced must occur in it.
     edits: &'a [(&'static str, &'static str)],
     kind: ErrorKind,
     /// Text of the edited scenario; the error must point at the line of its first occurrence.

@@ -1,5 +1,5 @@
 //! Many poses in one call.
-//! Numbers equal those of a pose-by-pose solution up to rounding, and errors are the same.
+//! The numbers of a batch equal the numbers of a pose-by-pose solution up to rounding, and the errors are the same.
 //! The bits of a pose do not depend on its position in the series.
 
 use linkage::math::{KeepNan, Motion};

@@ -108,7 +108,7 @@ fn sides_keep_their_accuracy() {
 /// Changes an answer.
 type Change = Box<dyn Fn(&mut Answer)>;
 
-/// A peer of this name: it answers with the solution of side 2, changed by a function.
+/// A peer with a name, which answers with the solution of side 2 changed by a function.
 struct Planted(String, Trajectory, Change);
 
 impl Peer for Planted {

@@ -13,7 +13,7 @@ use crate::common::higher::{Among, FAMILIES, mechanism};
 use crate::common::sketch::RandomSource;
 
 /// Numbers of equal steps in which the tests follow the same crank angle.
-/// Some numbers are small, some are large, and some have no common factor with the rest of the list.
+/// Some numbers are small, some are large, and some have no common factor with any other number of the list.
 const STEPS: [usize; 12] = [1, 2, 3, 5, 7, 12, 24, 37, 90, 101, 360, 1009];
 
 /// Follows the branch from the start of a case over an angle of the crank (rad), in equal steps. Returns the directions

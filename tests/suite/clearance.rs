@@ -1,6 +1,5 @@
 //! Clearance against brute force.
-//! The distances come from independent formulas, at poses of side 2, on a grid many times finer than that of the
-//! clearance.
+//! The distances come from independent formulas, at poses of side 2, on a fine grid of crank angles.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -19,7 +18,7 @@ use crate::common::sketch::RandomSource;
 use crate::common::specimens::specimen;
 use crate::common::{assert_within, draws, shipped, states};
 
-/// Number of instants of the brute-force check.
+/// Number of intervals between the crank angles of the brute-force check.
 const FINE: usize = 800;
 
 /// An outline in the world: its corners, and whether its interior belongs to the shape.
@@ -340,8 +339,9 @@ fn the_crankcase_is_clear() {
     assert_within!((raster - rod.value).abs(), 1e-2 * rod.value, "{raster} {rod:?}");
 }
 
-/// With one degree of freedom under forces, the crank angles are the angles that the motion reaches.
-/// With several degrees of freedom, no single angle determines the pose.
+/// The clearance of a free motion with one degree of freedom covers the crank angles that the motion reaches, up to one
+/// revolution.
+/// With several degrees of freedom, no single angle determines the pose, so the question is refused.
 #[test]
 fn motions_under_forces_cover_the_reached_crank_angles() {
     let case = shipped("crank_rocker_runup.toml").case;

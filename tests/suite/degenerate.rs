@@ -43,7 +43,7 @@ fn crank_alone() -> Spec {
 
 /// Symptom: the analytic sides disagreed by 150 % on a parallelogram. For a crank without other links, the moments of
 /// the sides disagreed by 110 %.
-/// Cause: rounding was measured by the range of channels that do not vary.
+/// Cause: differences were divided by the range of the channel, but the range of these channels is only rounding error.
 #[test]
 fn regress_channels_that_vanish_by_symmetry_agree() {
     for (name, spec) in [("parallelogram", parallelogram()), ("crank", crank_alone())] {
@@ -75,8 +75,8 @@ fn regress_a_single_point_driving_link_uses_slider_moments() {
     agrees_by("an Oldham coupling without load", &scenario, &Options::default());
 }
 
-/// Symptom: without masses, the shaking force of a loaded four-bar vanishes, and the proof was inconclusive: the bound
-/// of the force was infinitely many times the force's scale.
+/// Symptom: the proof of a loaded four-bar without masses was inconclusive.
+/// Cause: its shaking force vanishes, so the scale of the force was zero and the ratio of bound to scale was infinite.
 #[test]
 fn regress_a_zero_shaking_force_takes_its_scale_from_joints() {
     let masses = ["mass_kg", "mass_centre", "inertia_kg_m2"];
@@ -96,7 +96,7 @@ fn regress_a_mechanism_far_from_the_origin_agrees() {
 
 /// Symptom: a pendulum whose only point is its hinge ended in one of three errors at t = 0.
 /// The three errors were "closure NaN", "step size became too small" and "jumped to another branch".
-/// Cause: the mechanism's size was the distance of points alone, here 0.
+/// Cause: the mechanism's size came only from distances between points, which are 0 here.
 #[test]
 fn regress_a_link_of_a_single_point_has_a_size() {
     let text = shipped("pendulum.toml").text;

@@ -130,8 +130,8 @@ fn regress_a_mechanism_in_equilibrium_agrees_though_nothing_moves() {
 /// The crane's jib moves freely on a torsion spring. A winch pulls a trolley along the jib. A load is released at the
 /// jib's tip.
 /// Cause: the load, released from rest, started with the speed of the jib.
-/// The moment in the trolley's guide is small beside all other moments of the crane. Its verdict is conclusive all the
-/// same.
+/// The moment in the trolley's guide is small beside all other moments of the crane. The verdict on this moment is
+/// nevertheless conclusive.
 #[test]
 fn regress_a_crane_with_a_trolley_on_its_jib_agrees() {
     let proof = proven(&scenario("jib_crane.toml"));

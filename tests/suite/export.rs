@@ -82,8 +82,8 @@ fn bodies_are_the_links_on_the_spanning_tree() {
     }
 }
 
-/// Computes positions and speeds from the file alone, along the bodies.
-/// All joints must close, including those of loops, and the pose must be that of the case.
+/// Computes positions and speeds from the file alone, body by body.
+/// All joints must close, including the joints that close loops, and the pose must be the start pose of the case.
 #[test]
 fn the_file_holds_the_start_pose_and_its_speeds() {
     for scenario in all() {

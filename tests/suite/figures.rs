@@ -281,7 +281,7 @@ fn every_expected_disagreement_has_its_finding() {
 }
 
 /// The proof of the crank-rocker after a change of one oracle: the rocker angle of 50 deg.
-/// The oracle then states `printed` with a finding that calls it wrong, and `right` as the correct number.
+/// The oracle then states the number `printed`, a finding that calls this number wrong, and the correct number `right`.
 fn with_correction(printed: f64, right: f64) -> Proof {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker.toml");
     let text = std::fs::read_to_string(&path).unwrap();

@@ -284,7 +284,7 @@ fn pause_and_seek_affect_only_their_own_viewer() {
     let mut frames = recorded(&served.place).into_iter();
     let (.., frame) = frames.rfind(|(topic, time, _)| topic == "/tf" && *time <= wanted).unwrap();
     assert_eq!(shown.unwrap(), frame, "the pose of that time");
-    // The viewer that did not pause plays on, into the next pass.
+    // The viewer that did not pause continues to play, into the next pass through the motion.
     let mut now = 0;
     loop {
         if let Said::Clock(time) = other.hear() {

@@ -259,7 +259,7 @@ fn a_zero_column_is_exact_if_others_omit_trailing_zeros() {
     assert_eq!(verdicts("point.A.x_m", Format::General(9)), wrong);
 }
 
-/// Angles a whole revolution apart mean the same: programs print them within one revolution, or over many.
+/// Angles that differ by whole revolutions are equal, because some programs print angles within one revolution.
 /// Positions have no such period.
 #[test]
 fn angles_may_be_whole_turns_apart() {

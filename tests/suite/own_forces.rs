@@ -60,8 +60,8 @@ fn exerted_forces_need_a_free_route_and_requested_forces() {
     assert!(proven(&still, &Options::default()).engine().own_forces.is_none());
 }
 
-/// No run for the exerted forces is finer than half of the given step.
-/// The proof makes the run with half of the step anyway, to estimate the error of the given step.
+/// No run for the exerted forces has a smaller step than half of the given step.
+/// The proof needs the run with half of the given step in any case, to estimate the error of the given step.
 #[test]
 fn a_given_step_is_extrapolated_from_coarser_ones_only() {
     let scenario = shipped("crank_rocker.toml");

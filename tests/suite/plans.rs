@@ -135,7 +135,7 @@ fn the_image_of_a_link_is_similar_to_it() {
     for (name, degrees) in all() {
         let mechanism = scenario(name).case.mechanism.clone();
         let plans = plans(name, degrees);
-        // Points of the ground are in the pole, and have no vector.
+        // Points of the ground coincide with the pole, and have no vector.
         let end = |plan: &VectorPlan, name: &str| {
             let vector = plan.vector(&format!("{}_{name}", plan.quantity.symbol()));
             vector.map_or_else(Vec2::zeros, |vector| plan.tip(&vector.to).unwrap())

@@ -142,7 +142,8 @@ fn sliders_are_not_pushed_along_their_guides() {
     });
 }
 
-/// The balance of powers gives the drive, and the momentum of all links gives the frame.
+/// The balance of powers gives the driving torque, and the momentum of all links gives the shaking force and moment on
+/// the frame.
 /// Neither check uses the reaction of a joint.
 #[test]
 fn drive_and_frame_agree_with_power_and_momentum() {

@@ -116,7 +116,7 @@ fn random_mechanisms_driven_at_any_joint_never_disagree() {
 }
 
 /// Work allowed to a proof, in steps.
-/// If a proof is undecided after this work, it is inconclusive; this is also correct.
+/// If a proof is undecided after this work, its verdict is inconclusive, which the tests accept.
 const WORK: f64 = 2e4;
 
 /// Tests every family of higher groups.

@@ -34,7 +34,7 @@ fn limits(range: &Range) -> Option<[Singularity; 2]> {
 }
 
 /// Crank angle in the upper half plane at which the distance from A to C is `reach`, by the law of cosines.
-/// `None` if no angle has this distance.
+/// `None` if no crank angle gives this distance.
 /// The formula uses half angles, (reach - |d - a|)(reach + |d - a|) / 4 a d = sin^2(phi / 2), to keep all digits near
 /// 0.
 fn crank_at(d: f64, a: f64, reach: f64) -> Option<f64> {
@@ -95,7 +95,7 @@ fn limits_of_random_four_bars_are_those_of_the_law_of_cosines() {
     assert_within!(worst, EXACT, "{worst:e}");
 }
 
-/// Following the linkage finds the joints that rotate fully.
+/// The joints that rotate fully are found by following the linkage, and compared with the Grashof type.
 /// Each pair of neighbouring links serves in turn as frame and driving link.
 #[test]
 fn grashof_types_agree_with_traced_rotations() {
@@ -201,7 +201,7 @@ fn limits_and_extremes_of_chains_match_the_solver() {
     assert!(limited.get() >= 10 && extremes.get() >= 20, "{} {}", limited.get(), extremes.get());
 }
 
-/// A parallelogram if `side` is 0.1 m; in the other mode the same links form an antiparallelogram.
+/// If `side` is 0.1 m, the links form a parallelogram in the left mode and an antiparallelogram in the right mode.
 fn parallelogram(side: f64, left: bool) -> Spec {
     Spec { start: 0.5, grid: (0.5, 0.1, 5), ..four_bar([0.4, 0.1, 0.4, side], left) }
 }
@@ -216,7 +216,7 @@ fn a_parallelogram_has_change_points_at_0_and_180_degrees() {
         assert_within!((to.crank - PI).abs(), EXACT, "{:e} {:e}", from.crank, to.crank - PI);
         assert_eq!(range.four_bar.unwrap().of_type, FourBarType::ChangePoint);
         let [coupler, rocker] = [1, 2].map(|k| range.links[k].angles[1].value - range.links[k].angles[0].value);
-        // The rocker moves from one pose in line with the frame to the other.
+        // The rocker rotates between its two poses in line with the frame.
         // In the parallelogram the coupler stays parallel to the frame; in the antiparallelogram it swings.
         assert_within!((rocker - PI).abs(), EXACT, "{rocker}");
         assert_eq!(coupler <= EXACT, left, "{coupler}");
@@ -341,8 +341,8 @@ fn asked(case: &Case, degrees: f64) -> Case {
     case.on(Grid::of_inputs(case.crank(), vec![degrees.to_radians()])).unwrap()
 }
 
-/// Both solvers and the list of configurations refuse an unreachable crank angle. Their errors, once explained, give
-/// the reachable range to 1e-6 deg.
+/// Both solvers and the list of configurations refuse an unreachable crank angle.
+/// The function `explained` adds the reachable range to their errors, to 1e-6 deg.
 #[test]
 fn an_unreachable_angle_is_refused_with_the_reachable_range() {
     let lengths = [0.4, 0.35, 0.3, 0.2];
@@ -395,12 +395,12 @@ fn coinciding_configurations_have_no_velocities() {
 
 /// Differences of the two analytic sides near a dead point, for the condition number k of the dyad.
 /// Rounding error of positions enters the angles with the factor k.
-/// Velocities are divided by a determinant of the order of 1 / k; the relative error of this determinant is k times
-/// that of the angles.
+/// Velocities are divided by a determinant of the order of 1 / k; the relative error of this determinant is k times the
+/// relative error of the angles.
 /// Accelerations are divided by the same determinant again.
 /// Relative to their size, however, velocities and accelerations both lose a factor of k^2.
 /// The measured factors are 2.5, 2.1 and 6.4, and nearly the same at 30 and at 0.3 degrees.
-/// The condition number is therefore the whole cause.
+/// The condition number is therefore the only cause of the loss of digits.
 /// The bound allows twice the measured factors, for other mathematical libraries.
 #[test]
 fn loss_of_digits_at_a_dead_point_follows_the_condition_number() {

@@ -36,8 +36,8 @@ fn subjects_keep_their_values(case: &Case, about: &str) {
             for (channel, values) in part.iter() {
                 let expected = whole.column(channel).expect("a channel of the whole");
                 let off = values.iter().zip(expected).fold(0.0f64, |most, (a, b)| most.larger((a - b).abs()));
-                // If a channel is only rounding, its scale is not usable; the measure is the largest value of channels
-                // with the same unit.
+                // If a channel is only rounding error, its scale is not usable.
+                // The difference is therefore divided by the largest value of all channels with the same unit.
                 let of_stage = whole.iter().filter(|(other, _)| other.kind.unit == channel.kind.unit);
                 let size = of_stage.map(|(_, values)| largest_size(values)).fold(0.0, f64::larger);
                 assert_within!(off, ROUNDING * size, "{about}, {word}, {channel} by {}", solver.name());
@@ -112,7 +112,8 @@ fn the_scene_of_a_free_motion_omits_nothing() {
     assert_eq!(AssurSolver.solve(&scene.case).unwrap().channels().len(), own.channels().len());
 }
 
-/// Two links may share a point that only an omitted link joined.
+/// Two links may share the name of a point although only an omitted link joined them there.
+/// Without this link, the two points get different names.
 #[test]
 fn a_point_split_by_an_omitted_link_gets_two_names() {
     let case = shipped("ov7_base.toml").case;

@@ -1,4 +1,4 @@
-//! A proof without any setting finds its settings, keeps to the given settings, and reports what it did.
+//! A proof finds the settings that are not given, keeps to the given settings, and reports what it did.
 
 use std::path::Path;
 

@@ -50,8 +50,8 @@ fn regress_change_points_are_refused() {
         is_refused("over", &at(parallelogram, left, 60.0, &[95.0, 175.0, 185.0, 275.0]), 180.0);
         is_refused("over, in one step of one degree", &at(parallelogram, left, 179.5, &[179.5, 180.5]), 180.0);
         is_refused("back over", &at(parallelogram, left, 60.0, &[60.0, -10.0]), 0.0);
-        // Two cases that the fault report does not name: a kite, and lengths whose longest and shortest sum to as much
-        // as the other two.
+        // Two mechanisms beyond the fault report: a kite, and a four-bar whose longest and shortest links together are
+        // as long as the two remaining links.
         is_refused("kite", &at([0.3, 0.2, 0.2, 0.3], left, 90.0, &[90.0, 200.0]), 180.0);
         is_refused("sum", &at([0.5, 0.1, 0.25, 0.35], left, 90.0, &[90.0, 170.0, 190.0]), 180.0);
     }
@@ -88,10 +88,11 @@ fn dead_points_are_refused() {
 }
 
 /// Symptom: 1e-9 deg from a dead point, side 2 gave the acceleration of the crank pin wrong by 176 %.
-/// Cause: one elimination over all rows let in the rounding of the neighbouring group's huge accelerations.
+/// Cause: one elimination over all rows mixed the rounding error of the neighbouring group's huge accelerations into
+/// the rows of the crank.
 /// The motion of the crank depends on its drive alone, and is exact in this test.
-/// The mechanism is ten times as large as that of the fault report, because lever arms above 1 m become pivots of the
-/// elimination.
+/// The mechanism is ten times as large as the mechanism of the fault report, because lever arms above 1 m become pivots
+/// of the elimination.
 #[test]
 fn regress_a_dead_point_does_not_affect_the_driving_link() {
     let lengths = [4.0, 3.0, 2.5, 2.0];
@@ -129,7 +130,8 @@ fn regress_a_free_motion_continues_at_a_change_point() {
     }
 }
 
-/// The rotation of a link that only translates is rounding, so no load may take a direction from it.
+/// The computed rotation of a link that only translates is rounding error, so it must not determine the direction of a
+/// load.
 /// Symptom: with a resistance of 100 N m on the coupler of a parallelogram, the sides gave -452 N and 413 N for one
 /// reaction.
 #[test]
@@ -175,8 +177,8 @@ fn regress_a_crank_without_length_is_refused() {
     assert!(error.scenario_key().is_some(), "{error}");
 }
 
-/// If the direct way to a crank angle crosses a dead point, the configurations at this angle are found by way of the
-/// opposite direction of rotation.
+/// If the direct rotation to a crank angle crosses a dead point, the configurations at this angle are found by rotation
+/// in the opposite direction.
 #[test]
 fn regress_configurations_beyond_a_dead_point_are_found() {
     // The crank swings between 44 and 316 deg.

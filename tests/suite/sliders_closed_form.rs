@@ -70,7 +70,8 @@ fn val_compressor_printed_rates_are_derivatives() {
     }
 }
 
-/// The bound is 1e-13 of the largest value of the revolution: the rounding error of a few products on either side.
+/// The bound is 1e-13 of the largest value of the revolution: the rounding error of a few products in the solver and in
+/// the formula.
 #[test]
 fn val_compressor_closed_form() {
     let case = shipped("compressor.toml").case;
@@ -297,7 +298,8 @@ fn val_class3_group_transfer_functions() {
         for (link, pairs) in pairs.into_iter().enumerate() {
             let errors = pairs.map(|pairs| relative(pairs.into_iter()));
             // Cramer's rule has only rounding errors.
-            // Differences have errors h^4 / 30 of harmonics up to the sixth, and rounding 1e-16 / h.
+            // Differences have truncation errors of h^4 / 30 times harmonics up to the sixth, and rounding errors of
+            // 1e-16 / h.
             assert_within!(errors[0], 1e-13, "{} alpha{}: {errors:?}", solver.name(), link + 1);
             assert_within!(errors[1].larger(errors[2]), 1e-9, "{} alpha{}: {errors:?}", solver.name(), link + 1);
         }

@@ -53,8 +53,9 @@ fn the_rounding_of_a_large_crank_angle_is_in_the_bound() {
     }
 }
 
-/// At a ratio of 1000, the sides once differed by 5e-9 of the angular accelerations, against a bound of 1e-11: in a fast
-/// wheel, terms of the size omega^2 cancel, and the bound did not contain them.
+/// Symptom: at a gear ratio of 1000, the sides differed by 5e-9 of the angular accelerations; the bound was 1e-11.
+/// Cause: in a fast wheel, terms of the size omega^2 cancel, and the bound did not contain the rounding error of these
+/// terms.
 #[test]
 fn the_sides_agree_on_gears_friction_cylinders_and_cams() {
     for name in ["gear_ratio", "friction", "ram", "cam"] {
@@ -81,8 +82,8 @@ fn regress_the_condition_of_a_pose_is_in_the_bound_between_the_sides() {
 }
 
 /// The time to solve and judge a long chain grows little faster than its length.
-/// This test only solves the chain and compares it with double-double.
-/// The length of 150 four-bars is an extra case that no fault report mentions.
+/// This test only solves the chain and compares the solution with the double-double reference.
+/// No fault report mentions the length of 150 four-bars; it is an additional case.
 #[test]
 fn a_long_chain_keeps_its_digits() {
     let case = (named("chain").unwrap().setup)(150.0, 0, 0).unwrap().case;

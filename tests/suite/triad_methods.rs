@@ -143,8 +143,7 @@ fn all_methods_agree_with_both_solvers_over_the_turn_of_the_published_drive() {
             assert!(found.are_within(1e-13), "{name} {} {found:?}", solver.name());
             assert!(found.condition < 2.0 && found.chain < 2.0, "{found:?}");
             // The motion passes both limits of the first ground lead.
-            // The base link never comes close to one line with the ground lead that does not drive, so no exchange
-            // occurs.
+            // The base link is never nearly in line with the ground lead that does not drive, so no exchange occurs.
             assert_eq!((found.limits, found.exchanges), (2, 0));
         }
     }

@@ -76,7 +76,7 @@ fn regress_a_search_ends_at_the_work_limit() {
     assert!(error.way_out().unwrap().contains("1e6 steps"), "{error}");
 }
 
-/// Few channels cost less than all channels: positions need neither reactions nor a step that resolves reactions.
+/// A few channels cost less than all channels: positions need neither reactions nor a step that resolves reactions.
 #[test]
 fn only_requested_channels_decide() {
     let scenario = shipped("crank_rocker.toml");

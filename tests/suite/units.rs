@@ -15,7 +15,8 @@ fn solved(text: &str) -> Trajectory {
     AssurSolver.solve(&scenario.case).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Replaces the ending of every key with a number by another unit, whose size is `unit` of the old one.
+/// Replaces the unit `from` by the unit `to` in every key with a number, and converts the number.
+/// One unit `to` is `unit` times the unit `from`.
 fn rewritten(text: &str, [from, to]: [&str; 2], unit: f64) -> (String, usize) {
     let ending = format!("_{from} = ");
     let mut parts = text.split(&ending);

@@ -99,7 +99,7 @@ fn off(from: Vec2, to: Vec2, expected: f64) -> f64 {
 }
 
 /// The given pose, constructed without the solvers, closes all joints.
-/// Where the pose is not singular, both solvers find it, with its angles.
+/// If the pose is not singular, both solvers find this pose, with the given angles.
 #[test]
 fn the_given_pose_closes_all_joints_of_the_file() {
     let mut singular = 0;

@@ -46,7 +46,7 @@ fn regress_work_per_step_grows_with_the_mechanism() {
     let large = Scenario::of_case("chain", case).unwrap();
     assert_refused(&proven(&large, &Options::default().budget(1e4)));
     // A run stays within the allowed work, whatever the mechanism.
-    // This mechanism has some 21 moving links.
+    // This mechanism has 21 moving links.
     let (proof, work) = proven(&scenario("n_four_bar_10.toml"), &Options::default().budget(1e6));
     assert_eq!(proof.verdict.word(), "inconclusive");
     assert!(work.of(Count::Sweeps) < 3_000_000, "{work:?}");
@@ -82,7 +82,7 @@ fn regress_planting_faults_keeps_to_the_work_limit() {
     let error = found.err().expect("600 faults in 100 four-bars are too many");
     assert!(error.message().contains("planting") && error.message().contains("the work limit is 1.0e5"), "{error}");
     assert!(error.advice().iter().any(|own| own.to_string().contains("some kinds")), "{error}");
-    // The counted work covers the solutions of both sides without a fault, and their exact answers.
+    // The counted work covers the solutions of both sides without a fault, and the exact answers of side 1.
     // No step of an engine was run.
     assert!(work.of(Count::Groups) < 1_000_000 && work.of(Count::Steps) == 0, "{work:?}");
     let few = MutationPlan { kinds: vec!["gravity-sign".into()], parties: vec![FaultyParty::Assur], ..asked };

@@ -2,7 +2,8 @@
 
 usage: cost.py LINKPROOF [ROUNDS]
 
-The shortest time of each counts. The exit code is 1 if the ratio exceeds 1.3.
+The ratio of the shortest time with a recording to the shortest time without one is printed. The exit code is 1 if this
+ratio exceeds 1.3.
 """
 
 import resource

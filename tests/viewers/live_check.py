@@ -2,8 +2,9 @@
 
 usage: live_check.py LINKPROOF PICTURES [PACKAGES]
 
-The received messages must equal the recorded ones, and positions of links those of `linkproof solve`. PACKAGES is as in
-foxglove.py; without it, Studio is skipped. Two pictures of Studio must show two different poses of the recording.
+The received messages must equal the recorded messages, and positions of links must equal the output of `linkproof solve`.
+PACKAGES is as in foxglove.py; without it, Studio is skipped. Two pictures of Studio must show two different poses of the
+recording.
 """
 
 import asyncio
@@ -69,7 +70,7 @@ def decoder(channel):
 
 
 async def lap(address, name):
-    """The channels, and all messages from one start to the next: topic, log time, bytes; with the clock as it is then."""
+    """The channels, and all messages of one pass through the recording: topic, log time, bytes, and the clock at receipt."""
     async with websockets.connect(address, subprotocols=[name], max_size=None) as socket:
         assert socket.subprotocol == name
         info, channels = json.loads(await socket.recv()), {}
@@ -146,7 +147,7 @@ def where_solve_has_it(linkproof, channels, messages):
 
 
 async def two_pictures(port, page, judge):
-    """Pictures of two moments with the poses that they show: the second as soon as it shows none of the first."""
+    """Two pictures, each with the poses that it shows. The second is taken as soon as it shows no pose of the first."""
     shown = []
     for address in (page, None):
         before = shown[0][1] if shown else set()

@@ -48,7 +48,7 @@ WRONG_LENGTH, WRONG_MASS = 1e-4, 1e-3
 
 results = []
 warnings = []
-# Otherwise MuJoCo writes warnings to a file in the working directory.
+# Without this handler, MuJoCo writes warnings to a file in the working directory.
 mujoco.set_mju_user_warning(warnings.append)
 
 
@@ -177,7 +177,7 @@ def sample(scenario, model, data):
             found[f"joint.{name}.fx_N"], found[f"joint.{name}.fy_N"] = force
         if table["type"] == "prismatic" and moment is not None:
             found[f"joint.{name}.slide_m"] = data.joint(name).qpos[0]
-            # The sensor's moment is about the joint's point on the carried body, the channel's moment about that on the second link.
+            # The sensor's moment is about the joint's point on the carried body. The channel's moment is about the joint's point on the second link.
             if model.site(f"{name}.second").bodyid[0] != model.jnt_bodyid[model.joint(name).id]:
                 first, second = (data.site(f"{name}.{side}").xpos for side in ("first", "second"))
                 moment += np.cross(first - second, [*force, 0.0])[2]
@@ -318,18 +318,18 @@ def check_scenario(linkproof, path, singular):
         check(f"{what} are off by no more than MuJoCo's own error", not beyond, ", ".join(beyond) or f"{len(judgement.of(order))} channels")
 
     def longer(model):
-        """Displaces a site of a loop joint along both axes, because along its guide a slider shows no effect. Without a loop, displaces the last body."""
+        """Displaces a site of a loop joint along both axes, because a displacement along a guide has no effect. Without a loop, displaces the last body."""
         loops = model.eq_obj1id[model.eq_type == mujoco.mjtEq.mjEQ_CONNECT]
         if not loops.size:
             model.body_pos[-1][:2] += WRONG_LENGTH * scenario.size()
             return
         site = loops[0]
         model.site_pos[site][:2] += WRONG_LENGTH * scenario.size()
-        # Otherwise MuJoCo ignores the position of a site that was at its body's origin.
+        # Without this flag, MuJoCo ignores the new position of a site that was at its body's origin.
         model.site_sameframe[site] = mujoco.mjtSameFrame.mjSAMEFRAME_NONE
 
     def heavier(model):
-        """Increases the heaviest mass; with transmissions, whose reactions are not compared, the loads too."""
+        """Increases the heaviest mass. With transmissions, reactions are not compared, so the loads are increased too."""
         model.body_mass[int(model.body_mass.argmax())] *= 1.0 + WRONG_MASS
         if "transmissions" in scenario.toml:
             model.actuator_biasprm[:, 0] *= 1.0 + WRONG_MASS

@@ -48,7 +48,7 @@ def recorded(path):
 
 
 def shown(path):
-    """The same from an `.rrd`."""
+    """Times (simulated s) and poses (x, y, angle) of all frames of an `.rrd`."""
     poses, times = {}, {}
     for chunk in rr.chunk.RrdReader(str(path)).stream():
         batch = chunk.to_record_batch()

@@ -1,5 +1,5 @@
 //! JSON answers to questions about a mechanism.
-//! Every number equals that of the library, and has the promised key and unit.
+//! Every number equals the library's number, and has the promised key and unit.
 
 use std::f64::consts::{PI, TAU};
 use std::fs;
@@ -196,8 +196,8 @@ fn a_range_is_reported_in_json() {
         for (index, (row, group)) in told["groups"].as_array().unwrap().iter().zip(&range.groups).enumerate() {
             let ValueAtCrank { crank, value } = group.determinant;
             assert_eq!(row["least_determinant"], json!({"crank_rad": crank, "determinant": value}));
-            // The determinant of a dyad is the sine of its transmission angle, so the reported angle is compared with
-            // it.
+            // The determinant of a dyad is the sine of its transmission angle, so its magnitude must equal the sine of
+            // the reported angle.
             if let Some(angle) = row["least_transmission_angle_rad"].as_f64() {
                 assert_within!((angle.sin() - value.abs()).abs(), 1e-15, "{name}");
             }

@@ -68,7 +68,7 @@ fn a_collision_is_an_outcome_and_no_error() {
 fn unanswerable_questions_are_refused() {
     let place = Place::new();
     place.refused("clearance scenarios/crank_rocker.toml", &["has no section `[clearance]`", "[clearance]"]);
-    // Two drives with changing speeds: the pose does not follow from the angle of the first.
+    // With two drives at changing speeds, the angle of the first drive does not determine the pose.
     for (file, says) in [("belt_arm.toml", "constant speeds only"), ("cam_follower.toml", "not proven for cams")] {
         place.edited(file, "asked.toml", &[("[grid]", "[clearance]\nradius_mm = 5\n\n[grid]")]);
         place.refused("clearance scenarios/asked.toml", &[says]);

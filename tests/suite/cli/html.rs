@@ -73,8 +73,8 @@ fn a_page_has_verdict_channels_errors_and_positions() {
         {
             assert_eq!(own[key], judged[same], "{key} of {}", channel["name"]);
         }
-        // Errors are computed before rounding to single precision, so the largest error equals that of the report to
-        // this precision.
+        // Errors are computed in double precision and written in single precision.
+        // The largest written error therefore equals the largest error of the report to single precision.
         let largest = singles(&own["errors"]).iter().map(|error| error.abs()).fold(0.0, f64::larger);
         let max = judged["max"].as_f64().unwrap();
         assert!(judged["left_out"] != 0 || (largest - max).abs() <= 1e-6 * max, "{largest} {max}");

@@ -1,5 +1,5 @@
 //! Compares every number of `run --json` with the number in the proof.
-//! The test fails for a numerical field that this file lacks, and for a different number.
+//! The test fails if a number differs, or if the JSON has a numerical field that this file does not list.
 
 use std::collections::BTreeMap;
 use std::path::Path;

@@ -141,6 +141,6 @@ fn a_file_without_formulas_reports_nothing_planted() {
     assert!(outcome.stdout.starts_with("NOTHING PLANTED"), "{}", outcome.stdout);
     assert!(outcome.unbroken().contains("no formula of the scenario claims an exact value"), "{}", outcome.stdout);
     // The scenario has no formulas, so no mistake can be planted in them.
-    // This does not matter if `--kind` also requests another kind of fault, and this kind can be planted.
+    // This is no error if `--kind` also requests a kind of fault that can be planted.
     place.ok("mutate scenarios/pendulum.toml --kind gravity-sign --kind formula --party assur --no-sizes");
 }

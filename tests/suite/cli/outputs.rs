@@ -1,4 +1,4 @@
-//! Outputs that cannot be written are detected before the work or reported by name, and are never incomplete.
+//! An output that cannot be written is detected before the work, or reported by its name. No output is left incomplete.
 #![cfg(unix)]
 
 use std::fs;

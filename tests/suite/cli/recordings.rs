@@ -106,7 +106,8 @@ fn scenarios_of_one_name_are_both_recorded() {
     assert_eq!(recordings(&place), ["pendulum-2.mcap", "pendulum.mcap"]);
 }
 
-/// Slowed down, thinned and with arrows: the trajectory stays the same, and two runs give the same bytes.
+/// A recording that is slowed down, thinned or has arrows keeps the values of the trajectory. Two equal runs give the
+/// same bytes.
 #[test]
 fn a_time_scale_changes_no_number() {
     let place = Place::new();

@@ -33,8 +33,8 @@ fn every_command_reads_standard_input_as_a_file() {
     ] {
         let file = format!("scenarios/{scenario}.toml");
         let from_file = place.run(&command.replace("FILE", &file));
-        // Tables of published numbers are searched for in the working directory, which is not the directory of the
-        // file.
+        // With `-`, tables of published numbers are searched for in the working directory instead of the directory of
+        // the file.
         let text = fs::read_to_string(place.path(&file)).unwrap().replace("file = \"", "file = \"scenarios/");
         let fed = fed(&place, &command.replace("FILE", "-"), text.as_bytes());
         assert_eq!((fed.code, fed.stderr.as_str()), (from_file.code, from_file.stderr.as_str()), "{command}");
@@ -72,8 +72,8 @@ fn settings_are_not_written_to_standard_input() {
     assert!(!place.path("-").exists());
 }
 
-/// Settings apply only to the mechanism for which they were found: the mechanism of the file, not one with changed
-/// parameters.
+/// Settings found for changed parameters, another mode or another start are not valid for the mechanism in the file.
+/// The option `--write` therefore refuses such options.
 #[test]
 fn settings_found_for_other_numbers_are_not_written() {
     let place = Place::new();

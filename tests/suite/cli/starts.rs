@@ -111,7 +111,7 @@ fn published_numbers_apply_only_to_their_branch() {
     let place = Place::new();
     let run =
         |options: &str| place.run(&format!("run scenarios/{options} --no-record --json -")).json()["runs"][0].clone();
-    // The distance of two points at t = 0 belongs to the start, so it is not counted.
+    // The distance of two points at t = 0 depends on the start, so the check of this distance is not counted.
     let published = |proof: &Value| {
         let checks = proof["checks"].as_array().unwrap().iter();
         let stays = |check: &&Value| !check["name"].as_str().unwrap().contains("distance");

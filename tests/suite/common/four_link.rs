@@ -28,7 +28,7 @@ fn link(text: &mut String, random: &mut RandomSource, name: &str, points: &[(&st
 }
 
 /// A mechanism with one group of four links, of class III if `triad`, otherwise of class IV.
-/// The numbers of the mechanism come from a pose that it can take.
+/// The dimensions come from a drawn pose, so the mechanism can be assembled.
 pub fn scenario(random: &mut RandomSource, triad: bool) -> Scenario {
     let mut text = String::from("format = 1\nname = \"random\"\ntitle = \"random\"\n[ground.points]\n");
     let places: Vec<[f64; 2]> = (0..8).map(|_| place(random)).collect();

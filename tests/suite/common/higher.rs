@@ -108,7 +108,7 @@ pub const FAMILIES: [Family; 18] = {
         of(&CLASS_3, &[]),
         // One slider lead, on the crank or on the ground; one swivel lead, on the crank or on the ground.
         // Two slider leads, or a swivel lead and a slider lead; three slider leads; three swivel leads.
-        // A lead that keeps the angle of the base.
+        // A lead on the ground with two prismatic joints, which prevents rotation of the base.
         of(&CLASS_3, &[0]),
         of(&CLASS_3, &[2]),
         of(&CLASS_3, &[1]),

@@ -30,7 +30,7 @@ pub struct Good {
     pub stress: Vec<u8>,
     pub table: Vec<u8>,
     pub positions: Vec<u8>,
-    /// Output files whose names the program chooses: the command, and its files.
+    /// For each command that chooses the names of its output files: the command and these files.
     pub older: Vec<(&'static str, Files)>,
 }
 

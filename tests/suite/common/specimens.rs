@@ -84,7 +84,8 @@ fn drawn(random: &mut RandomSource, index: u64, is_free: bool) -> Result<Specime
         spec.grid.1 *= -1.0;
     }
     let (force, moment) = natural(&spec)?;
-    // Half of the free mechanisms have a flywheel; without a flywheel, the links whirl a light crank around.
+    // Half of the free mechanisms have a flywheel; without a flywheel, the other links accelerate a light crank
+    // strongly.
     if let Some((_, _, inertia)) = spec.links[0].mass.as_mut()
         && is_free
         && random.yes()
@@ -112,7 +113,7 @@ fn drawn(random: &mut RandomSource, index: u64, is_free: bool) -> Result<Specime
     Ok(Specimen { sort: format!("{sort}, {motion}, {size:.2e} m, {:.2e} rpm", spec.speed * 60.0 / TAU), spec })
 }
 
-/// Masses over four decades, with mass centres off all lines.
+/// Masses over four decades; the mass centres are not on the lines between the joints.
 /// A few links of prescribed motions are massless or point masses.
 fn masses(random: &mut RandomSource, spec: &mut Spec, size: f64, bare: bool) {
     let heaviest = 100.0 * size * size * random.decades(0.3, 3.0);

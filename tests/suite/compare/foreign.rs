@@ -25,7 +25,7 @@ fn path(name: &str) -> PathBuf {
     Path::new(FOREIGN).join(name)
 }
 
-/// Compares a table by the map of a correct table, with that table's scenario.
+/// Compares a table with a scenario; the map and the scenario are those of the correct table `right`.
 /// `lines` replace lines of the map for the same channels.
 fn compared(right: &str, table: &str, lines: &[&str]) -> PartyComparison {
     let (map, of, _) = RIGHT.into_iter().find(|(map, ..)| *map == right).unwrap();
@@ -54,8 +54,7 @@ fn three_programs_agree_within_their_tolerances() {
         let channels = &found.pairs[0].channels;
         assert_eq!(found.verdict.word(), "agree", "{map}: {:?}", found.verdict);
         // In each table, some error must come near its tolerance, because otherwise the test would prove nothing.
-        // The errors of closed formulas are only about the rounding error of their digits, so a smaller ratio is enough
-        // for tables of closed formulas.
+        // Tables of closed formulas have errors of only about their last digit, so a smaller ratio is enough for them.
         let near = if map.starts_with("pylinkage") { 0.01 } else { 0.3 };
         assert!(channels.iter().any(|own| own.worst.unwrap().used() > near), "{map}");
         let mapping = Mapping::load(&path(&format!("{map}.map.toml"))).unwrap();
@@ -98,7 +97,8 @@ fn time_that_jumps_back_is_reported() {
     assert!(compared("mujoco_crank_rocker", "mujoco_crank_rocker.csv", &[]).pairs[0].turns_back.is_none());
 }
 
-/// For each case: the map, a wrong line for it, and words that must occur in the named cause (empty if none must).
+/// For each case: the map, a wrong line for it, and words of the cause that must be named (empty if no cause must be
+/// named).
 const LINES: [(&str, &str, &str); 17] = [
     ("mujoco_crank_rocker", "54.19349837312087 + q_rocker*180/pi=link.rocker.angle_deg", "opposite sense"),
     ("mujoco_crank_rocker", "54.19349837312087 - q_rocker=link.rocker.angle_deg", ""),

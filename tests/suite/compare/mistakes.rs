@@ -178,7 +178,7 @@ fn a_missing_term_is_named() {
 }
 
 /// A simulation also has errors from its time step.
-/// The mistake is named nevertheless, and the remaining error is reported.
+/// The mistake is named nevertheless, and the error that the mistake does not explain is reported.
 #[test]
 fn a_mistake_is_named_in_inexact_numbers() {
     let scenario = scenario("crank_rocker");

@@ -104,7 +104,9 @@ fn rows_are_also_matched_by_crank_angle() {
     assert!(error.message().contains("no times"), "{}", error.message());
 }
 
-/// Two tables without an analytic side prove nothing without an allowed difference, unless they are equal.
+/// Without an analytic side, the comparison of two different tables needs an allowed difference; otherwise it is
+/// inconclusive.
+/// Equal tables always agree.
 #[test]
 fn two_tables_need_an_allowance() {
     let right = solved(&scenario("crank_rocker"));

@@ -104,7 +104,7 @@ const OTHERS: &[Fault] = &[
 ];
 
 /// This fault costs more than all remaining faults, so it is tested only at night.
-/// An ordinary run tests the same kind of fault in a prescribed motion, and in `cases.rs` in this scenario.
+/// An ordinary run tests the same kind of fault in a prescribed motion; `cases.rs` tests it in this scenario.
 const BY_NIGHT: &[Fault] =
     &[("five_bar_on_a_spring", "mode = \"left\"", "mode = \"right\"", "another configuration of rod_1, rod_2: right")];
 

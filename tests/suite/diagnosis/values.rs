@@ -1,4 +1,4 @@
-//! Faults in the values: the diagnosis names the change, or reports that it is not simple.
+//! Faults in the values: the diagnosis names the change, or reports that there is no simple cause.
 
 use super::{Tally, examined, parsed, text, told};
 use linkage::case::{Case, Grid};

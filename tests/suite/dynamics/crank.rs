@@ -81,7 +81,7 @@ fn the_averaged_model_is_exact_for_constant_coefficients() {
         let model = ReducedModel::of(&case).unwrap();
         let means = means::means_over_turn(&case, &AssurSolver).unwrap();
         let averaged = Averaged::of(&motor, means.inertia + model.added_inertia(), speed * means.resistance).unwrap();
-        // Without losses, 40 N m and 2 N m s act on the crank.
+        // Without losses, the motor's moment on the crank is 40 N m minus 2 N m s times the crank's speed.
         assert_within!((averaged.time_constant - 0.48 / (2.0 * efficiency)).abs(), 1e-15, "{averaged:?}");
         assert_within!((averaged.steady_speed - (40.0 * efficiency - 6.0) / (2.0 * efficiency)).abs(), 1e-13);
         let (found, end) = motion(&model, 0.0, &evenly(1.5, 300), 1e-13).unwrap();
@@ -107,7 +107,8 @@ fn the_averaged_model_needs_one_falling_straight_line() {
     let free = [&linear, &lossy].map(|motor| Averaged::of(motor, 0.5, 0.0).unwrap());
     free.iter().for_each(|free| assert_within!((free.steady_speed - 20.0).abs(), 1e-12, "{free:?}"));
     assert_within!((free[1].time_constant / free[0].time_constant - 1.0 / 0.9).abs(), 1e-14);
-    // If the resistance drives the crank, losses act in the opposite direction above 20 rad/s.
+    // If the resistance drives the crank above 20 rad/s, power flows back to the motor, and losses act in the opposite
+    // direction.
     assert_within!((Averaged::of(&linear, 0.5, -2.0).unwrap().steady_speed - 21.0).abs(), 1e-12);
     assert_eq!(Averaged::of(&lossy, 0.5, -2.0), None);
     // There is no averaged model in these cases: a resistance above the starting moment, no inertia, or a

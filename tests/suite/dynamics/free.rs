@@ -57,7 +57,8 @@ fn both_sides_agree_in_every_channel() {
     }
 }
 
-/// The two lists of names contain every shipped free motion, so the test above compares the sides in each.
+/// The lists `RUN_UPS` and `CHAINS` contain every shipped free motion.
+/// The test above therefore compares the sides on all of them.
 #[test]
 fn every_shipped_free_motion_is_compared() {
     let directory = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios");

@@ -113,7 +113,7 @@ fn a_spring_is_wound_up_by_a_free_motion() {
     }
 }
 
-/// Three load tables that repeat together only after 1309 revolutions do not prevent a motion of a few revolutions.
+/// Three load tables with a common period of 1309 revolutions do not prevent a motion of a few revolutions.
 #[test]
 fn tables_of_many_turns_act_on_a_free_motion() {
     let case = shipped("crank_rocker_runup.toml").case;

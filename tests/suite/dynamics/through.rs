@@ -185,8 +185,8 @@ fn drift(case: &Case, found: &Trajectory) -> f64 {
     (most - least) / all[0].abs().larger(1.0)
 }
 
-/// Mechanisms that no fault report names: kites, antiparallelograms, and lengths whose longest and shortest sum to as
-/// much as the other two.
+/// Change-point mechanisms beyond those of the fault reports: kites, antiparallelograms, and a four-bar whose longest
+/// and shortest links together are as long as the two remaining links.
 /// The energy is constant, and the sides agree.
 #[test]
 fn other_change_point_mechanisms_pass_by_momentum() {
@@ -236,7 +236,7 @@ fn a_loaded_parallelogram_passes_its_change_points() {
 }
 
 /// A motion that reverses next to a change point, before or behind the change point.
-/// Near the change point, the equations of the pose are not used.
+/// Near the change point, the sides do not solve the equations of the pose.
 #[test]
 fn motions_may_reverse_beside_a_change_point() {
     for (start, left) in [(2.0f64, true), (0.1, true), (0.001, true), (-2.0, false), (-0.1, false), (-0.001, false)] {
@@ -257,7 +257,7 @@ fn motions_may_reverse_beside_a_change_point() {
 }
 
 /// A four-bar driven at constant speed, at crank angles in degrees.
-/// The four-bar passes change points if `through`.
+/// If `through` is true, the drive passes change points.
 fn driven(lengths: [f64; 4], left: bool, start: f64, through: bool, cranks: &[f64]) -> Case {
     let mut spec = four_bar(lengths, left);
     spec.start = start.to_radians();
@@ -342,10 +342,10 @@ fn the_benchmark_agrees_with_rapier() {
     }
 }
 
-/// A class III group that is singular where its two equal leads are level with the plate.
+/// A class III group that is singular where its two equal leads are in line with the plate.
 /// The group is tested alone, and behind a parallelogram whose change points are 4.8 deg away from the group's change
 /// point.
-/// Around each change point, the solution uses a window of crank angles.
+/// In a window of crank angles around each change point, the results come from polynomials through neighbouring poses.
 /// Reactions have poles at the change points of the group and of the parallelogram.
 #[test]
 fn higher_groups_pass_their_change_points() {
@@ -390,7 +390,7 @@ fn higher_groups_pass_their_change_points() {
     }
 }
 
-/// With several driving links, singular poses are not isolated angles.
+/// With several driving links, singular poses do not lie at isolated angles of the drives.
 /// Both sides refuse to pass singular poses, in free motion too.
 #[test]
 fn several_driving_links_do_not_pass_change_points() {
@@ -461,8 +461,8 @@ fn regress_an_instant_exactly_at_a_change_point_is_passed() {
 }
 
 /// Symptom: the error at a change point said "shorten the grid" or "change a length", but did not mention `through`.
-/// If a load does work on the branch that is not followed, reactions have a pole at the change point, and the error
-/// states this pole too.
+/// If a load would do work in a motion along the second branch, reactions have a pole at the change point.
+/// If reactions are requested there, the error names this pole.
 #[test]
 fn the_error_at_a_change_point_suggests_the_key_through() {
     for step in [10.0, 7.0] {

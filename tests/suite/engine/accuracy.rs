@@ -131,7 +131,8 @@ fn regress_64_loops_open_by_the_local_error_of_a_step() {
 
 /// Story 70.
 /// With two substeps, the same step of 0.08 deg meets every required figure at once.
-/// The figures are fractions of the range: 1e-6 for angles.
+/// The figures are fractions of the range.
+/// For angles: 1e-6.
 /// For reactions in all joints and the balancing moment: 3e-6 by differences, 1e-7 extrapolated, 1e-6 by probe.
 /// Loops close to 1e-7 of the mechanism's size.
 #[test]
@@ -160,7 +161,7 @@ fn regress_70_two_substeps_meet_all_accuracy_goals_at_once() {
     assert_within!(largest, 1e-7, "{largest:e}");
 }
 
-/// The opening of 1e-7 was printed for a crank of half the length, for which the same step opens the loop less.
+/// The opening of 1e-7 was stated for a crank of half the length. With this crank, the same step opens the loop less.
 #[test]
 fn regress_64_half_the_crank_leaves_gaps_below_1e_7() {
     let whole_crank = whole("crank_rocker");
@@ -236,8 +237,8 @@ fn regress_63_extrapolation_raises_the_order_by_one() {
 }
 
 /// Story 14.
-/// Symptom: errors of velocities are proportional to the step, and errors of forces are several times the forces where
-/// a tree is cut at the crank.
+/// Symptom: errors of velocities are proportional to the step.
+/// If the spanning tree cuts a joint of the crank, errors of forces are several times the forces.
 /// Cause: too few sweeps for a light crank before a heavy coupler.
 /// Remedy: a flywheel on the crank, which has no effect at constant speed.
 /// With the flywheel, 32 sweeps must be as accurate as 1024 sweeps.
@@ -274,12 +275,12 @@ fn regress_60_single_precision_is_within_its_rounding_bound() {
         let turn = std::f64::consts::TAU / base.crank().at(0.0).rate.abs();
         let times = (0..=45).map(|k| turn * (from + (to - from) * f64::from(k) / 45.0)).collect();
         let case = base.on(linkage::case::Grid::of_times(base.crank(), times)).unwrap();
-        // Rows of ill-conditioned loops have more weight in an impulse than rows of well-conditioned loops.
+        // In an impulse, rows of ill-conditioned loops have more weight than rows of well-conditioned loops.
         // The constants of the routes by impulses were found on the crank-rocker, so only the crank-rocker uses all
         // routes.
         let routes: &[Route] = if name == "crank_rocker" { &Route::ALL } else { &[Route::Differences, Route::Native] };
         for (single, double) in [("rapier-f32", "rapier"), ("impulse-f32", "impulse")] {
-            // Short grids use small steps too; long grids use small steps only with more draws than in an ordinary run.
+            // Short grids also use the smaller step. Long grids use it only if `LINKPROOF_DRAWS` is above 1.
             let steps = if to - from < 0.5 || by_night() { &[1e-3, 2.5e-4][..] } else { &[1e-3] };
             for (&route, &step) in routes.iter().flat_map(|route| steps.iter().map(move |step| (route, step))) {
                 let engines = [double, single].map(|name| {

@@ -1,6 +1,5 @@
 //! The engine's set-up, tested on a free compound pendulum with a period in closed form.
-//! Without a drive, the free motion of the multibody shows its order of convergence, which is one, and its default
-//! damping.
+//! A free motion shows the multibody's order of convergence, which is one, and the multibody's default damping.
 
 use crate::common::assert_within;
 use linkage::math::KeepNan;
@@ -132,7 +131,7 @@ fn regress_31_free_motion_is_of_first_order() {
 /// Symptom: a free mechanism comes to rest.
 /// Cause: by default, every pin has a damping of 0.1 N m s/rad.
 /// With this damping, the amplitude of small swings decays as exp(-c t / 2 J).
-/// Without damping the amplitude is constant, to the first order of the integrator.
+/// Without damping, the amplitude is constant except for the first-order error of the integrator.
 #[test]
 fn regress_32_the_default_damping_must_be_removed() {
     let dt = 1e-3;
@@ -142,7 +141,7 @@ fn regress_32_the_default_damping_must_be_removed() {
         angles[6000..].iter().fold(0.0, |max: f64, angle| max.larger(*angle))
     });
     assert_within!((free / AMPLITUDE - 1.0).abs(), 1e-4, "{free}");
-    // The amplitude falls to exp(-0.1 * 6 / (2 * 0.23)) = 0.27 at 6 s, the first swing of the tested interval from 6 to
-    // 8 s.
+    // The tested interval is from 6 to 8 s. At 6 s, the amplitude has fallen to exp(-0.1 * 6 / (2 * 0.23)) = 0.27 of
+    // its start value.
     assert_within!(damped, 0.3 * AMPLITUDE, "{damped}");
 }

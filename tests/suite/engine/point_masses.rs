@@ -50,8 +50,8 @@ fn approaches(what: &str, case: &Case, step: f64, bound: f64) {
     let known = states(&AssurSolver, case, &times).unwrap_or_else(|error| panic!("{what}: {error}"));
     for name in ["rapier", "impulse"] {
         for route in [Route::Differences, Route::Native] {
-            // With the engine `impulse` and its own impulses, the massless crank takes 40 times as long as all
-            // remaining cases.
+            // For the engine `impulse` and the native route, the massless crank takes 40 times as long as all remaining
+            // cases.
             // An ordinary run therefore tests this engine on the massless crank by one route; with more draws, by both
             // routes.
             if name == "impulse" && route == Route::Native && what == "crank" && !by_night() {

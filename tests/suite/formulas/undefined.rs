@@ -25,7 +25,7 @@ const OUTSIDE: [(&str, &str); 14] = [
     ("0*exp(-1/0)", "(-1)/0 is undefined"),
 ];
 
-/// Symptom: `phi*180/pi + 0*ln(-1)` was right.
+/// Symptom: the formula `phi*180/pi + 0*ln(-1)` was judged right.
 /// Causes: the parser simplified 0*x, 0/x and x^0, although only derivatives need this; and IEEE 754 gives 1/(1/0) a
 /// value.
 #[test]
@@ -102,7 +102,7 @@ fn operations_outside_their_domain_disagree_with_a_position() {
 }
 
 /// A pole between two instants is not an operation outside its domain.
-/// A formula that is right at every instant is right, but the bound of the formula is wider near the pole.
+/// A formula with such a pole is right if its value is right at every instant, but its bound is wider near the pole.
 /// If rounding hides a pole at an instant, the formula is not judged at this instant; the other instants decide.
 #[test]
 fn poles_between_instants_and_poles_that_rounding_hides() {

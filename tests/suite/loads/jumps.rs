@@ -105,7 +105,8 @@ fn val_a_table_jumps_at_its_crank_angle() {
     }
 }
 
-/// The engine is not judged where its crank is on the other side of the jump.
+/// The engine is not judged at instants at which its crank and the reference's crank are on different sides of the
+/// jump.
 /// In the free motion, side 1 reduces the mechanism to the crank, and side 2 does not.
 #[test]
 fn a_table_that_jumps_agrees_in_prescribed_and_free_motions() {

@@ -217,8 +217,10 @@ inertia_kg_m2 = 1e-3
 points = { R = { x_mm = 0, y_mm = 0 }, T = { x_mm = 50, y_mm = -5 } }
 "#;
 
-/// Symptoms: both disagreed falsely. Causes: the acceleration of the first step, from which the engine computes its
-/// friction, lacks half of the centripetal part; the open moment of a loss at rest was taken for a force in a guide.
+/// Symptom: both free motions disagreed falsely.
+/// First cause: the engine computes friction from the acceleration of its first step, which lacks half of the
+/// centripetal part.
+/// Second cause: a loss at rest leaves a moment undetermined, and this moment was taken for a force in a guide.
 #[test]
 fn regress_free_motions_with_losses_never_disagree() {
     let five_bar = include_str!("../../../scenarios/geared_five_bar.toml").split("[[formula]]").next().unwrap();

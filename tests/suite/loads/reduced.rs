@@ -13,7 +13,7 @@ use linkage::trajectory::Stage;
 use crate::common::{assert_within, centre, centre_velocity, shipped};
 use linkage::mechanism::LinkId;
 
-/// The press with those of its loads that `keep` accepts.
+/// The press, with only the loads that `keep` accepts.
 fn press(keep: impl Fn(&Load) -> bool) -> Case {
     shipped("loaded_slider.toml").case.with(|parts| parts.loads.retain(keep)).unwrap()
 }

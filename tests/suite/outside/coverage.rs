@@ -1,4 +1,5 @@
-//! An independent number tests every key and word of a scenario about a mechanism, and every channel of a trajectory.
+//! Every key and every word that describes a mechanism in a scenario, and every channel of a trajectory, is tested by
+//! an independent number.
 //! The lists are the tables of the program, so the test fails for a new key, word or channel without a number.
 
 use std::collections::BTreeSet;

@@ -16,7 +16,7 @@ use super::{files, loaded};
 /// The limit allows for rounding error, and for the error of a side at a change point.
 const BOUND: f64 = 1e-8;
 
-/// Powers below this fraction of the largest power of the motion count as this fraction.
+/// An imbalance of power is divided by at least this fraction of the largest power of the motion.
 const DWELL: f64 = 1e-6;
 
 /// One row of a trajectory.
@@ -110,7 +110,8 @@ impl Row<'_> {
                 Load::TorsionSpring { links, stiffness, free_angle, acts } => {
                     let angle = |link: LinkId| self.link(link).turn[0];
                     let begun = self.case.start.0[links[1]].angle - self.case.start.0[links[0]].angle;
-                    // At t = 0 the twist is in (-pi, pi]; `turns` is the number of revolutions that this removes.
+                    // At t = 0 the twist is in (-pi, pi]; `turns` is the number of revolutions by which the start
+                    // angles exceed this interval.
                     let turns = ((begun - std::f64::consts::PI) / std::f64::consts::TAU).ceil();
                     let twist = angle(links[1]) - angle(links[0]) - turns * std::f64::consts::TAU;
                     let over = twist - free_angle;
@@ -169,7 +170,7 @@ impl Row<'_> {
             let ([first, _], [forward, back]) = (own.design.links, own.design.efficiency);
             let (line, spin) = (own.contact([0.0; 2]).lines[0], omega(first) - omega(own.design.carrier));
             let lever = cross(line.feet[0] - own.members[0].place, line.direction);
-            // Power that reaches the second member, or comes from it.
+            // Power delivered to the second member; negative if the second member drives.
             let power = self.read(&format!("transmission.{}.force_N", own.name())) * lever * spin;
             let lost = if power > 0.0 { power / forward - power } else { -power * (1.0 - back) };
             let rests = spin.abs() <= 1e-12 * self.case.drives.top_speed(self.case.mechanism.size());
@@ -202,7 +203,7 @@ impl Row<'_> {
         }
     }
 
-    /// Force and moment about the origin of a drive on the frame.
+    /// Force and moment of a drive on the frame; the moment is about the origin.
     fn on_frame(&self, drive: &Drive, effort: f64) -> (Vec2, f64) {
         let joint = &self.case.mechanism.joints()[drive.joint];
         let sign = match (drive.input, [joint.first.link, joint.second.link]) {
@@ -220,7 +221,7 @@ impl Row<'_> {
     /// Four imbalances, each divided by its largest term.
     /// Two imbalances compare the sampled shaking force and moment with the reactions, and two compare them with the
     /// momentum.
-    /// Also the total power of drives, loads, weights and inertia, and the largest of these powers (W).
+    /// Also returns the total power of drives, loads, weights and inertia, and the largest of these powers (W).
     fn imbalances(&self) -> ([f64; 4], [f64; 2]) {
         let (case, loads, efforts) = (self.case, self.loads(), self.efforts());
         let sampled = (self.pair("frame", ["fx_N", "fy_N"]), self.read("frame.moment_N_m"));

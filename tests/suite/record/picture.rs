@@ -225,7 +225,7 @@ fn a_film_has_motion_forces_and_curves_of_its_recording() {
             assert!(own.iter().zip(wanted).all(|(a, b)| near(*a, b)), "{}: {own:?} {wanted:?}", entity.id);
         }
     }
-    // The curves have the values of the sides exactly, and the values of the errors in single precision and small
+    // The curves of the sides have exact values. The curves of the errors have values in single precision and in small
     // units.
     assert!(film.view.plots.len() >= 2);
     for (plot, values) in film.view.plots.iter().zip(&film.values) {
@@ -411,7 +411,7 @@ fn every_second_has_its_own_chunk() {
     }
 }
 
-/// If the sides have fewer samples than instants of the grid, the errors have equally few.
+/// If the recording has fewer samples than the grid has instants, the errors have as many samples as the sides.
 #[test]
 fn errors_are_thinned_like_their_sides() {
     let mut run = Run::over(turn(101));

@@ -177,7 +177,7 @@ fn hostile_inputs_stay_within_limits_and_change_no_other_files() {
 const NO_PATHS: &str = "KEY=NUMBER REFERENCE ENGINE S ACCURACY N ROUTE TIMES STEPS GB FROM:TO:STEP LINK,LINK=MODE DEG FACTOR HZ \
     [HOST:]PORT WORD EXPR CHANNEL NAME=EXPR NUMBER [CHANNEL=]SHARE CHANNEL=SIZE WHAT NAME SOLVER SHARE KIND PARTY FAMILY \
     TEMPLATE MM MPA POINT PIXELS X,Y KG_PER_M K RPM SHELL PAGE[#SECTION] WITH COMMAND";
-/// Options that name a file to be written, whatever exists there.
+/// Options that name an output file. The command replaces any existing file at this path.
 const WRITTEN: [&str; 3] = ["--output", "--run-up", "--write-map"];
 /// Options that name a directory. The program chooses the file names in this directory, and therefore inspects existing
 /// files.

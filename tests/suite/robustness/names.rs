@@ -116,8 +116,8 @@ fn messages_show_no_terminal_control_characters() {
     place.refused("run bad.toml --no-record", &["not a regular file"]);
     #[cfg(unix)]
     place.refused("run /dev/zero --no-record", &["/dev/zero", "64 MiB"]);
-    // The message cuts the formula within a character: a character of two bytes, or an invisible character of three
-    // bytes.
+    // The limit of the message's length lies inside a character of the formula: a character of two bytes, or an
+    // invisible character of three bytes.
     for letter in ["\u{e9}", "\u{202e}"] {
         for start in ["", "p", "ph"] {
             let text = format!("{start}{}", letter.repeat(12_000));

@@ -146,7 +146,8 @@ fn foreign_files_are_replaced_only_if_named() {
         meets(&place, writer, "a pipe");
         remove();
         no_more("what was refused");
-        // At the first run nothing is at the output path, at the second run the output of the first run.
+        // Before the first run, nothing is at the output path. Before the second run, the output of the first run is
+        // there.
         let first = place.run(command);
         assert_eq!(first.code, 0, "{command}: {}", first.stderr);
         let own = fs::read(&at).unwrap();
@@ -156,7 +157,7 @@ fn foreign_files_are_replaced_only_if_named() {
             false => assert_eq!(place.run(command).code, 0, "{command}: {file}"),
         }
         if is_sealed {
-            // Its output, edited.
+            // The command's own output, edited by the user.
             let edited = [&own[..], b" "].concat();
             fs::write(&at, &edited).unwrap();
             meets(&place, writer, "an edited file");

@@ -39,8 +39,8 @@ fn holds(proof: &Proof, family: &str) {
 }
 
 /// Symptom: the balancing moments of the sides differed by 2e-8 where 1e-10 is required.
-/// Cause: forces of 1e11 N in the joints cancel in the force on the frame, and the difference was divided by the small
-/// remainder.
+/// Cause: forces of 1e11 N in the joints cancel in the force on the frame, and the difference was divided by this small
+/// force.
 #[test]
 fn a_frame_force_has_the_rounding_of_its_summands() {
     let edits = [("inertia_kg_m2 = 0.74\n", "inertia_kg_m2 = 1e8\n")];

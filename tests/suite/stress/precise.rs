@@ -80,7 +80,7 @@ fn a_slider_crank_matches_the_textbook() {
     }
 }
 
-/// The sides and the reference on random dyads of all five kinds, prismatic ones among them.
+/// Compares the sides with the reference on random dyads of all five kinds, including dyads with prismatic joints.
 #[test]
 fn random_dyads_agree_with_the_sides() {
     for_each(12, |sample| {

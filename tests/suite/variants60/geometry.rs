@@ -1,8 +1,8 @@
 //! Independent geometry of the variants: poses from the given angles, transmission angles by the law of cosines.
 //! The geometry uses no code of the solvers.
 //!
-//! With the guide's direction t and normal n, the slider stays on its line where n . (B - A) = n . B0 - l1 sin(a -
-//! theta).
+//! The guide has the direction t at the angle theta, and the normal n; B0 is the position of B in the given pose.
+//! The slider stays on its line, so at the crank angle a: n . (B - A) = n . B0 - l1 sin(a - theta).
 //! This expression divided by l2 is the cosine of the angle between rod and normal.
 //! The angle at D between link 3 and rocker 4 has the cosine (l3^2 + l4^2 - |C O2|^2) / 2 l3 l4.
 //! Either dyad is singular where its cosine is 1 or -1.
@@ -116,8 +116,7 @@ impl Linkage {
     }
 
     /// Cosines of the transmission angles at crank angle `crank` (deg).
-    /// The first cosine is that of the angle between rod and normal, the second that of the angle between link 3 and
-    /// rocker.
+    /// The first cosine belongs to the angle between rod and normal, the second to the angle between link 3 and rocker.
     /// If the first dyad is beyond a limit, the second cosine is infinite.
     pub fn cosines(&self, crank: f64) -> [f64; 2] {
         let [l1, l2, l3] = self.variant.lengths;

@@ -84,7 +84,7 @@ pub fn law(random: &mut RandomSource, spec: &mut Spec, safe: Safe) -> &'static s
 
 /// A free motion: released at rest, or started with a speed, or driven by a motor.
 /// The motor's torque has the magnitude of `moment` (N m).
-/// `moment` is the moment of inertia forces and weight on the crank at the nominal speed.
+/// `moment` is the moment on the crank that inertia forces and weights cause at the nominal speed.
 pub fn free(random: &mut RandomSource, spec: &mut Spec, moment: f64, falls: bool) -> &'static str {
     let speed = spec.speed;
     let kind = if falls { 0 } else { 1 + random.index(3) };
