@@ -62,7 +62,7 @@ pub const SECTIONS: &[Section] = &[
     ),
     optional("efficiency_back", ValueKind::Number, "`efficiency`").means(
         "not for a cam: the same if the second member drives the first, at most 1; 0 or less for a self-locking \
-         transmission, whose members must both be driven",
+         transmission: the second member alone cannot move the first",
     ),
     optional("follower", ValueKind::Choice(|| names(cam::FOLLOWERS)), "required for a cam")
         .means("cam: the part of the follower that touches the cam; a flat face stands across the guide of the follower"),

@@ -99,7 +99,8 @@ pub struct TransmissionDesign {
     pub start: f64,
     /// Efficiency if power flows from the first member to the second, from 1e-6 to 1.
     /// Then the efficiency if it flows back, from -1e6 to 1.
-    /// If the second efficiency is not positive, the transmission is self-locking: both members must be driven.
+    /// If the second efficiency is not positive, the transmission is self-locking: the second member alone cannot move
+    /// the first.
     pub efficiency: [f64; 2],
 }
 
