@@ -109,12 +109,12 @@ pub(crate) fn scales_beyond(errors: &[f64], trajectory: &Trajectory, built: &Bui
     trajectory.channels().iter().enumerate().map(of).collect()
 }
 
-/// Sizes that follow from the data of a case, whatever parts of the case move.
+/// Sizes that follow from the data of a case. They do not depend on which parts of the case move.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Built {
     /// Size of the mechanism (m).
     pub(crate) length: f64,
-    /// Fastest speed of a drive; for a free link, its nominal speed (rad/s).
+    /// Speed of the fastest drive (rad/s); for a free link, its nominal speed.
     pub(crate) speed: f64,
     /// The larger of two forces (N): the weight of all links, and the force that accelerates the links at the speed and
     /// length of this structure.
@@ -138,8 +138,7 @@ impl Built {
         }
     }
 
-    /// Returns `size`. If `size` is mere rounding error of the case's size for this unit, returns the case's size
-    /// instead.
+    /// Returns `size`, or the case's size for this unit if `size` is only rounding error of the case's size.
     pub(crate) fn unless(&self, size: f64, unit: Unit) -> f64 {
         let own = self.of(unit, 1.0);
         if size <= VANISHING * own { own } else { size }

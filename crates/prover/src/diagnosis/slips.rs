@@ -144,7 +144,7 @@ fn lonely(wrong: &[Wrong]) -> Option<f64> {
     off.next().is_none().then_some(times[row])
 }
 
-/// Smallest number of instants of which one may be the only wrong one.
+/// Smallest number of instants among which a single wrong one is sought.
 const MANY: usize = 8;
 
 /// A slip with a number. If the number is an angle, its digits are counted in degrees.

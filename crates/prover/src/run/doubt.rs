@@ -25,7 +25,7 @@ const STEPS: f64 = 8.0;
 /// As `STEPS`, for impulses of a free motion. Impulses are computed from six steps, one step late.
 const IMPULSES: f64 = 5.0;
 /// As `STEPS`, for a prescribed motion with extrapolated impulses.
-/// Within this fraction of a step, a load jumps at different instants in the different runs.
+/// The instants at which a load jumps in the different runs lie within this fraction of a step.
 /// The velocities of these runs differ by about a twelfth of the square of the step.
 const APART: f64 = 0.25;
 

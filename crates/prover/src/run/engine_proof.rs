@@ -96,7 +96,7 @@ pub enum SearchEnd {
     Budget,
     /// At the rate of progress of the search, the allowed work would not be enough.
     Pace,
-    /// No free setting has a value that is better than the present value.
+    /// No free setting is left to change.
     Nothing,
 }
 

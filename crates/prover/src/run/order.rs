@@ -1,6 +1,6 @@
 //! Finds an engine that converges with a lower order than its method has.
 //!
-//! The cause is a value computed half a step late, or a wrong weight.
+//! Typical causes are a value computed half a step late, or a wrong weight.
 //! A bound from the engine's runs covers such an error at every step, so the size of the error never reveals the fault.
 //! Five runs give three estimates of the order. The order is reliable only if all three are near the same whole number.
 //! See docs/numerics/bounds.md.
@@ -23,8 +23,8 @@ use crate::tolerance::Parts;
 const LOW: f64 = 0.75;
 /// Orders are steady if they differ from the same whole number by at most this amount.
 const STEADY: f64 = 0.1;
-/// If the step error of the finest run exceeds this multiple of the rounding, iteration and reference errors, the
-/// observed order counts as the order of the step error.
+/// The observed order counts as the order of the step error only if the step error of the finest run exceeds this
+/// multiple of the rounding, iteration and reference errors.
 const CLEAR: f64 = 5.0;
 /// If a bound is below this fraction of the widest conclusive bound, a low order does not matter.
 const NEGLIGIBLE: f64 = 0.01;
@@ -108,8 +108,8 @@ fn is_steady(rungs: [Convergence; 3]) -> bool {
     is_same && whole >= 1.0 && whole <= LOW * formal
 }
 
-/// The order of three estimates, the finest last. `None` if it is not steady, or if other parts of the finest error may
-/// have caused it.
+/// The order of three estimates, the finest last. `None` if the order is not steady, or if other parts of the finest
+/// run's error may have caused this order.
 fn steady(rungs: [Convergence; 3], finest: Parts) -> Option<f64> {
     let other = finest.iteration.larger(finest.rounding).larger(finest.reference);
     let is_clear = rungs[2].error > CLEAR * other;
