@@ -100,7 +100,7 @@ pub struct Oracle {
     pub name: String,
     /// Source of the numbers. If the numbers have a known error, the text also states the reason for the error.
     pub source: String,
-    /// How they are known.
+    /// How the numbers are known.
     pub basis: OracleBasis,
     /// Values of channels at crank angles or times.
     pub series: Vec<OracleSeries>,
