@@ -111,7 +111,7 @@ const STEEPER: f64 = 1.2;
 
 /// Uncertainty that rounded instants cause in a column, from the slope of the column.
 /// For each row the uncertainty is a slope times the uncertainty `slack` of the row's instant.
-/// This slope is that of the steeper of the two neighbouring secants, times a safety factor.
+/// The slope is taken from the steeper of the two neighbouring secants, and multiplied by a safety factor.
 /// `order` lists the rows in ascending order of the instants `at`. Angles may jump by a `turn`.
 #[must_use]
 pub fn drift(values: &[Rounded], at: &[f64], slack: &[f64], order: &[usize], turn: Option<f64>) -> Vec<f64> {

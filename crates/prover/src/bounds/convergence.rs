@@ -19,7 +19,7 @@ use linkage::trajectory::{Channel, Trajectory};
 
 /// If the observed order deviates from the formal order by at most this fraction of the formal order, the smaller
 /// safety factor applies.
-/// With a limit of a tenth, random chains with an observed order of 1.91 had errors of 1.1 times the bound.
+/// With a limit of a tenth, random chains of dyads with an observed order of 1.91 had errors of 1.1 times the bound.
 const AS_GOOD: f64 = 0.02;
 
 /// If the observed order deviates from the formal order by more than this fraction of the formal order, the runs are

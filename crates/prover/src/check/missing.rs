@@ -93,8 +93,8 @@ pub(super) fn missing(trial: &mut Trial, dimensions: &Dimensions) -> Vec<Missing
                             {
                                 continue;
                             }
-                            // The simpler explanation is missing in the formula itself and uses only names that the
-                            // formula already contains.
+                            // An explanation is simpler if the expression is missing in the formula itself, and if it
+                            // uses only names that the formula already contains.
                             let outside = usize::from(index != trial.index) + depth + own.strangers;
                             found.push((weight + 2 * outside, own));
                         }

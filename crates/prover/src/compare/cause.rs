@@ -159,7 +159,8 @@ fn unwrap(values: &mut [f64], right: &[f64], is_right: bool) {
 /// Smallest number of rows among which a single wrong row is sought.
 const FEWEST: usize = 8;
 
-/// From this number of rows, a single wrong row is not sought. The search would take several times as long as the rest.
+/// From this number of rows, a single wrong row is not sought. The search would take several times as long as the rest
+/// of the examination.
 const MOST_ROWS: usize = 20_000;
 
 /// Data for the examination: the rows at which all channels have numbers.
@@ -233,7 +234,8 @@ impl Stage {
     }
 
     /// A cause that explains all of the channels except in a single row.
-    /// This row is the first, the last, or the one with a difference far from those of its neighbours.
+    /// This row is the first row, the last row, or the row whose difference is farthest from the differences of the
+    /// neighbouring rows.
     fn examined_but_one(&self, of: &[&Compared], left: f64) -> Option<Explained> {
         let count = self.right.times().len();
         if !(FEWEST..MOST_ROWS).contains(&count) || of.is_empty() {
@@ -248,7 +250,7 @@ impl Stage {
         })
     }
 
-    /// The row whose difference is farthest from those of its neighbours.
+    /// The row whose difference is farthest from the differences of the neighbouring rows.
     fn stands_out(&self) -> Option<usize> {
         let bend = |row: usize| {
             let columns = self.found.iter().zip(&self.bounds).filter(|(_, (.., agrees))| !agrees);

@@ -135,7 +135,7 @@ fn plain(wrong: &[Wrong]) -> Vec<DataSlip> {
     slips
 }
 
-/// The time of the only wrong row, if all channels are right at every other row.
+/// The time of the only wrong row, if all channels are right at all other rows.
 fn lonely(wrong: &[Wrong]) -> Option<f64> {
     let times = wrong.first()?.times;
     let is_off = |row: usize| wrong.iter().any(|own| !(own.gap(row).abs() <= own.bound));

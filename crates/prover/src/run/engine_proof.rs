@@ -227,7 +227,7 @@ impl EngineProof {
         self.conclude();
     }
 
-    /// Recomputes the verdict from those of all channels, all checks and the engine's own forces.
+    /// Recomputes the verdict from the verdicts of all channels, all checks and the engine's own forces.
     pub(super) fn conclude(&mut self) {
         let channels = self.channels.iter().map(|own| &own.verdict);
         self.verdict = overall(channels.chain(self.added()).chain(self.checks.iter().map(|own| &own.verdict)));

@@ -144,8 +144,8 @@ const MOST_VAGUE: usize = 2;
 const BRINGS: f64 = 0.7;
 /// If more sweeps reduce the bound to at most this fraction, they are worth their work.
 const HELPS: f64 = 0.5;
-/// If finer steps widen the bound in this number of consecutive rounds, rounding is to blame, even if the rounding part
-/// of the bound is smaller than the other parts.
+/// If finer steps widen the bound in this number of consecutive rounds, rounding is to blame, however small the
+/// rounding part of the bound is.
 const MOST_WIDER: usize = 2;
 /// If more sweeps have helped little, this number of rounds passes before they are tried again.
 const PATIENCE: usize = 3;

@@ -99,8 +99,8 @@ pub(super) fn look(judge: &Judge, bank: &mut Bank, proof: &mut EngineProof) -> R
     Ok(is_found)
 }
 
-/// Whether three estimates of the order, that of the finest step last, are near the same whole number and this number
-/// is too low.
+/// Whether three estimates of the order (the finest step last) are near the same whole number, and this number is too
+/// low.
 fn is_steady(rungs: [Convergence; 3]) -> bool {
     let Convergence { observed, formal, .. } = rungs[2];
     let whole = observed.round();

@@ -189,7 +189,7 @@ impl<'a, 'b> Settling<'a, 'b> {
                     let disagrees = !against.is_empty();
                     let (decided, sharp) = (trial.need.is_within(1.0), trial.need.is_within(self.aim));
                     // If the sweeps cause only a part of the bound, they are multiplied by the smaller factor. Half the
-                    // step reduces the rest.
+                    // step reduces the remaining part.
                     let is_careful = round > QUICK && !trial.need.is_vague && trial.blame.is_shared;
                     self.near = trial.need.is_within(NEAR) || is_careful;
                     let is_slow = self.conclusive && pace.is_too_slow(self.bank.effort, trial.need, self.budget);
