@@ -56,6 +56,7 @@ pub const GROSS: f64 = 0.02;
 /// Finds causes for the channels that disagree between a scenario (the party `which`) and the other party.
 /// First, causes are sought that explain channels to within their bounds: for all channels together, then for the
 /// channels that are still unexplained. A single wrong row may remain besides such a cause.
+/// Next, a cause that explains all remaining channels may leave a small remainder.
 /// Then channels with gross errors are examined, together and one by one. A cause of a gross error may leave a small
 /// remainder.
 /// A small difference without a common cause counts as the error of a method.
