@@ -3,8 +3,8 @@
 //!
 //! A load may jump when its link reverses. If a load vanishes at the reversal, it does not jump, so no instant is left
 //! out. A table of loads may jump at a crank angle.
-//! At the end of a piece of a cam's law, the third derivative of the motion jumps. The error of a second difference there
-//! depends on the place of the jump within the step.
+//! At the end of a piece of a cam's law, the third derivative of the motion jumps. The error of a second difference
+//! there depends on the place of the jump within the step.
 //! At a change point an engine follows one of many solutions.
 //! The engine's rates at the instant of the change point do not show which solution it follows. Only later instants
 //! show the solution.

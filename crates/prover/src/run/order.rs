@@ -36,8 +36,8 @@ const NEGLIGIBLE: f64 = 0.01;
 /// The errors of a run. A numeric error is not returned, because it shows nothing about the order.
 pub(super) fn look(judge: &Judge, bank: &mut Bank, proof: &mut EngineProof) -> Result<bool, Stopped> {
     let wanted = judge.problem.engine_rel;
-    // Across a knot of a law of motion or of a cam the third derivative jumps, so second differences have order 1 at the
-    // knot. The order of accelerations and forces is then not examined.
+    // Across a knot of a law of motion or of a cam the third derivative jumps, so second differences have order 1 at
+    // the knot. The order of accelerations and forces is then not examined.
     let has_cam = bank.case.mechanism.transmissions().iter().any(|own| own.cam.is_some());
     let is_smooth = bank.case.is_steady() && !has_cam;
     let is_low = |own: &ChannelProof| {
