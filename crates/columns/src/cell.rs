@@ -109,9 +109,9 @@ impl TableCell {
 /// With fixed significant digits, the number of smallest magnitude has the most decimals.
 ///
 /// Several whole numbers may have more digits than all other cells only because of trailing zeros.
-/// The trailing zeros then count as digits lost in rounding, unless all numbers are multiples of a chosen step.
+/// The trailing zeros then count as digits lost in rounding, unless the numbers count as exact: see [`chosen`].
 ///
-/// Numbers in single precision are printed with up to nine digits but have fewer significant ones.
+/// Numbers in single precision are printed with up to nine digits but have fewer significant digits.
 /// The shortest text for such a number may lie half way to the neighbouring number.
 /// A number in single precision is therefore converted to single precision again.
 #[must_use]

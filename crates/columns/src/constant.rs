@@ -14,14 +14,12 @@ const SINGLE: u16 = 7;
 /// A constant column does not show its format.
 /// A `0` printed by `%g`, Python and similar formats is an exact zero. A `0` printed by `%.0f` may be any number below
 /// a half.
-/// A file usually has one format. If the format omits trailing zeros, the cells of a column that is not constant differ
-/// in their decimals and in their significant digits.
-/// If the cells of all columns in `others` differ in this way, apart from constant columns and steps, the zeros have at
-/// least the decimals and digits of the coarsest of these columns.
-/// Two kinds of columns show that each column may have a separate format. The zeros may then be rounded to the format
-/// of their column.
-/// The first kind has a fixed number of decimals, as from `%.6f`. The second kind contains whole numbers that are not
-/// steps.
+/// A file usually has one format. If this format omits trailing zeros, both the number of decimals and the number of
+/// significant digits vary from cell to cell in a column that is not constant.
+/// If they vary in every column of `others`, the zeros have at least the decimals and digits of the coarsest of these
+/// columns. Constant columns, and columns of exact equidistant numbers ([`chosen`]), are not considered.
+/// If a column of `others` has a fixed number of decimals, as from `%.6f`, or contains only whole numbers, each column
+/// may have a separate format. The zeros may then be rounded to the format of their column.
 #[must_use]
 pub fn numbers_beside<Others>(cells: &[TableCell], others: impl FnOnce() -> Others) -> Vec<Rounded>
 where

@@ -3,14 +3,14 @@
 use formula::Rounded;
 use linkage::math::KeepNan;
 
-/// If the probability that a pattern of instants occurs by chance is at most one in this number, the instants count as
-/// exact.
-/// Rounded instants whose step was not chosen look equally spaced over n steps with the probability 1 / n.
-/// The step, in units of the last digit, is divisible by two with the probability 1 / 2 and by five with 1 / 5.
+/// If the probability that a pattern of printed instants occurs by chance is at most one in this number, the instants
+/// count as exact.
+/// Rounded instants look equally spaced over n steps by chance with the probability 1 / n.
+/// Their step, in units of the last digit, is divisible by two with the probability 1 / 2 and by five with 1 / 5.
 /// A trailing zero therefore occurs by chance with the probability 1 / 10.
 const EVIDENCE: f64 = 50.0;
 
-/// Whether instants were chosen as printed, not rounded.
+/// Whether printed instants are exact values that someone chose, such as 0, 0.1 and 0.2, and not rounded values.
 /// Chosen instants are multiples of one step.
 /// In addition, the number of multiples or the roundness of the step must show that no other step gives the same
 /// printed instants.
@@ -19,10 +19,11 @@ pub fn chosen(values: &[Rounded]) -> bool {
     chosen_as(values, Sort::Any)
 }
 
-/// Whether instants in degrees were chosen as printed, not rounded.
+/// Whether printed instants in degrees are exact values that someone chose, and not rounded values.
 /// Whole degrees at equal steps always count as chosen.
-/// Instants at unequal steps must have a common divisor that whole numbers rarely have by chance. Chosen instants are,
-/// for example, 0, 30, 45, 60, 90.
+/// Whole degrees at unequal steps, such as 0, 30, 45, 60 and 90, count as chosen if they have a common divisor that
+/// whole numbers rarely have by chance.
+/// All other instants are judged as by [`chosen`].
 #[must_use]
 pub fn degrees_chosen(values: &[Rounded]) -> bool {
     let are_whole = values.iter().all(|at| at.value.fract() == 0.0);
@@ -71,7 +72,7 @@ fn evidence(multiples: f64, mut round: f64) -> f64 {
 }
 
 /// Upper limit of the number of rows that count as independent in the search for a common divisor.
-/// The limit is needed because rows with one hidden step are not independent.
+/// Rounded instants with a common step are not independent of each other, so the limit is low.
 const INDEPENDENT: i32 = 3;
 
 /// Whether instants at unequal steps are multiples of a chosen step.
@@ -110,7 +111,7 @@ const STEEPER: f64 = 1.2;
 
 /// Uncertainty that rounded instants cause in a column, from the slope of the column.
 /// For each row the uncertainty is a slope times the uncertainty `slack` of the row's instant.
-/// This slope is that of the steeper of the two neighbouring secants, times a safety factor.
+/// The slope is taken from the steeper of the two neighbouring secants, and multiplied by a safety factor.
 /// `order` lists the rows in ascending order of the instants `at`. Angles may jump by a `turn`.
 #[must_use]
 pub fn drift(values: &[Rounded], at: &[f64], slack: &[f64], order: &[usize], turn: Option<f64>) -> Vec<f64> {
@@ -143,8 +144,8 @@ mod tests {
             (361, &(|row: f64| format!("{}", (row * 10.0).round() / 1e3)) as &dyn Fn(f64) -> String, true),
             (4, &|row| format!("{:.6}", 0.01 * row), true),
             (100, &|row| format!("{row}"), true),
-            // The step is 2.777... ms. After rounding, the instants of three rows look equally spaced although they
-            // were not chosen.
+            // The step is 2.777... ms. After rounding, the instants of three rows look equally spaced, but they are not
+            // exact.
             (3, &|row| format!("{:.0}", 2.7777 * row), false),
             (9, &|row| format!("{:.6}", row / 780.0), false),
             (73, &|row| format!("{:.6}", row / 780.0), false),
@@ -168,11 +169,11 @@ mod tests {
             (["0", "30", "45", "60", "90"], degrees, true),
             (["0", "30", "45", "60", "90"], any, false),
             (["0", "3", "5", "8", "10"], degrees, false),
-            // The trailing zeros show that these angles were chosen.
+            // The trailing zeros show that these angles are exact.
             (["0.000", "17.000", "46.000", "63.000", "90.000"], degrees, true),
             (["0.000", "0.200", "0.500", "0.600", "1.000"], any, true),
             (["0.0000", "0.0333", "0.0667", "0.2000", "0.5000"], any, false),
-            // These instants have a hidden step that was not chosen. By chance they look equally spaced.
+            // These instants are rounded multiples of a step. By chance they look equally spaced.
             (["2.068378", "9.362942", "16.657506", "23.952070", "31.246634"], degrees, false),
         ] {
             assert_eq!(chosen(&of(&texts.map(Into::into))), expected, "{texts:?}");

@@ -6,8 +6,8 @@
 //! - [`TableCell`] and [`numbers`]: the numbers of a column, each with the uncertainty caused by the printing of its
 //!   digits.
 //! - [`numbers_beside`]: the same uncertainty for a column of a file. The file's other columns show the format of a
-//!   constant column.
-//! - [`chosen`]: whether instants were chosen as printed, or rounded.
+//!   column of zeros.
+//! - [`chosen`]: whether printed instants are exact or rounded.
 //! - [`judge`]: comparison of two columns.
 
 mod cell;

@@ -8,7 +8,7 @@ impl FormulaGraph {
     /// The derivative of a node with respect to an input.
     pub fn derivative(&mut self, of: NodeId, input: usize) -> NodeId {
         // The nodes are visited in an order in which arguments precede the nodes that use them.
-        // The derivatives of the arguments therefore exist before that of the node itself.
+        // The derivatives of the arguments therefore exist before the derivative of the node itself.
         for id in self.needed_but(&[of], &|id| self.derivatives.contains_key(&(id, input))) {
             let found = self.rule(id, input);
             self.derivatives.insert((id, input), found);

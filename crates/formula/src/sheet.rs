@@ -19,7 +19,7 @@ enum Part {
 #[derive(Clone, Debug, Default)]
 pub struct DerivationSheet {
     parts: Vec<Part>,
-    /// The parts of every formula. Each part precedes its arguments.
+    /// Indices of the parts of every formula. A part is listed before its arguments.
     formulas: Vec<Vec<usize>>,
     names: BTreeMap<String, usize>,
     /// Inputs, by instant.
@@ -29,7 +29,7 @@ pub struct DerivationSheet {
     /// Values after a change, each with the number of the change for which it was calculated.
     changed: Vec<(u32, Rounded)>,
     change: u32,
-    /// Number of evaluations so far, counted per part and instant; what is done outside the sheet may be added.
+    /// Number of evaluations so far, counted per part and instant. Work outside the sheet may be added.
     pub operations: u64,
 }
 
@@ -133,7 +133,8 @@ impl DerivationSheet {
         }
     }
 
-    /// Positions of the parts of a formula, in the order of [`FormulaTree::parts`]. Each part precedes its arguments.
+    /// Positions of the parts of a formula, in the order of [`FormulaTree::parts`]. A part is listed before its
+    /// arguments.
     /// Formulas are numbered in the order in which they were added.
     #[must_use]
     pub fn places(&self, formula: usize) -> &[usize] {

@@ -134,9 +134,10 @@ pub struct FigureComparison {
     /// Verdict words of the accepted and the found proof; `None` if both are `agree`.
     pub proof: Option<[String; 2]>,
     /// The verdict.
-    /// The verdict is disagree if the found proof disagrees, or if values, channels or the grid have changed.
-    /// Otherwise it is inconclusive if a bound has changed much, if one of the two proofs does not agree, or if the run
-    /// has no channel.
+    /// - Disagree: the found proof disagrees, or values, channels or the grid have changed.
+    /// - Otherwise inconclusive: a bound has changed much, one of the two proofs does not agree, or the run has no
+    ///   channel.
+    /// - Otherwise agree.
     pub verdict: Verdict,
 }
 
@@ -256,7 +257,7 @@ fn pairs(kept: &AcceptedChannel, found: &AcceptedChannel, times: &[f64]) -> Vec<
 }
 
 /// Returns the values to store after a run with the values `found`.
-/// Channels without moved values and without a much wider or narrower bound keep their accepted values.
+/// A channel keeps its accepted values unless a value has moved or its bound has become much wider or narrower.
 /// So the file changes only where the comparison reports a change. On another grid all values are new.
 #[must_use]
 pub fn renewed(accepted: &Accepted, found: Accepted, comparison: &FigureComparison) -> Accepted {

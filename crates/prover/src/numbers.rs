@@ -74,8 +74,7 @@ pub fn resolved(value: f64, resolution: f64) -> String {
 }
 
 /// Two values with enough digits to show their difference, at least four.
-/// A value below the `bound` on the difference is written as `0`, unless the values differ slightly: by at most a
-/// thousandth of this value.
+/// A value below the `bound` on the difference is written as `0` if the difference exceeds a thousandth of this value.
 /// If the difference is within the bound, the values have at most seven digits.
 #[must_use]
 pub fn beside(values: [f64; 2], bound: f64) -> [String; 2] {

@@ -108,7 +108,7 @@ linkage::sentences! {
     REACTIONS_AND_SPEEDS_COME_FROM_THE_ENGINE = "reactions and speeds are read from the engine independently";
     BOTH_FROM_THE_SAME_ACCELERATIONS = "the moments from reactions and from powers use the same accelerations, so this checks the equations of motion and the loop velocities, but not the accelerations";
     driving_moment_from_reactions_and_from_powers(engine) = "driving moment from reactions and from powers ({engine})";
-    AN_OPENING_IS_ALL_ERROR_IT_MUST = "the gap of an open joint is pure error: it must vanish at the rate that the runs show";
+    AN_OPENING_IS_ALL_ERROR_IT_MUST = "the gap of an open joint is pure error: it must vanish with the observed order of convergence";
     closure_of_all_joints(engine) = "closure of all joints ({engine})";
     in_at(channel, reference) = "in {channel} at {reference:.3}";
     TWO_SOLVERS_WITHOUT_A_COMMON = "two solvers without a common equation, each accurate to the rounding error of its poses and to the integration error that a tighter run shows";
@@ -146,7 +146,7 @@ linkage::sentences! {
     SOLVED_AT_THEIR_OWN_INSTANTS = "solved at the instants of these numbers";
     THERE_ARE_NONE_OF_WANTED = "no published number belongs to a requested channel";
     THERE_IS_NO_TRIAD_OF_CLASS = "there is no triad of class III";
-    OTHERS_THAN_OURS_FOR_ITS_TRIAD = "other methods than those of the solvers, for the triad";
+    OTHERS_THAN_OURS_FOR_ITS_TRIAD = "published methods that the solvers do not use, for the triad";
     THE_SIDES_DIFFER_BY_USUAL = "the sides differ by usual rounding error only";
     CONDITION_OF_EVERY_POSE = "condition of every pose";
     THE_SIDES_DIFFER_BY_MORE = "the sides differ by more than usual rounding error";

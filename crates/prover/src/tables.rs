@@ -28,8 +28,9 @@ pub fn load(path: impl AsRef<Path>) -> Result<Raw> {
 
 /// As [`load`], but calls `may` before memory is allocated.
 /// `may` receives the bytes to be allocated and the number of rows.
-/// For a text it is called twice: with the file's size and 0 rows before the file is read, and with the text, the cells
-/// and the rows before the values are stored. For a Parquet file it is called once, before the values are stored.
+/// For a text, `may` is called twice. Before the file is read, it receives the file's size and 0 rows. Before the
+/// values are stored, it receives the bytes of text and cells, and the number of rows.
+/// For a Parquet file, `may` is called once, before the values are stored.
 ///
 /// # Errors
 /// The errors of [`load`], and those of `may`.

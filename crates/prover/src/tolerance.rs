@@ -46,7 +46,8 @@ pub enum BoundBasis {
     Wanted(&'static str),
     /// Error of the engine, estimated from runs at three resolutions and from runs with fewer sweeps.
     Truncation {
-        /// Order of convergence observed between the runs. NaN if the finer differences are only rounding.
+        /// Order of convergence observed between the runs. NaN if the difference between single and half step is only
+        /// rounding.
         observed: f64,
         /// Order of convergence that the method has in theory.
         formal: f64,
@@ -108,7 +109,7 @@ pub struct Parts {
     pub discretisation: f64,
     /// Iteration error: more sweeps reduce it.
     pub iteration: f64,
-    /// Rounding: reduced by neither.
+    /// Rounding error: neither a finer step nor more sweeps reduce it.
     pub rounding: f64,
     /// Error of the reference: the accuracy to which the analytic sides know the number.
     pub reference: f64,

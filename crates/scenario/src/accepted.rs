@@ -35,7 +35,7 @@ pub struct AcceptedChannel {
     pub name: String,
     /// Bound on the error of every figure.
     pub bound: f64,
-    /// Values at these instants.
+    /// Values at the instants `times` of [`Accepted`].
     pub at: Vec<f64>,
     /// Smallest value over the run.
     pub least: f64,

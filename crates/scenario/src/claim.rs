@@ -14,7 +14,7 @@ use linkage::trajectory::Channel;
 pub struct Claim {
     /// Text of the claim.
     pub text: String,
-    /// The text as parsed. Its names are those of the channels and figures.
+    /// The text as parsed. Its names denote channels and figures.
     /// A quantity reduced to the crank is replaced by its arithmetic expression of channels.
     pub tree: FormulaTree,
     /// The channels in the claim, with their names in the expression tree.

@@ -37,7 +37,7 @@ pub struct Draft {
     pub gravity: Vec2,
     /// Input at t = 0 (SI).
     pub crank: f64,
-    /// The start of each group of the structure at the start, in its order.
+    /// Start of each group, in the order of the structure at the start.
     /// Without a valid start in the file, each start is the default.
     pub starts: Vec<StartGroup>,
     /// The mistakes of the file, if there are any.

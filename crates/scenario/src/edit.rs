@@ -7,7 +7,7 @@ use super::engine::{EngineSettings, ROWS, SECTIONS, Slot};
 use linkage::error::{Error, ErrorKind, Result};
 
 /// The text of a scenario, with the given settings as its `[engine]` section.
-/// The rest of the text does not change, and neither do the comments and the order of the text.
+/// Comments, order and all other text do not change.
 ///
 /// # Errors
 /// [`ErrorKind::Input`] if the text is not TOML, or if `engine` in the text is not a section.

@@ -104,8 +104,8 @@ pub enum Slot<'a> {
 /// Names and meaning of a setting.
 #[derive(Debug)]
 pub struct SettingRow {
-    /// Key of the setting in [`SECTIONS`]. If two keys can state the setting, the first key is given. `None` if no file
-    /// can state the setting.
+    /// Key of the setting in [`SECTIONS`]; the first key, if two keys can state the setting. `None` if no file can
+    /// state the setting.
     pub key: Option<&'static str>,
     /// Command-line argument of the setting.
     pub argument: &'static str,
@@ -141,7 +141,7 @@ pub const ROWS: &[SettingRow] = &[
     }),
 ];
 
-/// A row with its key, its three texts in their order, and its slot.
+/// Creates a row from its key, its three texts, and the function that returns its slot.
 const fn row(
     key: Option<&'static str>,
     [argument, value, help]: [&'static str; 3],

@@ -62,7 +62,7 @@ pub struct Formula {
     pub id: NodeId,
     /// Claim of the formula; `None` for a step of a derivation.
     pub claim: Option<Claim>,
-    /// Where it comes from.
+    /// Source of the formula.
     pub source: Option<String>,
     /// First and last crank angle at which the formula is claimed to hold (rad).
     pub valid: [Option<f64>; 2],

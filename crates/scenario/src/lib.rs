@@ -99,8 +99,7 @@ pub struct Scenario {
     pub case: Case,
     /// Engines and the settings that the scenario gives.
     pub engine: EngineSettings,
-    /// If the engine's discretisation error, divided by a channel's scale, exceeds this limit, agreement is no longer a
-    /// proof.
+    /// If the bound on the engine's error, divided by a channel's scale, exceeds this limit, agreement proves nothing.
     pub engine_rel: f64,
     /// Published numbers.
     pub oracles: Vec<Oracle>,
@@ -108,7 +107,7 @@ pub struct Scenario {
     pub formulas: Formulas,
     /// Outlines and the question about distances between them, if the scenario asks this question.
     pub clearance: Option<ClearanceQuestion>,
-    /// The start that the file requests for each group of the structure at the start, in its order
+    /// The start that the file requests for each group, in the order of the structure at the start
     /// ([`Structure::at_start`]).
     pub starts: Vec<StartGroup>,
     /// How each of these groups was placed at the start.

@@ -17,7 +17,7 @@ pub struct Mapping {
     pub at: Vec<Mapped>,
     /// Channels, or arithmetic expressions of channels.
     pub channels: Vec<Mapped>,
-    /// Differences from the table that are allowed.
+    /// Allowed differences.
     pub allowed: Vec<Allowed>,
 }
 
@@ -37,7 +37,7 @@ pub struct Mapped {
 pub struct Allowed {
     /// A channel, or a word for several channels; `None` for all channels.
     pub of: Option<String>,
-    /// How much.
+    /// Size of the allowed difference.
     pub size: Size,
 }
 
@@ -74,7 +74,8 @@ impl Size {
     }
 }
 
-/// Names for the instants of rows. Each name has its factor to SI. A value of the input has the kind of input.
+/// Names for the instants of rows, each with its factor to SI. For a value of the input, the last entry is the kind of
+/// input.
 pub const INSTANTS: [(&str, f64, Option<Input>); 8] = [
     ("time_s", 1.0, None),
     ("time_ms", 1e-3, None),

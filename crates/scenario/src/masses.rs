@@ -14,8 +14,8 @@ use linkage::mechanism::{Link, Mechanism};
 
 /// Upper limit of the distance of a mass centre from the nearest point of its link, divided by the largest link's size.
 const FARTHEST: f64 = 1e3;
-/// Upper limit of the moment of inertia of a link.
-/// The limit is divided by the sum of the moments of inertia of all other links and of the motors.
+/// Upper limit of a link's moment of inertia, divided by the sum of the moments of inertia of all other links and of
+/// the motors.
 /// The moment of inertia includes the link's mass at a distance of the mechanism's size.
 const HEAVIEST: f64 = 1e12;
 

@@ -100,7 +100,7 @@ pub struct Oracle {
     pub name: String,
     /// Source of the numbers. If the numbers have a known error, the text also states the reason for the error.
     pub source: String,
-    /// How they are known.
+    /// How the numbers are known.
     pub basis: OracleBasis,
     /// Values of channels at crank angles or times.
     pub series: Vec<OracleSeries>,
@@ -122,8 +122,8 @@ linkage::words! {
 }
 
 impl Oracle {
-    /// The part of the oracle that is still valid if the case starts at a crank angle other than that of the file, on
-    /// the same branch.
+    /// The part of the oracle that stays valid if the case starts at another crank angle than the file, on the same
+    /// branch.
     /// `None` if no part is valid.
     pub(super) fn at_another_start(mut self, case: &Case) -> Option<Oracle> {
         self.figures.retain(|figure| !matches!(figure.figure, MechanismFigure::Distance(_)));

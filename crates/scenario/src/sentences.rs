@@ -8,7 +8,7 @@ linkage::sentences! {
     a_table_of_a_load_is_over(sort, over, noun) = "a load of type {sort} is a table over {over}, but the input of the first drive is a {noun}";
     GIVE_THE_LOAD_A_CONSTANT = "give the rows of the table in the unit of the drive: `crank_deg` for an angle, `crank_mm` for a slide";
     THE_START_OF_TRANSMISSIONS_IS_THAT_OF_THE_FILE = "the starts of the transmissions are valid only at the file's start of the first drive";
-    CHANGE_THE_STARTS_IN_THE_FILE = "change both starts in the file, or keep the start and request a grid that begins at the other input";
+    CHANGE_THE_STARTS_IN_THE_FILE = "change the starts of the drive and of the transmissions in the file, or keep them and request a grid that begins at the desired input";
     // motion.rs
     a_motor_needs_a_crank(noun) = "the motor drives a crank, but the input of the first drive is a {noun}";
     TAKE_MOTOR_OUT_OR_DRIVE = "remove `[motor]`, or drive the mechanism at a crank";

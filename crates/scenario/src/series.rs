@@ -87,7 +87,7 @@ impl OracleSeries {
         self.points.iter().chain(cells)
     }
 
-    /// Where they hold.
+    /// The instants of the values.
     pub fn instants(&self) -> impl Iterator<Item = When> {
         self.all().map(|point| point.at)
     }

@@ -19,7 +19,7 @@ pub enum EngineSetting<T> {
     /// Chosen by the proof or by the engine.
     #[default]
     Free,
-    /// Given, and where.
+    /// Given, with its origin.
     Given(T, SettingOrigin),
 }
 

@@ -19,7 +19,7 @@ use linkage::trajectory::{Channel, Trajectory};
 
 /// If the observed order deviates from the formal order by at most this fraction of the formal order, the smaller
 /// safety factor applies.
-/// With a limit of a tenth, random chains with an observed order of 1.91 had errors of 1.1 times the bound.
+/// With a limit of a tenth, random chains of dyads with an observed order of 1.91 had errors of 1.1 times the bound.
 const AS_GOOD: f64 = 0.02;
 
 /// If the observed order deviates from the formal order by more than this fraction of the formal order, the runs are
@@ -39,7 +39,7 @@ pub struct Ladder<'a> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[must_use]
 pub struct Convergence {
-    /// Observed order of convergence. NaN if the finer differences are only rounding.
+    /// Observed order of convergence. NaN if the difference between single and half step is only rounding.
     pub observed: f64,
     /// Order of convergence that the method has in theory.
     pub formal: f64,
@@ -61,8 +61,8 @@ impl Convergence {
         let largest = largest_size(&fine);
         let (before, after) = (rms(&coarse), rms(&fine));
         let quotient = (before / after).log2();
-        // `observed` is NaN if the finer differences are only rounding. A quotient that is NaN for any other reason
-        // counts as no convergence.
+        // `observed` is NaN if the difference between single and half step is only rounding.
+        // If the quotient is NaN for any other reason, the runs count as not convergent.
         let observed = match quotient.is_nan() {
             _ if after <= noise => f64::NAN,
             true => f64::NEG_INFINITY,
@@ -92,9 +92,9 @@ impl Convergence {
     }
 
     /// Adapts the safety factor of this estimate to runs that are extrapolated `times` times.
-    /// Extrapolation does not cancel errors that are not a power series in the step.
-    /// Examples are errors near a jump of a load or near a knot of the load's table.
-    /// Such errors were measured to be up to ten times the difference of neighbouring runs (`benches/peers`).
+    /// Extrapolation cancels only errors that are a power series in the step.
+    /// Errors near a jump of a load, or near a knot of the load's table, are not such a series.
+    /// They were measured to be up to ten times the difference of neighbouring runs (`benches/peers`).
     pub fn extrapolated(self, times: usize) -> Self {
         let safety = match times {
             0 => self.safety,

@@ -1,9 +1,8 @@
 //! Iteration error of an engine, estimated from runs with fewer sweeps.
 //!
 //! Sweeps converge geometrically.
-//! Half of the sweeps leave a fraction q of the initial error, and all of them leave q^2. The two runs differ by q -
-//! q^2.
-//! The remaining error is q / (1 - q) of this difference.
+//! If half of the sweeps leave a fraction q of the initial error, all of them leave q^2.
+//! The two runs differ by q - q^2, so the remaining error is q / (1 - q) of their difference.
 //! The safety factor 3 covers q up to 3/4 (ASME V&V 20 also counts the iteration error separately).
 //! A run with a quarter of the sweeps leaves q, and all sweeps leave q^4. The factor then covers q^3 up to 3/4.
 //!
@@ -13,7 +12,7 @@
 //! - If the differences continue to shrink by the factor s, s / (1 - s) of the last difference remains (Aitken). This
 //!   is the worst case: differences of a geometric convergence shrink faster and faster.
 //! - Differences may grow at first: an iteration that has hardly begun changes little from run to run, and s is close
-//!   to r. At most (r - 1) s / (r - s) of the last difference then remains if one mode dominates the iteration.
+//!   to r. If one mode dominates the iteration, at most (r - 1) s / (r - s) of the last difference then remains.
 //! - The position with the slowest convergence decides for all channels. If its differences grow, the error is unknown.
 //!
 //! See docs/numerics/bounds.md.
@@ -25,11 +24,12 @@ use linkage::trajectory::{Channel, Trajectory};
 /// Safety factor on the iteration error: see the module's text.
 pub(super) const SAFETY: f64 = 3.0;
 
-/// Runs at the middle step. Their numbers of sweeps differ from that of the middle run. `T` is the data kept of a run.
+/// Runs with the step of the middle run, but with other numbers of sweeps. `T` is the data stored for a run.
 #[derive(Clone, Copy, Debug)]
 pub struct OtherSweeps<T> {
-    /// Two runs: the first has another number of sweeps than the middle run. The second has fewer sweeps than the
-    /// first, by the same factor.
+    /// Two runs. The first has the sweeps of the middle run divided by `factor`, or two sweeps if the middle run has
+    /// one.
+    /// The second has the sweeps of the first divided by `factor`.
     /// `None` for an engine that does not iterate, and for a missing run.
     pub runs: [Option<T>; 2],
     /// Ratio of the numbers of sweeps of successive runs.
@@ -57,11 +57,10 @@ impl<'a> OtherSweeps<&'a Trajectory> {
 }
 
 impl OtherSweeps<&[f64]> {
-    /// Ratio of two differences between runs.
-    /// The first is the largest difference between the two runs with more sweeps; the second is that between the two
-    /// with fewer.
-    /// The result is 0 if a run is missing, or if the first difference is at most `negligible`.
-    /// `single` is the middle run.
+    /// Growth of the differences between runs: the difference between the middle run `single` and the first run,
+    /// divided by the difference between the first and the second run. Each difference is the largest over all
+    /// instants.
+    /// The result is 0 if a run is missing, or if the difference from the middle run is at most `negligible`.
     #[must_use]
     pub fn growth(&self, single: &[f64], negligible: f64, periodic: bool) -> f64 {
         let [Some(fewer), Some(fewest)] = self.runs else { return 0.0 };

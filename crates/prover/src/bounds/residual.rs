@@ -51,7 +51,7 @@ impl Residual {
 }
 
 /// A force counts as rounding if it is at most this fraction of the largest force.
-/// The sides know forces to a tenth of this limit.
+/// Forces of the analytic sides are accurate to a tenth of this limit.
 /// A value of any quantity counts as rounding if it is at most this fraction of the quantity's size in `Built`.
 const VANISHING: f64 = 1e-9;
 
@@ -77,7 +77,7 @@ pub fn scales(trajectory: &Trajectory) -> Vec<f64> {
 /// A rate, a force or a moment that is zero throughout, within its error, has no size: its values are rounding.
 /// The cause may be a constant speed, a link that only translates, a joint that guides nothing, or a parallelogram.
 /// The scale of such a channel is a tenth of the natural size of its quantity.
-/// This scale corresponds to that of a constant channel, which is a tenth of the channel's value.
+/// This scale corresponds to the scale of a constant channel: a tenth of the channel's value.
 ///
 /// If the whole trajectory consists of rounding errors, the natural sizes are those in `built`.
 /// Examples are a balanced rotor without gravity and a mechanism in equilibrium.
@@ -109,12 +109,12 @@ pub(crate) fn scales_beyond(errors: &[f64], trajectory: &Trajectory, built: &Bui
     trajectory.channels().iter().enumerate().map(of).collect()
 }
 
-/// Sizes that follow from the data of a case, whatever parts of the case move.
+/// Sizes that follow from the data of a case. They do not depend on which parts of the case move.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Built {
     /// Size of the mechanism (m).
     pub(crate) length: f64,
-    /// Fastest speed of a drive; for a free link, its nominal speed (rad/s).
+    /// Speed of the fastest drive (rad/s); for a free link, its nominal speed.
     pub(crate) speed: f64,
     /// The larger of two forces (N): the weight of all links, and the force that accelerates the links at the speed and
     /// length of this structure.
@@ -138,8 +138,7 @@ impl Built {
         }
     }
 
-    /// Returns `size`. If `size` is mere rounding error of the case's size for this unit, returns the case's size
-    /// instead.
+    /// Returns `size`, or the case's size for this unit if `size` is only rounding error of the case's size.
     pub(crate) fn unless(&self, size: f64, unit: Unit) -> f64 {
         let own = self.of(unit, 1.0);
         if size <= VANISHING * own { own } else { size }
@@ -236,9 +235,8 @@ impl Sizes {
     /// coordinates and forces.
     fn natural(&self, channel: &Channel, turn: f64) -> f64 {
         let own = self.of_quantity.get(channel.kind.quantity).copied().unwrap_or(0.0);
-        // This function knows the forces but not their causes, so the size of a force is its largest value.
-        // A size from `largest` is used only if this value is rounding. An example is the shaking force of a balanced
-        // mechanism, which is only the rounding error of the joint forces.
+        // The size of a force is its largest value. If this value is only rounding error, `largest` gives the size.
+        // An example is the shaking force of a balanced mechanism: it is only the rounding error of the joint forces.
         match channel.kind.unit == Unit::Newton && !(own <= VANISHING * self.largest.force) {
             true => own.larger(0.0),
             false => own.larger(self.largest.of(channel.kind.unit, turn)),
@@ -396,8 +394,8 @@ mod tests {
         assert_eq!([3e-9, 4e-8, 1.0].map(|own| built.unless(own, Unit::Newton)), [30.0, 4e-8, 1.0]);
     }
 
-    /// Each quantity that vanishes has the size that follows from the crank's rotation of 6 rad in 4 s, the coordinates
-    /// up to 3 m, and the forces up to 500 N.
+    /// The crank rotates by 6 rad in 4 s, coordinates reach 3 m, and forces reach 500 N. The size of each quantity that
+    /// vanishes follows from these values.
     #[test]
     fn sizes_of_zero_channels_follow_from_the_crank() {
         let names =

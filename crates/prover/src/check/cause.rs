@@ -257,15 +257,15 @@ fn sought(trial: &mut Trial, claim: &Claim, course: &KnownTrajectory) -> Option<
         return Some(found);
     }
     // Largest remainder that counts as evidence for a slip.
-    // With the probability `CHANCE`, at least one of `among` equally simple slips leaves so small a remainder at two
-    // instants by chance.
+    // If `among` slips are tried, the probability that one of them leaves so small a remainder at two instants by
+    // chance is at most `CHANCE`.
     let by_chance = |own: &Mended| (CHANCE / own.among as f64).sqrt().smaller(MOST_LEFT);
     let nearest = tried.nearest.filter(|own| !own.rank.0 && !is_weak && own.left <= by_chance(own));
     let mostly = |own: Mended| FormulaCause::Mostly { cause: Box::new(FormulaCause::Slip(own.slip)), left: own.left };
     nearest.map(mostly).or_else(|| near(&rows).filter(|_| is_exact))
 }
 
-/// Probability that a slip leaves a small remainder without being the cause.
+/// Accepted probability that a slip leaves a small remainder without being the cause.
 const CHANCE: f64 = 0.05;
 
 /// Returns one cause, or several that fit equally well.

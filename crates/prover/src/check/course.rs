@@ -21,7 +21,7 @@ pub struct KnownTrajectory<'a> {
     /// Columns whose signed sums are the rate and the acceleration of the input. `None` if the side does not have them.
     crank: [Option<InputColumns>; 2],
     /// Columns of the input of a motion under forces. `None` if the side does not have them.
-    /// The error of the input is that of the integration.
+    /// The error of the input is its integration error.
     angle: Option<InputColumns>,
     /// Values of the whole mechanism, in SI units.
     figures: &'a [(MechanismFigure, Rounded)],
@@ -201,7 +201,7 @@ impl<'a> KnownTrajectory<'a> {
         claim.figures.iter().map(of).collect()
     }
 
-    /// Columns of a claim's channels, followed by those of their derivatives up to the order `orders`.
+    /// Columns of a claim's channels, then the columns of the derivatives of these channels up to the order `orders`.
     pub(super) fn channels(&self, claim: &Claim, orders: usize) -> Result<Vec<Column<'_>>> {
         let mut all = Vec::with_capacity(claim.channels.len() * (orders + 1));
         let mut present: Vec<(Channel, &PrintedChannel)> =

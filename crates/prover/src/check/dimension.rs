@@ -71,10 +71,11 @@ impl<'a> Dimensions<'a> {
         same(known[self.of], self.claimed).is_ok()
     }
 
-    /// Judges by units whether the author may have meant a formula with other trees.
+    /// Judges by units whether the author may have meant the trees in `changed`.
+    /// `replaced` holds the old and the new part in the formula `index`.
     /// `Some(true)` if the units are consistent.
-    /// `Some(false)` if they are inconsistent but no worse than before: in the formula `index`, a part was `replaced`
-    /// by another of the same dimension.
+    /// `Some(false)` if the units are inconsistent, but the old and the new part have the same known dimension, so that
+    /// the replacement is not the cause.
     /// `None` otherwise.
     pub(super) fn standing(
         &self,

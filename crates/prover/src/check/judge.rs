@@ -91,8 +91,8 @@ struct One<'a> {
 
 /// Number of derivatives by which a formula is judged.
 fn orders(formula: &Formula, claim: &Claim, course: &KnownTrajectory) -> Result<usize> {
-    // An approximation does not hold for derivatives, and neither does a number for one instant. So both are judged by
-    // value only.
+    // An approximation is claimed for the value only, not for its derivatives. The same holds for a number for one
+    // instant.
     let is_instant = formula.valid[0].is_some() && formula.valid[0] == formula.valid[1];
     let known = course.orders(claim)?;
     Ok(if formula.error.is_some() || is_instant { 0 } else { known })
@@ -100,7 +100,8 @@ fn orders(formula: &Formula, claim: &Claim, course: &KnownTrajectory) -> Result<
 
 /// Judges all claims of a scenario's formulas for which the trajectory has the channels.
 /// Each claim is judged by value, then by every derivative.
-/// Shared parts of formulas are evaluated once at every instant, and so are claims made by several formulas.
+/// At every instant, a part that several formulas share is evaluated once, and so is a claim that several formulas
+/// make.
 ///
 /// # Errors
 /// In practice none, because claims whose channels or figures are missing are left out.

@@ -35,7 +35,7 @@ impl FormulaAtInstant {
     }
 }
 
-/// Values of a formula and its claim at an instant: time (s) and value of the input (SI).
+/// Values of a formula and of the mechanism at an instant. `place` holds the time (s) and the value of the input (SI).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pair {
     pub(super) place: [f64; 2],

@@ -93,8 +93,8 @@ pub(super) fn missing(trial: &mut Trial, dimensions: &Dimensions) -> Vec<Missing
                             {
                                 continue;
                             }
-                            // The simpler explanation is missing in the formula itself and uses only names that the
-                            // formula already contains.
+                            // An explanation is simpler if the expression is missing in the formula itself, and if it
+                            // uses only names that the formula already contains.
                             let outside = usize::from(index != trial.index) + depth + own.strangers;
                             found.push((weight + 2 * outside, own));
                         }
@@ -250,7 +250,7 @@ fn signed(operator: Operator, what: &FormulaTree) -> String {
         (Operator::Times, NodeShape::Pair(Operator::Over, parts)) if parts[0].shape == one.shape => what.clone(),
         _ => with(operator, one, what.clone()),
     };
-    // A text as written after another part, with the necessary parentheses.
+    // Removes the placeholder 1, so that the text can follow another part. Necessary parentheses remain.
     let text = whole.to_string();
     let after = text.trim_start_matches('1').trim_start();
     let (sign, rest) = after.split_at(1);

@@ -1,7 +1,7 @@
 //! Brings two tables to the same instants: selects common rows, or interpolates the first table at the instants of the
 //! second.
 //!
-//! Values between the rows of a table have the interpolation error.
+//! Values that are interpolated between the rows of a table carry the interpolation error.
 
 use crate::sentences;
 

@@ -91,7 +91,7 @@ impl ComparisonRule {
 /// The word for the crank angle of rows.
 const CRANK: &str = "crank";
 
-/// Words for claims, with their indices. A map, because many words are matched with many claims.
+/// Words for claims, with their indices. A map keeps the search fast if there are many words and many claims.
 struct Words(BTreeMap<String, Vec<usize>>);
 
 impl Words {

@@ -41,23 +41,25 @@ pub struct Explained {
 /// At first nothing beyond the bounds may remain. Later a little may remain, such as the error of a simulation.
 const LEFT: [f64; 3] = [0.0, 0.01, 0.05];
 
-/// Limit of channels with small differences for which missing terms are sought.
+/// Largest number of channels with small differences for which missing terms are sought.
 const TRIED: usize = 12;
 
 /// Number of instants at which terms are tried first.
 const FEW: usize = 24;
 
-/// Limit of instants at which causes are sought, besides the instants with the largest differences.
+/// Largest number of instants at which causes are sought, besides the instants with the largest differences.
 const MOST: usize = 2000;
 
 /// If a difference exceeds this fraction of a channel's scale, it is a mistake and not the error of a method.
 pub const GROSS: f64 = 0.02;
 
 /// Finds causes for the channels that disagree between a scenario (the party `which`) and the other party.
-/// The first causes sought explain channels within their bounds: all channels together, then the rest.
-/// A cause is found even if one additional row is wrong.
-/// Then channels with gross errors are examined for causes that leave a small remainder, together and one by one.
-/// A small difference without a common cause is the error of a method.
+/// First, causes are sought that explain channels to within their bounds: for all channels together, then for the
+/// channels that are still unexplained. A single wrong row may remain besides such a cause.
+/// Next, a cause that explains all remaining channels may leave a small remainder.
+/// Then channels with gross errors are examined, together and one by one. A cause of a gross error may leave a small
+/// remainder.
+/// A small difference without a common cause counts as the error of a method.
 pub(super) fn explained(
     scenario: &Scenario,
     which: Which,
@@ -155,10 +157,11 @@ fn unwrap(values: &mut [f64], right: &[f64], is_right: bool) {
     }
 }
 
-/// Smallest number of instants from which one of them may be left out.
+/// Smallest number of rows among which a single wrong row is sought.
 const FEWEST: usize = 8;
 
-/// From this number of rows, a single wrong row is not sought. The search would take several times as long as the rest.
+/// From this number of rows, a single wrong row is not sought. The search would take several times as long as the rest
+/// of the examination.
 const MOST_ROWS: usize = 20_000;
 
 /// Data for the examination: the rows at which all channels have numbers.
@@ -200,8 +203,8 @@ impl Stage {
             }
             names.push(printed.channel.clone());
             columns.push(rows.iter().map(|&row| printed.to_si(values[row].value)).collect::<Vec<f64>>());
-            // A cause is compared with a single bound. A tighter bound, from numbers with more digits, would refuse
-            // right causes.
+            // A cause is judged by a single bound for each channel. A tighter bound, from numbers with more digits,
+            // would reject right causes.
             let largest = own.largest.map_or(0.0, |at| at.difference.abs());
             let bound = if largest > own.loosest { own.loosest } else { own.worst.map_or(0.0, |worst| worst.bound) };
             bounds.push((own.claim.text.clone(), printed.to_si(bound), own.since.is_none()));
@@ -232,7 +235,8 @@ impl Stage {
     }
 
     /// A cause that explains all of the channels except in a single row.
-    /// This row is the first, the last, or the one with a difference far from those of its neighbours.
+    /// This row is the first row, the last row, or the row whose difference is farthest from the differences of the
+    /// neighbouring rows.
     fn examined_but_one(&self, of: &[&Compared], left: f64) -> Option<Explained> {
         let count = self.right.times().len();
         if !(FEWEST..MOST_ROWS).contains(&count) || of.is_empty() {
@@ -247,7 +251,7 @@ impl Stage {
         })
     }
 
-    /// The row whose difference is farthest from those of its neighbours.
+    /// The row whose difference is farthest from the differences of the neighbouring rows.
     fn stands_out(&self) -> Option<usize> {
         let bend = |row: usize| {
             let columns = self.found.iter().zip(&self.bounds).filter(|(_, (.., agrees))| !agrees);

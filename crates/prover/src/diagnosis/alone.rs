@@ -43,7 +43,7 @@ pub enum PartyStanding {
     Camps([Vec<String>; 2]),
     /// Some parties contradict each other but do not form two camps, or there are only two parties.
     /// The variant contains the contradicting pairs.
-    /// Only one party of a pair can be right, and nothing shows which.
+    /// At most one party of each pair is right, and the data do not show which.
     Open(Vec<[String; 2]>),
 }
 

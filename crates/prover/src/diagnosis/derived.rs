@@ -70,7 +70,7 @@ fn differences(question: &DiagnosisInput, one: &Wrong, over: Over) -> Option<(Ch
             let rate = channel.rate();
             let rate = if order == 1 { rate } else { rate.and_then(|rate| rate.rate()) };
             // Uses the right values, and also the table's own values if these are right within their bounds.
-            // If rates match wrong positions, they are not a separate slip.
+            // Differences of wrong positions are not tried: rates that match wrong positions are not a separate slip.
             let is_right = question.judged.iter().any(|judged| judged.channel == *channel && !judged.disagrees);
             let own = question.suspicious.column(channel).filter(|_| is_right);
             if rate.as_ref() == Some(one.channel) && own.into_iter().chain([values]).any(|own| of_column(own, order)) {

@@ -295,8 +295,8 @@ fn moved(parts: &mut CaseParts, link: LinkId, old: Vec2, new: Vec2) -> Option<()
 }
 
 /// Distances between two joints on a link.
-/// If the line through the joints is parallel to an axis of the link's frame, the pair is left out. The coordinate is
-/// then already the distance.
+/// A pair is left out if the line through its joints is parallel to an axis of the link's frame: the knob for the
+/// coordinate along this axis then changes the same distance.
 fn lengths(case: &Case) -> Vec<Knob> {
     let places = places(case);
     let at = |&(joint, link): &(JointId, LinkId)| case.mechanism.joints()[joint].on(link);

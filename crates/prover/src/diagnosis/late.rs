@@ -26,7 +26,8 @@ const CLOCKS: [(f64, &str); 4] = [
     (60.0, sentences::MINUTES_TAKEN_FOR_SECONDS),
 ];
 
-/// Finds values of another instant (in all channels or in those of one stage), or values from a fast or slow clock.
+/// Finds values of another instant, in all channels or in the channels of one stage, and values from a fast or slow
+/// clock.
 pub(super) fn late(question: &DiagnosisInput, bench: &Bench, start: &Misfit) -> Vec<Candidate> {
     let mut stages: Vec<Option<Stage>> = vec![None];
     let stage = |column: &Column| Some(column.channel.kind.stage);

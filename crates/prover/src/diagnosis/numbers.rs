@@ -110,8 +110,9 @@ pub(super) fn numbers(tries: &Tries) -> Vec<Candidate> {
 }
 
 /// Tries the values with a meaning near `value`. Also returns whether each value explains everything.
-/// `found` means that the value is more accurate than a first approximation.
-/// Before that, all these values are tried for a knob that `is_far`, and in a free motion missing and reversed parts.
+/// `found` means that `value` comes from a search and is more accurate than a first approximation.
+/// If `found` is false, distant values are tried too: all values of a knob that `is_far`, and missing and reversed
+/// parts in a free motion.
 fn meant(tries: &Tries, knob: &Rc<Knob>, value: f64, found: bool) -> Vec<(Candidate, bool)> {
     let near = |plain: f64| match found {
         true => (plain - value).abs() <= 1e-2 * plain.abs().larger(1e-2 * natural(knob)),

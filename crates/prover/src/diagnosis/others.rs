@@ -13,8 +13,8 @@ const TELLING: f64 = 5.0;
 /// Number of rows that are compared first.
 const FEW: usize = 16;
 
-/// Every disagreeing channel that has the values of an exchanged channel, of one other channel (also with the opposite
-/// sign), of a magnitude, or of the difference of two channels.
+/// Every disagreeing channel that has the values of other channels: of a channel with which it is exchanged, of one
+/// channel (also with the opposite sign), of a magnitude, or of the difference of two channels.
 pub(super) fn found(question: &DiagnosisInput, wrong: &[Wrong]) -> Vec<Found> {
     let mut causes = Vec::new();
     let mut put =

@@ -135,7 +135,7 @@ fn plain(wrong: &[Wrong]) -> Vec<DataSlip> {
     slips
 }
 
-/// The time of the only wrong row, if all channels are right at every other row.
+/// The time of the only wrong row, if all channels are right at all other rows.
 fn lonely(wrong: &[Wrong]) -> Option<f64> {
     let times = wrong.first()?.times;
     let is_off = |row: usize| wrong.iter().any(|own| !(own.gap(row).abs() <= own.bound));
@@ -144,7 +144,7 @@ fn lonely(wrong: &[Wrong]) -> Option<f64> {
     off.next().is_none().then_some(times[row])
 }
 
-/// Smallest number of instants of which one may be the only wrong one.
+/// Smallest number of instants among which a single wrong one is sought.
 const MANY: usize = 8;
 
 /// A slip with a number. If the number is an angle, its digits are counted in degrees.

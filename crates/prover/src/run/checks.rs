@@ -208,8 +208,8 @@ struct Vanishing<'a> {
 
 impl Vanishing<'_> {
     /// Checks that the number does not exceed the size that the runs predict for it.
-    /// A part that does not vanish with the step is found if it exceeds a multiple of the vanishing part.
-    /// This multiple is the margin of the safety factor.
+    /// Let v be the part of the number that vanishes with the step, and s the safety factor. A part that does not
+    /// vanish is found if it exceeds about (s - 1) v.
     fn check(self, problem: Problem, engine: &dyn Engine, runs: &Runs) -> Check {
         let (case, resolution) = (problem.case, engine.settings().resolution);
         let noise = |engine: &dyn Engine| self.noise * engine.noise(case, self.kind);

@@ -43,8 +43,8 @@ fn scale(check: &mut Check, dial: f64) {
 }
 
 /// Judges again a verdict that is based on a bound.
-/// A number may disagree although it is within its bound, because a finding calls it wrong. Its verdict does not
-/// change.
+/// A number that a finding calls wrong may disagree although it is within its bound. The verdict on such a number does
+/// not change.
 fn judge(verdict: &mut Verdict, value: f64, bound: &mut f64, dial: f64) {
     let beyond = !(value <= *bound);
     *bound *= dial;

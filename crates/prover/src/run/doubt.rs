@@ -3,8 +3,8 @@
 //!
 //! A load may jump when its link reverses. If a load vanishes at the reversal, it does not jump, so no instant is left
 //! out. A table of loads may jump at a crank angle.
-//! At the end of a piece of a cam's law, the third derivative of the motion jumps. The error of a second difference there
-//! depends on the place of the jump within the step.
+//! At the end of a piece of a cam's law, the third derivative of the motion jumps. The error of a second difference
+//! there depends on the place of the jump within the step.
 //! At a change point an engine follows one of many solutions.
 //! The engine's rates at the instant of the change point do not show which solution it follows. Only later instants
 //! show the solution.
@@ -25,7 +25,7 @@ const STEPS: f64 = 8.0;
 /// As `STEPS`, for impulses of a free motion. Impulses are computed from six steps, one step late.
 const IMPULSES: f64 = 5.0;
 /// As `STEPS`, for a prescribed motion with extrapolated impulses.
-/// Within this fraction of a step, a load jumps at different instants in the different runs.
+/// The instants at which a load jumps in the different runs lie within this fraction of a step.
 /// The velocities of these runs differ by about a twelfth of the square of the step.
 const APART: f64 = 0.25;
 

@@ -96,7 +96,7 @@ pub enum SearchEnd {
     Budget,
     /// At the rate of progress of the search, the allowed work would not be enough.
     Pace,
-    /// No free setting has a value that is better than the present value.
+    /// No free setting is left to change.
     Nothing,
 }
 
@@ -227,7 +227,7 @@ impl EngineProof {
         self.conclude();
     }
 
-    /// Recomputes the verdict from those of all channels, all checks and the engine's own forces.
+    /// Recomputes the verdict from the verdicts of all channels, all checks and the engine's own forces.
     pub(super) fn conclude(&mut self) {
         let channels = self.channels.iter().map(|own| &own.verdict);
         self.verdict = overall(channels.chain(self.added()).chain(self.checks.iter().map(|own| &own.verdict)));

@@ -41,8 +41,8 @@ fn power(stage: Stage) -> i32 {
 /// Rounding error of a position in a pose of condition number 1, in units in the last place.
 const ULPS: f64 = 16.0;
 
-/// Assumed ratio of the integration error to the difference from the run with the tighter tolerance, which has an error
-/// too.
+/// Assumed ratio of a side's integration error to the side's difference from its run with a tighter tolerance. The
+/// tighter run has an error too.
 /// A ratio of 3.2 was measured with steps that crossed knots of a load's table. In the present program steps end at
 /// knots.
 const SAFETY: f64 = 4.0;
@@ -56,9 +56,9 @@ pub(super) fn of_condition(stage: Stage, condition: f64) -> f64 {
 /// This is the largest distance between points of a link, mass centre included, divided by the largest distance without
 /// the mass centre.
 /// Side 2 calculates with the positions of mass centres.
-/// So a joint is as uncertain as the last digit of its distance from the mass centre.
+/// The position of a joint is therefore as uncertain as the last digit of the joint's distance from the mass centre.
 /// For angles, this uncertainty is divided by the distance between the joints.
-/// The links are those of `groups` and the driving links.
+/// The factor covers the links of `groups` and the driving links.
 fn lever(case: &Case, groups: &[GroupId]) -> f64 {
     let own = groups.iter().flat_map(|&group| case.structure.groups[group].links.iter().copied());
     let (mut size, mut farthest) = (0.0f64, 0.0f64);
@@ -106,8 +106,8 @@ pub(super) struct Known {
     pub(super) magnitudes: Vec<f64>,
     /// The side that serves as the reference.
     reference: Reference,
-    /// Sensitivity of a motion under forces to these forces, channel by channel. It also multiplies the forces'
-    /// relative rounding errors.
+    /// Sensitivity of a motion under forces to these forces, channel by channel. The bound contains the relative
+    /// rounding error of the forces times this sensitivity.
     /// Empty for a prescribed motion.
     pub(super) sensitivity: Vec<f64>,
     /// Integration error of each side in every channel, in its unit; zeros for a prescribed motion.
@@ -118,9 +118,8 @@ pub(super) struct Known {
     /// In a motion under forces, each entry is the largest condition number up to its instant.
     /// Empty until the condition numbers are needed.
     conditions: Vec<Vec<f64>>,
-    /// Factor on the rounding error of every channel, from the distances of mass centres and of the origin: see
-    /// [`lever`] and
-    /// [`placed`].
+    /// Factor on the rounding error of every channel, from the distances of mass centres ([`lever`]) and of the origin
+    /// ([`placed`]).
     levers: Vec<f64>,
     /// Absolute crank angle at every instant of a prescribed motion (rad). Both sides receive this angle rounded to a
     /// double.
@@ -172,7 +171,8 @@ impl Known {
         // These sizes serve for quantities that vanish, for example a velocity if no coordinate is among the channels.
         let sizes = built(case);
         let sized = magnitudes.into_iter().zip(own.channels());
-        // The angular acceleration of a wheel is a sum of terms of the size omega^2. They cancel at a constant ratio.
+        // The angular acceleration of a wheel is a sum of terms of the size omega^2. At a constant ratio these terms
+        // cancel.
         let turning = |channel: &Channel| -> f64 {
             let is_geared =
                 !case.mechanism.transmissions().is_empty() && channel.kind.unit == Unit::RadianPerSecondSquared;
@@ -190,7 +190,8 @@ impl Known {
         let all = own.channels().iter().zip(&dependence.of).zip(&magnitudes);
         let lever_of = |((channel, &set), &magnitude): ((&Channel, &usize), &f64)| {
             let (lever, [places, arm]) = of_sets[set];
-            // The distance from the origin is not counted for coordinates, because their numbers already include it.
+            // A coordinate already contains the distance from the origin, so this distance does not enlarge the
+            // relative bound.
             let over = if channel.kind.unit == Unit::Metre { arm.larger(magnitude) } else { arm };
             lever.larger(places / over)
         };
@@ -200,7 +201,7 @@ impl Known {
     }
 
     /// Measures the condition number of every pose.
-    /// The measurement is needed if the errors of a trajectory exceed those of well-conditioned poses.
+    /// This is needed if the errors of the sides exceed the rounding error of well-conditioned poses.
     ///
     /// # Errors
     /// The errors of the solver.
@@ -294,7 +295,7 @@ mod tests {
     }
 
     /// In a motion under forces, both integrations have errors.
-    /// The allowed difference of the sides includes both integration errors, but their common rounding error only once.
+    /// The allowed difference of the sides includes both integration errors, but the rounding error only once.
     #[test]
     fn the_allowed_difference_includes_the_errors_of_both_sides() {
         let case = of_repository("scenarios/crank_rocker_runup.toml").case;

@@ -39,8 +39,8 @@ const OF_NUMBER: f64 = 88.0;
 /// Memory per row of a table, without the row's numbers (bytes).
 const OF_ROW: f64 = 50.0;
 
-/// Estimated memory (bytes) of comparing a table with both sides. The table has some `rows` and `claims`; the sides are
-/// solved in `channels`.
+/// Estimated memory (bytes) of comparing a table with both sides. The table has `rows` rows and `claims` compared
+/// columns; each side is solved in `channels` channels.
 #[must_use]
 pub fn of_comparison(rows: usize, claims: usize, channels: usize) -> f64 {
     let solved = (2 * (channels + BESIDE) * size_of::<f64>()) as f64;

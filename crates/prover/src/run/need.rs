@@ -105,7 +105,8 @@ pub(super) fn need(judged: &Judged, wanted: f64) -> (Need, Blame) {
 
 /// Number of rounds needed to determine a rate of progress. The first rounds show whether the settings are meaningful.
 const ROUNDS: usize = 4;
-/// Factor on the observed exponent, because extrapolation may become more effective as the runs become smooth.
+/// Factor on the observed power of the work with which the need falls. Extrapolation may become more effective as the
+/// runs become smooth.
 /// In successful searches, progress in the last rounds is at most twice as fast as in the first rounds (all shipped
 /// scenarios).
 const OPTIMISM: f64 = 2.0;
@@ -143,8 +144,8 @@ const MOST_VAGUE: usize = 2;
 const BRINGS: f64 = 0.7;
 /// If more sweeps reduce the bound to at most this fraction, they are worth their work.
 const HELPS: f64 = 0.5;
-/// If finer steps widen the bound in this number of rounds, rounding is to blame, even if the engine's assumed rounding
-/// error is smaller.
+/// If finer steps widen the bound in this number of consecutive rounds, rounding is to blame, however small the
+/// rounding part of the bound is.
 const MOST_WIDER: usize = 2;
 /// If more sweeps have helped little, this number of rounds passes before they are tried again.
 const PATIENCE: usize = 3;

@@ -110,7 +110,8 @@ impl Observed {
 pub(super) struct Stopped {
     pub(super) error: Error,
     pub(super) kept: Option<Box<Trajectory>>,
-    /// If too little work was allowed: the work that the first runs need, or the allowed work if it was spent later.
+    /// Set if too little work was allowed: the work that the first runs need or, after the first runs, the allowed
+    /// work.
     pub(super) spent: Option<f64>,
 }
 

@@ -9,7 +9,7 @@ use linkage::engine::{Engine, Route, Settings};
 use linkage::error::{Error, ErrorKind, Result};
 use scenario::{EngineSetting, EngineSettings, Scenario};
 
-/// Defines one method for each setting, which sets the setting.
+/// Defines, for each setting, the method that sets it.
 macro_rules! setters {
     ($($(#[$doc:meta])* $name:ident: $kind:ty,)*) => {$(
         $(#[$doc])*

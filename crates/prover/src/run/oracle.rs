@@ -35,7 +35,7 @@ pub(super) fn checks(
 }
 
 /// Rounding error of a number from an analytic side. The unit is one ulp of the largest number of the same quantity.
-/// A printed number may have more digits than the side knows.
+/// A printed number may have more digits than the side's result has correct digits.
 const ULPS: f64 = 16.0;
 
 /// Largest number of instants at which all channels of a stage are solved.
@@ -173,8 +173,8 @@ impl Told<'_> {
         let known = self.known + 2.0 * (value - other).abs();
         let difference = value - point.value;
         let deviation = if series.channel.kind.periodic { wrapped(difference) } else { difference }.abs();
-        // A magnitude changes at most as much as its vector. So the changes of the components are combined as those of
-        // a vector.
+        // A magnitude changes at most as much as its vector. So the changes of the components are combined like the
+        // components of a vector.
         let drift = self.channels.iter().map(|own| self.rounded.of_point(own, at, point.at_error));
         let instant = drift.fold(0.0, f64::hypot);
         // The error of a side adds to the rounding of the printed number.

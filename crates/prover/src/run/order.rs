@@ -1,6 +1,6 @@
 //! Finds an engine that converges with a lower order than its method has.
 //!
-//! The cause is a value computed half a step late, or a wrong weight.
+//! Typical causes are a value computed half a step late, or a wrong weight.
 //! A bound from the engine's runs covers such an error at every step, so the size of the error never reveals the fault.
 //! Five runs give three estimates of the order. The order is reliable only if all three are near the same whole number.
 //! See docs/numerics/bounds.md.
@@ -23,8 +23,8 @@ use crate::tolerance::Parts;
 const LOW: f64 = 0.75;
 /// Orders are steady if they differ from the same whole number by at most this amount.
 const STEADY: f64 = 0.1;
-/// If the step error of the finest run exceeds this multiple of the rounding, iteration and reference errors, the
-/// observed order counts as the order of the step error.
+/// The observed order counts as the order of the step error only if the step error of the finest run exceeds this
+/// multiple of the rounding, iteration and reference errors.
 const CLEAR: f64 = 5.0;
 /// If a bound is below this fraction of the widest conclusive bound, a low order does not matter.
 const NEGLIGIBLE: f64 = 0.01;
@@ -36,8 +36,8 @@ const NEGLIGIBLE: f64 = 0.01;
 /// The errors of a run. A numeric error is not returned, because it shows nothing about the order.
 pub(super) fn look(judge: &Judge, bank: &mut Bank, proof: &mut EngineProof) -> Result<bool, Stopped> {
     let wanted = judge.problem.engine_rel;
-    // Across a knot of a law of motion or of a cam the third derivative jumps, so second differences have order 1 at the
-    // knot. The order of accelerations and forces is then not examined.
+    // Across a knot of a law of motion or of a cam the third derivative jumps, so second differences have order 1 at
+    // the knot. The order of accelerations and forces is then not examined.
     let has_cam = bank.case.mechanism.transmissions().iter().any(|own| own.cam.is_some());
     let is_smooth = bank.case.is_steady() && !has_cam;
     let is_low = |own: &ChannelProof| {
@@ -99,8 +99,8 @@ pub(super) fn look(judge: &Judge, bank: &mut Bank, proof: &mut EngineProof) -> R
     Ok(is_found)
 }
 
-/// Whether three estimates of the order, that of the finest step last, are near the same whole number and this number
-/// is too low.
+/// Whether three estimates of the order (the finest step last) are near the same whole number, and this number is too
+/// low.
 fn is_steady(rungs: [Convergence; 3]) -> bool {
     let Convergence { observed, formal, .. } = rungs[2];
     let whole = observed.round();
@@ -108,8 +108,8 @@ fn is_steady(rungs: [Convergence; 3]) -> bool {
     is_same && whole >= 1.0 && whole <= LOW * formal
 }
 
-/// The order of three estimates, the finest last. `None` if it is not steady, or if other parts of the finest error may
-/// have caused it.
+/// The order of three estimates, the finest last. `None` if the order is not steady, or if other parts of the finest
+/// run's error may have caused this order.
 fn steady(rungs: [Convergence; 3], finest: Parts) -> Option<f64> {
     let other = finest.iteration.larger(finest.rounding).larger(finest.reference);
     let is_clear = rungs[2].error > CLEAR * other;

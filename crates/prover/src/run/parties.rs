@@ -11,7 +11,7 @@ pub struct Dispute {
     pub channel: String,
     /// Pairs of sides whose difference exceeds the sum of their bounds.
     pub pairs: Vec<[&'static str; 2]>,
-    /// The side without which all others agree. `None` if no side or more than one has this property, or if there are
+    /// The side without which all others agree. `None` if there is no such side, if there are several, or if there are
     /// only two sides.
     pub odd: Option<&'static str>,
 }

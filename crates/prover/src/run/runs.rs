@@ -52,7 +52,7 @@ pub(super) fn other_sweeps(case: &Case, engine: &dyn Engine, sweeps: usize, shar
     }
 }
 
-/// Ratio of a run's sweeps to those of the run with fewer sweeps, if the sweeps are given.
+/// If the sweeps are given: number of sweeps of the judged run divided by that of the run with fewer sweeps.
 pub(super) const FEWER: usize = 2;
 
 /// If a trajectory has more values than this, not all trajectories of a search are kept.

@@ -35,7 +35,7 @@ const COARSEST: f64 = 16.0;
 /// Work that the first runs may always do. This work takes some hundredths of a second.
 /// Without the first runs there is no result.
 pub(super) const FIRST: f64 = 1e4;
-/// After this number of failed runs, more sweeps are tried instead of a smaller step.
+/// Each time this number of runs has failed, more sweeps are tried instead of a smaller step.
 const FAILURES: usize = 6;
 /// Fraction of the angle to a dead centre that the additional steps of a run may use.
 const ROOM: f64 = 0.98;
@@ -50,7 +50,7 @@ const NEAR: f64 = 8.0;
 
 /// Returns an error if the first runs of an engine, at the settings `rungs`, need more work than `most`.
 /// The error names the requested `budget`.
-/// A step so small that no budget would suffice counts as a mistake of the user.
+/// A step that divides the motion into more than [`BUDGET`] steps counts as a mistake of the user.
 /// For such a step this function returns no error, because the engine itself rejects the step.
 pub(super) fn too_much(
     bank: &Bank,
@@ -189,7 +189,7 @@ impl<'a, 'b> Settling<'a, 'b> {
                     let disagrees = !against.is_empty();
                     let (decided, sharp) = (trial.need.is_within(1.0), trial.need.is_within(self.aim));
                     // If the sweeps cause only a part of the bound, they are multiplied by the smaller factor. Half the
-                    // step reduces the rest.
+                    // step reduces the remaining part.
                     let is_careful = round > QUICK && !trial.need.is_vague && trial.blame.is_shared;
                     self.near = trial.need.is_within(NEAR) || is_careful;
                     let is_slow = self.conclusive && pace.is_too_slow(self.bank.effort, trial.need, self.budget);
@@ -266,9 +266,9 @@ impl<'a, 'b> Settling<'a, 'b> {
         }
     }
 
-    /// Continues with steps that leave out few enough instants. The number of instants left out is proportional to the
-    /// step.
-    /// Steps that leave out more instants decide nothing.
+    /// Continues with steps small enough to leave out an acceptable number of instants. This number is proportional to
+    /// the step.
+    /// Larger steps decide nothing.
     fn leave_out_less(&mut self, judged: &Judged) {
         let most = judged.proof.info.settings.resolution * MOST_LEFT_OUT / judged.too_coarse;
         // The next round halves the step again, so a step of `most` is small enough.
@@ -288,8 +288,8 @@ impl<'a, 'b> Settling<'a, 'b> {
         let most = *self.room.get_or_insert_with(|| room(case, engine.as_ref()));
         let is_cramped = 4.0 * self.now.resolution > most && !self.is_finest();
         if is_cramped {
-            // The next round needs a step of at most a quarter of `most`. It halves this step, which may thus be half
-            // of `most`.
+            // The finest step of the next round must be at most a quarter of `most`. The next round halves the step
+            // that is set here, so this step may be half of `most`.
             // The step is as large as permitted, because a large step keeps rounding small.
             if self.finest == 0.0 {
                 self.now.resolution = self.now.resolution.smaller(ROOM * 0.5 * most);
@@ -310,7 +310,8 @@ impl<'a, 'b> Settling<'a, 'b> {
             BoundPart::Iteration if self.given.sweeps.is_free() && self.now.sweeps < self.most_sweeps => {
                 next.sweeps *= factor
             }
-            // If the step is given, only the sweeps can be increased. Too few sweeps hide the order of convergence.
+            // If the step cannot be refined, only the sweeps can be increased. Too few sweeps hide the order of
+            // convergence.
             BoundPart::Discretisation
                 if self.is_finest() && self.given.sweeps.is_free() && self.now.sweeps < self.judge.asked.sweeps =>
             {
@@ -323,7 +324,8 @@ impl<'a, 'b> Settling<'a, 'b> {
                 self.coarsest = COARSEST * self.judge.asked.resolution;
                 return None;
             }
-            // If the step is given, no coarser step can be chosen.
+            // If the step is free, coarser steps have been tried already or would not reduce the error of the
+            // reference.
             BoundPart::Rounding | BoundPart::Reference if self.given.step.is_free() => {
                 return Some(SearchEnd::Rounding);
             }
@@ -410,7 +412,7 @@ impl<'a, 'b> Settling<'a, 'b> {
             found => found?,
         };
         // Before the sweeps are multiplied, a third run shows how fast they converge.
-        // Before a channel is reported as disagreeing, the third run shows whether the sweeps converge at all: if they
+        // Before a channel is reported as disagreeing, the third run shows whether the sweeps converge at all. If they
         // have hardly begun to converge, two runs differ little.
         let is_asked =
             found.blame.part == BoundPart::Iteration && !found.need.is_within(self.aim) && self.given.sweeps.is_free();

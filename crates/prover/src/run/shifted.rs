@@ -14,7 +14,7 @@ use scenario::{OraclePoint, When, within};
 /// An instant counts as exact if its error is at most this many units in the last place of a double.
 /// The known errors of the sides cover such an error.
 const EXACT: f64 = 4.0;
-/// The case is solved at shifted instants. These shifts are fractions of the instant's rounding error.
+/// Shifts of the instants at which the case is solved, as fractions of the rounding error of the instant.
 /// The two ends suffice if the values between them form a parabola, wherever its vertex is.
 const ENDS: [f64; 2] = [-1.0, 1.0];
 /// If the crank rotates by more than `FAR` (rad) between an instant and an end of its rounding interval, the case is
@@ -58,13 +58,15 @@ pub fn is_exact(at: f64, error: f64) -> bool {
     error <= EXACT * f64::EPSILON * at.abs()
 }
 
-/// Solves a case at shifted instants. The shifts are fractions of `slack`, row by row, from the instants of the
-/// trajectory `own`.
+/// Solves a case at the instants of its trajectory `own`, shifted by fractions of `slack`. `slack` has one value for
+/// each row.
 /// Every solution is passed to `then`, with its case.
-/// So changes are found for rates and forces too, and at instants at which a rate vanishes.
+/// The solutions show the changes of all channels, forces included, even at instants at which the rate of a channel
+/// vanishes.
 ///
 /// # Errors
-/// The errors of the solver, if a shifted instant is beyond the reach of the mechanism, and those of `then`.
+/// The errors of the solver, for example if a shifted instant is beyond the reach of the mechanism, and the errors of
+/// `then`.
 pub fn shifted(
     case: &Case,
     own: &Trajectory,

@@ -130,7 +130,7 @@ pub struct Claimed {
 /// Judges the formulas of a scenario. Solves only the claimed channels and those needed for derivatives.
 ///
 /// # Errors
-/// [`ErrorKind::Input`] if no formula claims anything, and those of the sides, with the crank angle.
+/// [`ErrorKind::Input`] if no formula claims anything. The errors of the sides, with the crank angle.
 pub fn judge(scenario: &Scenario) -> Result<Claimed> {
     let mut asked: Vec<_> = scenario.formulas.claims().flat_map(|(_, claim)| needed(claim, &scenario.case)).collect();
     if asked.is_empty() {

@@ -52,8 +52,8 @@ impl RowKey {
         ascending(&self.values.iter().map(|at| at.value).collect::<Vec<f64>>())
     }
 
-    /// The first row (counted from 0) at which the instants go backwards, compared with the first step of the table.
-    /// Returns the row, and two instants: that of the previous row and that of this row.
+    /// The first row (counted from 0) at which the instants reverse the direction of the table's first step.
+    /// Returns this row, the instant of the previous row, and the instant of this row.
     /// If a time jumps back, a new run has begun.
     #[must_use]
     pub fn turns_back(&self) -> Option<(usize, [f64; 2])> {
@@ -146,7 +146,7 @@ impl Held {
             let printed = reader.column(mapped)?;
             let chosen = if mapped.name.ends_with("_deg") { columns::degrees_chosen } else { columns::chosen };
             let is_chosen = chosen(&printed);
-            // Instants that were chosen as printed, not rounded, get only the rounding error of the conversion to SI
+            // Instants that are exact as printed, and not rounded, get only the rounding error of the conversion to SI
             // units.
             let exact = |own: Rounded| if is_chosen { Rounded::nearly(own.value) } else { own };
             let values: Vec<Rounded> = printed.into_iter().map(|own| exact(scaled(own, factor))).collect();

@@ -71,7 +71,7 @@ impl Outline {
 
     /// The default outline of a link: capsules of `radius` (m) along the [`ring`] of its points, and the area between
     /// the capsules.
-    /// The outline of a bar is one capsule, that of a single point a disc.
+    /// The outline of a bar is one capsule. The outline of a single point is a disc.
     ///
     /// # Errors
     /// [`Flaw::Few`] without a point, [`Flaw::NoNumber`].

@@ -17,7 +17,7 @@ pub struct ClearanceBody {
 }
 
 impl ClearanceBody {
-    /// Whether it moves.
+    /// Whether the body moves.
     #[must_use]
     pub fn moves(&self) -> bool {
         self.link != GROUND

@@ -19,7 +19,7 @@ pub struct Section {
 pub struct FileKey {
     /// Name of the key, without the unit of a quantity.
     pub name: &'static str,
-    /// What stands there.
+    /// Kind of the value.
     pub kind: ValueKind,
     /// Whether the key is required.
     pub is_needed: bool,

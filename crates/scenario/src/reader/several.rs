@@ -23,7 +23,7 @@ pub struct Faults {
 }
 
 impl Faults {
-    /// None yet.
+    /// No mistakes.
     pub fn none() -> Self {
         Faults { all: Vec::new(), whole: true, names: true }
     }
@@ -261,12 +261,12 @@ pub mod asked {
         ASKED.with_borrow_mut(|all| all.entry(section.into()).or_default().extend(asked.iter().cloned()));
     }
 
-    /// Forgets all.
+    /// Forgets all requested keys.
     pub fn forget() {
         ASKED.with_borrow_mut(BTreeMap::clear);
     }
 
-    /// All keys requested since the last reset.
+    /// All keys requested since the last call of [`forget`].
     pub fn all() -> BTreeMap<String, BTreeSet<String>> {
         ASKED.with_borrow(Clone::clone)
     }

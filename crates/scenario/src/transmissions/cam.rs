@@ -31,8 +31,8 @@ const CURVES: Words<CamCurve> = &[
     ("modified-sine", CamCurve::ModifiedSine),
 ];
 
-/// Angles of the cam count as equal if they differ by less than this (rad), and the ends of a formula if they differ by
-/// at most this fraction of its range.
+/// Angles of the cam count as equal if they differ by less than this limit (rad).
+/// The ends of a formula count as equal if they differ by at most this fraction of the formula's range.
 const EQUAL: f64 = 1e-9;
 
 /// Description of the pieces of a law.

@@ -1,5 +1,5 @@
-//! Dictionary of terms and factors that a derivation may have lost: steps, sines and cosines of its angles, and
-//! products of these.
+//! Dictionary of terms and factors that may be missing in a derivation: steps, sines and cosines of angles, and
+//! products of such expressions.
 
 use crate::check::slips::{at_every_place, with_parts};
 use crate::check::trial::Trial;
@@ -118,7 +118,7 @@ fn angles(trial: &Trial) -> Vec<(FormulaTree, usize)> {
             arguments[0].names().iter().for_each(|(name, _)| put(name));
         });
     }
-    // Adds the steps that are angles, even if the derivation uses no function of them.
+    // Adds the steps that are angles, even if no sine, cosine or tangent in the derivation uses them.
     known.iter().rev().filter(|own| is_angle(&own.tree)).for_each(|own| put(&own.name));
     let multiple =
         |factor: f64| FormulaTree::pair(Operator::Times, FormulaTree::number(factor), FormulaTree::name("phi"));

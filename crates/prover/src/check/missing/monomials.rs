@@ -4,7 +4,7 @@ use crate::check::dimension::{Dimensions, Known};
 use formula::{FormulaTree, Function, NodeShape, Operator, Product, Products, information};
 use scenario::Formulas;
 
-/// Largest number of quantities that are combined to products.
+/// Largest number of quantities that are combined into products.
 const MOST: usize = 14;
 /// Largest number of different products kept for one value.
 const SIMPLEST: usize = 100;
@@ -39,7 +39,7 @@ impl Monomials {
         Monomials { products: Products::of(&valued), quantities }
     }
 
-    /// Number of products. It also measures the work of building them.
+    /// Number of products. The work of building them is proportional to this number.
     pub(in crate::check) fn len(&self) -> usize {
         self.products.len()
     }

@@ -8,9 +8,8 @@ use crate::check::trial::Trial;
 use formula::{DerivationSheet, FormulaTree, Function, NodeShape, Operator};
 use scenario::Formulas;
 
-/// Tries to correct every quantity, and sines, cosines and tangents, at all their occurrences.
-/// The search first corrects the occurrences in the first of the formulas `used`, then the occurrences in all formulas
-/// `used`.
+/// Tries corrections of every quantity, and of sines, cosines and tangents, at all their occurrences.
+/// The corrections are tried first in the first of the formulas `used`, then in all formulas `used`.
 /// A quantity that occurs only once is not tried.
 pub(super) fn tried(trial: &mut Trial, used: &[usize], names: &[&str], dimensions: &Dimensions, tried: &mut Tried) {
     use Function::{Cos, Sin, Tan};

@@ -57,10 +57,10 @@ linkage::words! {
     }
 }
 
-/// Order of slips, smallest for the simplest.
-/// The order has four parts: whether the units contradict the slip, whether the slip occurs at many positions, whether
-/// it is in a step, and its kind.
-/// For a wrong value, the second part is whether its digits are not confused.
+/// Order of slips. The simplest slip has the smallest rank.
+/// The rank has four parts: whether the units contradict the correction, whether the slip occurs at many positions,
+/// whether the slip is in a step, and the kind of slip.
+/// For a wrong value, the second part is false if its digits are confused, and true otherwise.
 type Rank = (bool, bool, bool, SlipKind);
 
 /// A slip and the effect of its correction.
@@ -69,7 +69,7 @@ pub(in crate::check) struct Mended {
     pub(in crate::check) rank: Rank,
     /// Fraction of the largest difference that remains after the correction; zero if the formula is then right.
     pub(in crate::check) left: f64,
-    /// Number of slips that are at least as simple as this one: all slips tried up to this one.
+    /// Number of slips tried up to and including this one. All of them are at least as simple as this one.
     pub(in crate::check) among: usize,
 }
 
@@ -99,8 +99,9 @@ impl Tried {
         }
     }
 
-    /// As `put`, for a slip in which another part has `replaced` a part of the first changed formula.
-    /// The slip is judged only if the units allow this.
+    /// As `put`, for a slip in which one part of the first changed formula is replaced: `replaced` holds the old and
+    /// the new part.
+    /// The correction is judged only if the units allow it.
     pub(super) fn put_standing(
         &mut self,
         trial: &mut Trial,

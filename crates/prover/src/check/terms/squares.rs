@@ -58,8 +58,9 @@ const KNOWN: f64 = 1e-10;
 const PROMISING: f64 = 1e-6;
 
 /// Calls `whole` with every explanation by one or two quantities that leaves no difference.
-/// Ends at the first explanation by a single quantity.
-/// Returns the fit with the smallest remainder. The remainder of a fit by two quantities counts twice.
+/// The search ends at the first explanation by a single quantity.
+/// Returns the fit with the smallest remainder. For this comparison, the remainder of a fit by two quantities is
+/// doubled.
 pub fn explanations<'a>(
     wrong: &Wrong,
     bases: &'a [TermBasis],
@@ -80,7 +81,7 @@ pub fn explanations<'a>(
         let Some((coefficients, left)) = fitted(bases, &chosen, differences, few) else { continue };
         if left < PROMISING && explains(wrong, bases, &chosen, &coefficients) {
             whole(parts(&chosen, &coefficients));
-            // An explanation by two terms is not better than one by a single term.
+            // If a single quantity leaves no difference, pairs of quantities are not tried.
             if chosen.len() == 1 {
                 break;
             }
@@ -161,7 +162,7 @@ pub fn bases(course: &KnownTrajectory, wrong: &Wrong) -> Vec<TermBasis> {
     for (channel, values) in course.points() {
         put(&channel.to_string(), channel.kind.unit.symbol(), &|row| values[row]);
     }
-    // Constant quantities are dropped, because they are equivalent to the constant.
+    // Constant quantities are dropped, because the list already contains a constant.
     let changes = |own: &TermBasis| {
         let largest = own.values.iter().fold(0.0, |largest: f64, value| largest.larger(value.abs()));
         own.text.is_empty() || own.values.iter().any(|value| (value - own.values[0]).abs() > 1e-6 * largest)

@@ -19,7 +19,7 @@ pub(super) enum Found {
     End,
 }
 
-/// Receives four data of a field: its depth (0 in the outermost structure), the enclosing field, its number in the
+/// Receives the data of a field: its depth (0 in the outermost structure), the enclosing field, its number in the
 /// structure, and its content.
 pub(super) type Tell<'a> = &'a mut dyn FnMut(usize, [i64; 2], Found) -> io::Result<()>;
 
