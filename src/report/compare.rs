@@ -20,8 +20,7 @@ use prover::numbers;
 
 /// Number of channels shown for a pair in a short report.
 const SHOWN: usize = 3;
-/// If a number is known only to rounding error and is smaller than this fraction of the other number, it is shown as
-/// zero.
+/// If a number is below its rounding error and below this fraction of the other number, it is shown as zero.
 const NOTHING: f64 = 1e-4;
 /// Number of names that are listed; further names are only counted.
 const NAMED: usize = 3;

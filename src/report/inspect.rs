@@ -14,10 +14,10 @@ use linkage::mechanism::{CamFigures, GROUND, Joint, JointId, LinkId, Mechanism, 
 use prover::numbers::{fixed_in, input_in, significant};
 use scenario::{Scenario, Undecided};
 
-/// Number of digits that are shown of the figures of a cam, which are extremes over 720 angles.
+/// Number of digits shown for the figures of a cam. These figures are extremes over 720 angles.
 const SAMPLED: usize = 5;
-/// Number of digits that are shown of a mass or a moment of inertia.
-/// This number shows all digits of a scenario, but hides the rounding error of a unit conversion.
+/// Number of digits shown for a mass or a moment of inertia.
+/// So many digits show every digit of a scenario, but hide the rounding error of a unit conversion.
 const SHOWN: usize = 12;
 
 /// The structure as text.

@@ -425,7 +425,7 @@ found down to: faults larger than this are found in every scenario, to a factor 
     of_the_price_but_proves_less(share) = "{share:.2} of the cost, but a proof at its settings is not conclusive.";
     a_proof_at_these_settings_agrees_at_with_sweeps(name, step, sweeps) = "A proof at these settings agrees. {name} at {step} with {sweeps} sweeps meets the error for ";
     error_measured_against_the_reference(engine, error, expected, runs) = "{engine}: error {error} measured against the reference, {expected} expected from its own runs; {runs} runs.";
-    costs_more_than_the_cheapest(name) = "{name} costs more than the cheapest.";
+    costs_more_than_the_cheapest(name) = "{name} costs more than the cheapest engine.";
     does_not_run_it_with_any(name, hints) = "{name} cannot run this scenario at any settings: {hints} says why.";
     does_not_meet_it_its_smallest(name, numbers) = "{name} does not reach this error: its smallest error was {numbers}.";
     the_cheapest_settings_within_of_every_channel(within, table) = "The cheapest settings within {within} of every channel's scale:\n{table}\n";

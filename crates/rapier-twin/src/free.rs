@@ -37,7 +37,8 @@ pub(super) struct Acting {
     /// The engine's present state, and the angular velocities one step earlier.
     state: State,
     before: Vec<f64>,
-    /// Velocities, one step earlier, of the points whose motion some loads oppose; one for each load.
+    /// For each load that opposes the motion of a point: the velocity of this point one step earlier. NaN for other
+    /// loads, and before the first step.
     swept: Vec<Vec2>,
     /// Speed that each link at rest reaches in the trial step. Without a trial step, the speeds are 0.
     setting_off: Vec<f64>,
@@ -49,7 +50,7 @@ pub(super) struct Acting {
     /// Moment of the motor on the crank (N m) that acts as a load in this step.
     /// Rapier's motor cannot apply this moment.
     direct: f64,
-    /// One for each world.
+    /// Added masses of each world; `None` for a world without added masses.
     added: Vec<Option<Added>>,
     braking: Option<Braking>,
 }

@@ -20,7 +20,7 @@ use linkage::solver::State;
 
 /// Largest number of Newton's steps.
 const MOST: usize = 40;
-/// The normal forces are settled if their residuals are below this fraction of the largest one.
+/// The normal forces have converged if their residuals are below this fraction of the largest normal force.
 const SETTLED: f64 = 1e-14;
 /// A residual below this fraction of the largest normal force is rounding error if the residuals no longer decrease.
 const ROUNDING: f64 = 1e-11;
@@ -179,7 +179,7 @@ pub(super) struct Braking {
 }
 
 impl Braking {
-    /// The joints of a case; `None` if no joint has friction.
+    /// Friction of the joints of a case; `None` if no joint has friction.
     pub(super) fn of(case: &Case) -> Option<Self> {
         let n = case.frictions().count();
         (n > 0).then(|| Braking {

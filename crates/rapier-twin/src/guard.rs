@@ -1,6 +1,10 @@
-//! A world under supervision.
-//! If a loop opens, a link turns too far in one step, a number is NaN or infinite, or the engine panics, an error is
-//! returned.
+//! A world under supervision. A step returns an error in each of these cases:
+//! - A loop opens.
+//! - A link turns too far in one step.
+//! - The kinetic energy grows too much in one step.
+//! - A number is NaN or infinite.
+//! - The engine panics.
+//!
 //! The error states time, crank angle, and joint or link.
 //! See docs/numerics/twins.md.
 
@@ -267,7 +271,8 @@ struct Moment {
 }
 
 impl Moment {
-    /// For a free crank, `before` is the angle before the step; a prescribed crank has its angle at `t`.
+    /// The input of a free crank is `before`, the angle before the step.
+    /// The input of a prescribed crank is its value at `t`.
     fn of(drive: &Drive, before: f64, t: f64) -> Self {
         Moment { t, input: drive.told(if drive.is_free() { before } else { drive.at(t).value }) }
     }

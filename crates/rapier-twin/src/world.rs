@@ -106,7 +106,8 @@ fn own_angle(direction: Vec2) -> f64 {
 
 /// The Rapier world of a case.
 /// All links form one multibody: links in the tree are joined to each other, the links outside the tree float.
-/// In large free motions, each link on the ground starts a separate multibody with all links beyond it.
+/// In a free motion with a large tree, each link that is joined to the ground starts a separate multibody, which also
+/// has all links beyond this link.
 /// If the tree has no branches, every link is a separate body.
 /// Joints that the tree cuts are impulse joints.
 /// Every drive has a separate motor so that the motor's impulse can be read.

@@ -1,5 +1,4 @@
-//! A recording as an MCAP file.
-//! The file itself has options, topics and messages.
+//! Writes a recording as an MCAP file.
 
 use super::beside::LIBRARY;
 use super::forces::Forces;

@@ -175,7 +175,7 @@ fn law(case: &Case, branch: &TreeBranch, drive: &Drive, moving: bool) -> Option<
     Some(drive.initial_speed() - parent.map_or(0.0, Drive::initial_speed))
 }
 
-/// Sign of a drive's input in the coordinate of the branch, which is that of the child relative to the parent.
+/// Sign of a drive's input in the coordinate of the branch. This coordinate measures the child relative to its parent.
 fn sign_of(drive: &Drive, joint: &mechanism::Joint, branch: &TreeBranch) -> f64 {
     if drive.input == Input::Angle || joint.second.link == branch.link { 1.0 } else { -1.0 }
 }

@@ -21,7 +21,7 @@ const COARSEST: f64 = 0.1;
 /// this constant.
 const ENOUGH: usize = 64;
 /// First step that is tried, as a multiple of the requested step.
-/// A coarse step is cheap, and its cost predicts the cost of steps other than this one.
+/// A coarse step is cheap, and its cost predicts the cost of other steps.
 const COARSE_START: f64 = 4.0;
 /// When the number of sweeps is increased, the first step tried is this multiple of the step found before.
 const COARSER: f64 = 1.4;
@@ -90,7 +90,7 @@ struct Row {
 struct Search<'e> {
     engine: &'e dyn Engine,
     within: f64,
-    /// Lowest cost of the engines other than this one.
+    /// Lowest cost of the other engines.
     others: f64,
     best: Option<Candidate>,
     /// Smallest error among methods that do not meet the request at any step.
