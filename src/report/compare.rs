@@ -96,7 +96,7 @@ fn row(own: &Compared, by: Option<Input>) -> [String; 7] {
 
 const SIMULATION: &str = sentences::THE_REST_IS_OFF_BY_LESS_THAN_A_FIFTIETH;
 
-/// Whether the error of a channel could be that of a simulation: it is small, and no cause was found.
+/// Whether the error of a channel could come from a simulation: the error is small, and no cause was found.
 fn looks_like_a_simulation(pair: &SidePair, own: &Compared) -> bool {
     let is_explained = pair.causes.iter().any(|cause| cause.of.contains(&own.claim.text));
     own.is_derived && own.since.is_some() && !own.is_gross() && !is_explained

@@ -117,9 +117,9 @@ fn from_rough_place(choice: &ConfigurationChoice) -> String {
 }
 
 /// The structure as JSON, schema 1.
-/// `modes`: a value of the input (SI) and the configurations there; `range`: the range of motion; `drivers`: structures
-/// for other driven joints.
-/// Each of them is written only if it is given.
+/// `modes`: a value of the input (SI), and the configurations at this value.
+/// `range`: the range of motion. `drivers`: structures for other driven joints.
+/// Each of these three parts is written only if it is given.
 /// A group in `undecided` has no mode.
 pub(crate) fn json(
     scenario: &Scenario,

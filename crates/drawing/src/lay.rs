@@ -54,7 +54,7 @@ impl Laid {
         Laid { places, gaps: Vec::new(), reaches: Vec::new(), faults: Vec::new(), modes: Vec::new(), shape: None }
     }
 
-    /// Whether nothing is missing.
+    /// Whether the mechanism is assembled completely.
     #[must_use]
     pub fn is_whole(&self) -> bool {
         self.faults.is_empty() && self.places.iter().all(|place| matches!(place, LinkPlacement::Here(_)))

@@ -29,7 +29,8 @@ const PROBE: f64 = 1e-4;
 /// Smallest step in which the friction is increased, as a fraction of the friction.
 const LEAST: f64 = 1e-3;
 
-/// Reactions of a known motion, with friction, and with the forces of transmissions in the lines that carry them.
+/// Computes the reactions of a known motion, with friction.
+/// The forces of transmissions act in the lines of action that carry them.
 #[derive(Debug)]
 pub(super) struct InverseDynamics {
     equations: NewtonEuler,

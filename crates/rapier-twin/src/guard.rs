@@ -266,7 +266,7 @@ pub(super) fn guards<'a>(
 struct Moment {
     /// Time (s).
     t: f64,
-    /// The input there.
+    /// Value of the input at this time.
     input: InputValue,
 }
 

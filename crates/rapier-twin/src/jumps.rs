@@ -10,7 +10,7 @@ use linkage::math::just_below;
 /// The jumps of a case's tables.
 #[derive(Debug)]
 pub(super) struct Jumps {
-    /// Crank angles (rad), each with the period of its table (rad).
+    /// Crank angles of the jumps (rad), each with the period of its table (rad).
     at: Vec<[f64; 2]>,
     /// Rate of the crank one step earlier (rad/s); NaN before the second step.
     rate: f64,

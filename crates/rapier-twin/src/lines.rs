@@ -13,7 +13,7 @@ use linkage::math::{Vec2, cross};
 use linkage::mechanism::LinkId;
 use linkage::solver::State;
 
-/// The change of the reactions, prepared for many poses.
+/// Computes the corrections of the reactions. The memory is reused for every pose.
 #[derive(Debug)]
 pub(super) struct Lines {
     /// The equations without masses.

@@ -24,7 +24,7 @@ pub(super) struct Reactions<'a> {
 
 /// Source of reactions and moments.
 enum Source<'a> {
-    /// None are wanted.
+    /// No reactions are requested.
     Unwanted,
     Differences(Box<InverseDynamics>),
     Native(Native),

@@ -8,7 +8,7 @@ use linkage::drive::Wrench;
 use linkage::math::{KeepNan, Vec2, cross, rotated};
 use linkage::mechanism::{Joint, JointId, JointSide, LinkId, LinkPose, TransmissionId};
 
-/// A link's angle as far as the engine knows it (rad, counter-clockwise positive).
+/// A link's angle in the form in which the engine stores it (rad, counter-clockwise positive).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LinkAngle {
     /// The angle itself, including full turns.

@@ -18,7 +18,7 @@ use linkage::mechanism::{
 };
 use linkage::solver::State;
 
-/// The model of a case, and the mapping from its numbers to those of the mechanism.
+/// The model of a case, and the mapping from bodies and loops of the model to links and joints of the mechanism.
 #[derive(Clone, Debug)]
 pub(super) struct Linkage {
     /// Simbody's model: bodies in the order of the tree's branches, loops in the order of its cuts.

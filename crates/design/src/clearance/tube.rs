@@ -147,7 +147,7 @@ pub struct Slice {
     pub crank: f64,
     /// Half width of the part (rad), not negative.
     pub half: f64,
-    /// The links.
+    /// Enclosures of the motions, one for each link.
     pub tubes: Vec<Tube>,
     /// Whether the bounds are proven; otherwise only the poses at the middle are known.
     pub sound: bool,

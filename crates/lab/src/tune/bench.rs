@@ -129,8 +129,9 @@ impl Bench<'_> {
         }
     }
 
-    /// Searches one method with increasing numbers of sweeps, as far as these may be of interest.
+    /// Searches one method with increasing numbers of sweeps.
     /// At a fixed cost, the error first falls with more sweeps. When there are more sweeps than needed, it rises again.
+    /// The search ends early if the error rises twice in a row, or if more sweeps would cost too much.
     fn through_sweeps(&mut self, search: &mut Search, way: &Settings, sweeps: &[usize]) {
         let unlimited = search.limit().is_infinite();
         self.refused = false;
