@@ -51,7 +51,7 @@ pub fn expected(proof: &Proof, tell: Tell, text: &mut String) {
     say!(text, sentences::checks_disagree_as_expected_see(&count, &(told.join(",\n  "))));
 }
 
-/// Largest number of instants at rest that are solved for the interval of the driving force.
+/// Largest number of instants at rest that are solved for the interval of the driving moment or force.
 const MOST_AT_REST: usize = 20;
 
 /// Reports joints with friction, and transmissions with losses, that rest.
@@ -61,7 +61,7 @@ fn at_rest(proof: &Proof, width: Option<usize>, text: &mut String) {
     if case.is_free() {
         return;
     }
-    // The sides have solved all rows before.
+    // The sides have already solved all rows, so an error is not expected and is ignored.
     let Some(all) = case.has_friction().then(|| rows_at_rest(case).ok()).flatten() else { return };
     let count = reference.times().len();
     for (friction, rows) in case.frictions().zip(all) {

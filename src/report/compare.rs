@@ -26,7 +26,7 @@ const NOTHING: f64 = 1e-4;
 const NAMED: usize = 3;
 
 /// The report in lines of at most `width` columns.
-/// It has the verdict, the channels with the largest ratios of error to bound, and the reasons of disagreements.
+/// It has the verdict, the most serious channels, and the reasons of disagreements.
 #[must_use]
 pub fn text(paths: [&Path; 2], comparison: &PartyComparison, detail: Detail, tell: Tell, width: usize) -> String {
     let mut text = String::new();

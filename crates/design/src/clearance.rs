@@ -49,7 +49,7 @@ pub struct PairClearance {
     pub bodies: [usize; 2],
     /// Smallest distance over the range.
     pub smallest: Smallest,
-    /// First contact; `None` if the two bodies never touch.
+    /// First contact; `None` if no contact was found. Contacts in unproven parts of the range may be missing.
     pub collision: Option<Meeting>,
     /// First pose that violates the required clearance.
     /// `None` if no pose violates the clearance, or if no clearance is required.

@@ -32,8 +32,8 @@ const LARGEST_GAP: f64 = 0.05;
 const LARGEST_TURN: f64 = std::f64::consts::FRAC_PI_2;
 /// If the kinetic energy grows by more than this factor in one step, the run has diverged and is stopped.
 /// The factor corresponds to a factor of ten in the speeds.
-/// Energy is not conserved, because the drives enforce their speeds.
-/// But the kinetic energy depends only on the pose, and the pose changes little in a step.
+/// In a prescribed motion, the drives enforce their speeds, so energy is not conserved.
+/// But the kinetic energy then depends only on the pose, and the pose changes little in a step.
 const LARGEST_GROWTH: f64 = 100.0;
 
 /// A world and the quantities that are supervised.
@@ -111,7 +111,7 @@ impl<'a> Guard<'a> {
         self.world.as_ref()
     }
 
-    /// Sets the speed of every drive to the value that `speed` returns for the drive (rad/s).
+    /// Sets the speed of every drive to the value that `speed` returns for the drive (rad/s, or m/s for a slide).
     pub(super) fn drive(&mut self, speed: impl Fn(&Drive) -> f64) {
         for (index, drive) in self.case.drives.iter().enumerate() {
             self.world.set_drive(index, speed(drive));

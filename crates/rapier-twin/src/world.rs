@@ -134,7 +134,7 @@ pub trait World {
     /// The next step regains this momentum across the constraints of the next pose.
     fn set_stabilised(&mut self, stabilised: bool);
 
-    /// Sets the angular velocity (rad/s, counter-clockwise positive) that a drive gives its link.
+    /// Sets the speed of a drive's input: rad/s, counter-clockwise positive, or m/s for a slide.
     /// The drive is given by its index in [`drives`](linkage::case::CaseParts::drives).
     fn set_drive(&mut self, drive: usize, omega: f64);
 
@@ -183,7 +183,7 @@ pub trait World {
     /// sign: the row pushes and pulls.
     fn transmitted(&self, transmission: TransmissionId) -> f64;
 
-    /// Driving moment on the drive's link (N m), from the motor's impulse in the last step.
+    /// Moment of a drive (N m), or its force for a slide (N), from the motor's impulse in the last step.
     fn torque(&self, drive: usize) -> f64;
 }
 

@@ -60,14 +60,14 @@ struct Mesh {
 }
 
 /// The motor of a drive.
-/// The motor connects the driving link to the ground, even if the driving link is joined to a moving link.
-/// The motor therefore sets the link's speed in the world.
+/// The motor of a crank connects the crank to the ground, so it sets the crank's speed in the world.
+/// The motor of any other drive connects the two links of the driven joint.
 #[derive(Clone, Debug)]
 struct Motor {
     handle: ImpulseJointHandle,
     /// The coordinate that the motor moves.
     axis: JointAxis,
-    /// +1 if the driving link is the second link of the motor, else -1.
+    /// Sign of the drive's input in this coordinate.
     sense: f64,
 }
 
