@@ -14,8 +14,8 @@ use crate::stress::{Setup, StressFamily};
 const FOOT: f64 = 0.6;
 const EYE: f64 = 0.4;
 
-/// A boom that a cylinder turns until its lever arm is small: at the end, the angle at the boom's pivot between foot and
-/// eye is short of a straight angle by `gap` (deg).
+/// A boom that a cylinder turns until the cylinder's lever arm is small.
+/// At the end, the angle at the boom's pivot between foot and eye is `gap` (deg) less than a straight angle.
 fn boom(gap: f64) -> Result<Setup> {
     let length = |angle: f64| (FOOT * FOOT + EYE * EYE - 2.0 * FOOT * EYE * angle.cos()).sqrt();
     let (begin, end) = (length(FRAC_PI_2), length(PI - gap.to_radians()));
