@@ -218,7 +218,7 @@ mod tests {
         }
     }
 
-    /// The documents of the repository: those in its top directory, in `docs`, and in the Python example.
+    /// The documents in the top directory of the repository, in `docs`, and in the Python example.
     fn documents() -> Vec<PathBuf> {
         let top = Path::new(env!("CARGO_MANIFEST_DIR"));
         let all =

@@ -68,7 +68,7 @@ struct Choosing {
     /// Only choose a motor from this catalogue, by the peak of the resistance and the scenario's speed
     #[arg(long, value_name = "FILE", conflicts_with_all = ["non_uniformity", "run_up", "table"])]
     catalogue: Option<PathBuf>,
-    /// Efficiency between motor and crank, for the choice [default: that of the scenario's motor, else 1]
+    /// Efficiency between motor and crank, for the choice [default: the efficiency of the scenario's motor, else 1]
     #[arg(long, value_name = "SHARE", allow_hyphen_values = true, requires = "catalogue", value_parser = number::efficiency)]
     efficiency: Option<f64>,
     /// Choose only among motors of this synchronous speed, in turns per minute

@@ -38,7 +38,8 @@ impl Which {
 /// The engines and their settings.
 #[derive(Clone, Debug, clap::Args)]
 pub(super) struct EngineArgs {
-    /// Engine, or `all` to run every engine. May be given several times [default: that of the scenario, else the first]
+    /// Engine, or `all` to run every engine. May be given several times [default: the scenario's engine, else the
+    /// first]
     #[arg(long, value_name = "ENGINE", value_parser = Which::parser())]
     pub(super) engine: Vec<Which>,
     #[command(flatten)]

@@ -12,7 +12,7 @@ use linkage::error::{Error, ErrorKind, Result};
 use scenario::source::text_of;
 use scenario::{Draft, Scenario, StartRequest, Undecided};
 
-/// A different start from that of the file.
+/// A start that differs from the start in the file.
 #[derive(Clone, Debug, clap::Args)]
 #[group(skip)]
 pub(super) struct StartArgs {

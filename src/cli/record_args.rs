@@ -40,7 +40,7 @@ pub(super) struct RecordArgs {
     #[arg(long, conflicts_with = "record")]
     pub(super) no_record: bool,
     /// Time scale of recordings and of `--live`: viewers play recordings this many times slower than the mechanism
-    /// runs. Without this option, layouts and `--live` show a turn in some four seconds [default: 1]
+    /// runs. Without this option, layouts and `--live` show a turn in about four seconds [default: 1]
     #[arg(long, value_name = "FACTOR", allow_hyphen_values = true, value_parser = number::positive)]
     slow: Option<f64>,
     /// Record at most this many instants per second of the mechanism's time, besides the first and the last instant

@@ -173,7 +173,7 @@ impl Drawn {
         Ok(drawn)
     }
 
-    /// A mechanism, placed as far as possible at an instant, with the error that stops it.
+    /// A mechanism, placed as far as possible at an instant, with the error that prevents its complete assembly.
     fn partial(draft: Draft, when: When, error: Option<Error>) -> Drawn {
         let angles = angles(&draft.drives, when);
         let laid = match &draft.structure {

@@ -155,7 +155,8 @@ pub fn unproven(proof: &Proof) -> Vec<(String, &Verdict)> {
     all
 }
 
-/// All channels of all engines, sorted by descending ratio of error to bound.
+/// All channels of all engines: those that disagree, those that are open, those that agree.
+/// Each of these three sets is sorted by descending ratio of error to bound.
 pub fn ranked(proof: &Proof) -> Vec<(&EngineProof, &ChannelProof)> {
     let engines = proof.engines.iter();
     let mut all: Vec<_> = engines.flat_map(|engine| engine.channels.iter().map(move |own| (engine, own))).collect();
@@ -163,12 +164,13 @@ pub fn ranked(proof: &Proof) -> Vec<(&EngineProof, &ChannelProof)> {
     all
 }
 
-/// The channel with the largest ratio of error to bound.
+/// The channel that ranks highest in the order of [`ranked`].
 pub fn worst<'a>(channels: impl IntoIterator<Item = &'a ChannelProof>) -> Option<&'a ChannelProof> {
     channels.into_iter().max_by(|a, b| used(a).total_cmp(&used(b)))
 }
 
-/// Ratio of error to bound of a channel. A channel that is open or disagrees counts more than any agreeing channel.
+/// Rank of a channel: its ratio of error to bound, raised so that an open channel ranks above every agreeing channel,
+/// and a disagreeing channel above every open channel.
 fn used(channel: &ChannelProof) -> f64 {
     let share = share(channel.residual.max, channel.bound);
     match grade(&channel.verdict) {

@@ -51,17 +51,17 @@ pub fn expected(proof: &Proof, tell: Tell, text: &mut String) {
     say!(text, sentences::checks_disagree_as_expected_see(&count, &(told.join(",\n  "))));
 }
 
-/// Largest number of instants at rest that are solved for the interval of the driving force.
+/// Largest number of instants at rest that are solved for the interval of the driving moment or force.
 const MOST_AT_REST: usize = 20;
 
 /// Reports joints with friction, and transmissions with losses, that rest.
-/// Also reports the widest interval of the first drive's moment or force there.
+/// Also reports the widest interval of the first drive's moment or force at these instants.
 fn at_rest(proof: &Proof, width: Option<usize>, text: &mut String) {
     let (case, reference) = (&proof.scene.case, &proof.reference_trajectory);
     if case.is_free() {
         return;
     }
-    // The sides have solved all rows before.
+    // The sides have already solved all rows, so an error is not expected and is ignored.
     let Some(all) = case.has_friction().then(|| rows_at_rest(case).ok()).flatten() else { return };
     let count = reference.times().len();
     for (friction, rows) in case.frictions().zip(all) {
@@ -87,8 +87,8 @@ fn at_rest(proof: &Proof, width: Option<usize>, text: &mut String) {
     }
 }
 
-/// Reports instants that are not judged with the quantities concerned, joints that rest, and followers that leave their
-/// cams.
+/// Reports instants that are not judged, each with the quantities concerned.
+/// Also reports joints that rest, and followers that leave their cams.
 pub fn notes(proof: &Proof, width: Option<usize>, text: &mut String) {
     for engine in &proof.engines {
         let left = || engine.channels.iter().filter(|channel| channel.left_out > 0);

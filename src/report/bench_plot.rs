@@ -118,7 +118,7 @@ fn panel(bench: &Bench, stage: Stage, axis: CostAxis, [left, right]: [f64; 2]) -
         }
     }
     // The analytic sides are so fast that only they would be on a common front.
-    // A second front is therefore drawn without them.
+    // A second front is therefore drawn without the sides.
     let best = front(&bench.points, stage, axis, floor, &|_| true);
     let others = front(&bench.points, stage, axis, floor, &|point| point.party != MethodOwner::Side);
     for at in best.iter().chain(&others).filter_map(place).map(|at| chart.at(at)).collect::<Vec<_>>() {

@@ -11,7 +11,7 @@ use linkage::math::Vec2;
 use linkage::mechanism::{JointSide, LinkId};
 use linkage::solver::State;
 
-/// Version of the form.
+/// Version of the JSON format.
 const FORMAT: u32 = 1;
 
 /// The case called `name`, as JSON.

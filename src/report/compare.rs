@@ -20,14 +20,13 @@ use prover::numbers;
 
 /// Number of channels shown for a pair in a short report.
 const SHOWN: usize = 3;
-/// If a number is known only to rounding error and is smaller than this fraction of the other number, it is shown as
-/// zero.
+/// If a number is below its rounding error and below this fraction of the other number, it is shown as zero.
 const NOTHING: f64 = 1e-4;
 /// Number of names that are listed; further names are only counted.
 const NAMED: usize = 3;
 
 /// The report in lines of at most `width` columns.
-/// It has the verdict, the channels with the largest ratios of error to bound, and the reasons of disagreements.
+/// It has the verdict, the most serious channels, and the reasons of disagreements.
 #[must_use]
 pub fn text(paths: [&Path; 2], comparison: &PartyComparison, detail: Detail, tell: Tell, width: usize) -> String {
     let mut text = String::new();
@@ -97,7 +96,7 @@ fn row(own: &Compared, by: Option<Input>) -> [String; 7] {
 
 const SIMULATION: &str = sentences::THE_REST_IS_OFF_BY_LESS_THAN_A_FIFTIETH;
 
-/// Whether the error of a channel could be that of a simulation: it is small, and no cause was found.
+/// Whether the error of a channel could come from a simulation: the error is small, and no cause was found.
 fn looks_like_a_simulation(pair: &SidePair, own: &Compared) -> bool {
     let is_explained = pair.causes.iter().any(|cause| cause.of.contains(&own.claim.text));
     own.is_derived && own.since.is_some() && !own.is_gross() && !is_explained

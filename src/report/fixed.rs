@@ -14,7 +14,7 @@ use scenario::Draft;
 /// Largest number of configurations in a list.
 const MOST: usize = 1000;
 
-/// A file without a drive whose links cannot move.
+/// A file that has no drive and whose links cannot move.
 pub(crate) struct FixedStructure<'a> {
     draft: &'a Draft,
     structure: &'a Structure,

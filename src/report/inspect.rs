@@ -14,10 +14,10 @@ use linkage::mechanism::{CamFigures, GROUND, Joint, JointId, LinkId, Mechanism, 
 use prover::numbers::{fixed_in, input_in, significant};
 use scenario::{Scenario, Undecided};
 
-/// Number of digits that are shown of the figures of a cam, which are extremes over 720 angles.
+/// Number of digits shown for the figures of a cam. These figures are extremes over 720 angles.
 const SAMPLED: usize = 5;
-/// Number of digits that are shown of a mass or a moment of inertia.
-/// This number shows all digits of a scenario, but hides the rounding error of a unit conversion.
+/// Number of digits shown for a mass or a moment of inertia.
+/// So many digits show every digit of a scenario, but hide the rounding error of a unit conversion.
 const SHOWN: usize = 12;
 
 /// The structure as text.
@@ -117,9 +117,9 @@ fn from_rough_place(choice: &ConfigurationChoice) -> String {
 }
 
 /// The structure as JSON, schema 1.
-/// `modes`: a value of the input (SI) and the configurations there; `range`: the range of motion; `drivers`: structures
-/// for other driven joints.
-/// Each of them is written only if it is given.
+/// `modes`: a value of the input (SI), and the configurations at this value.
+/// `range`: the range of motion. `drivers`: structures for other driven joints.
+/// Each of these three parts is written only if it is given.
 /// A group in `undecided` has no mode.
 pub(crate) fn json(
     scenario: &Scenario,

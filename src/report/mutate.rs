@@ -92,7 +92,7 @@ struct OfKind {
     trunk: Share,
     formulas: Share,
     margin: f64,
-    /// Smallest sizes found in every scenario: one for sides or formulas, one for the engine.
+    /// Smallest sizes at which the fault is found in every scenario: one for sides or formulas, one for the engine.
     size: [Option<f64>; 2],
 }
 

@@ -130,7 +130,7 @@ linkage::sentences! {
     forces_as_itself_exerts_them_2(info) = "the forces that {info} itself exerts";
     AS_THE_ENGINE_EXERTS_IT = " as the engine exerts it";
     // plain/reasons.rs
-    it_rests(what, name, count, all, at, least, most) = "{what} {name} rests at {count} of {all} instants, and its friction is taken as zero there. At {at} it leaves the drive between {least} and {most}.";
+    it_rests(what, name, count, all, at, least, most) = "{what} {name} rests at {count} of {all} instants, and its friction is taken as zero there. At {at}, the friction at rest allows any moment or force of the drive from {least} to {most}.";
     the_follower_leaves_the_cam(name, count, all, at) = "The follower leaves cam \"{name}\": the force between them is negative at {count} of {all} instants, first at {at}. A stronger spring or a groove must hold it.";
     up_to_of_instants_are_not_judged(most, proof, quantities, info) = "Up to {most} of {proof} instants are not judged in {quantities} ({info}): a drive or a loaded link reverses there, an acceleration or its rate jumps, or the motion begins.";
     checks_disagree_as_expected_see(count, told) = "\n{count} checks disagree as expected, see\n  {told}";
@@ -425,7 +425,7 @@ found down to: faults larger than this are found in every scenario, to a factor 
     of_the_price_but_proves_less(share) = "{share:.2} of the cost, but a proof at its settings is not conclusive.";
     a_proof_at_these_settings_agrees_at_with_sweeps(name, step, sweeps) = "A proof at these settings agrees. {name} at {step} with {sweeps} sweeps meets the error for ";
     error_measured_against_the_reference(engine, error, expected, runs) = "{engine}: error {error} measured against the reference, {expected} expected from its own runs; {runs} runs.";
-    costs_more_than_the_cheapest(name) = "{name} costs more than the cheapest.";
+    costs_more_than_the_cheapest(name) = "{name} costs more than the cheapest engine.";
     does_not_run_it_with_any(name, hints) = "{name} cannot run this scenario at any settings: {hints} says why.";
     does_not_meet_it_its_smallest(name, numbers) = "{name} does not reach this error: its smallest error was {numbers}.";
     the_cheapest_settings_within_of_every_channel(within, table) = "The cheapest settings within {within} of every channel's scale:\n{table}\n";

@@ -49,7 +49,7 @@ pub struct PairClearance {
     pub bodies: [usize; 2],
     /// Smallest distance over the range.
     pub smallest: Smallest,
-    /// First contact; `None` if the two bodies never touch.
+    /// First contact; `None` if no contact was found. Contacts in unproven parts of the range may be missing.
     pub collision: Option<Meeting>,
     /// First pose that violates the required clearance.
     /// `None` if no pose violates the clearance, or if no clearance is required.
@@ -117,8 +117,12 @@ impl ClearanceResult {
 /// Answers a clearance question about a case over the crank angles that its grid spans.
 /// `progress` receives the finished fraction, from 0 to 1.
 ///
-/// The poses repeat after a turn if all groups are dyads, there is one drive, which turns a joint, there are no
-/// transmissions, and change points are not passed.
+/// The poses repeat after a turn if all of these conditions hold:
+/// - All groups are dyads.
+/// - The only drive turns a joint.
+/// - There are no transmissions.
+/// - The motion does not pass change points.
+///
 /// If the poses repeat and the range is longer than a turn, only one turn is examined.
 /// For a free motion with one degree of freedom, the range spans the crank angles at the instants of the grid.
 ///

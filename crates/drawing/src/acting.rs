@@ -18,7 +18,8 @@ pub struct Acting {
     pub moment: f64,
 }
 
-/// Forces and moments of all loads except friction, and springs and dampers between points or links.
+/// Forces and moments of all loads that are drawn as arrows.
+/// These are all loads except friction, and except springs and dampers between points or links.
 /// `motions` and `angles` (rad, including full turns) are those of all links.
 #[must_use]
 pub fn acting(case: &Case, sketch: &super::Sketch, motions: &[Motion], angles: &[f64]) -> Vec<Acting> {

@@ -38,7 +38,7 @@ struct Guide {
     block: JointSide,
     /// Unit vectors along the guide, in the frame of the guide's link and in the frame of the block's link.
     axes: [Vec2; 2],
-    /// Travel of the block from the guide's point (m).
+    /// Ends of the block's travel, as distances from the guide's point along the axis (m).
     travel: [f64; 2],
     /// Half length and half width of the block (m).
     half: [f64; 2],

@@ -54,7 +54,7 @@ impl Laid {
         Laid { places, gaps: Vec::new(), reaches: Vec::new(), faults: Vec::new(), modes: Vec::new(), shape: None }
     }
 
-    /// Whether nothing is missing.
+    /// Whether the mechanism is assembled completely.
     #[must_use]
     pub fn is_whole(&self) -> bool {
         self.faults.is_empty() && self.places.iter().all(|place| matches!(place, LinkPlacement::Here(_)))
@@ -79,7 +79,8 @@ impl Laid {
         laid
     }
 
-    /// The poses of all links; links without a pose are at the origin.
+    /// The poses of all links. Links without a place have the pose in `shape`, or are at the origin if `shape` is
+    /// `None`.
     fn pose(&self) -> Pose {
         let shape = |link: LinkId| self.shape.as_ref().map_or(LinkPose::GROUND, |shape| shape.0[link]);
         Pose(

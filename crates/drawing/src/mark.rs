@@ -199,7 +199,7 @@ pub struct Look {
     pub fill: Fill,
     /// Thickness of the mark's line, in units of the sketch.
     pub width: f64,
-    /// Layer of the drawing in which it lies.
+    /// Drawing layer of the mark.
     pub layer: Layer,
 }
 

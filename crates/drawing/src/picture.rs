@@ -30,7 +30,7 @@ const NOTHING: f64 = 1e-9;
 /// Dash patterns: `LOOSE` for links whose pose is uncertain, `CONSTRUCTION` for construction lines.
 const LOOSE: &str = "2 1.4";
 const CONSTRUCTION: &str = "4 1 0.5 1";
-/// Half the angle of the arc that is drawn of a circle of reachable points (rad).
+/// A circle of reachable points is drawn as an arc. This constant is half the angle of the arc (rad).
 const REACH: f64 = 0.7;
 /// Opacity of tints.
 const TINT: f64 = 0.14;

@@ -57,7 +57,8 @@ fn place_between(mechanism: &Mechanism, links: [LinkId; 2]) -> JointSide {
     }
 }
 
-/// The arrow of a load. `None` for springs and dampers, which have symbols instead of arrows.
+/// The arrow of a load. `None` for friction, and for springs and dampers between points or links, which have symbols
+/// instead of arrows.
 pub fn of_load(mechanism: &Mechanism, number: usize, load: &Load) -> Option<LoadSign> {
     match load.nature().on {
         On::Link(link) => Some(LoadSign { load: number, at: JointSide { link, local: place_of(mechanism, link) } }),

@@ -74,7 +74,7 @@ pub struct SketchLabel {
 }
 
 impl Sketch {
-    /// The sketch of the links and joints of a mechanism. The guides are as long as these travels.
+    /// The sketch of the links and joints of a mechanism. `travels` sets the lengths of the guides.
     /// Symbols are multiples of `unit` (m): see [`unit`](self::unit).
     pub fn of(mechanism: &Mechanism, travels: &Travels, unit: f64) -> Sketch {
         let body = |link| {

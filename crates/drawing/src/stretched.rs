@@ -23,7 +23,8 @@ pub struct Stretched {
     pub load: usize,
     /// End points.
     pub ends: [JointSide; 2],
-    /// Width (m). The y of the marks is multiplied by the width, the x by the distance between the ends.
+    /// Width (m). The y coordinates of `marks` are multiplied by the width, the x coordinates by the distance between
+    /// the ends.
     pub width: f64,
     /// The drawing from (0, 0) to (1, 0); lines only.
     pub marks: Vec<Mark>,

@@ -14,7 +14,7 @@ pub struct Travels {
 }
 
 impl Travels {
-    /// Nothing is known yet.
+    /// Travels before the first pose is included.
     #[must_use]
     pub fn none(mechanism: &Mechanism) -> Travels {
         Travels { joints: vec![None; mechanism.joints().len()], members: vec![None; mechanism.transmissions().len()] }

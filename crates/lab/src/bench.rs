@@ -29,9 +29,9 @@ use scenario::Scenario;
 pub struct Bench {
     /// Name and title of the scenario.
     pub scenario: [String; 2],
-    /// Number of instants; `span` has the times (s) of the first and the last instant.
+    /// Number of instants.
     pub instants: usize,
-    /// See `instants`.
+    /// Times of the first and the last instant (s).
     pub span: [f64; 2],
     /// Whether the motion is free, that is, determined by forces.
     pub is_free: bool,
@@ -39,7 +39,7 @@ pub struct Bench {
     pub stages: Vec<Stage>,
     /// The reference, and its error.
     pub floor: Floor,
-    /// Shortest time (s) of side 1 at its usual accuracy; all ratios are relative to it.
+    /// Shortest time (s) of side 1 at its usual accuracy: the unit of relative times.
     pub unit: f64,
     /// Versions of engines and peers, by name.
     pub versions: Vec<(String, String)>,

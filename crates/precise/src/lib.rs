@@ -30,8 +30,8 @@ pub fn method(case: &Case) -> &'static str {
 /// All channels of a case on its grid, rounded to doubles at the end.
 ///
 /// # Errors
-/// [`Unsupported`](linkage::ErrorKind::Unsupported) for a case with several drives, loads, instants before t = 0, a
-/// drive that may pass change points, or a law other than constant speed.
+/// [`Unsupported`](linkage::ErrorKind::Unsupported) for a case with several drives, loads, transmissions, instants
+/// before t = 0, a drive that may pass change points, or a drive other than a crank at constant speed.
 /// [`Geometry`](linkage::ErrorKind::Geometry) if the mechanism cannot be assembled or is singular. The error contains
 /// the crank angle.
 pub fn solve(case: &Case) -> Result<Trajectory> {

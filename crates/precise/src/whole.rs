@@ -27,7 +27,7 @@ const MOST: usize = 30;
 const SETTLED: f64 = 1e-28;
 /// If an iteration does not halve the change, this larger limit applies instead of `SETTLED`.
 const ROUNDING: f64 = 1e-20;
-/// Limit of the change that is used instead of `SETTLED` in steps between requested instants.
+/// At steps between requested instants, this larger limit replaces `SETTLED`.
 const NEAR: f64 = 1e-10;
 
 /// The same as [`solve`](super::solve), for mechanisms with revolute and prismatic pairs and up to some tens of links.
@@ -133,8 +133,8 @@ impl Whole<'_> {
     }
 
     /// All equations in a pose: first those of the joints, then that of the drive.
-    /// The right-hand side depends on `what`. The right-hand side contains the gaps of the pose, the speeds, or the
-    /// terms of the accelerations that are quadratic in the velocities.
+    /// `what` selects the right-hand side: the gaps of the pose, the speeds, or the terms of the accelerations that are
+    /// quadratic in the velocities.
     fn system(&self, frames: &[Frame], what: What) -> System {
         let mut system = self.empty();
         for (index, joint) in self.case.mechanism.joints().entries() {

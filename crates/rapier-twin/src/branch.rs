@@ -24,7 +24,7 @@ pub(super) struct Branches {
     groups: Vec<Watched>,
 }
 
-/// One group.
+/// One supervised group.
 #[derive(Debug)]
 struct Watched {
     /// Index of the group in the structure.

@@ -27,7 +27,8 @@ const STANDSTILL: f64 = 1e-9;
 /// Number of tiny steps that undo a trial.
 const UNDOING: usize = 8;
 /// Largest number of trials of the first step.
-/// The trials end earlier if the relative change of the compensating loads is below `GUESSED`.
+/// The trials end earlier if the relative changes of the compensating loads, and of the accelerations from which the
+/// friction is computed, are at most `GUESSED`.
 const MOST_TRIALS: usize = 200;
 const GUESSED: f64 = 1e-9;
 
@@ -37,7 +38,8 @@ pub(super) struct Acting {
     /// The engine's present state, and the angular velocities one step earlier.
     state: State,
     before: Vec<f64>,
-    /// Velocities, one step earlier, of the points whose motion some loads oppose; one for each load.
+    /// For each load that opposes the motion of a point: the velocity of this point one step earlier. NaN for other
+    /// loads, and before the first step.
     swept: Vec<Vec2>,
     /// Speed that each link at rest reaches in the trial step. Without a trial step, the speeds are 0.
     setting_off: Vec<f64>,
@@ -49,7 +51,7 @@ pub(super) struct Acting {
     /// Moment of the motor on the crank (N m) that acts as a load in this step.
     /// Rapier's motor cannot apply this moment.
     direct: f64,
-    /// One for each world.
+    /// Added masses of each world; `None` for a world without added masses.
     added: Vec<Option<Added>>,
     braking: Option<Braking>,
 }
@@ -179,7 +181,8 @@ impl Acting {
         }
     }
 
-    /// Whether a link at rest at the start has a load, or reducer losses, that depend on its sense of rotation.
+    /// Whether a link at rest at the start has a load or reducer losses that depend on its sense of rotation.
+    /// Also true if a joint with friction is at rest at the start.
     fn must_try(&self, case: &Case) -> bool {
         let losses = case.crank().moving_motor().is_some_and(|motor| motor.efficiency < 1.0);
         let mut sensed = case
@@ -239,9 +242,11 @@ impl Acting {
 
 /// Gives worlds at the start pose the start velocities of the driving links.
 /// Returns the window of the motion.
-/// If a load or the losses of a reducer depend on the sense of rotation of a link at rest, one step is tried and
-/// undone.
-/// In the trial step, such a load does not act, and power flows from the motor.
+/// One step is tried and undone in two cases:
+/// - A load or the losses of a reducer depend on the sense of rotation of a link at rest.
+/// - A joint with friction is at rest.
+///
+/// In the trial step, such loads and such friction do not act, and power flows from the motor.
 ///
 /// # Errors
 /// The errors of [`Guard::step`].
@@ -272,7 +277,8 @@ pub(super) fn begin(case: &Case, acting: &mut Acting, worlds: &mut [Guard], sett
 }
 
 /// Repeats the first step until its accelerations no longer change.
-/// The repetition is needed because the compensating loads depend on these accelerations. Every trial is undone.
+/// The repetition is needed because the compensating loads and the friction depend on these accelerations.
+/// Every trial is undone.
 fn guess(case: &Case, acting: &mut Acting, window: &Window, worlds: &mut [Guard], step: f64) -> Result<()> {
     for _ in 0..MOST_TRIALS {
         if acting.added.iter().all(Option::is_none) && acting.braking.is_none() {

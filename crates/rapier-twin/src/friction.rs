@@ -20,7 +20,7 @@ use linkage::solver::State;
 
 /// Largest number of Newton's steps.
 const MOST: usize = 40;
-/// The normal forces are settled if their residuals are below this fraction of the largest one.
+/// The normal forces have converged if their residuals are below this fraction of the largest normal force.
 const SETTLED: f64 = 1e-14;
 /// A residual below this fraction of the largest normal force is rounding error if the residuals no longer decrease.
 const ROUNDING: f64 = 1e-11;
@@ -29,7 +29,8 @@ const PROBE: f64 = 1e-4;
 /// Smallest step in which the friction is increased, as a fraction of the friction.
 const LEAST: f64 = 1e-3;
 
-/// Reactions of a known motion, with friction, and with the forces of transmissions in the lines that carry them.
+/// Computes the reactions of a known motion, with friction.
+/// The forces of transmissions act in the lines of action that carry them.
 #[derive(Debug)]
 pub(super) struct InverseDynamics {
     equations: NewtonEuler,
@@ -179,7 +180,7 @@ pub(super) struct Braking {
 }
 
 impl Braking {
-    /// The joints of a case; `None` if no joint has friction.
+    /// Friction of the joints of a case; `None` if no joint has friction.
     pub(super) fn of(case: &Case) -> Option<Self> {
         let n = case.frictions().count();
         (n > 0).then(|| Braking {

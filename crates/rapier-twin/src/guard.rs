@@ -1,6 +1,10 @@
-//! A world under supervision.
-//! If a loop opens, a link turns too far in one step, a number is NaN or infinite, or the engine panics, an error is
-//! returned.
+//! A world under supervision. A step returns an error in each of these cases:
+//! - A loop opens.
+//! - A link turns too far in one step.
+//! - The kinetic energy grows too much in one step.
+//! - A number is NaN or infinite.
+//! - The engine panics.
+//!
 //! The error states time, crank angle, and joint or link.
 //! See docs/numerics/twins.md.
 
@@ -28,8 +32,8 @@ const LARGEST_GAP: f64 = 0.05;
 const LARGEST_TURN: f64 = std::f64::consts::FRAC_PI_2;
 /// If the kinetic energy grows by more than this factor in one step, the run has diverged and is stopped.
 /// The factor corresponds to a factor of ten in the speeds.
-/// Energy is not conserved, because the drives enforce their speeds.
-/// But the kinetic energy depends only on the pose, and the pose changes little in a step.
+/// In a prescribed motion, the drives enforce their speeds, so energy is not conserved.
+/// But the kinetic energy then depends only on the pose, and the pose changes little in a step.
 const LARGEST_GROWTH: f64 = 100.0;
 
 /// A world and the quantities that are supervised.
@@ -107,7 +111,7 @@ impl<'a> Guard<'a> {
         self.world.as_ref()
     }
 
-    /// Sets the speed of every drive to the value that `speed` returns for the drive (rad/s).
+    /// Sets the speed of every drive to the value that `speed` returns for the drive (rad/s, or m/s for a slide).
     pub(super) fn drive(&mut self, speed: impl Fn(&Drive) -> f64) {
         for (index, drive) in self.case.drives.iter().enumerate() {
             self.world.set_drive(index, speed(drive));
@@ -262,12 +266,13 @@ pub(super) fn guards<'a>(
 struct Moment {
     /// Time (s).
     t: f64,
-    /// The input there.
+    /// Value of the input at this time.
     input: InputValue,
 }
 
 impl Moment {
-    /// For a free crank, `before` is the angle before the step; a prescribed crank has its angle at `t`.
+    /// The input of a free crank is `before`, the angle before the step.
+    /// The input of a prescribed crank is its value at `t`.
     fn of(drive: &Drive, before: f64, t: f64) -> Self {
         Moment { t, input: drive.told(if drive.is_free() { before } else { drive.at(t).value }) }
     }

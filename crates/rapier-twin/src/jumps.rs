@@ -1,7 +1,7 @@
 //! Jumps of tables of loads within a step of a free motion.
 //!
-//! Both values of a load are weighted by the fractions of the step before and after the jump.
-//! Without the weights, the error of the motion after the jump would be irregular in the step.
+//! The load of such a step is the mean of the values before and after the jump, weighted by the fractions of the step.
+//! Without the weights, the error of the motion after the jump would not fall regularly with the step.
 
 use linkage::case::Case;
 use linkage::drive::InputState;
@@ -10,7 +10,7 @@ use linkage::math::just_below;
 /// The jumps of a case's tables.
 #[derive(Debug)]
 pub(super) struct Jumps {
-    /// Crank angles (rad), each with the period of its table (rad).
+    /// Crank angles of the jumps (rad), each with the period of its table (rad).
     at: Vec<[f64; 2]>,
     /// Rate of the crank one step earlier (rad/s); NaN before the second step.
     rate: f64,
@@ -23,8 +23,8 @@ impl Jumps {
         (!at.is_empty()).then_some(Jumps { at, rate: f64::NAN })
     }
 
-    /// The first jump that the crank passes in a step of the length `step` (s): the fraction of the step before it, and
-    /// the crank angles beyond it (rad).
+    /// The first jump that the crank passes in a step of `step` (s); `None` if it passes no jump.
+    /// Returns the fraction of the step before the jump, and the range of crank angles beyond the jump (rad).
     pub(super) fn passed(&mut self, crank: InputState, step: f64, is_first: bool) -> Option<(f64, [f64; 2])> {
         // The engine turns the crank with the rate at the end of the step.
         let next = if self.rate.is_nan() { crank.rate } else { 2.0 * crank.rate - self.rate };

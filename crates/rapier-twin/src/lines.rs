@@ -1,8 +1,9 @@
 //! The lines of action that carry the forces of transmissions.
 //!
-//! Engine and Newton-Euler equations exert the force of a transmission in its first line of action, whatever its sign.
-//! A negative force belongs in the second line, and slack strands have a tension.
-//! These forces balance each other as far as the motion is concerned, so only the reactions of the axles change.
+//! Engine and Newton-Euler equations exert the force of a transmission in the first line of action, whatever the sign
+//! of the force.
+//! A negative force belongs in the second line of action, and a slack strand has a tension.
+//! The corrections do not change the motion; they change only the reactions of the axles.
 
 use super::newton_euler::NewtonEuler;
 use linkage::case::Case;
@@ -12,7 +13,7 @@ use linkage::math::{Vec2, cross};
 use linkage::mechanism::LinkId;
 use linkage::solver::State;
 
-/// The change of the reactions, prepared for many poses.
+/// Computes the corrections of the reactions. The memory is reused for every pose.
 #[derive(Debug)]
 pub(super) struct Lines {
     /// The equations without masses.

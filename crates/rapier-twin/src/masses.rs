@@ -14,16 +14,17 @@ const SHARE: f64 = 0.1;
 /// Moment of inertia of a slender rod, divided by its mass and the square of its length.
 const ROD: f64 = 1.0 / 12.0;
 
-/// If a mass centre is farther from all joints of its link than this fraction of the link's extent, a point mass is
-/// enough.
-/// In this case, the mass matrix of a multibody is regular.
+/// If a mass centre is farther from all joints of its link than this fraction of the link's extent, the link needs a
+/// mass but no moment of inertia.
+/// The mass matrix of a multibody is then regular even with a point mass.
 const OFF_JOINTS: f64 = 1e-2;
 
 /// Additional moment of inertia of driving links, divided by the total mass times the square of the mechanism's size.
 /// A link with prescribed speed may have any moment of inertia, because it affects neither motion nor reactions.
 /// The additional moment of inertia affects the driving moment only where the speed changes.
 /// Where the speed changes, its contribution is subtracted ([`Ghost`](super::ghost::Ghost)).
-/// With a large moment of inertia, the drives' rows hardly depend on those of the loops, and the sweeps converge.
+/// With a large moment of inertia, the constraint rows of the drives hardly depend on the rows of the loops, and the
+/// sweeps converge.
 /// On a four-bar whose coupler is thirteen times as heavy as its crank, 32 sweeps with the flywheel achieve as much as
 /// 1024 sweeps without the flywheel.
 /// A flywheel ten times as large gives no further gain.

@@ -14,9 +14,10 @@
 //! A revolute joint transmits no moment, and a prismatic joint no force along its axis.
 //! Each joint of the tree therefore gives one equation.
 //! The links beyond a joint form a composite body: Featherstone, "Rigid Body Dynamics Algorithms", 2008, ch. 8.
-//! Driven joints are in the tree, and the remainder of a driven joint's equation is the driving moment or force.
+//! Driven joints are in the tree, and the residual of a driven joint's equation is the driving moment or force.
 //! The moment of a crank acts from the frame. Any other driving moment or force also acts on the inner link.
-//! The number of the remaining equations equals the number of components in cut joints.
+//! The equations of the other tree joints determine the components in the cut joints: there are as many equations as
+//! components.
 //! A four-bar has two such equations, while all its links together have nine equations of motion.
 //! A transmission is a cut joint with one component: the force in its first line of action.
 

@@ -1,6 +1,7 @@
 //! Reactions and moments from tiny steps of the engine, started on the engine's trajectory.
 //!
-//! A separate world is placed in the pose at t - h, and one step makes the velocities consistent with pose and drives.
+//! A separate world is placed in the pose at t - h. One or two steps make its velocities consistent with pose and
+//! drives.
 //! All degrees of freedom are driven, so the velocities are unique.
 //! Then the world is placed in the pose at t with these velocities, and a step of h is done.
 //! The impulses of this step give the reactions y(h) at t with an error proportional to h.
@@ -27,7 +28,7 @@ pub(super) struct Probe<'a> {
     step: f64,
     reporters: PerJoint<Option<usize>>,
     ghost: Option<Ghost>,
-    /// Poses before the tiny step and after it.
+    /// Poses at t - h and at t.
     poses: [Vec<LinkPose>; 2],
     tally: WorkTally,
 }

@@ -24,7 +24,7 @@ pub(super) struct Reactions<'a> {
 
 /// Source of reactions and moments.
 enum Source<'a> {
-    /// None are wanted.
+    /// No reactions are requested.
     Unwanted,
     Differences(Box<InverseDynamics>),
     Native(Native),
@@ -38,7 +38,8 @@ impl<'a> Reactions<'a> {
     /// Reports begin with step `from`.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] for a probe of a free motion, or if Rapier refuses a joint.
+    /// [`ErrorKind::Unsupported`] in these cases: the route is not [`Route::Differences`] and the case has friction, a
+    /// probe of a free motion is requested, or Rapier refuses a joint.
     pub(super) fn of(engine: &Rapier, case: &'a Case, from: i64) -> Result<(Self, Vec<Guard<'a>>)> {
         let mechanism = &case.mechanism;
         let moving = || match engine.build {

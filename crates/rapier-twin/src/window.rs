@@ -33,8 +33,7 @@ pub(super) fn first_steps(case: &Case, plain: bool) -> i64 {
 pub(super) struct Window {
     step: f64,
     substeps: usize,
-    /// Whether the engine's velocities are those at the start of a step.
-    /// The velocities are those at the start if drives turn with constant speeds.
+    /// Whether all drives turn with constant speeds. The engine's velocities then belong to the start of a step.
     steady: bool,
     /// The deepest requested stage; later stages are not computed.
     deepest: Stage,

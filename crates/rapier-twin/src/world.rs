@@ -8,7 +8,7 @@ use linkage::drive::Wrench;
 use linkage::math::{KeepNan, Vec2, cross, rotated};
 use linkage::mechanism::{Joint, JointId, JointSide, LinkId, LinkPose, TransmissionId};
 
-/// A link's angle as far as the engine knows it (rad, counter-clockwise positive).
+/// A link's angle in the form in which the engine stores it (rad, counter-clockwise positive).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LinkAngle {
     /// The angle itself, including full turns.
@@ -106,7 +106,8 @@ fn own_angle(direction: Vec2) -> f64 {
 
 /// The Rapier world of a case.
 /// All links form one multibody: links in the tree are joined to each other, the links outside the tree float.
-/// In large free motions, each link on the ground starts a separate multibody with all links beyond it.
+/// In a free motion with a large tree, each link that is joined to the ground starts a separate multibody, which also
+/// has all links beyond this link.
 /// If the tree has no branches, every link is a separate body.
 /// Joints that the tree cuts are impulse joints.
 /// Every drive has a separate motor so that the motor's impulse can be read.
@@ -133,7 +134,7 @@ pub trait World {
     /// The next step regains this momentum across the constraints of the next pose.
     fn set_stabilised(&mut self, stabilised: bool);
 
-    /// Sets the angular velocity (rad/s, counter-clockwise positive) that a drive gives its link.
+    /// Sets the speed of a drive's input: rad/s, counter-clockwise positive, or m/s for a slide.
     /// The drive is given by its index in [`drives`](linkage::case::CaseParts::drives).
     fn set_drive(&mut self, drive: usize, omega: f64);
 
@@ -182,7 +183,7 @@ pub trait World {
     /// sign: the row pushes and pulls.
     fn transmitted(&self, transmission: TransmissionId) -> f64;
 
-    /// Driving moment on the drive's link (N m), from the motor's impulse in the last step.
+    /// Moment of a drive (N m), or its force for a slide (N), from the motor's impulse in the last step.
     fn torque(&self, drive: usize) -> f64;
 }
 

@@ -45,7 +45,7 @@ struct Found {
 /// [`CHANNELS`](linkage::trajectory::CHANNELS).
 ///
 /// # Errors
-/// [`ErrorKind::Io`](linkage::ErrorKind::Io) with the path if the file cannot be read, is cut off or damaged;
+/// [`ErrorKind::Io`](linkage::ErrorKind::Io) with the path if the file cannot be read, is no MCAP file, or is damaged;
 /// [`ErrorKind::Input`](linkage::ErrorKind::Input) if the file contains no side, or if a topic lacks samples;
 /// [`ErrorKind::Numeric`](linkage::ErrorKind::Numeric) if a value is not finite.
 pub fn load(path: &Path) -> Result<Vec<(String, Trajectory)>> {

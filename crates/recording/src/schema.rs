@@ -35,7 +35,7 @@ pub fn grid(input: Input) -> MessageKind {
 }
 
 /// Number of a channel's field in the message of its subject.
-/// The channels of a joint, whether it slides or has friction, have different numbers.
+/// All channels of joints have different numbers, including the channels of sliding joints and of friction.
 pub fn tag(kind: &ChannelKind) -> u32 {
     let is_beside = |own: &&ChannelKind| own.subject == kind.subject || is_of_joint(own) && is_of_joint(kind);
     let place = CHANNELS.iter().filter(is_beside).position(|own| own.suffix == kind.suffix);

@@ -13,7 +13,7 @@ pub struct ChannelTable<'a> {
     pub topics: Vec<Topic<'a>>,
 }
 
-/// One message per row.
+/// The topic of a subject, with one message per row.
 pub struct Topic<'a> {
     /// Number of the topic in its sink.
     pub id: u16,

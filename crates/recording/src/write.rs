@@ -1,5 +1,4 @@
-//! A recording as an MCAP file.
-//! The file itself has options, topics and messages.
+//! Writes a recording as an MCAP file.
 
 use super::beside::LIBRARY;
 use super::forces::Forces;
@@ -32,8 +31,8 @@ const EARLY: f64 = 1e-6;
 ///
 /// # Errors
 /// [`ErrorKind::Io`](linkage::ErrorKind::Io) with the path if a file cannot be written;
-/// [`ErrorKind::Input`](linkage::ErrorKind::Input) if a side's name is empty, taken or contains `/`, or if a time of a
-/// grid is not finite.
+/// [`ErrorKind::Input`](linkage::ErrorKind::Input) if a side's name is invalid (see [`RecordedSide::name`]), if a time
+/// of a grid is not finite, or if [`Show`] has an invalid number or makes the recording too long for viewers.
 #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the MCAP library")]
 pub fn write(recording: &Recording, path: &Path) -> Result<()> {
     check(recording)?;

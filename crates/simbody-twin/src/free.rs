@@ -51,7 +51,7 @@ pub(super) fn start(case: &Case, settings: IntegrationSettings) -> Result<(Linka
     Ok((linkage, run))
 }
 
-/// Moments of the motor and the loads, for positions and velocities from Simbody.
+/// Function that gives the forces and moments of motor and loads, for positions and velocities from Simbody.
 /// For a link at rest, loads that depend on its sense of rotation use the sense in which the link will start.
 fn acting(case: &Case, linkage: &Linkage, setting_off: Rc<RefCell<Vec<f64>>>) -> Act {
     let (case, linkage) = (case.clone(), linkage.clone());

@@ -18,7 +18,7 @@ use linkage::mechanism::{
 };
 use linkage::solver::State;
 
-/// The model of a case, and the mapping from its numbers to those of the mechanism.
+/// The model of a case, and the mapping from bodies and loops of the model to links and joints of the mechanism.
 #[derive(Clone, Debug)]
 pub(super) struct Linkage {
     /// Simbody's model: bodies in the order of the tree's branches, loops in the order of its cuts.
@@ -175,7 +175,7 @@ fn law(case: &Case, branch: &TreeBranch, drive: &Drive, moving: bool) -> Option<
     Some(drive.initial_speed() - parent.map_or(0.0, Drive::initial_speed))
 }
 
-/// Sign of a drive's input in the coordinate of the branch, which is that of the child relative to the parent.
+/// Sign of a drive's input in the coordinate of the branch. This coordinate measures the child relative to its parent.
 fn sign_of(drive: &Drive, joint: &mechanism::Joint, branch: &TreeBranch) -> f64 {
     if drive.input == Input::Angle || joint.second.link == branch.link { 1.0 } else { -1.0 }
 }

@@ -97,7 +97,8 @@ fn element(mark: &Mark, unit: f64) -> String {
     let class = format!("class=\"{} {ink} {fill}\" stroke-width=\"{}\"", mark.role.name(), number(look.width));
     match &mark.shape {
         MarkShape::Circle { centre, radius } => {
-            // The engine's pins surround those of the reference; its wheels lie on them, dashed.
+            // The engine's pins surround the reference's pins. The engine's wheels, dashed, lie on the reference's
+            // wheels.
             let ring = if mark.role == MarkRole::Wheel { *radius } else { RING * radius };
             let [x, y, r, ring] = [centre.x, centre.y, *radius, ring].map(|own| number(own / unit));
             format!("<circle {class} cx=\"{x}\" cy=\"{y}\" r=\"{r}\" data-ring=\"{ring}\"/>")

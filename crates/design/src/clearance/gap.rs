@@ -4,7 +4,7 @@
 //! The distance of two convex parts along a fixed direction is the distance of their extreme corners along this
 //! direction.
 //! Every corner moves uniformly, up to a proven error, so the bound is valid for any direction.
-//! A wrong pair of nearest points therefore weakens the bound but never invalidates the bound.
+//! A wrong pair of nearest points therefore makes the bound weaker, but never wrong.
 
 use linkage::math::{KeepNan, Vec2, turned};
 use linkage::mechanism::LinkId;

@@ -176,7 +176,8 @@ impl DistanceSearch<'_, '_> {
     }
 
     /// Finds where a pair first comes as near as `threshold` (m).
-    /// Returns `None` if the pair is proven farther apart over the whole range.
+    /// If the result is `None`, the pair is proven farther apart, except in the parts of the range that are reported as
+    /// unproven.
     ///
     /// # Errors
     /// The errors of the pose solver.

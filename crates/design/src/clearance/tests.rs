@@ -156,7 +156,7 @@ fn the_first_collision_is_the_first_in_motion_order() {
         asked.pairs = vec![[0, 3], [0, 4]];
         asked.area = f64::INFINITY;
         let found = find(&case, &asked, &mut |_| ()).unwrap();
-        assert_eq!(found.range, [0.0, sense * TAU], "of a longer grid one turn");
+        assert_eq!(found.range, [0.0, sense * TAU], "one turn of a longer grid");
         let (first, meeting) = found.first_collision().unwrap();
         assert!(found.pairs.iter().all(|pair| pair.collision.is_some()));
         assert_eq!(first.bodies, [0, 4]);

@@ -1,5 +1,5 @@
-//! Poses of all links over an interval of crank angles: side 1's pose at the middle, and a proven bound of the
-//! deviation.
+//! Poses of all links over an interval of crank angles: side 1's pose at the middle, a uniform motion through this
+//! pose, and a proven bound on the deviation from the uniform motion.
 //!
 //! Over the interval, a uniform motion approximates the motion of each link.
 //! The link's reference point moves along a straight line, and the link's angle changes in proportion to the crank
@@ -64,7 +64,7 @@ impl RangePart {
     }
 }
 
-/// Point of a link over a part of the range, as a function of the crank angle d from the middle.
+/// Point of a link over a part of the range, as a function of the crank angle d measured from the middle of the part.
 /// The position of the point is `at` + `rate` d (m, m/rad), with an error of at most `error` (m).
 #[derive(Clone, Copy, Debug)]
 pub struct Track {
@@ -122,7 +122,7 @@ impl Tube {
         }
     }
 
-    /// Largest rotation from the middle (rad).
+    /// Largest rotation of the link from its pose at the middle (rad).
     fn turn(&self) -> f64 {
         self.spin.abs() * self.half + self.twist
     }
@@ -147,7 +147,7 @@ pub struct Slice {
     pub crank: f64,
     /// Half width of the part (rad), not negative.
     pub half: f64,
-    /// The links.
+    /// Enclosures of the motions, one for each link.
     pub tubes: Vec<Tube>,
     /// Whether the bounds are proven; otherwise only the poses at the middle are known.
     pub sound: bool,
@@ -282,7 +282,7 @@ struct Row<'a> {
     terms: Vec<(Term<'a>, f64)>,
     /// Rate of the sum, per unit of the input.
     rate: f64,
-    /// Whether the sum must be zero at the middle. Otherwise its value there is that of side 1.
+    /// Whether the sum must be zero at the middle. Otherwise the pose of side 1 gives the sum at the middle.
     is_zero: bool,
 }
 
@@ -291,7 +291,7 @@ struct Row<'a> {
 enum Term<'a> {
     /// Distance of the joint's second point from its first point along a direction in the world.
     Along(&'a Joint, Vec2),
-    /// The same along a direction in the first link.
+    /// Distance of the joint's second point from its first point along a direction in the first link.
     Inside(&'a Joint, Vec2),
     /// Angle of a link.
     Angle(LinkId),
@@ -328,7 +328,7 @@ fn rows<'a>(
     rows
 }
 
-/// Rate of a driven joint's coordinate, per unit of the input. Several drives have constant speeds.
+/// Rate of a driven joint's coordinate, per unit of the input. If there are several drives, all speeds are constant.
 fn rate(case: &Case, joint: JointId) -> f64 {
     let further = case.drives.further().iter().find(|drive| drive.joint == joint);
     let speed = |drive: &Drive| drive.constant_speed().unwrap_or(f64::NAN);
@@ -487,7 +487,7 @@ impl Term<'_> {
         [way.dot(&gap), way.dot(&rate) + one.spin * own, error]
     }
 
-    /// Part of the term in [`changes`].
+    /// The term's contribution to the bounds of [`changes`].
     fn change(self, tubes: &[Tube], half: f64, column: &impl Fn(LinkId) -> Option<usize>, radii: &[f64]) -> f64 {
         let (Term::Along(joint, _) | Term::Inside(joint, _)) = self else { return 0.0 };
         let sides = [joint.first, joint.second];

@@ -145,7 +145,7 @@ pub struct MotionDiagram {
     pub course: MotionCurve,
     /// Number of divisions of the turn.
     pub divisions: usize,
-    /// Number of rows per division. The number is even.
+    /// Number of rows per division, a multiple of 8.
     pub stride: usize,
     /// What the input measures.
     pub input: Input,
@@ -166,7 +166,7 @@ impl MotionDiagram {
     /// If the motion does not repeat after the range, chords of chords begin and end one division inside.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] for a number of divisions outside [`DIVISIONS`].
+    /// [`ErrorKind::Input`] for a number of divisions outside [`DIVISIONS`], or if the grid of a slide has no stroke.
     /// [`ErrorKind::Unsupported`] if a drive has no constant speed, or if the solver does not provide a channel.
     /// The errors of the solver, if the crank cannot turn fully.
     pub fn of(case: &Case, solver: &dyn Solver, course: &MotionCurve, divisions: usize) -> Result<Self> {

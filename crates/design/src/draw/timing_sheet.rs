@@ -11,11 +11,11 @@ use linkage::math::Vec2;
 
 /// Length of the crank angle axis (mm): two degrees per millimetre.
 const LONG: f64 = 180.0;
-/// Height of the stroke (mm).
+/// Height of the diagram, which represents the whole stroke (mm).
 const HIGH: f64 = 80.0;
-/// Height of the strip of phases above the stroke (mm).
+/// Height of the strip of phases above the diagram (mm).
 const STRIP: f64 = 11.0;
-/// Space to the left of the stroke for the numbers of its axis (mm). `MARGIN` is the margin of the sheet (mm).
+/// Space to the left of the diagram for the numbers of its axis (mm). `MARGIN` is the margin of the sheet (mm).
 const LEFT: f64 = 14.0;
 const MARGIN: f64 = 12.0;
 /// Required motion.

@@ -45,7 +45,7 @@ pub fn table(case: &Case) -> Result<Vec<[String; 4]>> {
 
 /// The profiles of all cams as DXF in mm: one closed polyline on one layer for each cam, in the frame of the cam.
 /// Format: AutoCAD release 12, which all programs read.
-/// The `dxf` crate writes the date, so its bytes would differ from run to run.
+/// The `dxf` crate is not used, because it writes the date: the bytes would differ from run to run.
 ///
 /// # Errors
 /// [`ErrorKind::Input`] if the mechanism has no cam.

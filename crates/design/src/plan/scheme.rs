@@ -57,7 +57,7 @@ pub struct Scheme {
     pub guides: Vec<SchemeGuide>,
     /// Number of the driving link.
     pub driver: LinkId,
-    /// Singular points of the mechanism's class IV groups, as far as a group has a singular point.
+    /// Singular points of the mechanism's class IV groups. Groups without a singular point are left out.
     pub singular: Vec<SingularPoint>,
     /// Sketch of the mechanism, in millimetres on paper.
     pub sketch: Sketch,

@@ -84,8 +84,8 @@ impl Achieved {
     }
 
     /// Achieved motion as in [`Achieved::of`].
-    /// If the task leaves the forward sense open, the sense with the shorter distances travelled in the wrong sense is
-    /// chosen.
+    /// If the task leaves the forward sense open, the sense is chosen with which the total distance travelled in the
+    /// wrong sense is smaller.
     ///
     /// # Errors
     /// The errors of [`Achieved::of`].

@@ -20,7 +20,7 @@ const WRONG: f64 = 4.0;
 /// Where a motion ends and the opposite motion begins, the output's rate should be zero.
 /// The rate times this crank angle (rad, 20 deg) counts as a deviation (fraction of the stroke).
 const LATE: f64 = TAU / 18.0;
-/// Distance between a limit of a phase and each of the two rows beside it (rad, 0.25 deg).
+/// Upper limit of the distance between a limit of a phase and each of the two rows beside it (rad, 0.25 deg).
 /// The rate at the limit is computed from these two rows.
 const BESIDE: f64 = TAU / 1440.0;
 /// Weight of the squared violations of limits in the cost, compared with weight 1 for squared fractions of the stroke.

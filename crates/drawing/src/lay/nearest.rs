@@ -5,7 +5,7 @@ use linkage::mechanism::{Joint, JointSide, LinkId, LinkPose, Mechanism, Pose};
 
 /// Weight of the gaps at placed links. The weight is large, so that the remaining gaps lie between the missing links.
 const HELD: f64 = 1000.0;
-/// Number of start values that are tried, and `STEPS` the number of steps from each start value.
+/// Number of start values that are tried. `STEPS` is the number of steps from each start value.
 /// If more than `FEW` links are missing, fewer start values are tried, to limit the time.
 /// If more than `MOST` links are missing, none of them is placed.
 const STARTS: usize = 12;

@@ -120,7 +120,7 @@ pub struct Type {
     pub colour: &'static str,
     /// `start`, `middle` or `end`.
     pub anchor: &'static str,
-    /// Whether the letters lean.
+    /// Whether the letters are slanted.
     pub italic: bool,
     /// Whether the letters are bold.
     pub bold: bool,

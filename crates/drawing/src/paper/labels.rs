@@ -21,7 +21,7 @@ const NEIGHBOURS: f64 = 12.0;
 /// Beyond this limit, labels take their first position.
 /// A drawing of hundreds of links has no space for their names anyway.
 const MOST_COMPARED: usize = 200_000_000;
-/// Number of comparisons that each drawing may use at least, if many drawings such as frames are made together.
+/// If many drawings are made together, such as frames, each drawing may use at least this number of comparisons.
 const LEAST_COMPARED: usize = 10_000_000;
 
 /// Font size of labels (mm).

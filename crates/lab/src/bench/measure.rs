@@ -37,7 +37,7 @@ pub(super) struct Desk<'a> {
 }
 
 impl Desk<'_> {
-    /// All points. Versions that peers report are added to `versions`.
+    /// Measures all planned methods and returns their points. Versions that peers report are added to `versions`.
     pub(super) fn measure(
         &self,
         mut planned: Vec<Planned>,

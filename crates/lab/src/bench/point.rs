@@ -153,8 +153,7 @@ impl RunEffort {
         self.first(&SOLUTIONS)
     }
 
-    /// Inner work: the first number that was counted among sweeps of an engine, factorisations, iterations and placed
-    /// groups.
+    /// Inner work: the first count above zero among sweeps of an engine, factorisations, iterations and placed groups.
     #[must_use]
     pub fn inner(&self) -> Option<u64> {
         self.first(&INNER)

@@ -24,7 +24,7 @@ pub struct Floor {
     pub reference: &'static str,
     /// Basis of the reference's error, in words.
     pub basis: &'static str,
-    /// Error by stage divided by the scales, in the order of [`Stage::ALL`]; 0 for stages that are not requested.
+    /// Error by stage divided by the scales, in the order of [`Stage::ALL`]; at least the machine epsilon.
     pub errors: [f64; Stage::ALL.len()],
 }
 

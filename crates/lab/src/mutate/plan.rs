@@ -1,5 +1,5 @@
-//! Chooses faults and parties, and plants all of them.
-//! For a fault with a size, finds the smallest size at which it is still found.
+//! Chooses faults and parties, and plants every fault in every party.
+//! For a fault with a size, a search finds the smallest size at which a proof still finds the fault.
 
 use super::effect::Effect;
 use super::formulas;

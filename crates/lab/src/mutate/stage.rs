@@ -22,7 +22,7 @@ use prover::run::{
 };
 use scenario::Scenario;
 
-/// Wraps an engine.
+/// Function that wraps an engine.
 type Around<'a> = &'a dyn Fn(Box<dyn Engine>) -> Box<dyn Engine>;
 
 /// A scenario's proof without a fault, and its reusable parts.

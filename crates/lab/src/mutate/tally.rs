@@ -1,4 +1,4 @@
-//! Outcomes counted.
+//! Counts of the outcomes of planted faults.
 
 use super::mutant::{FaultyParty, Mutated};
 use super::seen::FaultyProof;
@@ -19,7 +19,7 @@ pub struct Share {
 }
 
 impl Share {
-    /// Counts one more.
+    /// Counts one more outcome.
     pub fn add(&mut self, outcome: &FaultyProof) {
         match outcome {
             FaultyProof::Detected { .. } => self.detected += 1,
@@ -67,7 +67,7 @@ pub enum FaultTally {
     AllFound,
     /// No fault escapes, but some proofs are inconclusive.
     NoneEscapes,
-    /// Some escape.
+    /// Some faults escape.
     SomeEscape,
     /// Only faults in the shared code have an effect, and some of them are not found.
     TrunkOpen,

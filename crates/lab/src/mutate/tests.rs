@@ -37,7 +37,8 @@ fn reused_runs_give_the_same_outcome_as_new_ones() {
     for name in ["crank_rocker", "rotary_engine", "pendulum"] {
         let scenario = scenario(name);
         let used = Stage::new(&scenario, &options).unwrap();
-        // `used` keeps the runs of the proof without a fault and of every earlier fault; `new` keeps only the former.
+        // `used` keeps the runs of the proof without a fault and of every earlier fault.
+        // `new` keeps only the runs of the proof without a fault.
         for (kind, size) in [("moment", Some(1e-7)), ("angle", None), ("reaction", Some(1e-9)), ("omega", Some(1e-6))] {
             for party in [FaultyParty::Newton, FaultyParty::Engine] {
                 let fault = fault(kind, size);
@@ -94,9 +95,10 @@ fn half_the_smallest_detected_size_is_not_detected() {
     }
 }
 
-/// Symptom: `run` with all scenarios did not find faults in the features of the three scenarios of this test.
-/// Three features were missing in the shipped files: a slider on a moving guide, the moment of a guide in a higher
-/// group, and a slider of the spanning tree that carries another slider.
+/// Symptom: `run` with all shipped scenarios did not find these faults, because no shipped scenario had the features
+/// that the faults affect.
+/// The features are a slider on a moving guide, the moment of a guide in a higher group, and a slider of the spanning
+/// tree that carries another slider. The three scenarios of this test have these features.
 #[test]
 fn faults_of_sliders_on_moving_guides_are_found_in_every_party() {
     let kinds = ["coriolis-missing", "velocity-guide", "guide-moment-missing", "guide-moment-sign", "guide-aside"];

@@ -74,7 +74,7 @@ pub(super) fn answer(output: &str, table: impl FnOnce() -> Result<String, String
     Ok(Answer { version: word(object, "version").unwrap_or_default(), columns: columns(&table()?)?, seconds, effort })
 }
 
-/// A plausible measured time (s).
+/// Reads a measured time (s); an implausible time is an error.
 fn seconds(value: &Value) -> Result<f64, String> {
     // A coarse clock may give zero. Such a time is ignored later.
     let found = value.as_f64().filter(|seconds| TIMES.contains(seconds) || *seconds == 0.0);

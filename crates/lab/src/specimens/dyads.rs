@@ -73,7 +73,7 @@ pub fn dyad(sketch: &mut SpecimenSketch, slides: [bool; 3], bases: [usize; 2]) -
     [one, two]
 }
 
-/// A random one of the allowed kinds, with its joints in either order.
+/// One of the allowed kinds of dyads, chosen at random, with its joints in either order.
 pub fn sort(random: &mut RandomSource, allowed: &[[bool; 3]]) -> [bool; 3] {
     let mut slides = allowed[random.index(allowed.len())];
     if random.yes() {

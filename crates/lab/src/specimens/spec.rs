@@ -104,7 +104,7 @@ pub struct Spec {
     pub guides_first: bool,
     /// Speed of the crank (rad/s).
     pub speed: f64,
-    /// Direction in which the crank angle is zero (rad).
+    /// World direction of the crank at crank angle zero (rad).
     pub zero: f64,
     /// Crank angle at t = 0 (rad).
     pub start: f64,

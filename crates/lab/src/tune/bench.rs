@@ -21,7 +21,7 @@ const COARSEST: f64 = 0.1;
 /// this constant.
 const ENOUGH: usize = 64;
 /// First step that is tried, as a multiple of the requested step.
-/// A coarse step is cheap, and its cost predicts the cost of steps other than this one.
+/// A coarse step is cheap, and its cost predicts the cost of other steps.
 const COARSE_START: f64 = 4.0;
 /// When the number of sweeps is increased, the first step tried is this multiple of the step found before.
 const COARSER: f64 = 1.4;
@@ -90,7 +90,7 @@ struct Row {
 struct Search<'e> {
     engine: &'e dyn Engine,
     within: f64,
-    /// Lowest cost of the engines other than this one.
+    /// Lowest cost of the other engines.
     others: f64,
     best: Option<Candidate>,
     /// Smallest error among methods that do not meet the request at any step.
@@ -129,8 +129,9 @@ impl Bench<'_> {
         }
     }
 
-    /// Searches one method with increasing numbers of sweeps, as far as these may be of interest.
+    /// Searches one method with increasing numbers of sweeps.
     /// At a fixed cost, the error first falls with more sweeps. When there are more sweeps than needed, it rises again.
+    /// The search ends early if the error rises twice in a row, or if more sweeps would cost too much.
     fn through_sweeps(&mut self, search: &mut Search, way: &Settings, sweeps: &[usize]) {
         let unlimited = search.limit().is_infinite();
         self.refused = false;

@@ -69,7 +69,8 @@ pub(super) fn free_coordinate(joint: &Joint) -> usize {
     if joint.slides() { 0 } else { 2 }
 }
 
-/// The motor of a drive: its joint, its links, the coordinate that it moves, and the sign of the input in it.
+/// The motor of a drive: its joint, its links, the coordinate that it moves, and the sign of the drive's input in this
+/// coordinate.
 /// The motor keeps its speed up to rounding errors.
 pub(super) fn motor(drive: &Drive, joint: &Joint) -> (GenericJoint, [LinkId; 2], JointAxis, f64) {
     let ends = [joint.first.link, joint.second.link];

@@ -1,8 +1,9 @@
-//! Transmissions as Rapier joints: one locked row along the line of action, aimed anew before every step.
+//! Transmissions as Rapier joints: one constraint row along the line of action, realigned before every step.
 //!
-//! Rapier has no gear joint. A joint between the two members locks the direction of the first line of action at its foot.
+//! Rapier has no gear joint.
+//! A joint between the two members locks the direction of the first line of action at its foot.
 //! Direction and foot turn with the carrier, so they are set before every step.
-//! The gap of the row is the residual of the transmission, c2 (q2 - f(q1)), minus that at the start.
+//! The gap of the row is the residual of the transmission, c2 (q2 - f(q1)), minus the residual at the start.
 
 use super::{Mesh, Twin, joints, wide};
 use crate::world::World;

@@ -23,14 +23,14 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
 use linkage::mechanism::{GROUND, Joint, JointId, LinkId, LinkPose, Transmission};
 
-/// If a tree has at least this many branches, a free motion has a separate multibody for every link on the ground.
+/// If a tree has at least this many branches, a free motion has a separate multibody for every link that is joined to
+/// the ground.
 /// The cost of a row of the sweeps grows with the coordinates of the multibodies of the row's two links.
 /// Coordinates that do not move these links cost as much as coordinates that move them.
 /// With separate multibodies, a chain of ten four-bars takes 0.6 of the time that it takes with one multibody.
 ///
 /// Smaller trees stay in one multibody, and so do prescribed motions, which have the drives' flywheels.
-/// With a multibody for every link on the ground, forces on `ov7_base` at 1.4 ms had errors 60 times as large as with
-/// one multibody.
+/// With separate multibodies, forces on `ov7_base` at 1.4 ms had errors 60 times as large as with one multibody.
 /// The likely cause is a test in Rapier.
 /// Rapier computes the Coriolis forces of a multibody at the end of a step.
 /// The test: if these forces would add more than a hundredth of the multibody's kinetic energy, Rapier computes them at
@@ -60,14 +60,14 @@ struct Mesh {
 }
 
 /// The motor of a drive.
-/// The motor connects the driving link to the ground, even if the driving link is joined to a moving link.
-/// The motor therefore sets the link's speed in the world.
+/// The motor of a crank connects the crank to the ground, so it sets the crank's speed in the world.
+/// The motor of any other drive connects the two links of the driven joint.
 #[derive(Clone, Debug)]
 struct Motor {
     handle: ImpulseJointHandle,
     /// The coordinate that the motor moves.
     axis: JointAxis,
-    /// +1 if the driving link is the second link of the motor, else -1.
+    /// Sign of the drive's input in this coordinate.
     sense: f64,
 }
 

@@ -33,7 +33,7 @@ pub(super) fn check(load: &Load) -> Result<()> {
 /// Checks that a transmission can be written.
 ///
 /// # Errors
-/// [`ErrorKind::Unsupported`] for a cam.
+/// [`ErrorKind::Unsupported`] for a cam, and for a transmission with losses.
 pub(super) fn check_transmission(transmission: &Transmission) -> Result<()> {
     let what = match (&transmission.cam, transmission.losses) {
         (None, None) => return Ok(()),

@@ -35,7 +35,7 @@ pub(super) struct Friction {
     pub moment: f64,
     /// Hinges from the ground to the link, as indices of branches: the sum of their angles is the link's angle.
     pub hinges: Vec<usize>,
-    /// Whether only one hinge lies between the ground and the link, and this hinge carries the link in the tree.
+    /// Whether the joint that carries the link in the tree is the only hinge between the ground and the link.
     pub own_hinge: bool,
 }
 

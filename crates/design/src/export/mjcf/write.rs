@@ -16,7 +16,7 @@ use linkage::mechanism::{GROUND, JointSide, LinkId};
 
 /// Stiffness of every constraint: see the module documentation.
 const STIFF: &str = "1e-9 0.5";
-/// Impedance of every constraint: the largest that MuJoCo accepts, at any gap.
+/// Impedance of every constraint: the largest impedance that MuJoCo accepts, the same for every gap.
 const HARD: &str = "0.9999 0.9999 1";
 /// Colours of links, used in turn.
 const COLOURS: [&str; 6] = [

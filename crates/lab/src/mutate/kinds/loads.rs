@@ -19,7 +19,7 @@ kinds! { Load, Case:
         let others = (0..case.loads.len()).filter(|&index| !is_spring(&case.loads[index]));
         others.filter_map(|index| times(case, index, -1.0)).next()
     };
-    "load-twice": "the first load is counted twice", |case, _| times(case, 0, 2.0);
+    "load-twice": "the first load is twice as large", |case, _| times(case, 0, 2.0);
     "load-by-ratio": "the first load is divided by the reducer's ratio", |case, _| {
         let ratio = case.drives.iter().find_map(Drive::motor)?.ratio;
         (ratio != 1.0).then(|| times(case, 0, 1.0 / ratio))?
@@ -68,7 +68,7 @@ kinds! { Load, Case:
         })
     };
     "spring-missing": "the first spring is missing", |case, _| times(case, sprung(case)?, 0.0);
-    "spring-twice": "the first spring is counted twice", |case, _| times(case, sprung(case)?, 2.0);
+    "spring-twice": "the first spring is twice as strong", |case, _| times(case, sprung(case)?, 2.0);
     "spring-stiffness" (1e-2): "the first spring is too stiff by a relative amount",
         |case, size| times(case, sprung(case)?, 1.0 + size);
     "spring-free-length": "the free length of the first spring is zero", |case, _| changed(case, &|load| {

@@ -20,7 +20,7 @@ pub(super) fn placed(case: &Case, change: impl FnOnce(&mut [Link], &mut [Joint])
     })
 }
 
-/// The last link, which is mostly the output.
+/// The last link, which is usually the output.
 pub(super) fn output(case: &Case) -> LinkId {
     LinkId(case.mechanism.links().len() - 1)
 }

@@ -50,7 +50,7 @@ pub(in crate::stress) fn chain(count: usize, speed: f64) -> Result<Case> {
     builder.gravity([0.0, -9.81]).crank("O0", speed).start(ANGLES[0]).times(&times).build()
 }
 
-/// Chains.
+/// Family that varies the number of four-bars in a chain.
 pub(super) const CHAIN: StressFamily = StressFamily {
     name: "chain",
     dial: "number of four-bars in the chain",

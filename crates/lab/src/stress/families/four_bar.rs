@@ -93,7 +93,7 @@ pub(super) const TRANSMISSION: StressFamily = StressFamily {
     },
 };
 
-/// Speeds.
+/// Family that varies the speed of the crank.
 pub(super) const SPEED: StressFamily = StressFamily {
     name: "speed",
     dial: "speed of the crank (rad/s)",
@@ -104,7 +104,7 @@ pub(super) const SPEED: StressFamily = StressFamily {
     setup: |speed, _, _| usual(LENGTHS, rods(LENGTHS), speed),
 };
 
-/// Sizes.
+/// Family that varies the size of the mechanism.
 pub(super) const SIZE: StressFamily = StressFamily {
     name: "size",
     dial: "length of the base (m)",

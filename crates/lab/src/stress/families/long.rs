@@ -15,7 +15,7 @@ const STEP_OF_ALL: f64 = 1.0;
 const SWEEPS_OF_ALL: usize = 16;
 
 /// A crank-rocker whose requested instants divide the last of `turns` revolutions.
-/// If `turns` is below 1, they divide the whole motion.
+/// If `turns` is below 1, the instants divide the whole motion.
 fn last_turn(turns: f64) -> Result<Case> {
     let span = if turns < 1.0 { turns } else { 1.0 };
     // The last instant is one interval before the end, so that rounding moves no instant beyond `turns` revolutions.
@@ -25,7 +25,7 @@ fn last_turn(turns: f64) -> Result<Case> {
     builder(LENGTHS, rods(LENGTHS), SPEED_OF_ALL).start(0.0).times(&times).build()
 }
 
-/// Steps of a run.
+/// Family that varies the number of engine steps.
 pub(super) const STEPS: StressFamily = StressFamily {
     name: "steps",
     dial: "number of one-degree steps to the last instant",
@@ -40,7 +40,7 @@ pub(super) const STEPS: StressFamily = StressFamily {
     },
 };
 
-/// Turns.
+/// Family that varies the number of crank revolutions.
 pub(super) const TURNS: StressFamily = StressFamily {
     name: "turns",
     dial: "number of crank revolutions to the last instant",

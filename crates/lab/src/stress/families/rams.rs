@@ -14,8 +14,8 @@ use crate::stress::{Setup, StressFamily};
 const FOOT: f64 = 0.6;
 const EYE: f64 = 0.4;
 
-/// A boom that a cylinder turns until its lever arm is small: at the end, the angle at the boom's pivot between foot and
-/// eye is short of a straight angle by `gap` (deg).
+/// A boom that a cylinder turns until the cylinder's lever arm is small.
+/// At the end, the angle at the boom's pivot between foot and eye is `gap` (deg) less than a straight angle.
 fn boom(gap: f64) -> Result<Setup> {
     let length = |angle: f64| (FOOT * FOOT + EYE * EYE - 2.0 * FOOT * EYE * angle.cos()).sqrt();
     let (begin, end) = (length(FRAC_PI_2), length(PI - gap.to_radians()));
@@ -40,7 +40,7 @@ fn boom(gap: f64) -> Result<Setup> {
     Ok(Setup::usual(case))
 }
 
-/// Distance of a cylinder from its dead point.
+/// Family that approaches the dead point of a cylinder.
 pub(super) const RAM: StressFamily = StressFamily {
     name: "ram",
     dial: "angle at the boom's pivot to the dead point of the cylinder (deg)",
@@ -75,7 +75,7 @@ fn cam(base: f64) -> Result<Setup> {
     Ok(Setup::usual(case))
 }
 
-/// Size of a cam.
+/// Family that varies the base circle of a cam.
 pub(super) const CAM: StressFamily = StressFamily {
     name: "cam",
     dial: "radius of the base circle divided by the lift",
@@ -103,7 +103,7 @@ fn geared(ratio: f64) -> Result<Setup> {
     Ok(Setup::usual(case))
 }
 
-/// Ratio of the speeds.
+/// Family that varies the speed ratio of a geared wheel.
 pub(super) const GEAR_RATIO: StressFamily = StressFamily {
     name: "gear_ratio",
     dial: "speed of the geared wheel divided by that of the crank",

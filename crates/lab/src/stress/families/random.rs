@@ -12,7 +12,7 @@ const MOST_DRAWN: usize = 100_000;
 const STEP: f64 = 0.05;
 const STEPS: usize = 12;
 
-/// Random mechanisms.
+/// Family of random mechanisms that varies the number of links.
 pub(super) const RANDOM: StressFamily = StressFamily {
     name: "random",
     dial: "number of links, including the ground",

@@ -13,7 +13,7 @@ fn step_of(degrees: f64) -> f64 {
     degrees.to_radians() / SPEED_OF_ALL
 }
 
-/// Steps.
+/// Family that varies the engine's step.
 pub(super) const STEP: StressFamily = StressFamily {
     name: "step",
     dial: "step of the engine (deg of the crank)",
@@ -28,7 +28,7 @@ pub(super) const STEP: StressFamily = StressFamily {
     },
 };
 
-/// Sweeps of the iteration.
+/// Family that varies the number of sweeps.
 pub(super) const SWEEPS: StressFamily = StressFamily {
     name: "sweeps",
     dial: "sweeps of the iteration per step",
