@@ -66,7 +66,7 @@ pub(super) struct Args {
     memory: MemoryArgs,
     #[command(flatten)]
     start: StartArgs,
-    /// Show every channel, not only the channels with the largest ratios of difference to bound
+    /// Show every channel, not only the most serious ones
     #[arg(long, short)]
     verbose: bool,
     /// Show the verdicts alone

@@ -3,7 +3,7 @@
 //! Text, JSON, JUnit, Markdown, logs and pages all use these verdicts.
 
 use crate::sentences;
-use std::cmp::Reverse;
+use std::cmp::{Ordering, Reverse};
 
 use linkage::math::statistics::share;
 use prover::bounds::{Check, Verdict};
@@ -160,22 +160,17 @@ pub fn unproven(proof: &Proof) -> Vec<(String, &Verdict)> {
 pub fn ranked(proof: &Proof) -> Vec<(&EngineProof, &ChannelProof)> {
     let engines = proof.engines.iter();
     let mut all: Vec<_> = engines.flat_map(|engine| engine.channels.iter().map(move |own| (engine, own))).collect();
-    all.sort_by(|(_, a), (_, b)| used(b).total_cmp(&used(a)));
+    all.sort_by(|(_, a), (_, b)| by_rank(b, a));
     all
 }
 
 /// The channel that ranks highest in the order of [`ranked`].
 pub fn worst<'a>(channels: impl IntoIterator<Item = &'a ChannelProof>) -> Option<&'a ChannelProof> {
-    channels.into_iter().max_by(|a, b| used(a).total_cmp(&used(b)))
+    channels.into_iter().max_by(|a, b| by_rank(a, b))
 }
 
-/// Rank of a channel: its ratio of error to bound, raised so that an open channel ranks above every agreeing channel,
-/// and a disagreeing channel above every open channel.
-fn used(channel: &ChannelProof) -> f64 {
-    let share = share(channel.residual.max, channel.bound);
-    match grade(&channel.verdict) {
-        Grade::Agree => share,
-        Grade::Open => 1e3 + share,
-        Grade::Disagree => 1e6 + share,
-    }
+/// Order of two channels: by the grade of the verdict, then by the ratio of error to bound.
+fn by_rank(a: &ChannelProof, b: &ChannelProof) -> Ordering {
+    let used = |own: &ChannelProof| share(own.residual.max, own.bound);
+    grade(&a.verdict).cmp(&grade(&b.verdict)).then(used(a).total_cmp(&used(b)))
 }

@@ -21,7 +21,6 @@ pub struct Acting {
 /// Forces and moments of all loads that are drawn as arrows.
 /// These are all loads except friction, and except springs and dampers between points or links.
 /// `motions` and `angles` (rad, including full turns) are those of all links.
-#[must_use]
 pub fn acting(case: &Case, sketch: &super::Sketch, motions: &[Motion], angles: &[f64]) -> Vec<Acting> {
     let one = |sign: &super::LoadSign| {
         let at = motions[sign.at.link].point(sign.at.local);
@@ -49,7 +48,6 @@ pub struct Tension {
 }
 
 /// Forces and moments of all springs and dampers. The arguments are those of [`acting`].
-#[must_use]
 pub fn tensions(case: &Case, motions: &[Motion], angles: &[f64]) -> Vec<Tension> {
     let of = |(load, own): (usize, &Load)| {
         let first = match own.nature().on {
@@ -80,7 +78,6 @@ pub struct Weight {
 }
 
 /// The weights of all links that have a weight.
-#[must_use]
 pub fn weights(case: &Case) -> Vec<Weight> {
     let links = case.mechanism.links().entries().skip(1);
     let all = links

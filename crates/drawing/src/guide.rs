@@ -204,7 +204,6 @@ fn pieces(rail: [Vec2; 2], pivots: &[Vec2], unit: f64) -> Vec<[Vec2; 2]> {
 }
 
 /// Fractions of a segment's length at which it enters and leaves the box around `centre` (Liang and Barsky 1984).
-#[must_use]
 pub fn inside(segment: &[Vec2; 2], centre: Vec2, half: Vec2) -> Option<[f64; 2]> {
     let [start, end] = segment.map(|point| point - centre);
     let along = end - start;

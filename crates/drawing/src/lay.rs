@@ -20,7 +20,6 @@ const SEEN: f64 = 1e-2;
 
 /// A mechanism at one instant, whole or in part.
 #[derive(Clone, Debug)]
-#[must_use]
 pub struct Laid {
     /// Where every link is.
     pub places: Vec<LinkPlacement>,
@@ -55,7 +54,6 @@ impl Laid {
     }
 
     /// Whether the mechanism is assembled completely.
-    #[must_use]
     pub fn is_whole(&self) -> bool {
         self.faults.is_empty() && self.places.iter().all(|place| matches!(place, LinkPlacement::Here(_)))
     }
@@ -249,7 +247,6 @@ fn reaches(mechanism: &Mechanism, group: &Group, laid: &Laid) -> Vec<(Vec2, f64)
 /// At most `most` configurations of a mechanism whose driven joints have these coordinates (rad or m).
 /// Each configuration is assembled as far as possible.
 /// A group whose configurations are not all known is placed in the mode that `starts` selects.
-#[must_use]
 pub fn all_modes(
     mechanism: &Mechanism,
     structure: &Structure,

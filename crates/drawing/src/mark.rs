@@ -40,7 +40,6 @@ pub enum MarkShape {
 impl MarkShape {
     /// The shape as a line through points, for output formats that have only lines.
     /// The line may be [closed](MarkShape::is_closed).
-    #[must_use]
     pub fn points(&self) -> Vec<Vec2> {
         let arc = |centre: Vec2, radius: f64, from: f64, sweep: f64, count: usize| {
             (0..=count).map(move |k| centre + unit(from + sweep * k as f64 / count as f64) * radius)
@@ -58,7 +57,6 @@ impl MarkShape {
     }
 
     /// Whether the last point of the shape is joined to its first point.
-    #[must_use]
     pub fn is_closed(&self) -> bool {
         matches!(self, MarkShape::Line { closed: true, .. } | MarkShape::Circle { .. })
     }
@@ -75,7 +73,6 @@ macro_rules! roles {
 
         impl MarkRole {
             /// How marks of this role are drawn.
-            #[must_use]
             pub fn look(self) -> Look {
                 match self {
                     $(MarkRole::$role => Look { ink: Ink::$ink, fill: Fill::$fill, width: $width, layer: Layer::$layer },)*
@@ -205,7 +202,6 @@ pub struct Look {
 
 /// A shape and its meaning.
 #[derive(Clone, Debug, PartialEq)]
-#[must_use]
 pub struct Mark {
     /// The shape, in the frame of the mark's link (m).
     pub shape: MarkShape,

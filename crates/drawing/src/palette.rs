@@ -36,7 +36,6 @@ pub const LOAD: PaletteColour = PaletteColour { light: "#c1121f", dark: "#ff6b6b
 pub const PAPER: PaletteColour = PaletteColour { light: "#ffffff", dark: "#16181c", hatch_deg: 45.0 };
 
 /// Colour of the link with this number. The ground has number 0 and the colour of text.
-#[must_use]
 pub fn link(number: LinkId) -> PaletteColour {
     match number.index().checked_sub(1) {
         None => TEXT,

@@ -51,7 +51,6 @@ pub enum LinkPlacement {
 
 impl LinkPlacement {
     /// The pose, if the link has one.
-    #[must_use]
     pub fn pose(&self) -> Option<&LinkPose> {
         match self {
             LinkPlacement::Here(pose) | LinkPlacement::Loose(pose) => Some(pose),
@@ -90,14 +89,12 @@ enum Sort {
 
 impl<'a> Picture<'a> {
     /// The links of a sketch at their poses, at a scale (m/mm).
-    #[must_use]
     pub fn of(sketch: &'a Sketch, places: &'a [LinkPlacement], scale: f64) -> Picture<'a> {
         let (figure, obstacles) = (DrawnFigure::default(), Obstacles::default());
         Picture { sketch, places, scale, figure, obstacles, written: Vec::new() }
     }
 
     /// A point of a link on paper.
-    #[must_use]
     pub fn at(&self, link: LinkId, local: Vec2) -> Option<Vec2> {
         self.places[link].pose().map(|pose| pose.point(local) / self.scale)
     }
@@ -151,7 +148,6 @@ impl<'a> Picture<'a> {
 
     /// Positions on paper and texts of the labels for which `wanted` returns true. These positions and texts are the
     /// argument of [`Picture::name`].
-    #[must_use]
     pub fn names(&self, wanted: impl Fn(Lettering) -> bool) -> Vec<(Vec2, String)> {
         let labels = self.sketch.labels.iter().filter(|label| wanted(label.names));
         let one = |label: &SketchLabel| {
@@ -286,7 +282,6 @@ impl<'a> Picture<'a> {
 
     /// Places all labels and returns the figure.
     /// `drawings` is the number of figures made together: these figures share the allowed work for placing labels.
-    #[must_use]
     pub fn finish(mut self, drawings: usize) -> DrawnFigure {
         self.written.sort_by_key(|own| own.sort);
         let boxes: Vec<labels::PlacedLabel> = self.written.iter().map(|own| own.label).collect();
@@ -308,7 +303,6 @@ fn draw_number(figure: &mut DrawnFigure, at: Vec2, text: String, paint: &'static
 }
 
 /// A length (m) in mm, with four significant digits.
-#[must_use]
 pub fn millimetres(length: f64) -> String {
     format!("{} mm", short(length * 1e3))
 }

@@ -34,7 +34,6 @@ pub struct SheetCell {
 }
 
 /// Scale (m/mm), with two digits, at which an extent (m) fits into the available size (mm).
-#[must_use]
 pub fn fit(extent: Vec2, room: Vec2) -> f64 {
     let least = (extent.x / room.x).larger(extent.y / room.y);
     if !(least > 0.0 && least.is_finite()) {
@@ -47,14 +46,12 @@ pub fn fit(extent: Vec2, room: Vec2) -> f64 {
 }
 
 /// Number of columns for this number of cells.
-#[must_use]
 pub fn columns(cells: usize) -> usize {
     cells.clamp(1, 2)
 }
 
 /// The sheet, with its size (mm). The upper left corner of the sheet is the origin.
 /// Every cell is at least `least` (mm) wide.
-#[must_use]
 pub fn sheet(title: &str, subtitle: &str, cells: &[SheetCell], least: f64) -> (DrawnFigure, [f64; 2]) {
     let columns = columns(cells.len());
     let size = |cell: &SheetCell| cell.bounds[1] - cell.bounds[0];

@@ -130,7 +130,6 @@ fn moved(mark: Mark, role: MarkRole, by: Vec2) -> Mark {
 }
 
 /// An arrow from the origin to `tip` (m): its line and its head. The sketch has the unit `unit` (m).
-#[must_use]
 pub fn arrow(tip: Vec2, unit: f64) -> Vec<Mark> {
     let length = tip.norm();
     if !(length > 0.0 && length.is_finite()) {

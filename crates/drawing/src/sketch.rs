@@ -17,14 +17,12 @@ const STOP: f64 = 1.4;
 
 /// The unit (m) of a sketch if the size of its picture is unknown: a pin is 2.4 units wide, a block 10 units long.
 /// A picture about 150 units wide is easy to read.
-#[must_use]
 pub fn unit(mechanism: &Mechanism) -> f64 {
     mechanism.size() / UNITS
 }
 
 /// The drawing of a mechanism.
 #[derive(Clone, Debug, PartialEq)]
-#[must_use]
 pub struct Sketch {
     /// Unit length (m) of symbols and line widths.
     pub unit: f64,
@@ -139,7 +137,6 @@ impl Sketch {
     /// All marks of all links, with the link's number, in drawing order.
     /// The marks are ordered by layer; within a layer, larger links come first.
     /// The springs and dampers in `stretched` are not in this list; they belong to [`Layer::Stretched`].
-    #[must_use]
     pub fn in_order(&self) -> Vec<(LinkId, &Mark)> {
         let mut all: Vec<(Layer, f64, LinkId, &Mark)> = Vec::new();
         for body in &self.bodies {

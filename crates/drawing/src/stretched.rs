@@ -32,7 +32,6 @@ pub struct Stretched {
 
 impl Stretched {
     /// World position of a point of the drawing (m), given the world positions of the ends (m).
-    #[must_use]
     pub fn at(&self, local: Vec2, [start, end]: [Vec2; 2]) -> Vec2 {
         let span = end - start;
         let across = if span.norm() > 0.0 { linkage::math::turned(span.normalize()) } else { Vec2::zeros() };

@@ -15,7 +15,6 @@ pub struct Travels {
 
 impl Travels {
     /// Travels before the first pose is included.
-    #[must_use]
     pub fn none(mechanism: &Mechanism) -> Travels {
         Travels { joints: vec![None; mechanism.joints().len()], members: vec![None; mechanism.transmissions().len()] }
     }
@@ -60,19 +59,16 @@ impl Travels {
     }
 
     /// Travel of the joint with this number (m).
-    #[must_use]
     pub fn of(&self, joint: JointId) -> Option<[f64; 2]> {
         self.joints[joint]
     }
 
     /// Coordinates of the members of a transmission in one pose (rad, or rad and m).
-    #[must_use]
     pub fn members(&self, transmission: TransmissionId) -> Option<[f64; 2]> {
         self.members[transmission]
     }
 
     /// These travels, with the travel of one joint replaced (m).
-    #[must_use]
     pub fn with(mut self, joint: JointId, travel: [f64; 2]) -> Travels {
         self.joints[joint] = Some(travel);
         self

@@ -53,7 +53,6 @@ pub struct Shot {
 pub type Trace = (LinkId, Vec<Vec2>);
 
 /// The shots as figures at one scale. Each figure fits into this size (mm) and has no heading.
-#[must_use]
 pub fn cells(
     subject: &DrawnSubject,
     shots: &[Shot],

@@ -22,7 +22,6 @@ use linkage::mechanism::GroupKind;
 use linkage::trajectory::Trajectory;
 
 /// Name of the method that computed the numbers, in words.
-#[must_use]
 pub fn method(case: &Case) -> &'static str {
     if are_all_rrr(case) { sentences::CLOSED_FORM_IN_DOUBLE_DOUBLE } else { sentences::ALL_EQUATIONS_IN_DOUBLE_DOUBLE }
 }

@@ -9,7 +9,6 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A double-double number: the nearest double and the remainder.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
-#[must_use]
 pub struct Long(f64, f64);
 
 /// The sum of two doubles without error (Knuth).
@@ -39,7 +38,6 @@ impl Long {
     }
 
     /// The nearest double.
-    #[must_use]
     pub fn rounded(self) -> f64 {
         self.0 + self.1
     }

@@ -67,14 +67,12 @@ pub struct NewtonEuler {
 
 impl NewtonEuler {
     /// The equations of a case with the case's masses and all its loads.
-    #[must_use]
     pub fn new(case: &Case) -> Self {
         let masses = case.mechanism.links().iter().map(|link| [link.mass, link.inertia]).collect();
         NewtonEuler::of(case, masses, 1.0)
     }
 
     /// The equations with other masses (kg) and moments of inertia (kg m^2), and with a fraction of the loads.
-    #[must_use]
     pub fn of(case: &Case, masses: Vec<[f64; 2]>, load_share: f64) -> Self {
         let tree = SpanningTree::with(&case.mechanism, &case.drives.joint_ids());
         NewtonEuler::along(case, &tree, masses, load_share)
@@ -83,7 +81,6 @@ impl NewtonEuler {
     /// The equations along any tree that contains all links and all driven joints.
     /// The equations have the masses (kg) and moments of inertia (kg m^2) `masses` and the fraction `load_share` of the
     /// loads.
-    #[must_use]
     pub fn along(case: &Case, tree: &SpanningTree, masses: Vec<[f64; 2]>, load_share: f64) -> Self {
         let mut numbers = vec![None; masses.len()];
         for (number, branch) in tree.branches.iter().enumerate() {
@@ -178,7 +175,6 @@ impl NewtonEuler {
     }
 
     /// Number of stages with two unknowns, and number of stages with more unknowns.
-    #[must_use]
     pub fn stages(&self) -> [usize; 2] {
         let pairs = self.stages.iter().filter(|stage| matches!(stage, Stage::Pair(..))).count();
         [pairs, self.stages.len() - pairs]

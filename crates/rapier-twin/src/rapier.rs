@@ -28,7 +28,6 @@ pub enum Precision {
 
 impl Precision {
     /// Machine epsilon: the distance from 1 to the next number.
-    #[must_use]
     pub fn epsilon(self) -> f64 {
         match self {
             Precision::Double => f64::EPSILON,
@@ -58,7 +57,6 @@ impl Rapier {
     pub const IMPULSE_SWEEPS: usize = 4096;
 
     /// The engine with the time step `step` (s) and otherwise its default settings.
-    #[must_use]
     pub fn new(build: Build, precision: Precision, step: f64) -> Self {
         let (substeps, route) = (1, Route::Differences);
         let sweeps = match build {
@@ -69,14 +67,12 @@ impl Rapier {
     }
 
     /// The engine with the same build and precision but with the given settings, not extrapolated.
-    #[must_use]
     pub fn set(&self, settings: Settings) -> Self {
         Rapier { settings: Settings { extrapolated: 0, ..settings }, ..*self }
     }
 
     /// Both builds in double precision. If the feature `f32` is on, both builds in single precision follow. The default
     /// is first.
-    #[must_use]
     pub fn all(step: f64) -> Vec<Self> {
         let of = |(build, precision)| Rapier::new(build, precision, step);
         let kinds = [

@@ -41,7 +41,6 @@ impl LinkFrame {
     const SMALL: f64 = 0.1;
 
     /// Angle of the frame's x axis (rad), including full turns.
-    #[must_use]
     pub fn angle(&self) -> f64 {
         match self.angle {
             LinkAngle::Whole(angle) => angle,
@@ -51,7 +50,6 @@ impl LinkFrame {
 
     /// World position of the body point `local` (m).
     #[inline]
-    #[must_use]
     pub fn point(&self, local: Vec2) -> Vec2 {
         self.origin + rotated(self.direction, local)
     }
@@ -59,7 +57,6 @@ impl LinkFrame {
     /// Rotation of the link since the frame `before` (rad, without sign), with a relative error of at most 4e-4.
     /// If the frames store only a direction and full turns, the result is at most half a turn.
     #[inline]
-    #[must_use]
     pub fn turn_since(&self, before: &LinkFrame) -> f64 {
         if let (LinkAngle::Whole(angle), LinkAngle::Whole(before)) = (self.angle, before.angle) {
             return (angle - before).abs();

@@ -46,7 +46,6 @@ impl Simbody {
     pub const TOLERANCE: f64 = 1e-12;
 
     /// The engine with the given accuracy of its integrator, relative to a coordinate of 1 rad or 1 m.
-    #[must_use]
     pub fn new(accuracy: f64) -> Self {
         Simbody { accuracy }
     }

@@ -117,7 +117,6 @@ unsafe extern "C" {
 }
 
 /// Version of the Simbody library in use, as "3.7.0".
-#[must_use]
 pub fn version() -> String {
     let mut version = [0; 3];
     linkproof_simbody_version(&mut version);
@@ -297,7 +296,6 @@ impl LinkageRun {
     }
 
     /// Number of steps that the integrator has attempted.
-    #[must_use]
     pub fn steps(&self) -> usize {
         // SAFETY: the run is alive, and the shim only reads.
         unsafe { linkproof_simbody_steps(self.raw.as_ptr()) }

@@ -14,7 +14,6 @@ pub struct SimbodyModel {
 
 impl SimbodyModel {
     /// A model that contains only the ground, with the acceleration of gravity `gravity` (m/s^2).
-    #[must_use]
     pub fn new(gravity: [f64; 2]) -> Self {
         SimbodyModel { gravity, bodies: Vec::new(), loops: Vec::new() }
     }

@@ -15,7 +15,12 @@ fn laws_and_their_grids() {
             "drive.to_deg",
             &["the input would not change"],
         ),
-        ("law = \"cycloidal\"\nto_deg = 90\ntime_s = 1\n".into(), "[grid]", "grid", &["does not reach a requested crank angle"]),
+        (
+            "law = \"cycloidal\"\nto_deg = 90\ntime_s = 1\n".into(),
+            "[grid]",
+            "grid",
+            &["does not reach a requested crank angle"],
+        ),
         (table("{ time_s = 0, angle_deg = 0 }"), "points = [{ time_s", "drive.points", &["at least two points"]),
         (
             table("{ time_s = 0, angle_deg = 5 }, { time_s = 1, angle_deg = 9 }"),

@@ -22,13 +22,11 @@ const HEAD: f64 = 2.8;
 const HEAD_SHARE: f64 = 0.45;
 
 /// `text` as a subscript.
-#[must_use]
 pub fn sub(text: &str) -> String {
     format!("{SUB}{text}{END}")
 }
 
 /// Converts a name such as `a_BA^n` or a unit such as `m/s^2` to text with sub- and superscripts.
-#[must_use]
 pub fn scripted(name: &str) -> String {
     let split = |text: &str| match text.rsplit_once('^') {
         Some((base, power)) if !power.is_empty() => (base.to_string(), format!("{SUP}{power}{END}")),
@@ -42,13 +40,11 @@ pub fn scripted(name: &str) -> String {
 }
 
 /// Text without control characters, as XML requires.
-#[must_use]
 pub fn clean(text: &str) -> String {
     text.chars().filter(|sign| !sign.is_control()).collect()
 }
 
 /// Estimated width of a text (mm) at the font size `size` (mm).
-#[must_use]
 pub fn width(text: &str, size: f64) -> f64 {
     let mut scale = 1.0;
     let mut sum = 0.0;
@@ -83,7 +79,6 @@ pub struct Style {
 }
 
 /// A solid line.
-#[must_use]
 pub const fn solid(colour: &'static str, width: f64) -> Style {
     Style { colour, width, dash: "" }
 }
@@ -99,14 +94,12 @@ pub struct Tint {
 
 impl Tint {
     /// A fill that hides everything beneath it.
-    #[must_use]
     pub const fn opaque(colour: &'static str) -> Tint {
         Tint { colour, opacity: 1.0 }
     }
 }
 
 /// The corners of a rectangle, counter-clockwise from the lower left corner.
-#[must_use]
 pub fn rectangle([low, high]: [Vec2; 2]) -> Vec<Vec2> {
     vec![low, Vec2::new(high.x, low.y), high, Vec2::new(low.x, high.y)]
 }
@@ -127,7 +120,6 @@ pub struct Type {
 }
 
 /// Upright text that starts at its position.
-#[must_use]
 pub const fn words(size: f64) -> Type {
     Type { size, colour: super::style::BLACK, anchor: "start", italic: false, bold: false }
 }
@@ -202,7 +194,6 @@ impl DrawnFigure {
     }
 
     /// Lower left and upper right corner of all elements.
-    #[must_use]
     pub fn bounds(&self) -> [Vec2; 2] {
         self.low.unwrap_or([Vec2::zeros(); 2])
     }

@@ -52,7 +52,6 @@ pub struct Obstacles {
 }
 
 /// Centres of the labels' boxes in one of several drawings made together. These drawings share the allowed work.
-#[must_use]
 pub fn place_among(labels: &[PlacedLabel], obstacles: &Obstacles, drawings: usize) -> Vec<Vec2> {
     place_within(labels, obstacles, (MOST_COMPARED / drawings.max(1)).max(LEAST_COMPARED))
 }
@@ -177,7 +176,6 @@ fn length_inside(segment: &[Vec2; 2], centre: Vec2, half: Vec2) -> f64 {
 
 /// Box of a label, subscripts included.
 /// The box is a little larger than the letters, because viewers may use other fonts than the bundled font.
-#[must_use]
 pub fn label_size(text: &str) -> Vec2 {
     Vec2::new(1.05 * width(text, LETTER), 1.15 * LETTER)
 }

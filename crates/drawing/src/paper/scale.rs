@@ -11,7 +11,6 @@ const SAME: f64 = 1e-12;
 ///
 /// Neighbouring numbers of this form differ by a factor of two at most.
 /// A vector drawn at this scale therefore fills more than half of the available length.
-#[must_use]
 pub fn round_up(least: f64) -> f64 {
     if !(least > 0.0 && least.is_finite()) {
         return 1.0;
@@ -25,7 +24,6 @@ pub fn round_up(least: f64) -> f64 {
 
 /// Scale factor (units per millimetre) at which the length of `largest` is at most `room` millimetres.
 /// The length is more than half of `room`.
-#[must_use]
 pub fn factor(largest: f64, room: f64) -> f64 {
     round_up(largest / room)
 }

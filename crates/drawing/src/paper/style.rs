@@ -13,13 +13,11 @@ pub const BLACK: &str = TEXT.light;
 pub const GREY: &str = QUIET.light;
 
 /// Colour of the link with this number.
-#[must_use]
 pub fn colour(link: LinkId) -> &'static str {
     palette::link(link).light
 }
 
 /// A number with four significant digits, as in drawings and tables.
-#[must_use]
 pub fn significant(value: f64) -> String {
     let rounded = format!("{value:.3e}");
     let power = rounded.rsplit_once('e').and_then(|(_, power)| power.parse::<i32>().ok());

@@ -23,7 +23,6 @@ pub struct LegendTable {
 
 impl LegendTable {
     /// The table as a figure; its upper left corner is the origin.
-    #[must_use]
     pub fn figure(&self) -> DrawnFigure {
         let mut figure = DrawnFigure::default();
         let cells = |column: usize| self.rows.iter().filter_map(move |(_, row)| row.get(column));

@@ -18,7 +18,6 @@ linkage::words! {
 
 impl CostAxis {
     /// Cost of a point on this axis: seconds, or a count.
-    #[must_use]
     pub fn of(self, point: &BenchPoint) -> Option<f64> {
         let effort = || point.run().map(|run| &run.effort);
         match self {
@@ -32,7 +31,6 @@ impl CostAxis {
 /// Indices of the points on the front of a stage, the cheapest first.
 /// Of points with equal cost and error only one is kept.
 /// An error below the floor is replaced by the floor, because errors below it cannot be ranked.
-#[must_use]
 pub fn front(
     points: &[BenchPoint],
     stage: Stage,

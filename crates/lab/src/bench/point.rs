@@ -76,7 +76,6 @@ pub struct BenchPoint {
 
 impl BenchPoint {
     /// The run, if the method has answered.
-    #[must_use]
     pub fn run(&self) -> Option<&AnsweredRun> {
         match &self.outcome {
             BenchOutcome::Answered(run) => Some(run),
@@ -85,20 +84,17 @@ impl BenchPoint {
     }
 
     /// Shortest time (s).
-    #[must_use]
     pub fn seconds(&self) -> Option<f64> {
         let least = self.run()?.seconds.iter().copied().fold(f64::INFINITY, f64::smaller);
         (least.is_finite() && least > 0.0).then_some(least)
     }
 
     /// Largest error of a stage.
-    #[must_use]
     pub fn error(&self, stage: Stage) -> Option<Errors> {
         self.run()?.errors[stage as usize]
     }
 
     /// Reason of a stage's failure; `None` if the stage has not failed.
-    #[must_use]
     pub fn failure(&self, stage: Stage) -> Option<&str> {
         match &self.outcome {
             BenchOutcome::Failed(reason) => Some(reason),
@@ -109,13 +105,11 @@ impl BenchPoint {
     }
 
     /// Channels that are missing in the peer's answer although the stage is judged, in words.
-    #[must_use]
     pub fn without(&self, stage: Stage) -> Option<&str> {
         self.run()?.without.iter().find(|(own, _)| *own == stage).map(|(_, what)| what.as_str())
     }
 
     /// Settings and resolution in words.
-    #[must_use]
     pub fn told(&self) -> String {
         let comma = if self.way.is_empty() || self.resolution.is_empty() { "" } else { ", " };
         format!("{}{comma}{}", self.way, self.resolution)
@@ -135,7 +129,6 @@ const INNER: [&[&str]; 4] = [&["sweeps"], &["factorisations"], &["iterations"], 
 
 impl RunEffort {
     /// Number of operations of this name; `None` if they were not counted.
-    #[must_use]
     pub fn of(&self, name: &str) -> Option<u64> {
         self.0.iter().find(|(own, _)| own == name).map(|&(_, times)| times)
     }
@@ -148,13 +141,11 @@ impl RunEffort {
     /// The result is the number of evaluations of the equation of motion.
     /// If evaluations were not counted, the result is the number of an engine's steps and probes, or the number of
     /// poses.
-    #[must_use]
     pub fn solutions(&self) -> Option<u64> {
         self.first(&SOLUTIONS)
     }
 
     /// Inner work: the first count above zero among sweeps of an engine, factorisations, iterations and placed groups.
-    #[must_use]
     pub fn inner(&self) -> Option<u64> {
         self.first(&INNER)
     }

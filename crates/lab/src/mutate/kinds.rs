@@ -38,7 +38,6 @@ pub fn all() -> impl Iterator<Item = &'static FaultKind> {
 }
 
 /// The kind called `name`.
-#[must_use]
 pub fn named(name: &str) -> Option<&'static FaultKind> {
     all().find(|kind| kind.name == name)
 }

@@ -23,7 +23,6 @@ linkage::words! {
 
 impl FaultyParty {
     /// Whether the party can have a fault of a kind.
-    #[must_use]
     pub fn takes(self, kind: &FaultKind) -> bool {
         matches!(kind.plant, Plant::Formula(_)) == (self == FaultyParty::Formulas)
     }

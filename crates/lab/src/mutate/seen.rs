@@ -47,7 +47,6 @@ pub enum FaultyProof {
 
 impl FaultyProof {
     /// Word for tables.
-    #[must_use]
     pub fn word(&self) -> &'static str {
         match self {
             FaultyProof::Detected { .. } => "detected",
@@ -59,7 +58,6 @@ impl FaultyProof {
     }
 
     /// Whether a user learns that something is wrong.
-    #[must_use]
     pub fn is_found(&self) -> bool {
         match self {
             FaultyProof::Detected { .. } | FaultyProof::Refused(_) => true,
@@ -68,7 +66,6 @@ impl FaultyProof {
     }
 
     /// Largest margin of a detected fault; `None` if the fault is not detected.
-    #[must_use]
     pub fn margin(&self) -> Option<f64> {
         match self {
             FaultyProof::Detected { clearest, .. } => Some(clearest.margin),

@@ -31,13 +31,11 @@ impl Share {
     }
 
     /// Faults that change something.
-    #[must_use]
     pub fn real(&self) -> usize {
         self.found() + self.inconclusive + self.escaped
     }
 
     /// Faults that were found.
-    #[must_use]
     pub fn found(&self) -> usize {
         self.detected + self.refused
     }
@@ -77,7 +75,6 @@ pub enum FaultTally {
 
 impl FaultCounts {
     /// Summary of all faults. Faults in the shared code count only if no other fault has an effect.
-    #[must_use]
     pub fn end(&self) -> FaultTally {
         let FaultCounts { planted, formulas, trunk_kinds, trunk_found, .. } = self;
         let of = |count: fn(&Share) -> usize| count(planted) + count(formulas);
@@ -92,7 +89,6 @@ impl FaultCounts {
 }
 
 /// Counts all outcomes.
-#[must_use]
 pub fn tally(all: &[Mutated]) -> FaultCounts {
     let mut tally = FaultCounts::default();
     let put = |names: &mut Vec<&'static str>, name| {

@@ -33,7 +33,6 @@ pub static FAMILIES: &[StressFamily] = &[
 ];
 
 /// The family called `name`.
-#[must_use]
 pub fn named(name: &str) -> Option<&'static StressFamily> {
     FAMILIES.iter().find(|family| family.name == name)
 }

@@ -19,7 +19,6 @@ use prover::run::{EngineProof, Options, prove};
 use scenario::Scenario;
 
 /// Solves a family's point with all solvers and engines of this build. A panic counts as a failure of the point.
-#[must_use]
 pub fn run(family: &StressFamily, dial: f64, sample: u64, seed: u64) -> StressOutcome {
     let setup = (family.setup)(dial, sample, seed);
     let key = key(family, setup.as_ref().ok(), seed);

@@ -22,7 +22,6 @@ pub struct Job {
 
 /// The points of a family, with the stored results that are still valid.
 /// A quick run contains its few points and all points with a stored result.
-#[must_use]
 pub fn jobs(family: &'static StressFamily, quick: bool, seed: u64, kept: &[StressOutcome]) -> Vec<Job> {
     let all = family.points.iter().flat_map(|&dial| (0..family.samples).map(move |sample| (dial, sample)));
     let job = |(dial, sample): (f64, u64)| {

@@ -76,7 +76,6 @@ fn named(engine: &dyn Engine) -> Costs {
 ///
 /// # Panics
 /// Panics if the engine is not in [`EngineName::ALL`].
-#[must_use]
 pub fn price_of(case: &Case, engine: &dyn Engine) -> f64 {
     let settings = engine.settings();
     let costs = named(engine);

@@ -26,7 +26,7 @@ const STEPS: f64 = 8.0;
 const IMPULSES: f64 = 5.0;
 /// As `STEPS`, for a prescribed motion with extrapolated impulses.
 /// The instants at which a load jumps in the different runs lie within this fraction of a step.
-/// The velocities of these runs differ by about a twelfth of the square of the step.
+/// With the step h, the velocities of these runs differ by about h^2 / 12 times their second derivative.
 const APART: f64 = 0.25;
 
 /// As `STEPS`, for accelerations and forces at the start of a free motion with friction.

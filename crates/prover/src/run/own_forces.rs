@@ -45,7 +45,7 @@ pub(super) fn judged(
 ) -> Option<EngineProof> {
     let effort = motion.search.as_ref().map_or(0.0, |search| search.effort);
     // If the motion has needed more work than is allowed for the engine's own forces, they are not judged.
-    // Impulses are of a lower order than the motion. Impulses need as many sweeps as the motion, with the true masses.
+    // Impulses are of a lower order than the motion, so their runs need at least as much work.
     if effort > SHARE * chosen.budget {
         let told = sentences::the_motion_has_taken_the_work(&error(effort), &error(SHARE * chosen.budget));
         let failure = Error::new(ErrorKind::Unsupported, told);

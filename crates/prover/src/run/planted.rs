@@ -288,7 +288,7 @@ fn engine_checks_find_errors_that_do_not_vanish_with_the_step() {
     assert_eq!(true_one.verdict.word(), "agree");
     let [closure, powers] =
         [sentences::CLOSURE_OF_ALL_JOINTS_2, "driving moment"].map(|name| named(&true_one.checks, name).clone());
-    // The bound from the engine's own runs is larger than the opening by a quarter.
+    // The bound from the engine's own runs is at most 30 % larger than the opening.
     assert!(closure.bound <= 1.3 * closure.value && closure.bound < 2e-5, "{closure:?}");
     // The opening of a joint has the rounding error of the positions of its two sides.
     let place = true_one.channels.iter().find(|own| own.residual.channel.to_string() == "point.A.x_m").unwrap();
