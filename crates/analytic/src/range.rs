@@ -132,7 +132,7 @@ pub fn reachable(case: &Case) -> Result<Extent> {
     Ok(both_ways(&tracker, &start)?.1)
 }
 
-/// Explains an error of a solver on this case. It serves code that combines solvers and range analysis.
+/// Explains an error of a solver on this case. This function is for code that combines solvers and range analysis.
 /// If the error [reports a pose out of reach](Error::is_out_of_reach), its message is extended by the reachable crank
 /// angles, or by the reason why they are unknown.
 /// Any other error stays unchanged.

@@ -42,7 +42,7 @@ pub struct Case {
     parts: CaseParts,
     /// For every link: a link with the same angle up to a constant.
     classes: Vec<LinkId>,
-    /// Speed below which all links stand still (rad/s): a rounding error of the drives' top speeds.
+    /// Speed below which a joint counts as standing still (rad/s): the rounding error of the drives' top speeds.
     standstill: f64,
 }
 
@@ -422,8 +422,10 @@ impl Case {
         self.loads_with(motions, angles, |_, load, crank| load.moment_in(self.load_rate(load, motions), crank), out);
     }
 
-    /// The rate on whose sign a load depends: of a link's rotation (rad/s) or of a joint's sliding (m/s). It is zero for
-    /// other loads, and if it may be only a rounding error.
+    /// The rate on whose sign a load depends: the angular velocity of a link (rad/s) or the rate of a joint (rad/s or
+    /// m/s).
+    /// The result is zero for a load that depends on neither rate. It is also zero if the rate may be only a rounding
+    /// error.
     #[must_use]
     pub fn load_rate(&self, load: &Load, motions: &[Motion]) -> f64 {
         match load.nature().senses {

@@ -23,8 +23,8 @@ pub(super) struct System<'a> {
     pub(super) q: Vec<f64>,
     pub(super) rate: Vec<f64>,
     pub(super) second: Vec<f64>,
-    /// Multipliers of the joints, in the order of [`Mechanism::rows`](linkage::mechanism::Mechanism::rows), then those
-    /// of the transmissions, then those of the drives.
+    /// Multipliers of the joints, transmissions and drives, in this order. The multipliers of the joints are in the
+    /// order of [`Mechanism::rows`](linkage::mechanism::Mechanism::rows).
     pub(super) lambda: Vec<f64>,
     /// Changes of the multipliers because the forces of some transmissions act along their second lines of action.
     pub(super) beside: Vec<f64>,

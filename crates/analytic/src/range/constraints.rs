@@ -12,7 +12,7 @@ use linkage::mechanism::{
     Coordinate, GROUND, Group, Joint, JointId, JointSide, LinkId, LinkPose, Mechanism, Pose, TransmissionId,
 };
 
-/// An equation of coordinates: a drive that is geared to the first drive, or a transmission.
+/// An equation between coordinates: a drive with a speed ratio to the first drive, or a transmission.
 pub(super) struct Gearing {
     /// Indices of the coordinates and their factors.
     pub(super) terms: Vec<(usize, f64)>,

@@ -151,7 +151,8 @@ impl<'a> Tracker<'a> {
         Ok((tracker, start))
     }
 
-    /// Subtracts the work of `squares` eliminations from the allowed work. Returns `None` if that is used up.
+    /// Subtracts the work of `squares` eliminations from the allowed work. Returns `None` if the allowed work is used
+    /// up.
     fn spend(&self, squares: usize) -> Option<()> {
         let size = self.constraints.coordinates() as f64;
         let spent = work::spend(SQUARE * squares as f64 * size * size);
@@ -288,7 +289,7 @@ impl<'a> Tracker<'a> {
     /// Follows the curve. The sign of `sense` is the direction in which the crank turns first.
     ///
     /// # Errors
-    /// [`ErrorKind::Numeric`] if the curve does not end, and those of [`Tracker::allowed`].
+    /// [`ErrorKind::Numeric`] if the curve does not end, and the errors of [`Tracker::allowed`].
     pub(super) fn follow(&self, start: &Point, sense: f64) -> Result<Track> {
         self.allowed(self.followed(start, sense))
     }
@@ -380,7 +381,7 @@ impl<'a> Tracker<'a> {
         near.fold(all, |least, (_, measure)| least.smaller(measure.determinant.abs()))
     }
 
-    /// Takes one step of at most `longest`. The step passes no singular pose except one limit of rotation.
+    /// Takes one step of at most `longest`. The step may pass one limit of rotation, but no other singular pose.
     /// `None` if branches meet.
     fn step(&self, here: &Point, longest: f64) -> Option<(Point, f64)> {
         let mut step = longest.smaller(SAFE * self.clearance(here));
@@ -567,8 +568,8 @@ fn smallest_singular_value(matrix: &Matrix, x: &mut ColumnVector) -> (f64, usize
     (1.0 / largest.sqrt(), rounds)
 }
 
-/// Unit vector that the Jacobian maps to zero, on the side of `along`. If there are several such vectors, returns
-/// `along`.
+/// Unit vector that the Jacobian maps to zero. Its scalar product with `along` is positive.
+/// If there are several such vectors, returns `along`.
 fn tangent(jacobian: &Matrix, along: &ColumnVector) -> ColumnVector {
     let mut ahead = ColumnVector::zeros(along.len());
     ahead[along.len() - 1] = 1.0;

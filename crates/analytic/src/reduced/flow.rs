@@ -19,7 +19,7 @@ use linkage::error::{Error, Result};
 use linkage::work::{Count, WorkTally};
 
 /// Largest accepted distance (rad) from the beginning of a step to an evaluation in this step.
-/// The first trial of a step may lead to any angle and is then refused.
+/// The first trial of a step may exceed this distance; the trial is then refused.
 const FARTHEST: f64 = std::f64::consts::TAU;
 
 /// The evaluation of the forces, which both forms share.

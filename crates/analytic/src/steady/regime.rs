@@ -122,8 +122,7 @@ impl<'m, 'a> Turn<'m, 'a> {
         Ok(Turn { flow, start: model.sense * model.case.crank().start, period })
     }
 
-    /// Energy and time at the end of a period that begins with `energy` (J), and a ratio of deviations.
-    /// The ratio is that of a small deviation of the energy at the end to the deviation at the beginning.
+    /// Energy and time at the end of a period that begins with `energy` (J), and the [multiplier](Regime::multiplier).
     /// The visited steps are divided at the targets.
     fn run(
         &self,

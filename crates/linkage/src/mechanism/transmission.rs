@@ -32,7 +32,7 @@ use geometry::{COINCIDE, axle, belt, gears, guide, rack, sense, sliding};
 pub enum TransmissionKind {
     /// Two gears with the pressure angle (rad). The pitch radii follow from the distance of the axles.
     Gears {
-        /// Numbers of teeth; a negative number is that of a ring gear. Only their ratio matters.
+        /// Numbers of teeth, negative for a ring gear. Only their ratio matters.
         teeth: [f64; 2],
         /// Pressure angle (rad), at least 0 and below a right angle.
         pressure_angle: f64,
@@ -97,8 +97,8 @@ pub struct TransmissionDesign {
     pub joint: JointId,
     /// Coordinate of `joint` at t = 0: the angle of its second link minus that of its first (rad), or the slide (m).
     pub start: f64,
-    /// Efficiency if power flows from the first member to the second, above 0 and at most 1.
-    /// Then the efficiency if it flows back, at most 1.
+    /// Two efficiencies: for power that flows from the first member to the second, then for the opposite direction.
+    /// The first is above 0 and at most 1, the second at most 1.
     /// If the second efficiency is not positive, the transmission is self-locking: both members must be driven.
     pub efficiency: [f64; 2],
 }
@@ -120,8 +120,9 @@ pub struct Transmission {
     pub losses: Option<Losses>,
 }
 
-/// The losses of a transmission, as a moment between the carrier and the first member, against their relative rotation.
-/// The force of the transmission is then that on the second member.
+/// The losses of a transmission. They are a moment between the carrier and the first member, against their relative
+/// rotation.
+/// With losses, the force of the transmission means the force on the second member.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Losses {
     /// A joint of the carrier with a member. The rate of the joint's coordinate gives the sense of the motion.
@@ -250,7 +251,7 @@ impl Transmission {
         let shown = [(links[0], 1.0), (links[1], 1.0 / ratio)].into_iter().find_map(|(link, per)| {
             let is_meant = |joint: &Joint| joint.on(link).is_some() && joint.on(self.design.carrier).is_some();
             let (id, joint) = joints.entries().find(|(_, joint)| is_meant(joint))?;
-            // The slide of a rack has its sign in the ratio.
+            // For a rack, the ratio already contains the sign of the slide.
             let sign = if joint.slides() { 1.0 } else { sense(joint, link) };
             Some((id, per * sign))
         });
@@ -353,13 +354,13 @@ impl Transmission {
             | TransmissionKind::Screw { .. }
             | TransmissionKind::Cam { .. } => 0.0,
         };
-        // If `force` is NaN, so must be one of the results. `f64::max` would return 0.
+        // If `force` is NaN, one of the results must be NaN. `f64::max` would return 0.
         let [push, pull] = if force >= 0.0 { [force, 0.0] } else { [0.0, -force] };
         [push + slack, pull + slack]
     }
 
-    /// Calls `put` with the link, the force (N) and the place (m) of every action of the transmission, if it exerts
-    /// `force` (N).
+    /// Calls `put` for every action of a transmission that exerts `force` (N), with the link, the force (N) and the
+    /// place (m).
     pub fn each_action(
         &self,
         joints: &PerJoint<Joint>,
@@ -377,7 +378,7 @@ impl Transmission {
 }
 
 impl TransmissionDesign {
-    /// The same transmission of a mechanism whose links and joints have other numbers.
+    /// This transmission with renumbered links and joints.
     #[must_use]
     pub fn renumbered(&self, link: impl Fn(LinkId) -> LinkId, joint: impl FnOnce(JointId) -> JointId) -> Self {
         let (links, carrier) = (self.links.map(&link), link(self.carrier));

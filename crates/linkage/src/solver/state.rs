@@ -119,7 +119,7 @@ impl State {
         largest
     }
 
-    /// Largest moment (N m): that of a drive, or the force of a joint or drive times the lever arm `arm` (m).
+    /// Largest moment (N m): the moment of a drive, or the force of a joint or drive times the lever arm `arm` (m).
     #[must_use]
     pub fn largest_moment(&self, case: &Case, arm: f64) -> f64 {
         // A force is multiplied by the lever arm, a moment is used unchanged.

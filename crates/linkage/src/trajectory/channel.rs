@@ -46,7 +46,7 @@ pub struct ChannelKind {
 }
 
 impl ChannelKind {
-    /// Index of the row among those of its subject.
+    /// Index of the row among the rows of its subject.
     pub(crate) fn row(&self) -> usize {
         let own = CHANNELS.iter().filter(|kind| kind.subject == self.subject);
         own.take_while(|kind| kind.suffix != self.suffix).count()
@@ -63,7 +63,7 @@ const fn row(reading: Reading, suffix: &'static str, quantity: &'static str, uni
 /// The slide of a prismatic joint is the distance along its axis, from its point on the first link to its point on the
 /// second link.
 /// The moment of a prismatic joint acts from the first link on the second, about the joint's point on the second link.
-/// The friction of a joint acts on its second link. The reaction of the joint does not include it.
+/// The friction of a joint acts on its second link. The reaction of the joint does not include this friction.
 /// The force of a transmission acts on its second member along its first line of action; a negative force acts along its
 /// second line.
 /// The force on the frame is the sum of the forces of the frame's joints and of the drive. The moment on the frame is
@@ -71,7 +71,7 @@ const fn row(reading: Reading, suffix: &'static str, quantity: &'static str, uni
 /// The torque of a drive acts on the driving link. At a joint between moving links it acts from the joint's first link
 /// on its second link.
 /// The force of a drive acts along the axis of its prismatic joint from the first link on the second link.
-/// The force is positive if it increases the slide. The reaction of the joint does not include it.
+/// The force is positive if it increases the slide. The reaction of the joint does not include this force.
 pub static CHANNELS: [ChannelKind; 31] = TABLE;
 
 const TABLE: [ChannelKind; 31] = {

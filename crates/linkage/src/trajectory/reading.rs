@@ -17,7 +17,7 @@ pub enum ChannelSubject {
     Guide,
     /// A transmission.
     Transmission,
-    /// The frame. All joints with the ground and the drive act on it.
+    /// The frame. The drive and all joints on the ground act on it.
     Frame,
     /// The drive.
     Drive,

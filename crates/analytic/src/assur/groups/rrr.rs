@@ -127,8 +127,8 @@ impl Rrr {
         self.inner
     }
 
-    /// Vector to the outer joint of an arm from the origin of the known link, and the joint's position, velocity and
-    /// acceleration.
+    /// For the outer joint of an arm: the vector from the origin of the known link to the joint, and the joint's
+    /// position, velocity and acceleration.
     /// For joints on the ground, nothing is computed.
     #[inline(always)]
     fn base(arm: &Arm, motions: &[Motion]) -> [Vec2; 4] {
