@@ -40,7 +40,7 @@ const STANDSTILL: f64 = 1e-12;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Case {
     parts: CaseParts,
-    /// For every link: a link with the same angle up to a constant.
+    /// For every link: the representative of the links with the same angle up to a constant.
     classes: Vec<LinkId>,
     /// Speed below which a joint counts as standing still (rad/s): the rounding error of the drives' top speeds.
     standstill: f64,
@@ -64,8 +64,8 @@ impl Case {
     /// mechanism.
     /// [`ErrorKind::Input`](crate::ErrorKind::Input) also if a number in one of these parts is NaN or infinite.
     /// [`ErrorKind::Input`](crate::ErrorKind::Input) also if the structure does not match mechanism and drives.
-    /// [`ErrorKind::Geometry`](crate::ErrorKind::Geometry) if a joint is open in the start pose or a driving link is
-    /// not at its start angle.
+    /// [`ErrorKind::Geometry`](crate::ErrorKind::Geometry) if a joint is open in the start pose or a driven joint does
+    /// not have its start coordinate.
     /// [`ErrorKind::Unsupported`](crate::ErrorKind::Unsupported) for a combination of drives that this version does not
     /// solve.
     /// The errors of [`Structure::of`](crate::mechanism::Structure::of) and [`Grid::check`] are passed on.
@@ -163,7 +163,8 @@ impl Case {
         self.of_parts(CaseParts { drives, ..self.parts.clone() })
     }
 
-    /// Requested channels in the order of columns: links, points, joints, sliders, frame, drive, further drives.
+    /// Requested channels in the order of columns: links, points, joints, sliders, frictions, transmissions, frame,
+    /// drives.
     /// Within each subject the order is that of [`CHANNELS`].
     #[must_use]
     pub fn channels(&self) -> Vec<Channel> {
@@ -310,7 +311,7 @@ impl Case {
     }
 
     /// Calls `put` with the action of every load on every link, the ground included.
-    /// Friction follows from the reactions.
+    /// The friction in joints and the losses of transmissions are included; they follow from `reactions`.
     /// `motions` and `angles` contain the motion and the angle (rad, unwrapped) of every link, as in
     /// [`State`](crate::solver::State).
     /// Loads depend on positions and velocities, not on accelerations.

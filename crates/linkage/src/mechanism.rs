@@ -54,8 +54,11 @@ impl Mechanism {
     /// A mechanism with these links (the first is the ground) and joints.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] with the key of the link or joint at fault, for each of these faults:
+    /// [`ErrorKind::Input`] for each of these faults, except for the first one with the key of the link or joint at
+    /// fault:
+    /// - names that are not allowed;
     /// - duplicate names;
+    /// - an axis that is not a unit vector;
     /// - a joint that connects a link with itself;
     /// - negative or non-finite masses and inertias;
     /// - inertia without mass;

@@ -25,7 +25,7 @@ const FARTHEST: f64 = std::f64::consts::PI;
 /// A bound of a piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Bound {
-    /// The link, point or joint that determines the sense of the load with this number reverses.
+    /// The link, point or joint that determines the sense of the load or transmission with this number reverses.
     Sense(usize),
     /// The motor leaves its branch towards higher speeds.
     TooFast,
@@ -37,7 +37,7 @@ enum Bound {
     KnotAhead,
 }
 
-/// Bounds that every piece has. In the numbering of all bounds, they follow the bounds of the loads.
+/// Bounds that every piece has. In the numbering of all bounds, they follow the bounds of the loads and transmissions.
 const COMMON: [Bound; 4] = [Bound::TooFast, Bound::TooSlow, Bound::KnotBehind, Bound::KnotAhead];
 /// A link, point or joint counts as at rest at the end of a piece if its speed is below this fraction of its largest
 /// speed so far.
@@ -231,7 +231,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
 
     /// Sets the crank's speed exactly to this end of the motor's branch and chooses the branch beyond the end.
     /// Without the exact speed, the same piece would be chosen again.
-    /// The result is empty, because no link or point is at rest at the end of a branch.
+    /// The result is empty, because no link, point or joint comes to rest at the end of a branch.
     fn at_branch_end(&self, place: &mut Place<N>, end: usize, towards: f64) -> Vec<Sensed> {
         let speeds = self.branch.get().map_or([0.0; 2], |branch| branch.speeds);
         place.y[N / 2] = self.case.crank().sense() * speeds[end];
@@ -374,7 +374,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
         }
     }
 
-    /// A short time (s), and the velocities of the links and points at rest after this time.
+    /// A short time (s), and the velocities after this time of the links, points and joints that are now at rest.
     /// The driving links keep their present accelerations.
     /// `None` if nothing moves, or if the mechanism cannot reach the pose after this time.
     fn ahead(&self, work: &mut Work, place: &Place<N>, stood: &[Sensed]) -> Option<(f64, Vec<Vec2>)> {

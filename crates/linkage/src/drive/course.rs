@@ -15,10 +15,10 @@ const FAR: f64 = 100.0;
 /// If the values on both sides of a knot differ relatively by no more than twice this number, there is no jump.
 const EQUAL: f64 = 1e-12;
 
-/// A constant, or a table of values against the crank angle.
+/// A constant, or a table of values against the crank angle or the slide of the first drive.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Course {
-    /// The value, the same at every crank angle.
+    /// The value, the same for every input.
     Constant(f64),
     /// A function of the input of the first drive: crank angle (rad, in the scenario's convention) or slide (m).
     Table {

@@ -219,7 +219,7 @@ impl Transmission {
         let is_moving = |(of, _): &(Coordinate, f64)| *of != Coordinate::Angle(GROUND);
         let against = |of| vec![(of, 1.0), (Coordinate::Angle(carrier), -1.0)].into_iter().filter(is_moving).collect();
         let (coupled, factor) = match slide {
-            // A rack or a sliding follower.
+            // A rack, nut or sliding follower.
             Some((joint, [_, axis, _])) if members[1].radius == 0.0 => {
                 let sign = sense(&joints[joint], second);
                 (vec![(Coordinate::Slide(joint), 1.0)], sign * axis.dot(&lines[0].direction))
@@ -280,13 +280,14 @@ impl Transmission {
         [self.members[0].link, self.members[1].link, self.design.carrier]
     }
 
-    /// The prismatic joint of a rack or of a sliding follower.
+    /// The prismatic joint of a rack, nut or sliding follower.
     #[must_use]
     pub fn slide(&self) -> Option<JointId> {
         self.coordinates[1].iter().find_map(|(of, _)| of.joint())
     }
 
-    /// Ratio of the members' rates relative to the carrier, q2' / q1' (in m for a rack, otherwise without unit).
+    /// Ratio of the members' rates relative to the carrier, q2' / q1' (in m for a rack or screw, otherwise without
+    /// unit).
     /// `None` for a cam.
     #[must_use]
     pub fn ratio(&self) -> Option<f64> {

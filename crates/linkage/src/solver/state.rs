@@ -53,7 +53,7 @@ impl State {
 
     /// Shaking force (N) and shaking moment about the origin (N m).
     /// Force and moment are the sums of the actions on the frame.
-    /// These actions come from joints, transmissions, springs and dampers on the ground, and from drives.
+    /// These actions come from joints, transmissions and loads on the ground, and from drives.
     #[must_use]
     pub fn shaking(&self, case: &Case) -> (Vec2, f64) {
         let (mut force, mut moment) = (Vec2::zeros(), 0.0);
@@ -105,7 +105,7 @@ impl State {
 
     /// Largest opening of a joint (m), and largest distance of a joint from the origin (m).
     /// In a prismatic joint the opening is measured perpendicular to the guide.
-    /// The angle between the joint's two axes (rad), multiplied by `size` (m), also counts as an opening.
+    /// The sine of the angle between the joint's two axes, multiplied by `size` (m), also counts as an opening.
     #[must_use]
     pub fn opening(&self, case: &Case, size: f64) -> [f64; 2] {
         let mut largest = [0.0; 2];

@@ -126,7 +126,7 @@ pub struct Chain {
     given: Vec<Given>,
     /// The transmissions. Each has one row of the Jacobian, after the rows of the given coordinates.
     trains: Vec<Train>,
-    /// For every drive, the factor from a change of its input to the step (1 or 1/m).
+    /// For every drive: the factor by which a change of its input is multiplied to give the step (1 or 1/m).
     scales: Vec<f64>,
     /// Largest magnitude of the determinant so far.
     largest: f64,

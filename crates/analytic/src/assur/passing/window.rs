@@ -230,7 +230,7 @@ impl Window {
         node.plan.steps().ids().map(|group| node.plan.determinant(group)).collect()
     }
 
-    /// Relative error of the second transfer functions at the change point, divided by the largest transfer function.
+    /// Error of the second transfer functions at the change point, divided by the largest transfer function.
     /// The error is the change of the result when the outermost or the innermost pair of nodes is left out, whichever
     /// is larger.
     /// Without the outermost pair, the change shows the error of the polynomials; without the innermost pair, the

@@ -43,7 +43,7 @@ pub enum Senses {
     Joint(JointId),
 }
 
-/// Point or link on which a load acts.
+/// Points, links or joint on which a load acts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum On {
     /// A moment on a link.
