@@ -257,9 +257,10 @@ impl Case {
         }
     }
 
-    /// Actions of the moment (N m) or force (N) of a drive: on the link that carries the drive, then on the driving link.
-    /// The drive of a crank is carried by the frame.
-    /// At a joint between moving links, and for a slide, the effort acts from the joint's first link on its second link.
+    /// Actions of the moment (N m) or force (N) of a drive: first on the link that carries the drive, then on the
+    /// driving link.
+    /// The frame carries the drive of a crank.
+    /// At a joint between moving links, and for a slide, the joint's first link exerts the effort on the second link.
     #[must_use]
     pub fn effort(&self, drive: &Drive, effort: f64, motions: &[Motion]) -> [Action; 2] {
         match drive.input {

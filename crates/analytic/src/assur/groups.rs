@@ -169,7 +169,8 @@ impl Step {
             Step::Rrr(dyad) => dyad.bound(band, links),
             Step::Rrp(dyad) => dyad.bound(band, step, motions, links),
             Step::Rpr(dyad) => dyad.bound(band, links),
-            // No bounds are written for these groups, because the travel of their sliders is unlimited.
+            // For RPP and PRP dyads no bounds are written, because the travel of their sliders is unlimited.
+            // For bodies of changing shape and for higher groups there are no bounds.
             Step::Prp(_) | Step::Rpp(_) | Step::Shaped(_) | Step::Chain(_) => {}
         }
     }
@@ -397,7 +398,7 @@ impl SolutionPlan {
     }
 
     /// Distance of every group from a singular pose at which two of its branches meet. Velocities must be known.
-    /// `None` for a group that is monitored by the sign of its determinant instead.
+    /// `None` for RPP and PRP dyads, and for groups that are monitored by the sign of their determinant instead.
     pub fn clearances<'a>(&'a self, motions: &'a [Motion]) -> impl Iterator<Item = Option<SingularityDistance>> + 'a {
         self.steps.iter().map(|step| step.clearance(motions))
     }

@@ -304,8 +304,8 @@ impl<'a> PoseSolver<'a> {
         self.solve_when(grid.times[row], grid.inputs[row], deepest)
     }
 
-    /// The state at an input of the first drive, with the rates of all drives at that instant. The law of the first drive
-    /// must reach the input at a unique time.
+    /// The state at an input of the first drive, with the rates of all drives at that instant.
+    /// The law of the first drive must reach the input at a unique time.
     ///
     /// # Errors
     /// The errors of [`PoseSolver::solve`].

@@ -39,7 +39,7 @@ impl<'f, F: Flow<N>, const N: usize> Remembering<'f, F, N> {
         }
     }
 
-    /// The rate at `x` and `y`. It is not computed again if it was one of the last evaluations.
+    /// The rate at `x` and `y`. If the last evaluations contain this rate, it is not computed again.
     pub(super) fn rate(&self, x: f64, y: &[f64; N]) -> [f64; N] {
         let mut known = self.known.iter().map(Cell::get);
         let found = known.find(|(place, state, _)| *place == x && state == y);

@@ -100,7 +100,8 @@ const MOST_KNOWN: usize = 9;
 pub(super) struct Tracker<'a> {
     case: &'a Case,
     constraints: Constraints<'a>,
-    /// Index of the coordinate of the first drive, and its unit (1 for an angle; the mechanism's size in m for a slide).
+    /// Index of the coordinate of the first drive, and the unit of this coordinate: 1 for an angle, the mechanism's
+    /// size (m) for a slide.
     crank: usize,
     unit: f64,
     /// Signs that make every group's determinant positive at the start.
@@ -115,7 +116,7 @@ impl<'a> Tracker<'a> {
     /// Starts at the start pose of a case.
     ///
     /// # Errors
-    /// [`ErrorKind::Geometry`] if the start pose is singular.
+    /// [`ErrorKind::Geometry`] if the start pose is singular; the errors of [`gearings`] and [`Tracker::allowed`].
     pub(super) fn new(case: &'a Case) -> Result<(Self, Point)> {
         let drive = case.crank();
         let other = case.mechanism.joints()[drive.joint].other(drive.link);
@@ -289,7 +290,8 @@ impl<'a> Tracker<'a> {
     /// Follows the curve. The sign of `sense` is the direction in which the crank turns first.
     ///
     /// # Errors
-    /// [`ErrorKind::Numeric`] if the curve does not end, and the errors of [`Tracker::allowed`].
+    /// [`ErrorKind::Numeric`] if the curve cannot be followed to an end. [`ErrorKind::Unsupported`] if the mechanism
+    /// does not return to its first pose, or if a driven slide has no limit. The errors of [`Tracker::allowed`].
     pub(super) fn follow(&self, start: &Point, sense: f64) -> Result<Track> {
         self.allowed(self.followed(start, sense))
     }

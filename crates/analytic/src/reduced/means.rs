@@ -97,8 +97,9 @@ impl Reach {
 /// Kinks of the reduced quantities of a case.
 ///
 /// # Errors
-/// The errors of [`Range::of`]; [`ErrorKind::Unsupported`] for loads against the motion of a point, and for tables
-/// whose common period exceeds a thousand turns.
+/// The errors of [`Range::of`].
+/// [`ErrorKind::Unsupported`] for a drive that is not a crank, for friction, for loads against the motion of a point or
+/// joint, and for tables whose common period with the mechanism exceeds a thousand turns.
 pub fn kinks(case: &Case) -> Result<Kinks> {
     if case.crank().input != Input::Angle {
         let message = sentences::the_drive_moves_no_crank(&case.crank().input.noun());
@@ -178,7 +179,7 @@ const PANEL: f64 = PI / 90.0;
 /// kinks.
 ///
 /// # Errors
-/// The errors of the solver, [`ErrorKind::Geometry`] for mechanisms whose crank cannot turn fully.
+/// The errors of [`kinks`] and of the solver. [`ErrorKind::Geometry`] for mechanisms whose crank cannot turn fully.
 pub fn means_over_turn(case: &Case, solver: &dyn Solver) -> Result<Means> {
     let found = kinks(case)?;
     let Some(period) = found.period else { return Err(no_turn(&found)) };

@@ -82,9 +82,10 @@ impl<'a> ReducedModel<'a> {
     /// this speed.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] for mechanisms of several degrees of freedom.
+    /// [`ErrorKind::Unsupported`] for mechanisms of several degrees of freedom, and for loads that depend on the size
+    /// of speeds or are wound up by every turn.
     /// [`ErrorKind::Input`] for mechanisms without masses.
-    /// The errors of [`Range::of`](crate::range::Range::of) are passed on.
+    /// The errors of [`kinks`](means::kinks) are passed on.
     pub fn of(case: &'a Case) -> Result<Self> {
         if !case.drives.further().is_empty() {
             let message = sentences::the_motion_under_forces_is_asked_for_but_the_mechanism(&case.drives.len());

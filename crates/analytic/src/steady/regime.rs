@@ -33,7 +33,7 @@ pub struct SpeedAtCrank {
 pub struct Regime {
     /// Time of one period (s).
     pub period: f64,
-    /// Turns of the crank in a period: 1, except for some higher groups.
+    /// Turns of the crank in a period: 1, except with some higher groups and with load tables that cover several turns.
     pub turns: f64,
     /// Mean angular velocity over time (rad/s): the turns divided by the period.
     pub mean_speed: f64,

@@ -205,8 +205,8 @@ impl CaseBuilder {
         self
     }
 
-    /// Sets the input of the first drive at t = 0: the world angle of the crank's x axis (rad), or a slide (m). Default:
-    /// 0.
+    /// Sets the input of the first drive at t = 0: the world angle of the crank's x axis (rad), or a slide (m).
+    /// The default is 0.
     pub fn start(mut self, crank: f64) -> Self {
         self.start = crank;
         self

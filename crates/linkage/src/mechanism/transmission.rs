@@ -7,8 +7,8 @@
 //! With the coordinates q1 and q2 of the members relative to the carrier, q2' = f'(q1) q1', so q2 - f(q1) is constant.
 //! The law f is linear, except for cams.
 //! The force on the second member is F w at its foot, the force on the first member -F w at its foot.
-//! There are two lines, one for each sense of the transmitted moment: the two flanks of a tooth, or the two strands of a
-//! belt. Teeth push and strands pull, so F >= 0 along the line that acts.
+//! There are two lines, one for each sense of the transmitted moment: the two flanks of a tooth, or the two strands of
+//! a belt. Teeth push and strands pull, so F >= 0 along the line that acts.
 //! A gear pair with the pressure angle alpha acts like a crossed belt that pushes, on base circles of the radii
 //! r cos(alpha): Niemann and Winter, Maschinenelemente, vol. 2, 2nd ed., Springer 2003, chapter 21.1.
 

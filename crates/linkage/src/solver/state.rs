@@ -16,8 +16,8 @@ pub struct State {
     /// Moment of the first link on the second in every joint (N m), about the joint's point on the second link.
     /// The moment is 0 in revolute joints.
     pub moments: PerJoint<f64>,
-    /// Force of every transmission on its second member along its first line of action (N). A negative force acts along the
-    /// second line.
+    /// Force of every transmission on its second member along its first line of action (N).
+    /// A negative force acts along the second line.
     pub transmitted: PerTransmission<f64>,
     /// Balancing moment (N m) or driving force (N) of every drive, in the order of
     /// [`CaseParts::drives`](crate::case::CaseParts::drives).

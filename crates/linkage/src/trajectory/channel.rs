@@ -64,8 +64,8 @@ const fn row(reading: Reading, suffix: &'static str, quantity: &'static str, uni
 /// second link.
 /// The moment of a prismatic joint acts from the first link on the second, about the joint's point on the second link.
 /// The friction of a joint acts on its second link. The reaction of the joint does not include this friction.
-/// The force of a transmission acts on its second member along its first line of action; a negative force acts along its
-/// second line.
+/// The force of a transmission acts on its second member along its first line of action.
+/// A negative force acts along its second line.
 /// The force on the frame is the sum of all forces on it: of joints, drives, transmissions and loads. The moment on the
 /// frame is about the origin.
 /// The torque of a drive acts on the driving link. At a joint between moving links it acts from the joint's first link

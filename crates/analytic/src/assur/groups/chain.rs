@@ -259,7 +259,7 @@ impl Chain {
             self.kept_slides.copy_from_slice(&self.slides);
         }
         self.find_roots(motions);
-        // If a prediction exists, it replaces the first iteration.
+        // If a prediction exists, it is applied before the first iteration.
         let allowed = if self.memory.predict(&self.step) {
             for (index, node) in self.contours.nodes.iter().enumerate() {
                 let change = self.memory.change(index);

@@ -82,8 +82,8 @@ impl Window {
         Ok(())
     }
 
-    /// Multipliers at the distance `x`, from the multipliers at all poses. `None` if they grow without bound and `x` is
-    /// too small.
+    /// Multipliers at the distance `x`, from the multipliers at all poses.
+    /// `None` if a multiplier grows without bound and `x` is too small.
     fn beside(&self, x: f64, all: &[Vec<f64>]) -> Option<Vec<f64>> {
         let distances = &self.places;
         let nearest = distances.iter().fold(f64::INFINITY, |least, x| least.smaller(x.abs()));

@@ -20,8 +20,8 @@ pub enum GroupKind {
     Prp,
     /// Any group with more than two rigid bodies, and any group of several links with a transmission.
     Higher,
-    /// A link whose pose follows from a given joint on a link of an earlier group, or from a transmission between earlier
-    /// links. Such a link is a driving link (class I).
+    /// A link whose pose follows from a given joint on a link of an earlier group, or from a transmission between
+    /// earlier links. Such a link is a driving link (class I).
     Driven,
 }
 
