@@ -195,7 +195,7 @@ crate::sentences! {
     the_efficiencies_are(forward, back) = "the efficiencies are {forward} from the first member to the second and {back} from the second to the first";
     GIVE_EFFICIENCIES = "give an `efficiency` above 0 and at most 1, and an `efficiency_back` of at most 1";
     A_CAM_HAS_NO_EFFICIENCY = "a cam has no efficiency";
-    GIVE_FRICTION = "give the joints of cam and follower friction";
+    GIVE_FRICTION = "give friction to the joints of cam and follower";
     NO_MEMBER_IS_JOINED_TO_THE_CARRIER = "the transmission has an efficiency, but no member has a joint with the carrier";
     JOIN_A_MEMBER_TO_THE_CARRIER = "join one member to the carrier";
     A_TRANSMISSION_NEEDS_THREE_LINKS = "the two members and the carrier are not three different links";
