@@ -42,7 +42,8 @@ pub struct FormulaCurve {
     shift: f64,
     factor: f64,
     end: f64,
-    /// The first derivative with the largest absolute value, and its sign. Its search takes many evaluations.
+    /// The first derivative with the largest absolute value, and its sign.
+    /// The value is stored, because the search for it takes many evaluations.
     steepest: f64,
 }
 

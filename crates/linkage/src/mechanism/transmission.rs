@@ -120,8 +120,8 @@ pub struct Transmission {
     pub losses: Option<Losses>,
 }
 
-/// The losses of a transmission. They are a moment between the carrier and the first member, against their relative
-/// rotation.
+/// The losses of a transmission. The losses act as a moment between the carrier and the first member, against their
+/// relative rotation.
 /// With losses, the force of the transmission means the force on the second member.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Losses {

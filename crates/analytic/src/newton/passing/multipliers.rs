@@ -61,8 +61,8 @@ impl Window {
             };
             let mut lambda = at(system, alpha);
             if let Some([moment, inertia]) = shaft {
-                // Multipliers are linear in the acceleration. `gain` is their increase per unit of acceleration. It
-                // gives the acceleration that balances the crank.
+                // Multipliers are linear in the acceleration. `gain` is their increase per unit of acceleration.
+                // The acceleration that balances the crank follows from `gain`.
                 let unit = 1.0 + alpha.abs() + omega * omega;
                 let gain: Vec<f64> =
                     at(system, alpha + unit).iter().zip(&lambda).map(|(more, own)| (more - own) / unit).collect();

@@ -55,7 +55,7 @@ fn ratios_and_radii_follow_from_teeth_and_radii() {
     }
 }
 
-/// External teeth push the axles apart. The teeth of a ring gear pull them together, and so do the strands of a belt.
+/// External teeth push the axles apart. The teeth of a ring gear and the strands of a belt pull the axles together.
 #[test]
 fn lines_of_action_push_or_pull_the_second_axle() {
     let along = |kind| two_wheels(kind).unwrap().contact([0.0; 2]).lines.map(|line| line.direction.x);
