@@ -99,8 +99,11 @@ impl Range {
     /// Follows the mechanism of a case over all crank angles that its branch reaches.
     ///
     /// # Errors
-    /// [`ErrorKind::Geometry`] if the start pose is singular, [`ErrorKind::Numeric`] if the branch cannot be followed,
-    /// [`ErrorKind::Unsupported`] if following the branch takes more work than [`limited`] allows.
+    /// [`ErrorKind::Geometry`] if the start pose is singular.
+    /// [`ErrorKind::Numeric`] if the branch cannot be followed.
+    /// [`ErrorKind::Unsupported`] if following the branch takes more work than [`limited`] allows, if the mechanism
+    /// does not return to its first pose, if a driven slide has no limit, or if one of several drives changes its
+    /// speed.
     pub fn of(case: &Case) -> Result<Self> {
         let (tracker, start) = Tracker::new(case)?;
         let (points, extent) = both_ways(&tracker, &start)?;
@@ -132,7 +135,7 @@ pub fn reachable(case: &Case) -> Result<Extent> {
     Ok(both_ways(&tracker, &start)?.1)
 }
 
-/// Explains an error of a solver on this case. It serves code that combines solvers and range analysis.
+/// Explains an error of a solver on this case. This function is for code that combines solvers and range analysis.
 /// If the error [reports a pose out of reach](Error::is_out_of_reach), its message is extended by the reachable crank
 /// angles, or by the reason why they are unknown.
 /// Any other error stays unchanged.

@@ -8,7 +8,7 @@ linkage::sentences! {
     DRIVE_THE_MECHANISM_AT_A_CRANK = "drive a link that is hinged to the ground, or claim `drive.reduced_mass_kg` and `drive.reduced_force_N` as formulas";
     // range/tracking.rs
     the_slide_has_no_limit(at) = "the mechanism can be followed up to {at} without reaching a limit";
-    THE_MECHANISM_MOVES_OVER = "the grid of the file may lie anywhere on this side";
+    THE_MECHANISM_MOVES_OVER = "the grid of the file may lie anywhere on this side of the start";
     ONE_OF_SEVERAL_DRIVES_CHANGES = "the range of motion is a curve only if all drives have constant speeds, and one of several drives changes its speed";
     GIVE_THE_DRIVES_CONSTANT_SPEEDS = "give all drives constant speeds";
     // assur/passing.rs
@@ -27,7 +27,7 @@ linkage::sentences! {
     its_rod_is_long_its_outer(assembled, length, distance) = "{assembled}: its rod is {length:.6} m long, but its outer pin is {distance:.6} m from the line on which the other end slides";
     its_outer_joints_are_apart(assembled, distance, shortest, longest) = "{assembled}: its outer joints are {distance:.6} m apart, but its links span {shortest:.6} to {longest:.6} m";
     the_group_cannot_be_assembled(group, at) = "the group ({group}) cannot be assembled at {at}";
-    THERE_THE_LINKS_OF_THE_GROUP = "the links of the group do not constrain it there, or two of its branches meet";
+    THERE_THE_LINKS_OF_THE_GROUP = "the group is not fully constrained there, or two of its branches meet";
     // assur/transfer.rs
     LET_THE_GRID_END_BEFORE_THE_MOTION = "end the grid before the motion reaches this pose";
     the_group_is_singular_at_two(group, at) = "the group ({group}) is singular at {at}: two of its branches meet there";
@@ -125,7 +125,7 @@ linkage::sentences! {
     GIVE_THE_CRANK_A_SPEED_AT_OR_LET = "give the crank a speed at t = 0, or let the load act in both senses";
     at_the_crank_may_start_from_rest(t, at) = "at t = {t:.6} s, {at}, the crank may start from rest in either sense, because a load that acts in one sense only is driving it";
     A_LOAD_THAT_TURNS_ABOUT_JUST_THERE = "a load that reverses exactly there alternately holds and releases the crank: start slightly beside this point";
-    the_motion_does_not_get_away_from_at(at, from) = "the motion cannot be continued from {at:.6} at {from:.9} s";
+    the_motion_does_not_get_away_from_at(at, from) = "the motion cannot be continued beyond t = {from:.9} s, {at:.6}";
     GIVE_FINITE_TIMES_IN_ASCENDING = "give finite times from 0 s in ascending order";
     THE_INSTANTS_OF_A_MOTION = "the instants of a motion do not ascend from zero, or the speed is not finite";
     // steady/regime.rs
@@ -134,7 +134,7 @@ linkage::sentences! {
     GIVE_CRANK_ANGLES_FROM_THE_START = "give crank angles that follow the start angle in the sense of motion";
     the_steady_speed_is_asked(crank) = "the steady speed is requested at {crank:.6} deg, which is not in the first period";
     FOLLOW_THE_RUN_UP_INSTEAD = "follow the run-up instead, and inspect the crank's speed";
-    no_steady_motion_was_found(most_shots, share) = "no steady motion was found in {most_shots} turns: each turn multiplies a deviation by {share:.3}";
+    no_steady_motion_was_found(most_shots, share) = "no steady motion was found in {most_shots} Newton steps: each period multiplies a deviation by {share:.3}";
     ADD_A_MOTOR_SECTION_ITS_LAW = "add a `[motor]` section: its law, and the ratio of the reducer";
     A_STEADY_MOTION_IS_ASKED = "a steady motion is requested, but there is no motor";
     // witness/triad.rs

@@ -21,7 +21,8 @@ fn states(case: &Case, solver: &dyn Solver) -> Vec<State> {
     all
 }
 
-/// Compares all quantities of both sides, relative to the largest of their kind, and the powers with zero.
+/// Asserts that both sides agree and that the powers sum to zero. A difference is compared with the largest value of
+/// the same list of quantities.
 fn agrees(case: &Case) -> Vec<State> {
     let [one, other] = [states(case, &AssurSolver), states(case, &NewtonSolver)];
     let numbers = |state: &State| -> Vec<Vec<f64>> {

@@ -40,9 +40,9 @@ const STANDSTILL: f64 = 1e-12;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Case {
     parts: CaseParts,
-    /// For every link: a link with the same angle up to a constant.
+    /// For every link: the representative of the links with the same angle up to a constant.
     classes: Vec<LinkId>,
-    /// Speed below which all links stand still (rad/s): a rounding error of the drives' top speeds.
+    /// Speed below which a joint counts as standing still (rad/s): the rounding error of the drives' top speeds.
     standstill: f64,
 }
 
@@ -64,8 +64,8 @@ impl Case {
     /// mechanism.
     /// [`ErrorKind::Input`](crate::ErrorKind::Input) also if a number in one of these parts is NaN or infinite.
     /// [`ErrorKind::Input`](crate::ErrorKind::Input) also if the structure does not match mechanism and drives.
-    /// [`ErrorKind::Geometry`](crate::ErrorKind::Geometry) if a joint is open in the start pose or a driving link is
-    /// not at its start angle.
+    /// [`ErrorKind::Geometry`](crate::ErrorKind::Geometry) if a joint is open in the start pose or a driven joint does
+    /// not have its start coordinate.
     /// [`ErrorKind::Unsupported`](crate::ErrorKind::Unsupported) for a combination of drives that this version does not
     /// solve.
     /// The errors of [`Structure::of`](crate::mechanism::Structure::of) and [`Grid::check`] are passed on.
@@ -163,7 +163,8 @@ impl Case {
         self.of_parts(CaseParts { drives, ..self.parts.clone() })
     }
 
-    /// Requested channels in the order of columns: links, points, joints, sliders, frame, drive, further drives.
+    /// Requested channels in the order of columns: links, points, joints, sliders, frictions, transmissions, frame,
+    /// drives.
     /// Within each subject the order is that of [`CHANNELS`].
     #[must_use]
     pub fn channels(&self) -> Vec<Channel> {
@@ -256,9 +257,10 @@ impl Case {
         }
     }
 
-    /// Actions of the moment (N m) or force (N) of a drive: on the link that carries the drive, then on the driving link.
-    /// The drive of a crank is carried by the frame.
-    /// At a joint between moving links, and for a slide, the effort acts from the joint's first link on its second link.
+    /// Actions of the moment (N m) or force (N) of a drive: first on the link that carries the drive, then on the
+    /// driving link.
+    /// The frame carries the drive of a crank.
+    /// At a joint between moving links, and for a slide, the joint's first link exerts the effort on the second link.
     #[must_use]
     pub fn effort(&self, drive: &Drive, effort: f64, motions: &[Motion]) -> [Action; 2] {
         match drive.input {
@@ -310,7 +312,7 @@ impl Case {
     }
 
     /// Calls `put` with the action of every load on every link, the ground included.
-    /// Friction follows from the reactions.
+    /// The friction in joints and the losses of transmissions are included; they follow from `reactions`.
     /// `motions` and `angles` contain the motion and the angle (rad, unwrapped) of every link, as in
     /// [`State`](crate::solver::State).
     /// Loads depend on positions and velocities, not on accelerations.
@@ -422,8 +424,10 @@ impl Case {
         self.loads_with(motions, angles, |_, load, crank| load.moment_in(self.load_rate(load, motions), crank), out);
     }
 
-    /// The rate on whose sign a load depends: of a link's rotation (rad/s) or of a joint's sliding (m/s). It is zero for
-    /// other loads, and if it may be only a rounding error.
+    /// The rate on whose sign a load depends: the angular velocity of a link (rad/s) or the rate of a joint (rad/s or
+    /// m/s).
+    /// The result is zero for a load that depends on neither rate. It is also zero if the rate may be only a rounding
+    /// error.
     #[must_use]
     pub fn load_rate(&self, load: &Load, motions: &[Motion]) -> f64 {
         match load.nature().senses {

@@ -17,7 +17,7 @@ use crate::input::InputValue;
 /// Result of every fallible operation of this crate.
 pub type Result<T> = std::result::Result<T, Error>;
 
-/// Kind of error. The kind determines the exit code and nothing else.
+/// Kind of error. The kind determines the exit code.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ErrorKind {
     /// The scenario or an argument is wrong.

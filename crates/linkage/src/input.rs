@@ -21,7 +21,7 @@ pub enum Input {
 }
 
 impl Input {
-    /// All of them.
+    /// All quantities.
     pub const ALL: [Input; 3] = [Input::Angle, Input::Turn, Input::Slide];
 
     /// The input with the value `value` (in its SI unit), formatted for messages.
@@ -151,7 +151,7 @@ impl Input {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[must_use]
 pub struct InputValue {
-    /// What it measures.
+    /// The quantity that the input measures.
     pub input: Input,
     /// The value, in the input's SI unit.
     pub value: f64,

@@ -54,12 +54,15 @@ impl Mechanism {
     /// A mechanism with these links (the first is the ground) and joints.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] with the key of the link or joint at fault, for each of these faults:
+    /// [`ErrorKind::Input`] for each of these faults, except for the first one with the key of the link or joint at
+    /// fault:
+    /// - names that are not allowed;
     /// - duplicate names;
+    /// - an axis that is not a unit vector;
     /// - a joint that connects a link with itself;
     /// - negative or non-finite masses and inertias;
     /// - inertia without mass;
-    /// - a point name on two links that no joint holds together.
+    /// - two links with points of the same name that no joint holds together.
     pub fn new(links: Vec<Link>, joints: Vec<Joint>) -> Result<Self> {
         let mechanism = Mechanism::unchecked(links, joints);
         mechanism.check_names()?;
@@ -93,7 +96,7 @@ impl Mechanism {
         Mechanism { links, joints, transmissions: PerTransmission::default(), on, rows, size }
     }
 
-    /// This mechanism with the given transmissions in place of its own.
+    /// This mechanism with the given transmissions instead of its present ones.
     ///
     /// # Errors
     /// The errors of [`Transmission::of`]; [`ErrorKind::Input`] for two transmissions of one name.
@@ -136,14 +139,15 @@ impl Mechanism {
         self.transmissions.iter().map(|own| own.design.clone()).collect()
     }
 
-    /// Index of a transmission's equation in the list of all equations: after those of the joints.
+    /// Index of a transmission's equation in the list of all equations. It comes after the equations of the joints.
     #[inline]
     #[must_use]
     pub fn row_of_transmission(&self, transmission: TransmissionId) -> usize {
         self.equations() + transmission.index()
     }
 
-    /// Index of the equation of the drive with this number: after those of the joints and transmissions.
+    /// Index of the equation of the drive with this number. It comes after the equations of the joints and
+    /// transmissions.
     #[inline]
     #[must_use]
     pub fn row_of_drive(&self, drive: usize) -> usize {
@@ -158,7 +162,8 @@ impl Mechanism {
     }
 
     /// Total number of equations of all joints.
-    /// A list of equations begins with those of the joints. Those of the transmissions and of the drives follow.
+    /// A list of equations begins with the equations of the joints. The equations of the transmissions, then of the
+    /// drives, follow.
     #[inline]
     #[must_use]
     pub fn equations(&self) -> usize {

@@ -192,10 +192,10 @@ crate::sentences! {
     JOIN_THE_MEMBER_TO_THE_CARRIER = "join the wheel to the carrier by a revolute joint, or to a third link that is joined to the carrier at the same point";
     the_member_has_no_axle(link, carrier) = "link \"{link}\" has no axle on the carrier \"{carrier}\"";
     NAME_TWO_MEMBERS = "name two different members and, with `carrier`, the link that carries their axles";
-    the_efficiencies_are(forward, back) = "the efficiency is {forward}, and back {back}";
-    GIVE_EFFICIENCIES = "give an efficiency from 1e-6 to 1, and for the power back from -1e6 to 1";
+    the_efficiencies_are(forward, back) = "the efficiencies are {forward} from the first member to the second and {back} from the second to the first";
+    GIVE_EFFICIENCIES = "give an `efficiency` from 1e-6 to 1, and an `efficiency_back` from -1e6 to 1";
     A_CAM_HAS_NO_EFFICIENCY = "a cam has no efficiency";
-    GIVE_FRICTION = "give the joints of cam and follower friction";
+    GIVE_FRICTION = "give friction to the joints of cam and follower";
     NO_MEMBER_IS_JOINED_TO_THE_CARRIER = "the transmission has an efficiency, but no member has a joint with the carrier";
     JOIN_A_MEMBER_TO_THE_CARRIER = "join one member to the carrier";
     A_TRANSMISSION_NEEDS_THREE_LINKS = "the two members and the carrier are not three different links";

@@ -21,7 +21,7 @@ crate::words! {
         Factorisations = "factorisations",
         /// Solutions for the velocities of the whole mechanism.
         Velocities = "velocities",
-        /// Solutions for its accelerations.
+        /// Solutions for the accelerations of the whole mechanism.
         Accelerations = "accelerations",
         /// Solutions for the reactions and balancing moments of the whole mechanism, from a known motion.
         Forces = "forces",
@@ -59,7 +59,7 @@ impl Work {
         Count::ALL.into_iter().map(|what| (what, self.of(what))).filter(|(_, times)| *times > 0)
     }
 
-    /// Both together.
+    /// The sum of both, count by count.
     #[must_use]
     pub fn and(mut self, other: &Work) -> Work {
         self.0.iter_mut().zip(other.0).for_each(|(own, other)| *own += other);
@@ -132,20 +132,20 @@ fn spent(allowed: f64) -> Error {
 pub struct WorkTally(Work);
 
 impl WorkTally {
-    /// Counts one more.
+    /// Increases the count `what` by one.
     #[inline]
     pub fn one(&mut self, what: Count) {
         self.many(what, 1);
     }
 
-    /// Counts several more.
+    /// Increases the count `what` by `times`.
     #[inline]
     pub fn many(&mut self, what: Count, times: usize) {
         self.0.0[what as usize] += times as u64;
     }
 }
 
-/// A copy starts at zero, so that nothing is counted twice.
+/// A copy starts at zero, so that no work is added to the thread's counts twice.
 impl Clone for WorkTally {
     fn clone(&self) -> Self {
         WorkTally::default()

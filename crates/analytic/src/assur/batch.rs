@@ -37,7 +37,7 @@ const STEP: f64 = PI / 12.0;
 
 /// For angles larger than this (rad), the sine and cosine of the standard library are used instead of the vector
 /// functions.
-/// The value is ten times the largest angle of a grid.
+/// The largest angle of a grid is 6.3e5 rad.
 const FAR: f64 = 1e7;
 
 /// Solves a case for many crank angles in one call, on the branch of its start pose.

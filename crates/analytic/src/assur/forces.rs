@@ -50,7 +50,7 @@ pub(super) struct Kinetostatics {
     /// One load per loaded link, if all loads are moments of resistance and there is no friction; otherwise `None`.
     /// Moments of resistance do not depend on the link's position.
     resistances: Option<Vec<(LinkId, Load)>>,
-    /// Whether any drive moves a joint other than that of a crank.
+    /// Whether any drive moves a joint other than the crank's joint.
     drives_joints: bool,
     /// The joints with friction, if there are any, and the loads without friction.
     dry: Option<Box<(Dry, Vec<Wrench>)>>,
@@ -171,7 +171,7 @@ impl Kinetostatics {
         }
     }
 
-    /// Takes the driving forces and moments out of the reactions of the driven joints.
+    /// Subtracts the driving forces and moments from the reactions of the driven joints.
     fn part_efforts(&self, case: &Case, motions: &[Motion], reactions: &mut Reactions) {
         for (drive, effort) in case.drives.iter().zip(reactions.efforts.iter()) {
             let joint = &case.mechanism.joints()[drive.joint];

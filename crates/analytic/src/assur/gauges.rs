@@ -23,15 +23,14 @@ use linkage::case::Case;
 use linkage::math::{KeepNan, Motion};
 use linkage::mechanism::GroupId;
 
-/// The stored band of a gauge is wider than the band of the present step.
-/// Each band has a distance to an end of the gauge's range.
-/// The constant is the ratio of this distance for the stored band to that for the present step's band.
+/// The present step leaves a distance between its band and each end of the gauge's range.
+/// The stored band is wider: it leaves only this fraction of that distance.
 const SPARE: f64 = 0.25;
 /// Bounds are computed for steps longer by this factor. The steps of a grid are equal only within rounding error.
 const LONGER: f64 = 1.0 + 1e-6;
 /// A gauge without an upper limit may grow by this factor while the bounds are valid.
 const GROWN: f64 = 4.0;
-/// If a proof is missing, it is tried again after this many steps.
+/// If no proof is found, the next attempt follows after this many steps.
 const AGAIN: f64 = 16.0;
 
 /// A group with a gauge.
@@ -179,8 +178,8 @@ impl Gauges {
 
     /// Whether the gauges of all direct groups stay within their ranges between two poses, for steps of length `step`
     /// (rad).
-    /// Stores the bounds of this proof. The distance from each stored band to an end of the gauge's range is the
-    /// fraction `share` of the distance that this step leaves.
+    /// Stores the bounds of this proof. This step leaves a distance between a gauge's band and each end of its range;
+    /// the stored band leaves the fraction `share` of it.
     /// An indirect group without a proof is marked open.
     fn prove(&mut self, ends: &[End; 2], plan: &SolutionPlan, step: f64, share: f64) -> bool {
         let motions = &ends[1].motions;

@@ -169,7 +169,8 @@ impl Step {
             Step::Rrr(dyad) => dyad.bound(band, links),
             Step::Rrp(dyad) => dyad.bound(band, step, motions, links),
             Step::Rpr(dyad) => dyad.bound(band, links),
-            // No bounds are written for these groups, because the travel of their sliders is unlimited.
+            // For RPP and PRP dyads no bounds are written, because the travel of their sliders is unlimited.
+            // For bodies of changing shape and for higher groups there are no bounds.
             Step::Prp(_) | Step::Rpp(_) | Step::Shaped(_) | Step::Chain(_) => {}
         }
     }
@@ -206,7 +207,7 @@ pub struct OutOfReach {
 }
 
 impl SolutionPlan {
-    /// Treats the last pose as the pose at a driving angle that is larger by `way` (rad), a whole number of turns.
+    /// Adds `way` (rad), a whole number of turns, to the driving angle of the last pose. The pose stays the same.
     pub(in crate::assur) fn skip(&mut self, way: f64) {
         for step in &mut self.steps {
             if let Step::Chain(chain) = step {
@@ -303,7 +304,7 @@ impl SolutionPlan {
     /// The plan keeps these configurations.
     ///
     /// # Errors
-    /// [`Misfit::Singular`] if two configurations are about equally near to the expected pose, and those of
+    /// [`Misfit::Singular`] if two configurations are about equally near to the expected pose, and the errors of
     /// [`SolutionPlan::positions`].
     pub(crate) fn positions_like(
         &mut self,
@@ -343,8 +344,7 @@ impl SolutionPlan {
         Ok(())
     }
 
-    /// Computes the positions of the driving links and of the given groups, which must not depend on groups outside
-    /// this list.
+    /// Computes the positions of the driving links and of `groups`. These groups must not depend on any other group.
     ///
     /// # Errors
     /// The errors of [`SolutionPlan::positions`].
@@ -398,7 +398,7 @@ impl SolutionPlan {
     }
 
     /// Distance of every group from a singular pose at which two of its branches meet. Velocities must be known.
-    /// `None` for groups that monitor the sign of their determinant.
+    /// `None` for RPP and PRP dyads, and for groups that are monitored by the sign of their determinant instead.
     pub fn clearances<'a>(&'a self, motions: &'a [Motion]) -> impl Iterator<Item = Option<SingularityDistance>> + 'a {
         self.steps.iter().map(|step| step.clearance(motions))
     }

@@ -173,7 +173,7 @@ impl<'a> PoseSolver<'a> {
     }
 
     /// Computes rates and reactions near a change point.
-    /// `senses`, if given, contains the rate of every load that depends on a sense of motion.
+    /// `senses`, if given, contains [`Case::load_rate`] of every load.
     fn pass(&mut self, rates: [f64; 2], deepest: Stage, senses: Option<&[f64]>) -> Result<()> {
         if deepest >= Stage::Reactions && self.turns.is_some() && !self.case.loads.is_empty() {
             self.with_angles();
@@ -304,8 +304,8 @@ impl<'a> PoseSolver<'a> {
         self.solve_when(grid.times[row], grid.inputs[row], deepest)
     }
 
-    /// The state at an input of the first drive, with the rates of all drives at that instant. The law of the first drive
-    /// must reach the input at a unique time.
+    /// The state at an input of the first drive, with the rates of all drives at that instant.
+    /// The law of the first drive must reach the input at a unique time.
     ///
     /// # Errors
     /// The errors of [`PoseSolver::solve`].
@@ -416,8 +416,8 @@ impl<'a> PoseSolver<'a> {
 
     /// The last state with its links' angles (rad).
     /// If turns are [counted](PoseSolver::counting_turns), the angles include whole turns.
-    /// Otherwise only driving links have their present angles; all other links have the angles of the start of the
-    /// case.
+    /// Otherwise only driving links with a given world angle have their present angles. All other links have the angles
+    /// of the start of the case.
     pub fn with_angles(&mut self) -> &State {
         if let Some(turns) = &self.turns {
             // Skip the frame, which does not turn, and a crank, whose angle is given as an input.

@@ -26,7 +26,8 @@ pub fn rows_at_rest(case: &Case) -> Result<Vec<Vec<usize>>> {
 }
 
 /// Smallest and largest moment (N m) or force (N) of the first drive at the instant `row` of the grid.
-/// The friction of each joint at rest is varied: it acts in either sense, or is zero in all of these joints.
+/// The range covers all combinations of both senses of the friction in the joints at rest, and the state without
+/// friction in these joints.
 /// `None` if every joint with friction is in motion.
 ///
 /// # Errors

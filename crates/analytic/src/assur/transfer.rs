@@ -201,7 +201,7 @@ impl<'a> TransferSide<'a> {
         }
     }
 
-    /// Solves for the accelerations of the free driving links and for those of all links, under the present loads.
+    /// Solves for the accelerations of the free driving links and of all links, under the present loads.
     fn embed(&mut self, inputs: &mut Inputs, held: &Held) -> Result<()> {
         for &index in &self.free {
             inputs.accelerations[index] = 0.0;

@@ -21,8 +21,8 @@ const SAME: f64 = 1e-9;
 impl PoseSolver<'_> {
     /// Follows one whole turn towards the crank angle `target` and skips the following turns if they are equal to it.
     /// At most a few turns then remain.
-    /// Does not skip turns if the mechanism is not back at its old pose after one turn.
-    /// Also does not skip turns if further drives or change points make turns differ.
+    /// No turns are skipped if the mechanism is not back at its old pose after one turn.
+    /// No turns are skipped if further drives or change points make turns differ.
     pub(super) fn skip_turns(&mut self, target: f64) -> Result<()> {
         let Some((whole, _)) = self.case.crank().input.period() else { return Ok(()) };
         let turns = ((target - self.crank).abs() / whole).floor() - 1.0;

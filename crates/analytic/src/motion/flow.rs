@@ -19,13 +19,13 @@ use linkage::mechanism::{JointId, JointSide, LinkId};
 use linkage::solver::State;
 use linkage::work::{Count, WorkTally};
 
-/// Largest accepted rotation of a driving link within a step (rad). The first trial of a step may lead to any angle and
-/// is then refused.
+/// Largest accepted rotation of a driving link within a step (rad). The first trial of a step may turn a driving link
+/// farther; the trial is then refused.
 const FARTHEST: f64 = std::f64::consts::PI;
 /// A bound of a piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Bound {
-    /// The link, point or joint that determines the sense of the load with this number reverses.
+    /// The link, point or joint that determines the sense of the load or transmission with this number reverses.
     Sense(usize),
     /// The motor leaves its branch towards higher speeds.
     TooFast,
@@ -37,13 +37,13 @@ enum Bound {
     KnotAhead,
 }
 
-/// Bounds that every piece has. In the numbering of all bounds, they follow the bounds of the loads.
+/// Bounds that every piece has. In the numbering of all bounds, they follow the bounds of the loads and transmissions.
 const COMMON: [Bound; 4] = [Bound::TooFast, Bound::TooSlow, Bound::KnotBehind, Bound::KnotAhead];
-/// A link or point counts as at rest at the end of a piece if its speed is below this fraction of its largest speed so
-/// far.
+/// A link, point or joint counts as at rest at the end of a piece if its speed is below this fraction of its largest
+/// speed so far.
 const AT_REST: f64 = 1e-11;
-/// A link or point that starts at its dead centre shows its sense of motion after a driving link has turned by this
-/// angle (rad).
+/// A link, point or joint that starts at its dead centre shows its sense of motion after a driving link has turned by
+/// this angle (rad).
 const NUDGE: f64 = 1e-7;
 /// Largest number of iterations for the starting directions of points at rest. The starting directions of several
 /// points depend on each other.
@@ -64,7 +64,7 @@ pub(super) fn start<const N: usize>(case: &Case) -> [f64; N] {
 /// with this motion.
 type Sensed = (usize, Senses);
 
-/// The link or point of [`Case::senses`]; `Senses::Nothing` if this link never turns.
+/// The link, point or joint of [`Case::senses`]; `Senses::Nothing` for a link or joint that never moves.
 fn sensed(case: &Case, senses: Senses) -> Senses {
     match senses {
         Senses::Link(link) if !case.can_turn(link) => Senses::Nothing,
@@ -77,9 +77,11 @@ fn sensed(case: &Case, senses: Senses) -> Senses {
 pub(super) struct Pieces<'a, const N: usize> {
     case: &'a Case,
     work: RefCell<Work<'a>>,
-    /// Loads that depend on a sense of motion, and the link or point with this motion.
+    /// Loads and transmissions that depend on a sense of motion, each with the link, point or joint that has this
+    /// motion.
     sensed: Vec<Sensed>,
-    /// For every load: the largest speed so far of the link or point that determines its sense (rad/s or m/s).
+    /// For every load and transmission: the largest speed so far of the link, point or joint that determines its sense
+    /// (rad/s or m/s).
     fastest: RefCell<Vec<f64>>,
     /// Time at which the present piece began (s).
     entered: Cell<f64>,
@@ -229,7 +231,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
 
     /// Sets the crank's speed exactly to this end of the motor's branch and chooses the branch beyond the end.
     /// Without the exact speed, the same piece would be chosen again.
-    /// The result is empty, because no link or point is at rest at the end of a branch.
+    /// The result is empty, because no link, point or joint comes to rest at the end of a branch.
     fn at_branch_end(&self, place: &mut Place<N>, end: usize, towards: f64) -> Vec<Sensed> {
         let speeds = self.branch.get().map_or([0.0; 2], |branch| branch.speeds);
         place.y[N / 2] = self.case.crank().sense() * speeds[end];
@@ -238,8 +240,9 @@ impl<'a, const N: usize> Pieces<'a, N> {
     }
 
     /// Chooses senses and branch at the beginning of the motion.
-    /// From rest the motor drives the crank. If forces other than the motor's then turn the crank backwards, power
-    /// flows to the motor.
+    /// A crank at rest starts on the motor's branch of driving.
+    /// If other forces then accelerate the crank backwards, the branch on which power flows to the motor is chosen
+    /// instead.
     fn begin(&self, work: &mut Work, place: &Place<N>) -> Result<()> {
         self.choose_branch(place, 1.0);
         let stood = self.begin_senses(work, place)?;
@@ -257,7 +260,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
         Ok(())
     }
 
-    /// Computes the accelerations at `place`. The links or points of the loads in `stood` are at rest at `place`.
+    /// Computes the accelerations at `place`. The links, points and joints in `stood` are at rest there.
     fn go_on(&self, work: &mut Work, place: &Place<N>, stood: &[Sensed]) -> Result<()> {
         self.origin.set(place.y);
         let ends = self.knots.around(self.crank(place.x, &place.y));
@@ -310,7 +313,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
         Ok(stood)
     }
 
-    /// Speed of a link or point at the present inputs (rad/s or m/s). Updates the largest speed so far.
+    /// Speed of a link, point or joint at the present inputs (rad/s or m/s). Updates the largest speed so far.
     fn look(&self, work: &mut Work, own: Sensed) -> Result<f64> {
         let speed = work.rate(own)?.norm();
         let fastest = &mut self.fastest.borrow_mut()[own.0];
@@ -318,9 +321,9 @@ impl<'a, const N: usize> Pieces<'a, N> {
         Ok(speed)
     }
 
-    /// Chooses the senses of the links and points at rest, whose loads are in `stood`.
-    /// The start direction of each is that of its acceleration without its resistances.
-    /// An error is returned if a resistance prevents this start.
+    /// Chooses the senses of the links, points and joints at rest, which are in `stood`.
+    /// Each of them starts in the direction of its acceleration without resistances.
+    /// If a resistance prevents this start, returns an error.
     fn set_off(&self, work: &mut Work, place: &Place<N>, stood: &[Sensed]) -> Result<()> {
         let before = work.held.clone();
         for &(index, _) in stood {
@@ -330,8 +333,9 @@ impl<'a, const N: usize> Pieces<'a, N> {
         self.accelerate(work, place.x, &place.y)?;
         let begun: Vec<Vec2> = stood.iter().map(|&own| work.second(own)).collect();
         let ahead = self.ahead(work, place, stood);
-        // A link or point at its dead centre is idle: it has no acceleration, and its load does no work at first.
-        // The sense of this motion is taken from the velocity after a short time.
+        // A link, point or joint at its dead centre is idle: it has no acceleration, and its load does no work at
+        // first.
+        // Its sense of motion is taken from the velocity after a short time.
         let idle =
             |second: Vec2, k: usize, (after, rates): &(f64, Vec<Vec2>)| second.norm() * after < 0.5 * rates[k].norm();
         let is_idle = |k: usize| ahead.as_ref().is_some_and(|found| idle(begun[k], k, found));
@@ -370,7 +374,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
         }
     }
 
-    /// A short time (s), and the velocities of the links and points at rest after this time.
+    /// A short time (s), and the velocities after this time of the links, points and joints that are now at rest.
     /// The driving links keep their present accelerations.
     /// `None` if nothing moves, or if the mechanism cannot reach the pose after this time.
     fn ahead(&self, work: &mut Work, place: &Place<N>, stood: &[Sensed]) -> Option<(f64, Vec<Vec2>)> {

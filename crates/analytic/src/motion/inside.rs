@@ -1,7 +1,8 @@
 //! States inside a step of DOP853, at the requested instants.
 //!
 //! The interpolant of DOP853 has order 7.
-//! This is the sum of two terms (Hairer, Norsett, Wanner, "Solving ordinary differential equations I", II.6).
+//! The interpolant is the sum of two terms (Hairer, Norsett, Wanner, "Solving ordinary differential equations I",
+//! II.6).
 //! The first term is a cubic H through the values and rates at both ends. The second term is s^2 (1 - s)^2 times a
 //! cubic C.
 //! The library exchanges s and 1 - s in C. The library's value at s therefore contains C at 1 - s, and has order 4.
@@ -38,7 +39,7 @@ impl<'f, F: Flow<N>, const N: usize> Remembering<'f, F, N> {
         }
     }
 
-    /// The rate at `x` and `y`. It is not computed again if it was one of the last evaluations.
+    /// The rate at `x` and `y`. If the last evaluations contain this rate, it is not computed again.
     pub(super) fn rate(&self, x: f64, y: &[f64; N]) -> [f64; N] {
         let mut known = self.known.iter().map(Cell::get);
         let found = known.find(|(place, state, _)| *place == x && state == y);
@@ -137,7 +138,7 @@ mod tests {
     use linkage::error::Error;
     use linkage::math::KeepNan;
 
-    /// An oscillation in a potential that is not a parabola. Its solution therefore has terms of every order.
+    /// An oscillation in a potential that is not a parabola. The solution therefore has terms of every order.
     struct Swing;
 
     impl ODE<f64, [f64; 2]> for Swing {

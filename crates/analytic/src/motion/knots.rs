@@ -5,7 +5,8 @@
 use linkage::case::Case;
 use linkage::math::KeepNan;
 
-/// A piece ends beyond a knot, at this fraction of the knot's absolute crank angle plus 1 rad.
+/// A piece ends beyond a knot. The distance from the knot is this fraction of the knot's absolute crank angle plus 1
+/// rad.
 /// The distance lets a motion that reverses exactly on the knot leave the knot.
 /// Over this distance, loads keep the values at the knot, so that they do not jump within a piece.
 const BEYOND: f64 = 1e-12;
@@ -36,7 +37,7 @@ impl Knots {
     }
 }
 
-/// Ends a little beyond those of an interval around a crank angle.
+/// Ends that lie a little outside the interval from `low` to `high`.
 pub(super) fn beyond([low, high]: [f64; 2]) -> [f64; 2] {
     [low - BEYOND * (low.abs() + 1.0), high + BEYOND * (high.abs() + 1.0)]
 }

@@ -66,7 +66,7 @@ const CORRECTIONS: usize = 6;
 /// Why a march ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Stop {
-    /// At the wanted end.
+    /// The march ended at the last target.
     End,
     /// The march ended on a bound of the piece.
     Bound(usize),

@@ -28,8 +28,8 @@ pub(crate) struct Held {
     pub(crate) motor: f64,
     /// Moment of inertia that turns with the crank (kg m^2): rotor and reducer.
     pub(crate) added: f64,
-    /// For every load, then for every transmission, that depends on the sense of a link or joint: this sense (+1, -1, 0 for
-    /// standstill). Other entries are unused.
+    /// For every load and then for every transmission: the sense of the motion on which it depends (+1, -1, or 0 for
+    /// standstill). The entry is unused if the load or transmission depends on no sense of a link or joint.
     pub(crate) senses: Vec<f64>,
     /// For every load against the motion of a point: direction of this motion at the beginning of the present step.
     /// The direction is a unit vector, or zero for standstill. Entries of other loads are unused.

@@ -18,11 +18,11 @@ use linkage::math::{Vec2, turned};
 use linkage::mechanism::{GROUND, Joint, JointId, JointSide};
 
 impl System<'_> {
-    /// Residual and Jacobian of a drive's equation q - f(t) = 0 in `row`.
+    /// Residual and Jacobian of a drive's equation q - f(t) = 0 in `row`. The equation sets the coordinate of the drive
+    /// to the input `at`, counted as in [`Drive::coordinate`].
     /// For a slide, q = e . (p2 - p1) with the axis e of the first link.
     /// The derivative by the first link's angle is n . (p2 - p1) - e . (z x r1) = -e . (z x (p2 - c1)) with the mass
-    /// centre c1. The equation sets the coordinate of the drive's joint to
-    /// the input `at`, counted as in [`Drive::coordinate`].
+    /// centre c1.
     #[inline]
     pub(super) fn assemble_drive(&mut self, row: usize, drive: &Drive, at: f64) {
         match drive.input {

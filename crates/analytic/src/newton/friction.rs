@@ -1,6 +1,6 @@
 //! Friction in the complete system: M q'' = Q + J^T lambda + F(lambda).
 //!
-//! The friction of a joint is a function of its multipliers: mu r |lambda| in a revolute joint.
+//! The friction of a joint is a function of its multipliers. In a revolute joint it is mu r |lambda|.
 //! The multipliers of a prismatic joint are its normal force and its moment; the friction is mu times the larger of
 //! |lambda_1| and 2 |lambda_2| / l.
 //! Newton's method solves for all multipliers together and, in a free motion, for the accelerations of the free drives.
@@ -34,7 +34,8 @@ pub(super) struct Freedom<'a> {
     pub(super) held: &'a Held,
 }
 
-/// Sum of the normal forces of a joint as a function of its multipliers, and its derivatives by them.
+/// Sum of the normal forces of a joint as a function of its multipliers; then the derivatives of the sum by the
+/// multipliers.
 /// For a transmission: the lost power of its force, divided by the lever and the speed.
 fn of_multipliers(friction: &Friction, own: &[f64], slides: bool, sense: f64) -> (f64, [f64; 2]) {
     if let FrictionSeat::Mesh { losses, .. } = friction.seat {
@@ -55,9 +56,9 @@ fn of_multipliers(friction: &Friction, own: &[f64], slides: bool, sense: f64) ->
 }
 
 impl System<'_> {
-    /// Solves for the multipliers with friction. Newton's method starts from those without friction.
+    /// Solves for the multipliers with friction. Newton's method starts from the multipliers without friction.
     /// In a free motion, also solves for the accelerations and stores them in [`System::second`].
-    /// The senses of sliding are those of the velocities, and in a free motion those in `freedom`.
+    /// The senses of sliding come from the velocities or, in a free motion, from `freedom`.
     ///
     /// # Errors
     /// [`ErrorKind::Numeric`](linkage::error::ErrorKind::Numeric) if the method does not converge.

@@ -1,10 +1,10 @@
 //! Side 2 solves the whole mechanism at once, from its constraint equations and their Jacobian.
 //!
 //! Coordinates are (x, y, theta) of every link's mass centre frame.
-//! Constraints: two equations C = 0 per joint, and the given angle of the driving link.
-//! Positions follow by Newton's method, then velocities from J q' = rate of the drive.
+//! Constraints C = 0: two equations per joint, one equation per transmission, and one equation per drive.
+//! Positions follow by Newton's method, then velocities from J q' = rates of the drives.
 //! Accelerations follow from J q'' = gamma with the centripetal terms, and multipliers from M q'' = Q + J^T lambda.
-//! The multipliers are the reactions on the second links and the balancing moment:
+//! The multipliers are the reactions on the second links, the forces of the transmissions, and the balancing moments:
 //! E. J. Haug, Computer Aided Kinematics and Dynamics of Mechanical Systems, vol. 1, Allyn and Bacon 1989, sections 6.3
 //! and 6.6.
 

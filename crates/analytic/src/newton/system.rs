@@ -23,14 +23,14 @@ pub(super) struct System<'a> {
     pub(super) q: Vec<f64>,
     pub(super) rate: Vec<f64>,
     pub(super) second: Vec<f64>,
-    /// Multipliers of the joints, in the order of [`Mechanism::rows`](linkage::mechanism::Mechanism::rows), then those
-    /// of the transmissions, then those of the drives.
+    /// Multipliers of the joints, transmissions and drives, in this order. The multipliers of the joints are in the
+    /// order of [`Mechanism::rows`](linkage::mechanism::Mechanism::rows).
     pub(super) lambda: Vec<f64>,
     /// Changes of the multipliers because the forces of some transmissions act along their second lines of action.
     pub(super) beside: Vec<f64>,
     /// For every joint: see [`twist`].
     pub(super) twists: Vec<f64>,
-    /// Whether any joint has friction.
+    /// Whether any joint has friction, or any transmission has losses.
     pub(super) has_friction: bool,
     /// For every transmission: q2 - f(q1) in the start pose.
     pub(super) phases: PerTransmission<f64>,
@@ -43,7 +43,8 @@ pub(super) struct System<'a> {
     pub(super) before: Vec<f64>,
     pub(super) rate_before: Vec<f64>,
     pub(super) second_before: Vec<f64>,
-    /// The driving links at the present time: world angles, angular velocities and angular accelerations.
+    /// Coordinate, rate and acceleration of every drive at the present time. For a crank, the coordinate is its world
+    /// angle.
     pub(super) inputs: Vec<InputState>,
     /// Motions and angles of all links, and the loads computed from them.
     pub(super) motions: Vec<Motion>,
@@ -116,7 +117,7 @@ impl<'a> System<'a> {
         (motion, self.q[i + 2])
     }
 
-    /// The drives with their rows, which come after those of the joints.
+    /// The drives with their rows, which come after those of joints and transmissions.
     pub(super) fn drives(&self) -> impl Iterator<Item = (usize, &'a Drive)> + use<'a> {
         let first = self.case.mechanism.row_of_drive(0);
         self.case.drives.iter().enumerate().map(move |(index, drive)| (first + index, drive))
@@ -167,7 +168,7 @@ impl<'a> System<'a> {
     }
 }
 
-/// State of a driving link according to its law, with the link's world angle.
+/// State of a drive according to its law. The value is counted as in [`Drive::coordinate`].
 fn by_law(drive: &Drive, t: f64) -> InputState {
     let state = drive.at(t);
     InputState { value: drive.coordinate(state.value), ..state }

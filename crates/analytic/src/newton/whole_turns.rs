@@ -20,8 +20,8 @@ const SAME: f64 = 1e-9;
 impl System<'_> {
     /// Follows one whole turn towards `t` and skips the following turns if they are equal to it. At most a few turns
     /// then remain.
-    /// Does not skip turns if the mechanism is not back at its old pose after one turn.
-    /// Also does not skip turns if there are several drives, or if the speed of the drive is not constant.
+    /// No turns are skipped if the mechanism is not back at its old pose after one turn.
+    /// No turns are skipped if there are several drives, if the drive is a slide, or if its speed is not constant.
     pub(super) fn skip_turns(&mut self, t: f64) -> Result<()> {
         let [drive] = &self.case.drives.iter().collect::<Vec<_>>()[..] else { return Ok(()) };
         let Some(speed) = drive.constant_speed() else { return Ok(()) };

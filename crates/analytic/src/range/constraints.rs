@@ -1,6 +1,7 @@
-//! Constraint equations of a mechanism without its drive. There is one equation fewer than coordinates, so that the
-//! solutions are curves.
-//! The coordinate of a driven joint between moving links, and every driven or geared slide, is an additional coordinate.
+//! Constraint equations of a mechanism without its first drive. There is one equation fewer than coordinates, so that
+//! the solutions are curves.
+//! The coordinate of a driven joint between moving links is an additional coordinate.
+//! Every driven or geared slide is also an additional coordinate.
 //!
 //! The coordinates of every moving link are x and y of the middle of its joints, and its angle.
 //! x and y are divided by the size of the mechanism, so that they are comparable with angles.
@@ -12,7 +13,7 @@ use linkage::mechanism::{
     Coordinate, GROUND, Group, Joint, JointId, JointSide, LinkId, LinkPose, Mechanism, Pose, TransmissionId,
 };
 
-/// An equation of coordinates: a drive that is geared to the first drive, or a transmission.
+/// An equation between coordinates: a drive with a speed ratio to the first drive, or a transmission.
 pub(super) struct Gearing {
     /// Indices of the coordinates and their factors.
     pub(super) terms: Vec<(usize, f64)>,
@@ -275,8 +276,8 @@ impl<'a> Constraints<'a> {
         (Vec2::new(q[at], q[at + 1]) + arm, arm)
     }
 
-    /// The part of a Jacobian for the joints, transmissions and links of a group. The part is square. Its columns are all x
-    /// and y first, then all angles, then the slides of racks.
+    /// The part of a Jacobian for the joints, transmissions and links of a group. The part is square.
+    /// Its columns are all x and y first, then all angles, then the slides of racks.
     pub(super) fn block(&self, jacobian: &Matrix, group: &Group) -> Matrix {
         let joints = || group.inner.iter().chain(&group.outer);
         let is_known = |number: usize| group.given.contains(&self.given[number].0);

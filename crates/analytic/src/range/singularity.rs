@@ -7,15 +7,17 @@ linkage::words! {
     /// Kind of a singular pose.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum SingularityKind: name {
-        /// Limit of rotation of the crank: two configurations of a group coincide, and no configuration exists beyond the
-        /// limit.
+        /// Limit of rotation of the crank: two configurations of a group coincide. Beyond the limit there is no
+        /// configuration.
         /// The determinant goes to zero as the square root of the remaining crank angle.
         DeadPoint = sentences::LIMIT_OF_ROTATION_DEAD_POINT,
-        /// Branches cross: the determinant passes through zero linearly in the crank angle, and the crank need not reverse.
+        /// Branches cross: the determinant passes through zero linearly in the crank angle. The crank need not reverse.
         ChangePoint = "change point",
-        /// The two axes of an RPP or PRP dyad are parallel. Towards this pose the slides of the dyad grow without bound.
+        /// The two axes of an RPP or PRP dyad are parallel. Towards this pose the slides of the dyad grow without
+        /// bound.
         ParallelAxes = "parallel axes",
-        /// A branch other than the followed one is so near that the determinant is below 1e-3 without changing its sign.
+        /// Another branch is so near the followed one that the determinant is below 1e-3. The determinant keeps its
+        /// sign.
         BranchContact = "branch contact",
     }
 }

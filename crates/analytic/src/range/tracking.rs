@@ -100,7 +100,8 @@ const MOST_KNOWN: usize = 9;
 pub(super) struct Tracker<'a> {
     case: &'a Case,
     constraints: Constraints<'a>,
-    /// Index of the coordinate of the first drive, and its unit (1 for an angle; the mechanism's size in m for a slide).
+    /// Index of the coordinate of the first drive, and the unit of this coordinate: 1 for an angle, the mechanism's
+    /// size (m) for a slide.
     crank: usize,
     unit: f64,
     /// Signs that make every group's determinant positive at the start.
@@ -115,7 +116,7 @@ impl<'a> Tracker<'a> {
     /// Starts at the start pose of a case.
     ///
     /// # Errors
-    /// [`ErrorKind::Geometry`] if the start pose is singular.
+    /// [`ErrorKind::Geometry`] if the start pose is singular; the errors of [`gearings`] and [`Tracker::allowed`].
     pub(super) fn new(case: &'a Case) -> Result<(Self, Point)> {
         let drive = case.crank();
         let other = case.mechanism.joints()[drive.joint].other(drive.link);
@@ -151,7 +152,8 @@ impl<'a> Tracker<'a> {
         Ok((tracker, start))
     }
 
-    /// Subtracts the work of `squares` eliminations from the allowed work. Returns `None` if that is used up.
+    /// Subtracts the work of `squares` eliminations from the allowed work. Returns `None` if the allowed work is used
+    /// up.
     fn spend(&self, squares: usize) -> Option<()> {
         let size = self.constraints.coordinates() as f64;
         let spent = work::spend(SQUARE * squares as f64 * size * size);
@@ -288,7 +290,8 @@ impl<'a> Tracker<'a> {
     /// Follows the curve. The sign of `sense` is the direction in which the crank turns first.
     ///
     /// # Errors
-    /// [`ErrorKind::Numeric`] if the curve does not end, and those of [`Tracker::allowed`].
+    /// [`ErrorKind::Numeric`] if the curve cannot be followed to an end. [`ErrorKind::Unsupported`] if the mechanism
+    /// does not return to its first pose, or if a driven slide has no limit. The errors of [`Tracker::allowed`].
     pub(super) fn follow(&self, start: &Point, sense: f64) -> Result<Track> {
         self.allowed(self.followed(start, sense))
     }
@@ -380,7 +383,7 @@ impl<'a> Tracker<'a> {
         near.fold(all, |least, (_, measure)| least.smaller(measure.determinant.abs()))
     }
 
-    /// Takes one step of at most `longest`. The step passes no singular pose except one limit of rotation.
+    /// Takes one step of at most `longest`. The step may pass one limit of rotation, but no other singular pose.
     /// `None` if branches meet.
     fn step(&self, here: &Point, longest: f64) -> Option<(Point, f64)> {
         let mut step = longest.smaller(SAFE * self.clearance(here));
@@ -567,8 +570,8 @@ fn smallest_singular_value(matrix: &Matrix, x: &mut ColumnVector) -> (f64, usize
     (1.0 / largest.sqrt(), rounds)
 }
 
-/// Unit vector that the Jacobian maps to zero, on the side of `along`. If there are several such vectors, returns
-/// `along`.
+/// Unit vector that the Jacobian maps to zero. Its scalar product with `along` is positive.
+/// If there are several such vectors, returns `along`.
 fn tangent(jacobian: &Matrix, along: &ColumnVector) -> ColumnVector {
     let mut ahead = ColumnVector::zeros(along.len());
     ahead[along.len() - 1] = 1.0;

@@ -19,7 +19,7 @@ use linkage::error::{Error, Result};
 use linkage::work::{Count, WorkTally};
 
 /// Largest accepted distance (rad) from the beginning of a step to an evaluation in this step.
-/// The first trial of a step may lead to any angle and is then refused.
+/// The first trial of a step may exceed this distance; the trial is then refused.
 const FARTHEST: f64 = std::f64::consts::TAU;
 
 /// The evaluation of the forces, which both forms share.
@@ -61,7 +61,8 @@ impl<'m, 'a> Forces<'m, 'a> {
     }
 
     /// Reduced quantities on the present piece, including the inertia that turns with the crank.
-    /// NaN if the crank angle is too far away; the step is then repeated. Also NaN after an error, which is stored.
+    /// All quantities are NaN if the crank angle is too far away; the step is then repeated.
+    /// After an error, all quantities are NaN too, and the error is stored.
     pub(crate) fn reduced(&self, crank: f64) -> Reduced {
         if !((crank - self.origin.get()).abs() <= FARTHEST) {
             return Reduced { inertia: f64::NAN, slope: f64::NAN, applied: f64::NAN };

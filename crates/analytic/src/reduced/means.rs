@@ -47,8 +47,8 @@ pub struct Kinks {
     /// This angle is one turn, or several turns with higher groups and with tables that cover several turns.
     /// `None` if the crank cannot turn fully.
     pub period: Option<f64>,
-    /// Crank angles (rad) of the kinks. At a kink, a loaded link reverses, so that its load changes its sense, or a
-    /// load table has a point.
+    /// Crank angles (rad) of the kinks. At a kink, a loaded link reverses and its load changes sense, or a load table
+    /// has a breakpoint.
     /// The angles are ascending. They cover one period that begins at the start, or all angles that can be reached.
     pub cranks: Vec<f64>,
     /// Limits of the crank angles that can be reached (rad); `None` if there are no limits.
@@ -62,7 +62,7 @@ const MOST_TURNS: u32 = 1000;
 /// Number of Newton steps that improve a crank angle from 1e-9 rad to rounding accuracy.
 const POLISHING: usize = 3;
 
-/// Rotation of a crank, and the crank angles (rad) at which links with sensed loads reverse.
+/// Rotation of a crank, and the crank angles (rad) at which links reverse whose loads depend on the sense of rotation.
 struct Reach {
     turns: Option<u32>,
     limits: Option<[f64; 2]>,
@@ -97,8 +97,9 @@ impl Reach {
 /// Kinks of the reduced quantities of a case.
 ///
 /// # Errors
-/// The errors of [`Range::of`]; [`ErrorKind::Unsupported`] for loads against the motion of a point, and for tables
-/// whose common period exceeds a thousand turns.
+/// The errors of [`Range::of`].
+/// [`ErrorKind::Unsupported`] for a drive that is not a crank, for friction, for loads against the motion of a point or
+/// joint, and for tables whose common period with the mechanism exceeds a thousand turns.
 pub fn kinks(case: &Case) -> Result<Kinks> {
     if case.crank().input != Input::Angle {
         let message = sentences::the_drive_moves_no_crank(&case.crank().input.noun());
@@ -161,8 +162,7 @@ pub fn kinks(case: &Case) -> Result<Kinks> {
     Ok(Kinks { period, cranks, limits, meets })
 }
 
-/// Means of the reduced quantities over the turns of the crank after which the mechanism is back at its first pose.
-/// The number of these turns is usually one.
+/// Means of the reduced quantities over one [period](Kinks::period). The period is usually one turn of the crank.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Means {
     /// Mean reduced moment of inertia (kg m^2).
@@ -175,11 +175,11 @@ pub struct Means {
 /// The quadrature error is 1e-16 for a quantity whose nearest singularity is a tenth of a radian off the real axis.
 const PANEL: f64 = PI / 90.0;
 
-/// Means over one turn at the drive's top speed, with the motion of the given solver. Gauss's rule is applied between
+/// Means over one period at the drive's top speed, with the motion of the given solver. Gauss's rule is applied between
 /// kinks.
 ///
 /// # Errors
-/// The errors of the solver, [`ErrorKind::Geometry`] for mechanisms whose crank cannot turn fully.
+/// The errors of [`kinks`] and of the solver. [`ErrorKind::Geometry`] for mechanisms whose crank cannot turn fully.
 pub fn means_over_turn(case: &Case, solver: &dyn Solver) -> Result<Means> {
     let found = kinks(case)?;
     let Some(period) = found.period else { return Err(no_turn(&found)) };

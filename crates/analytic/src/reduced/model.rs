@@ -17,7 +17,7 @@ const LIMIT_MARGIN: f64 = 1e-4;
 /// Reduced quantities at one crank angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reduced {
-    /// Reduced moment of inertia I* (kg m^2), without that of motor, reducer and flywheel.
+    /// Reduced moment of inertia I* (kg m^2), without motor, reducer and flywheel.
     pub inertia: f64,
     /// Derivative dI*/dphi of the reduced moment of inertia (kg m^2).
     /// It is twice the sum of m v . a + J omega alpha for a crank with the speed 1 rad/s and the acceleration 0
@@ -82,8 +82,10 @@ impl<'a> ReducedModel<'a> {
     /// this speed.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] for mechanisms of several degrees of freedom, [`ErrorKind::Input`] for mechanisms
-    /// without masses, and those of [`Range::of`](crate::range::Range::of).
+    /// [`ErrorKind::Unsupported`] for mechanisms of several degrees of freedom, and for loads that depend on the size
+    /// of speeds or are wound up by every turn.
+    /// [`ErrorKind::Input`] for mechanisms without masses.
+    /// The errors of [`kinks`](means::kinks) are passed on.
     pub fn of(case: &'a Case) -> Result<Self> {
         if !case.drives.further().is_empty() {
             let message = sentences::the_motion_under_forces_is_asked_for_but_the_mechanism(&case.drives.len());
@@ -118,7 +120,7 @@ impl<'a> ReducedModel<'a> {
         Ok(model)
     }
 
-    /// A pose solver of the case. If the crank is known to turn fully, the solver is set to use this fact.
+    /// Returns `poses`, or [`PoseSolver::turning_fully`] of it if the crank is known to turn fully.
     pub(crate) fn guided<'p>(&self, poses: PoseSolver<'p>) -> PoseSolver<'p> {
         if self.kinks.period.is_some() { poses.turning_fully() } else { poses }
     }

@@ -27,7 +27,7 @@ pub struct CrankState {
     /// Static moment of the motor on the crank (N m), counter-clockwise positive. The moment that accelerates rotor and
     /// reducer is not subtracted.
     pub motor: f64,
-    /// Moment that the crank's shaft transmits to the mechanism (N m): that of the motor minus the moment that
+    /// Moment that the crank's shaft transmits to the mechanism (N m): the motor's moment minus the moment that
     /// accelerates rotor, reducer and flywheel.
     pub shaft: f64,
 }
@@ -48,8 +48,9 @@ pub enum RunUpEnd {
 /// Instants after the end are left out.
 ///
 /// # Errors
-/// [`ErrorKind::Input`] for times that do not ascend from 0, [`ErrorKind::Numeric`] where the integration cannot
-/// continue, and those of [`PoseSolver::solve`].
+/// [`ErrorKind::Input`] for times that do not ascend from 0.
+/// [`ErrorKind::Numeric`] where the integration cannot continue.
+/// The errors of [`PoseSolver::solve`] are passed on.
 pub fn motion(model: &ReducedModel, omega: f64, times: &[f64], accuracy: f64) -> Result<(Vec<CrankState>, RunUpEnd)> {
     if times.iter().chain(&[omega]).any(|value| !value.is_finite())
         || times.first().is_some_and(|&first| first < 0.0)
@@ -159,8 +160,8 @@ impl<'m, 'a> Runner<'m, 'a> {
     /// end.
     fn enter(&mut self) -> Result<Option<RunUpEnd>> {
         let (t, [crank, omega]) = (self.place.x, self.place.y);
-        // From standstill, the crank starts in a direction if its acceleration points in this direction. The
-        // acceleration includes the resistance against this direction.
+        // From standstill, the crank starts in a direction if its acceleration points in this direction.
+        // The resistance against this direction is included in the acceleration.
         let ways: &[f64] = if omega == 0.0 { &[1.0, -1.0] } else { &[omega.signum()] };
         for &way in ways {
             let Some(piece) = self.flow.0.model.piece_at(crank, way) else {
@@ -231,8 +232,8 @@ fn instant(flow: &InTime, t: f64, [crank, omega]: [f64; 2], gone: f64, is_accele
 }
 
 /// Kinetostatics of a motion: the state at every instant, up to the stage that the case requests.
-/// The model must be that of the motion. The grid of `case` may differ from that of the model's case, and `case` may
-/// request fewer channels.
+/// `model` is the model from which `motion` was computed. The grid of `case` may differ from the grid of the model's
+/// case, and `case` may request fewer channels.
 pub(crate) fn states(model: &ReducedModel, case: &Case, motion: &[CrankState], visit: Visit) -> Result<()> {
     let mut poses = model.guided(PoseSolver::counting_turns(case)?);
     let deepest = case.wanted.deepest();
@@ -256,7 +257,7 @@ pub struct RunUp {
     /// All requested channels at these instants.
     /// `drive.torque_N_m` is the moment on the crank from its equilibrium with the reactions.
     pub trajectory: Trajectory,
-    /// How it ended.
+    /// How the motion ended.
     pub end: RunUpEnd,
     /// Largest reaction times the mechanism's size (N m). It is the reference for moments if all moments on the crank
     /// are smaller.

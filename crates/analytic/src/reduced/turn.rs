@@ -19,7 +19,8 @@ const POSES: u32 = 120;
 /// If the crank has turned this number of turns, the search for a return to the first pose ends. The range of motion
 /// has the same limit.
 const MOST_TURNS: u32 = 12;
-/// If the crank turns with 1 rad/s and a link turns more slowly than this, its angular velocity is rounding error.
+/// If the crank turns at 1 rad/s and a link turns more slowly than this (rad/s), the link's angular velocity is
+/// rounding error.
 const STILL: f64 = 1e-11;
 /// Newton's method ends if its step (rad) is at most this value. The method converges quadratically.
 const SETTLED: f64 = 1e-9;

@@ -7,7 +7,7 @@ use linkage::drive::{Motor, MotorLaw};
 const SAME: f64 = 1e-12;
 
 /// Motion from rest under `I domega/dt = M0 - B omega - R`.
-/// I and R are the means of inertia and resistance over one turn of the crank. The variation of I and R is neglected.
+/// I and R are the means of inertia and resistance over one period. The variation of I and R is neglected.
 /// M0 - B omega is the straight line of the motor's moment on the crank.
 /// Then omega = omega_s (1 - exp(-t / T)) with T = I / B and omega_s = (M0 - R) / B.
 ///

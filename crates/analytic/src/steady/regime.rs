@@ -33,7 +33,7 @@ pub struct SpeedAtCrank {
 pub struct Regime {
     /// Time of one period (s).
     pub period: f64,
-    /// Turns of the crank in a period: 1, except for some higher groups.
+    /// Turns of the crank in a period: 1, except with some higher groups and with load tables that cover several turns.
     pub turns: f64,
     /// Mean angular velocity over time (rad/s): the turns divided by the period.
     pub mean_speed: f64,
@@ -122,8 +122,7 @@ impl<'m, 'a> Turn<'m, 'a> {
         Ok(Turn { flow, start: model.sense * model.case.crank().start, period })
     }
 
-    /// Energy and time at the end of a period that begins with `energy` (J), and a ratio of deviations.
-    /// The ratio is that of a small deviation of the energy at the end to the deviation at the beginning.
+    /// Energy and time at the end of a period that begins with `energy` (J), and the [multiplier](Regime::multiplier).
     /// The visited steps are divided at the targets.
     fn run(
         &self,

@@ -17,10 +17,11 @@ pub fn of_known_forces(case: &Case, state: &State) -> f64 {
     own + case.load_power(&state.motions, &state.angles, state.reactions())
 }
 
-/// Balancing moment on the crank (N m), or driving force of the first drive (N), for which the powers of all forces sum to zero.
-/// The balancing moments of further drives are reduced to the crank: the result is the sum of all moments times their
-/// speed ratios.
-/// Ideal joints do no work, so the calculation does not need reactions. The crank must turn.
+/// Balancing moment on the crank (N m), or driving force of the first drive (N), for which the powers of all forces sum
+/// to zero.
+/// The balancing moments of further drives are reduced to the first drive: the result is the sum of all moments times
+/// their speed ratios.
+/// Ideal joints do no work, so the calculation does not need reactions. The first drive must move.
 #[must_use]
 pub fn balancing_moment(case: &Case, state: &State) -> f64 {
     -of_known_forces(case, state) / case.state_in(&state.motions, &state.angles).rate

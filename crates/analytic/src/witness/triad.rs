@@ -101,9 +101,9 @@ impl Triad {
         }
     }
 
-    /// The known forces on each link before the group's reactions.
-    /// These forces are gravity and inertia m (g - a) at the mass centre, the moment -J alpha, and loads.
-    /// The forces in the joints with later groups are taken from the state.
+    /// Resultant of the known forces on each link: all forces except the group's reactions.
+    /// The known forces are gravity and inertia m (g - a) at the mass centre, the moment -J alpha, and loads.
+    /// They include the forces in the joints with later groups, which are taken from the state.
     #[must_use]
     pub fn known(&self, case: &Case, state: &State) -> [KnownResultant; 4] {
         let (motions, forces) = (&state.motions, &state.forces);

@@ -161,7 +161,8 @@ impl CaseBuilder {
         self
     }
 
-    /// Gives the last transmission its efficiencies: if power flows from the first member to the second, and back.
+    /// Sets the efficiencies of the last transmission: for power from the first member to the second, then for power
+    /// from the second member to the first.
     pub fn efficiency(mut self, efficiency: [f64; 2]) -> Self {
         if let Some(last) = self.transmissions.last_mut() {
             last.efficiency = efficiency;
@@ -204,8 +205,8 @@ impl CaseBuilder {
         self
     }
 
-    /// Sets the input of the first drive at t = 0: the world angle of the crank's x axis (rad), or a slide (m). Default:
-    /// 0.
+    /// Sets the input of the first drive at t = 0: the world angle of the crank's x axis (rad), or a slide (m).
+    /// The default is 0.
     pub fn start(mut self, crank: f64) -> Self {
         self.start = crank;
         self
@@ -238,7 +239,7 @@ impl CaseBuilder {
         self
     }
 
-    /// Sets the requested instants (s). The given instants replace those of [`CaseBuilder::instants`].
+    /// Sets the requested instants (s). They replace the instants set by [`CaseBuilder::instants`].
     pub fn times(mut self, times: &[f64]) -> Self {
         self.times = Some(times.to_vec());
         self

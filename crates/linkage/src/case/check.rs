@@ -11,11 +11,12 @@ use crate::input::Input;
 use crate::math::{KeepNan, unit};
 use crate::mechanism::{AssemblyMode, DrivingLink, GROUND, GroupKind, LinkPose, Mechanism, Structure};
 
-/// If the opening of a joint in a start pose exceeds this fraction of the joint's largest coordinate, the case is
-/// rejected.
-/// In the first poses of all shipped scenarios the ratio of opening to coordinate is less than 1e-15
-/// (`tests/suite/start.rs`).
-/// If the pose belongs to a different mechanism, the ratio is far larger.
+/// If the opening of a joint in a start pose exceeds this fraction of the pose's reach, the case is rejected.
+/// The reach is the mechanism's size or the largest distance of a link's origin from the world's origin, whichever is
+/// larger.
+/// The sine of an opening angle has the same limit, without the reach.
+/// In the first poses of all shipped scenarios, the openings are at most 1e-15 m (`tests/suite/start.rs`).
+/// If the pose belongs to a different mechanism, the opening is far larger.
 const LARGEST_OPENING: f64 = 1e-9;
 
 /// Checks all parts.
@@ -108,8 +109,8 @@ fn drives(parts: &CaseParts) -> Result<()> {
 /// A crank counts as a point if its length is below this fraction of the mechanism's size.
 const POINT: f64 = 1e-12;
 
-/// Whether a driving link moves no other link.
-/// A driving link moves no other link if it carries other links only by revolute joints on its axis of rotation.
+/// Whether a driving link carries other links but moves none of them.
+/// All joints of such a link are revolute and lie on its axis of rotation.
 fn moves_nothing(mechanism: &Mechanism, drive: &Drive) -> bool {
     let own = mechanism.joints()[drive.joint].on(drive.link);
     let others = || mechanism.joints().entries().filter(|&(index, _)| index != drive.joint);
@@ -220,7 +221,7 @@ fn loads(parts: &CaseParts) -> Result<()> {
     Ok(())
 }
 
-/// Checks that every link has a pose, that all joints are closed and that the driving links are at their start angles.
+/// Checks that every link has a pose, that all joints are closed, and that every driven joint has its start coordinate.
 fn start(parts: &CaseParts) -> Result<()> {
     let (mechanism, poses) = (&parts.mechanism, &parts.start.0);
     let links = mechanism.links();

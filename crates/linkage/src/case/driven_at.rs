@@ -20,7 +20,8 @@ impl Case {
     }
 
     /// This case with the first drive at `joint`, from the same start pose.
-    /// If this joint is the start joint of a transmission, the joint of its first member with the carrier replaces it.
+    /// If `joint` is the start joint of a transmission, the joint between the first member and the carrier becomes the
+    /// start joint.
     /// `law` gives the law of motion for the kind of input. The grid consists of `times` (s).
     ///
     /// # Errors
@@ -50,7 +51,7 @@ impl Case {
         })
     }
 
-    /// The mechanism with another start joint for transmissions whose start joint is `joint`.
+    /// The mechanism with another start joint for every transmission whose start joint is `joint`.
     fn with_start_beside(&self, joint: JointId) -> Result<Mechanism> {
         let (mut designs, joints) = (self.mechanism.transmission_designs(), self.mechanism.joints());
         for design in designs.iter_mut().filter(|design| design.joint == joint) {

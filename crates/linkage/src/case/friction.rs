@@ -20,18 +20,18 @@ use crate::mechanism::{Joint, JointId, LinkId, Losses, Transmission, Transmissio
 #[derive(Clone, Copy, Debug)]
 pub struct Friction<'a> {
     case: &'a Case,
-    /// Index of its sense in [`Case::senses`].
+    /// Index of the friction's sense in [`Case::senses`].
     pub index: usize,
     /// The joint. For a transmission, the joint whose coordinate shows the sense of the motion.
     pub joint: JointId,
-    /// Whose friction it is.
+    /// The joint or transmission that has the friction, with its data.
     pub seat: FrictionSeat,
 }
 
-/// Whose friction it is.
+/// The joint or transmission that has the friction.
 #[derive(Clone, Copy, Debug)]
 pub enum FrictionSeat {
-    /// That of a joint.
+    /// The friction of a joint.
     Joint {
         /// Coefficient of friction.
         coefficient: f64,
@@ -65,7 +65,7 @@ impl Case {
         in_joints.chain(in_meshes)
     }
 
-    /// For every load, then for every transmission: the motion on whose sense it depends.
+    /// For every load, then for every transmission: the motion whose sense determines the sign of the load or loss.
     pub fn senses(&self) -> impl Iterator<Item = Senses> {
         let of_mesh = |own: &Transmission| own.losses.map_or(Senses::Nothing, |losses| Senses::Joint(losses.joint));
         self.loads.iter().map(|load| load.nature().senses).chain(self.mechanism.transmissions().iter().map(of_mesh))
@@ -78,8 +78,9 @@ impl Case {
     }
 
     /// Rate of a joint's coordinate (rad/s or m/s).
-    /// The result is zero for a joint that cannot move, and if the rate may be only a rounding error of the mechanism's
-    /// speeds or of the drives' top speeds.
+    /// The result is zero for a joint that cannot move.
+    /// The result is also zero if the rate may be only a rounding error of the mechanism's speeds or of the drives' top
+    /// speeds.
     #[must_use]
     pub fn joint_rate(&self, motions: &[Motion], joint: JointId) -> f64 {
         if !self.can_move(joint) {
@@ -120,7 +121,7 @@ impl Friction<'_> {
         &self.case.mechanism.joints()[self.joint]
     }
 
-    /// Whether it is the loss of a transmission.
+    /// Whether the friction is the loss of a transmission.
     #[must_use]
     pub fn is_mesh(&self) -> bool {
         matches!(self.seat, FrictionSeat::Mesh { .. })
@@ -149,8 +150,8 @@ impl Friction<'_> {
     }
 
     /// Sum of the contacts' normal forces (N), which is a norm of the reaction.
-    /// For a transmission: the force, times the lost fraction of its power.
-    /// `sense` is the sense of [`rate`](Friction::rate).
+    /// For a transmission: the magnitude of the force times the lost fraction of the power.
+    /// The sign of `sense` is the sign of [`rate`](Friction::rate).
     #[must_use]
     pub fn normal(&self, (force, moment): (Vec2, f64), sense: f64) -> f64 {
         match self.seat {
@@ -174,7 +175,7 @@ impl Friction<'_> {
     }
 
     /// Friction divided by [`normal`](Friction::normal): mu r in a revolute joint (m), mu in a prismatic joint (1).
-    /// For a transmission, the lever of its force for the joint's coordinate.
+    /// For a transmission: the lever arm of its force, reduced to the joint's coordinate.
     #[must_use]
     pub fn lever(&self) -> f64 {
         match self.seat {
@@ -211,7 +212,7 @@ impl Friction<'_> {
     }
 
     /// Friction for these reactions (N m or N), positive if it increases the joint's coordinate.
-    /// The friction of a joint is that on its second link. Friction is zero at standstill.
+    /// For a joint, the result is the friction on the second link. Friction is zero at standstill.
     #[must_use]
     pub fn effort(&self, motions: &[Motion], reactions: JointReactions) -> f64 {
         let rate = self.rate(motions);
@@ -236,8 +237,9 @@ impl Friction<'_> {
 }
 
 impl Losses {
-    /// The force of the transmission (N) times the lost fraction of its power, and its derivative by the force.
-    /// `sense` is the sense of the joint's coordinate. Both are zero at standstill.
+    /// Magnitude of the transmission's force (N) times the lost fraction of the power; then its derivative by the
+    /// force.
+    /// The sign of `sense` is the sense of the joint's coordinate. At standstill both results are zero.
     #[must_use]
     pub fn normal(&self, force: f64, sense: f64) -> [f64; 2] {
         if sense == 0.0 {

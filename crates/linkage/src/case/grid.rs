@@ -105,7 +105,7 @@ impl Grid {
     }
 }
 
-/// An instant of the motion: where a value holds, or a picture is drawn.
+/// An instant of the motion at which a value is valid or a picture is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum When {
     /// At a value of the input: a crank angle, for example (SI unit, as the scenario measures the input).

@@ -55,7 +55,7 @@ pub struct CaseParts {
     pub start: Pose,
     /// Assembly mode of each group, in the order of the structure.
     pub modes: Vec<AssemblyMode>,
-    /// Wanted instants.
+    /// Requested instants.
     pub grid: Grid,
     /// Stages of the requested channels.
     pub wanted: Wanted,

@@ -251,8 +251,7 @@ impl<'a> Needs<'a> {
 
     /// The links of the reduced case.
     /// Two links may share a point's name although the joint that connects them at this point is left out.
-    /// The link that depends on fewer groups then keeps the name. On the other of the two links, a number is added to
-    /// the name.
+    /// The link that depends on fewer groups then keeps the name. On the other link, a number is added to the name.
     fn links(&self) -> Vec<Link> {
         let whole = &self.case.mechanism;
         let stays = |index: &LinkId| self.moves[*index];

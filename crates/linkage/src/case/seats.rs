@@ -22,7 +22,7 @@ pub enum Seat {
     Drive(usize),
     /// The transmission with this number.
     Transmission(TransmissionId),
-    /// On the whole frame.
+    /// The whole frame.
     Frame,
 }
 

@@ -23,8 +23,9 @@ struct Bridge {
     link: LinkId,
 }
 
-/// For every link, one of the links with the same angle up to a constant, on the branch of the start pose.
-/// It is the same link for all of them, so equal entries mean that there is no relative rotation.
+/// For every link, the representative of its class. A class contains the links with the same angle up to a constant, on
+/// the branch of the start pose.
+/// All links of a class have the same representative, so equal entries mean that there is no relative rotation.
 pub(super) fn classes(parts: &CaseParts) -> Vec<LinkId> {
     let mechanism = &parts.mechanism;
     let mut classes: Vec<LinkId> = mechanism.links().ids().collect();
@@ -46,7 +47,8 @@ pub(super) fn classes(parts: &CaseParts) -> Vec<LinkId> {
             }
         }
     }
-    // A wheel that is coupled to a member at rest on the carrier is at rest on the carrier.
+    // If one member is at rest relative to the carrier, the other member is at rest relative to the carrier too. For a
+    // cam this holds only if the cam is at rest.
     let transmissions = mechanism.transmissions();
     for own in transmissions.iter().flat_map(|_| transmissions).filter(|own| own.slide().is_none()) {
         let ([first, second, carrier], is_cam) = (own.links(), own.cam.is_some());

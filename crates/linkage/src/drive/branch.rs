@@ -64,9 +64,8 @@ impl Curve {
 pub struct MotorBranch {
     curve: Curve,
     ratio: f64,
-    /// Ratio of the torque on the crank to the motor's static torque.
-    /// If power flows to the crank, the ratio is the efficiency of the reducer.
-    /// If power flows back to the motor, the ratio is the reciprocal of the efficiency.
+    /// Effect of the reducer's losses on the moment: the efficiency if power flows to the crank, its reciprocal if
+    /// power flows back to the motor.
     factor: f64,
     /// Speeds of the crank (rad/s) between which the piece is valid. Outside this interval the piece continues
     /// smoothly.

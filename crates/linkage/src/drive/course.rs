@@ -9,16 +9,16 @@ use crate::math::{Piecewise, just_below};
 /// At the stated crank angle, all solvers therefore find the value after the jump.
 const BEFORE: f64 = 4e-9;
 
-/// A table over a slide is constant up to this multiple of its largest slide plus 1 m.
+/// A table over a slide keeps its end values over this multiple of 1 m plus the magnitudes of its first and last slide.
 const FAR: f64 = 100.0;
 
 /// If the values on both sides of a knot differ relatively by no more than twice this number, there is no jump.
 const EQUAL: f64 = 1e-12;
 
-/// A constant, or a table of values against the crank angle.
+/// A constant, or a table of values against the crank angle or the slide of the first drive.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Course {
-    /// The value, the same at every crank angle.
+    /// The value, the same for every input.
     Constant(f64),
     /// A function of the input of the first drive: crank angle (rad, in the scenario's convention) or slide (m).
     Table {

@@ -70,7 +70,7 @@ impl Drive {
     /// Input and driving link of a drive at `joint`.
     /// A prismatic joint has its slide as input.
     /// A revolute joint on the ground has the world angle of its moving link as input.
-    /// The same holds for the joint between a free link and the link of a drive in `before`.
+    /// A revolute joint between a free link and the link of a drive in `before` has the same kind of input.
     /// Any other revolute joint has the angle between its two links as input.
     #[must_use]
     pub fn of_joint(joint: &Joint, before: &[Drive], is_free: bool) -> (Input, LinkId) {
@@ -134,8 +134,8 @@ impl Drive {
         self.top_speed().signum()
     }
 
-    /// Angular velocity at t = 0 (rad/s), counter-clockwise positive: that of the law, or the initial speed of a free
-    /// link.
+    /// Angular velocity at t = 0 (rad/s), counter-clockwise positive: the speed of the law, or the initial speed of a
+    /// free link.
     #[must_use]
     pub fn initial_speed(&self) -> f64 {
         match self.motion {

@@ -76,7 +76,7 @@ pub enum Load {
     /// The moment on the first link is stiffness times (twist - free twist). The moment on the second link is opposite.
     /// The twist is the angle of the second link's frame minus that of the first.
     /// At t = 0 the twist is in (-pi, pi]. Later the twist counts whole turns.
-    /// A stop acts only on one side of the free twist.
+    /// If `acts` names one side of the free twist, the spring acts only there, as a stop does.
     TorsionSpring {
         /// The links.
         links: [LinkId; 2],
@@ -96,8 +96,8 @@ pub enum Load {
         /// Damping (N m s/rad).
         damping: f64,
     },
-    /// Force along the axis of a prismatic joint on its second link, positive if it increases the slide. The opposite acts
-    /// on the first link. The force may be limited to one sense of the sliding.
+    /// Force along the axis of a prismatic joint on its second link, positive if it increases the slide. The opposite
+    /// force acts on the first link. The force may be limited to one sense of the sliding.
     SlideForce {
         /// The joint.
         joint: JointId,
@@ -109,7 +109,7 @@ pub enum Load {
         acts: Acts,
     },
     /// Spring along the axis of a prismatic joint: the force -stiffness (slide - free slide) on the second link.
-    /// A stop acts only on one side of the free slide.
+    /// If `acts` names one side of the free slide, the spring acts only there, as a stop does.
     SlideSpring {
         /// The joint.
         joint: JointId,
@@ -138,7 +138,7 @@ pub enum Load {
         joint: JointId,
         /// First and second link of the joint.
         links: [LinkId; 2],
-        /// Coefficient of friction. A negative number would drive the joint; scenario files refuse it.
+        /// Coefficient of friction. A negative coefficient would drive the joint; the scenario reader rejects it.
         coefficient: f64,
         /// Radius of the journal of a revolute joint, or length of the guide of a prismatic joint (m), not negative.
         /// The length 0 means that the moment of the guide causes no friction.
@@ -364,8 +364,9 @@ impl Load {
     }
 
     /// Moment (N m) of a load with a [sensed link](Load::sensed_link), or force (N) of a [`Load::SlideForce`].
-    /// `omega` gives the link's sense of rotation or the sense of the sliding, `crank` the crank angle (rad).
-    /// A moment is zero at standstill, and for a load without a sensed link.
+    /// The sign of `omega` is the link's sense of rotation or the sense of the sliding. `crank` is the crank angle
+    /// (rad).
+    /// A moment is zero at standstill. The result is zero for any other load.
     #[inline]
     #[must_use]
     pub fn moment_in(&self, omega: f64, crank: f64) -> f64 {
@@ -390,11 +391,10 @@ impl Load {
         if let Load::ResistingForce { force, .. } = self { way * -force } else { Vec2::zeros() }
     }
 
-    /// Jump of the load when the motion on whose sense it depends reverses at the crank angle `crank` (rad).
+    /// Size of the jump of the load at the crank angle `crank` (rad), when the motion that determines its sense
+    /// reverses.
     /// The jump is in N m, or in N for a force. For friction it is the jump per newton of the normal force.
-    /// The jump is not negative.
-    /// The jump is zero for a load that depends on no sense of motion.
-    /// The jump is also zero for a load that vanishes with the speed or at that crank angle.
+    /// The jump is zero for a load that depends on no sense of motion, or vanishes at that crank angle.
     /// A load without a jump has at most a kink.
     #[must_use]
     pub fn jump(&self, crank: f64) -> f64 {
@@ -440,7 +440,7 @@ impl Load {
         self.nature().twist.is_some() || self.courses().any(|course| course.knots().is_some())
     }
 
-    /// Quantities that may depend on the crank angle.
+    /// The parameters of the load that may depend on the crank angle.
     pub fn courses(&self) -> impl Iterator<Item = &Course> {
         self.nature().courses.iter()
     }

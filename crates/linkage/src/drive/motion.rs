@@ -137,9 +137,9 @@ impl MotionLaw {
         }
     }
 
-    /// First time (s) at which the driving link has turned by the angle `gone` (rad).
-    /// The start is reached at t = 0.
-    /// NaN if the law never reaches the angle, or if a curve reaches it more than once (a harmonic: in one period).
+    /// First time (s) at which the driving link has turned by the angle `gone` (rad). For `gone` = 0 the result is 0.
+    /// NaN if the law never reaches the angle.
+    /// NaN also if a table or formula, or a harmonic within one period, reaches the angle more than once.
     #[inline]
     #[must_use]
     pub fn time_of(&self, gone: f64) -> f64 {

@@ -8,8 +8,9 @@ use crate::sentences;
 
 /// Mass (kg) and moment of inertia (kg m^2) that engines add to a link without mass or inertia.
 /// The result is 0 for a quantity that the link already has.
-/// The substitute mass is the mean mass of all links.
-/// The substitute moment of inertia is that of a rod with this mass and the mechanism's size.
+/// The substitute mass is the mean mass of the moving links, or 1 kg if no link has a mass.
+/// The substitute moment of inertia is that of a rod: its mass is the mass of the link, its length the mechanism's
+/// size.
 pub fn stand_in(case: &Case, link: LinkId) -> [f64; 2] {
     let moving = &case.mechanism.links()[1..];
     let total: f64 = moving.iter().map(|link| link.mass).sum();

@@ -39,8 +39,9 @@ impl Extrapolated {
 /// Weights of the runs at h, h / 2, ....
 /// The terms of the error are proportional to the powers `order`, `order` + 1, ... of the step.
 /// Each run after the first cancels one of these terms.
-/// Neville's scheme: T(k, j) = T(k + 1, j - 1) + (T(k + 1, j - 1) - T(k, j - 1)) / (2^p - 1).
-/// In this step of the scheme the term with the power p cancels.
+/// Neville's scheme, for run k after j extrapolations: T(k, j) = T(k + 1, j - 1) + (T(k + 1, j - 1) - T(k, j - 1)) /
+/// (2^p - 1).
+/// In this step of the scheme, the term with the power p cancels.
 fn weights(order: f64, runs: usize) -> Vec<f64> {
     let mut rows: Vec<Vec<f64>> =
         (0..runs).map(|run| (0..runs).map(|k| f64::from(u8::from(k == run))).collect()).collect();

@@ -38,7 +38,7 @@ struct Run {
 }
 
 impl Store {
-    /// Locks the store. A lock poisoned by a panic is still usable, because the store contains only complete runs.
+    /// Locks the store. A lock poisoned by a panic is still usable, because runs are stored only after they have ended.
     fn lock(&self) -> MutexGuard<'_, Runs> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }

@@ -43,7 +43,8 @@ impl Error {
         [self].into_iter().chain(&self.0.further)
     }
 
-    /// The text that errors of one cause have in common: the message, with a key that has a unit replaced by the unit.
+    /// The text that errors of one cause have in common: the message. If the key at fault ends with a unit, the key in
+    /// the message is replaced by the unit.
     fn cause(&self) -> String {
         let key = self.scenario_key().map(|key| key.rsplit('.').next().unwrap_or(key).to_string());
         let Some(key) = key else { return self.message().into() };

@@ -42,7 +42,8 @@ pub struct FormulaCurve {
     shift: f64,
     factor: f64,
     end: f64,
-    /// The first derivative with the largest absolute value, and its sign. Its search takes many evaluations.
+    /// The first derivative with the largest absolute value, and its sign.
+    /// The value is stored, because the search for it takes many evaluations.
     steepest: f64,
 }
 
@@ -61,7 +62,7 @@ impl FormulaCurve {
         FormulaCurve { of, shift, factor: 1.0, end, steepest }
     }
 
-    /// The first x of a search at which the function or one of its first two derivatives is undefined.
+    /// The first searched x at which the function or one of its first two derivatives is undefined.
     #[must_use]
     pub fn undefined_at(&self) -> Option<f64> {
         parts(self.end).into_iter().find(|&x| !self.of.at(x).into_iter().all(f64::is_finite))

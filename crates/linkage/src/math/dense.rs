@@ -85,7 +85,7 @@ impl Lu {
         }
     }
 
-    /// Solves A^T x = b for the factored matrix; `y` is replaced by `x`.
+    /// Solves A^T x = y for the factored matrix; `y` is replaced by `x`.
     pub fn solve_transposed(&self, y: &mut [f64]) {
         match self.n {
             4 => fixed::solve_transposed::<4>(&self.a, &self.pivot, &self.inverse, y),

@@ -37,7 +37,7 @@ const APART: f64 = 1e-7;
 pub fn zeros(degree: usize, scale: f64, f: impl Fn(f64) -> f64) -> Option<Vec<f64>> {
     let coefficients = coefficients(degree, f);
     let largest = coefficients.iter().map(|c| c.norm()).fold(0.0, f64::larger);
-    // If `f` returns NaN, every coefficient is NaN. All coefficients are tested, because `max` ignores NaN.
+    // If `f` returns NaN, every coefficient is NaN. This test rejects coefficients that are NaN or infinite.
     if !(coefficients.iter().all(|c| c.norm().is_finite()) && largest > ZERO * scale) {
         return None;
     }

@@ -40,7 +40,7 @@ pub fn halved<E>(
 pub type PlaceAndValue = (f64, f64);
 
 /// Searches for a sign change, starting at `from`.
-/// The first step is `width`; each further step is twice as long, up to `most`.
+/// The first position is at the distance `width` from `from`; each further position is twice as far away, up to `most`.
 /// Returns the last two positions, between which the sign changes.
 /// `None` if the sign does not change, if a value or the width is NaN, or if the width is zero.
 /// A negative `width` searches backwards.
@@ -74,7 +74,7 @@ pub fn widened<E>(
 pub struct Close {
     /// Largest absolute value of the function that counts as zero.
     pub value: f64,
-    /// If the distance between the bounds is below this width, the bounds count as equal.
+    /// If the distance between the bounds is at most this width, the bounds count as equal.
     /// The width is at least four rounding errors of the larger bound, even if a smaller width is requested.
     pub width: f64,
 }

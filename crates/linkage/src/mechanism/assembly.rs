@@ -3,7 +3,7 @@
 //! Dyads are placed in closed form.
 //! Groups of four links are placed by the zeros of a trigonometric polynomial, which finds all their configurations.
 //! Groups of any other kind are placed by Newton's method from a rough drawing.
-//! These formulas are independent of the formulas of the two analytic solvers.
+//! The formulas of this module are independent of the formulas of the two analytic solvers.
 //! A difference between this module and a solver therefore shows an error in one of the two.
 
 mod blame;

@@ -213,8 +213,9 @@ mod tests {
         }
     }
 
-    /// The profile is the envelope: its distance from the roller's centre is the radius, that from the face is zero.
-    /// The radius of curvature is that of the profile's points.
+    /// The profile is the envelope: the roller's centre has the distance `radius` from it, the face has the distance
+    /// zero.
+    /// The radius of curvature agrees with the curvature of the line through the profile's points.
     #[test]
     fn the_profile_touches_the_follower_in_all_positions() {
         for (contact, e) in [(ROLLER, 0.008), (CamContact::Flat(Vec2::zeros()), 0.0)] {

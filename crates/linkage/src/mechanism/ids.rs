@@ -142,7 +142,7 @@ impl<I: Ordinal, T> Per<I, T> {
         self.0.iter().enumerate().map(|(index, value)| (I::at(index), value))
     }
 
-    /// The same, mutable.
+    /// All values with their numbers; the values can be changed.
     pub fn entries_mut(&mut self) -> impl DoubleEndedIterator<Item = (I, &mut T)> + ExactSizeIterator {
         self.0.iter_mut().enumerate().map(|(index, value)| (I::at(index), value))
     }

@@ -88,8 +88,8 @@ impl Pose {
         self.0.iter().map(motion).collect()
     }
 
-    /// Largest opening of any joint (m): see [`Joint::opening`]. An opening angle is multiplied by the mechanism's
-    /// size.
+    /// Largest opening of any joint (m): see [`Joint::opening`]. The sine of an opening angle is multiplied by the
+    /// mechanism's size.
     #[must_use]
     pub fn closure(&self, mechanism: &Mechanism) -> f64 {
         let opening = |joint: &Joint| {

@@ -112,8 +112,8 @@ impl SpanningTree {
     }
 
     /// Returns the tree for runs, changed so that it contains the given joints.
-    /// If a given joint is neither on the ground nor on a link that the earlier given joints reach, the tree first takes
-    /// all given joints, then all prismatic joints, then the rest (Kruskal's algorithm).
+    /// If a given joint is neither on the ground nor on a link that the earlier given joints reach, the order changes:
+    /// the tree first takes all given joints, then all prismatic joints, then the rest (Kruskal's algorithm).
     /// The given joints stay in the tree even if the tree could reach their links through joints that are not given.
     /// In an Oldham coupling, for example, sliding joints alone reach the driven disc.
     /// Without this rule the driven joint would be cut, although it must be a coordinate of the tree.

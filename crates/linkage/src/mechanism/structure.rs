@@ -41,7 +41,8 @@ pub struct Structure {
     /// With transmissions: the structure in which each transmission is replaced by its start joint with a given
     /// coordinate. See [`Structure::at_start`].
     start: Option<Box<Structure>>,
-    /// In the structure at the start: the transmissions whose start joints are given after the drives, in their order.
+    /// Only in the structure at the start: the transmissions, in the order in which their start joints follow the
+    /// drives.
     phases: Vec<TransmissionId>,
 }
 
@@ -59,14 +60,16 @@ impl Structure {
     }
 
     /// The structure in which the start pose is assembled.
-    /// The joints that fix the phases of the transmissions have given coordinates instead, listed after the drives.
-    /// Without transmissions it is the structure itself.
+    /// In place of each transmission, the joint that fixes its phase has a given coordinate. These joints follow the
+    /// drives.
+    /// Without transmissions, the result is the structure itself.
     #[must_use]
     pub fn at_start(&self) -> &Structure {
         self.start.as_deref().unwrap_or(self)
     }
 
-    /// Given coordinates of [`Structure::at_start`]: those of the drives, then the starts of the transmissions.
+    /// Given coordinates of [`Structure::at_start`]: the coordinates of the drives, then of the transmissions' start
+    /// joints.
     #[must_use]
     pub fn given_at_start(&self, mechanism: &Mechanism, drives: &[f64]) -> Vec<f64> {
         let at_start = self.at_start();
@@ -80,13 +83,13 @@ impl Structure {
         Structure { groups: groups.map(|group| self.groups[group].clone()).collect(), ..self.clone() }
     }
 
-    /// Assembly modes of the groups, from those of the groups of [`Structure::at_start`].
+    /// Converts assembly modes of the groups of [`Structure::at_start`] to modes of this structure's groups.
     #[must_use]
     pub fn modes(&self, at_start: &[AssemblyMode]) -> Vec<AssemblyMode> {
         carried(self.at_start(), at_start, self)
     }
 
-    /// Assembly modes of the groups of [`Structure::at_start`], from those of the groups.
+    /// Converts assembly modes of this structure's groups to modes of the groups of [`Structure::at_start`].
     #[must_use]
     pub fn modes_at_start(&self, modes: &[AssemblyMode]) -> Vec<AssemblyMode> {
         carried(self, modes, self.at_start())
@@ -353,7 +356,7 @@ fn check_connected(mechanism: &Mechanism) -> Result<()> {
     }
 }
 
-/// Rejects closed loops of prismatic pairs and driven revolute pairs alone.
+/// Rejects closed loops that consist only of prismatic pairs and driven revolute pairs.
 /// Such a loop constrains the angle between its links twice and leaves the links free to slide.
 fn check_angles(mechanism: &Mechanism, drives: &[DrivenJoint]) -> Result<()> {
     let mut part: Vec<LinkId> = mechanism.links().ids().collect();
@@ -415,7 +418,7 @@ fn group(
         }
     }
     let mut group = Group { links, inner, outer, given, trains, class: 1, kind: GroupKind::Driven };
-    // A dyad's outer joints are in the order of its bodies.
+    // The outer joints of a dyad are sorted in the order of its bodies.
     let leads = group.leads(mechanism);
     let lead_of = |joint: &JointId| {
         group.links.iter().position(|&link| mechanism.joints()[*joint].on(link).is_some()).map(|at| leads[at])

@@ -7,8 +7,8 @@
 //! With the coordinates q1 and q2 of the members relative to the carrier, q2' = f'(q1) q1', so q2 - f(q1) is constant.
 //! The law f is linear, except for cams.
 //! The force on the second member is F w at its foot, the force on the first member -F w at its foot.
-//! There are two lines, one for each sense of the transmitted moment: the two flanks of a tooth, or the two strands of a
-//! belt. Teeth push and strands pull, so F >= 0 along the line that acts.
+//! There are two lines, one for each sense of the transmitted moment: the two flanks of a tooth, or the two strands of
+//! a belt. Teeth push and strands pull, so F >= 0 along the line that acts.
 //! A gear pair with the pressure angle alpha acts like a crossed belt that pushes, on base circles of the radii
 //! r cos(alpha): Niemann and Winter, Maschinenelemente, vol. 2, 2nd ed., Springer 2003, chapter 21.1.
 
@@ -32,7 +32,7 @@ use geometry::{COINCIDE, axle, belt, gears, guide, rack, sense, sliding};
 pub enum TransmissionKind {
     /// Two gears with the pressure angle (rad). The pitch radii follow from the distance of the axles.
     Gears {
-        /// Numbers of teeth; a negative number is that of a ring gear. Only their ratio matters.
+        /// Numbers of teeth, negative for a ring gear. Only their ratio matters.
         teeth: [f64; 2],
         /// Pressure angle (rad), at least 0 and below a right angle.
         pressure_angle: f64,
@@ -97,8 +97,8 @@ pub struct TransmissionDesign {
     pub joint: JointId,
     /// Coordinate of `joint` at t = 0: the angle of its second link minus that of its first (rad), or the slide (m).
     pub start: f64,
-    /// Efficiency if power flows from the first member to the second, from 1e-6 to 1.
-    /// Then the efficiency if it flows back, from -1e6 to 1.
+    /// Two efficiencies: for power that flows from the first member to the second (1e-6 to 1), then for the opposite
+    /// direction (-1e6 to 1).
     /// If the second efficiency is not positive, the transmission is self-locking: the second member alone cannot move
     /// the first.
     pub efficiency: [f64; 2],
@@ -124,8 +124,9 @@ pub struct Transmission {
     pub losses: Option<Losses>,
 }
 
-/// The losses of a transmission, as a moment between the carrier and the first member, against their relative rotation.
-/// The force of the transmission is then that on the second member.
+/// The losses of a transmission. The losses act as a moment between the carrier and the first member, against their
+/// relative rotation.
+/// With losses, the force of the transmission means the force on the second member.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Losses {
     /// A joint of the carrier with a member. The rate of the joint's coordinate gives the sense of the motion.
@@ -222,7 +223,7 @@ impl Transmission {
         let is_moving = |(of, _): &(Coordinate, f64)| *of != Coordinate::Angle(GROUND);
         let against = |of| vec![(of, 1.0), (Coordinate::Angle(carrier), -1.0)].into_iter().filter(is_moving).collect();
         let (coupled, factor) = match slide {
-            // A rack or a sliding follower.
+            // A rack, nut or sliding follower.
             Some((joint, [_, axis, _])) if members[1].radius == 0.0 => {
                 let sign = sense(&joints[joint], second);
                 (vec![(Coordinate::Slide(joint), 1.0)], sign * axis.dot(&lines[0].direction))
@@ -254,7 +255,7 @@ impl Transmission {
         let shown = [(links[0], 1.0), (links[1], 1.0 / ratio)].into_iter().find_map(|(link, per)| {
             let is_meant = |joint: &Joint| joint.on(link).is_some() && joint.on(self.design.carrier).is_some();
             let (id, joint) = joints.entries().find(|(_, joint)| is_meant(joint))?;
-            // The slide of a rack has its sign in the ratio.
+            // For a rack, the ratio already contains the sign of the slide.
             let sign = if joint.slides() { 1.0 } else { sense(joint, link) };
             Some((id, per * sign))
         });
@@ -283,13 +284,14 @@ impl Transmission {
         [self.members[0].link, self.members[1].link, self.design.carrier]
     }
 
-    /// The prismatic joint of a rack or of a sliding follower.
+    /// The prismatic joint of a rack, nut or sliding follower.
     #[must_use]
     pub fn slide(&self) -> Option<JointId> {
         self.coordinates[1].iter().find_map(|(of, _)| of.joint())
     }
 
-    /// Ratio of the members' rates relative to the carrier, q2' / q1' (in m for a rack, otherwise without unit).
+    /// Ratio of the members' rates relative to the carrier, q2' / q1' (in m for a rack or screw, otherwise without
+    /// unit).
     /// `None` for a cam.
     #[must_use]
     pub fn ratio(&self) -> Option<f64> {
@@ -357,13 +359,13 @@ impl Transmission {
             | TransmissionKind::Screw { .. }
             | TransmissionKind::Cam { .. } => 0.0,
         };
-        // If `force` is NaN, so must be one of the results. `f64::max` would return 0.
+        // If `force` is NaN, one of the results must be NaN. `f64::max` would return 0.
         let [push, pull] = if force >= 0.0 { [force, 0.0] } else { [0.0, -force] };
         [push + slack, pull + slack]
     }
 
-    /// Calls `put` with the link, the force (N) and the place (m) of every action of the transmission, if it exerts
-    /// `force` (N).
+    /// Calls `put` for every action of a transmission that exerts `force` (N), with the link, the force (N) and the
+    /// place (m).
     pub fn each_action(
         &self,
         joints: &PerJoint<Joint>,
@@ -381,7 +383,7 @@ impl Transmission {
 }
 
 impl TransmissionDesign {
-    /// The same transmission of a mechanism whose links and joints have other numbers.
+    /// This transmission with renumbered links and joints.
     #[must_use]
     pub fn renumbered(&self, link: impl Fn(LinkId) -> LinkId, joint: impl FnOnce(JointId) -> JointId) -> Self {
         let (links, carrier) = (self.links.map(&link), link(self.carrier));

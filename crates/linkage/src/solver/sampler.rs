@@ -45,7 +45,7 @@ pub struct Sampler {
 /// The requested channels of one subject, given by their rows in the table of channels.
 #[derive(Clone, Copy, Debug, Default)]
 struct Mask {
-    /// One bit a row.
+    /// One bit per row.
     rows: u16,
     /// Whether the rows include rates or accelerations.
     beyond_positions: bool,

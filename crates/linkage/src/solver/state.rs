@@ -16,8 +16,8 @@ pub struct State {
     /// Moment of the first link on the second in every joint (N m), about the joint's point on the second link.
     /// The moment is 0 in revolute joints.
     pub moments: PerJoint<f64>,
-    /// Force of every transmission on its second member along its first line of action (N). A negative force acts along the
-    /// second line.
+    /// Force of every transmission on its second member along its first line of action (N).
+    /// A negative force acts along the second line.
     pub transmitted: PerTransmission<f64>,
     /// Balancing moment (N m) or driving force (N) of every drive, in the order of
     /// [`CaseParts::drives`](crate::case::CaseParts::drives).
@@ -53,7 +53,7 @@ impl State {
 
     /// Shaking force (N) and shaking moment about the origin (N m).
     /// Force and moment are the sums of the actions on the frame.
-    /// These actions come from joints, transmissions, springs and dampers on the ground, and from drives.
+    /// These actions come from joints, transmissions and loads on the ground, and from drives.
     #[must_use]
     pub fn shaking(&self, case: &Case) -> (Vec2, f64) {
         let (mut force, mut moment) = (Vec2::zeros(), 0.0);
@@ -105,7 +105,7 @@ impl State {
 
     /// Largest opening of a joint (m), and largest distance of a joint from the origin (m).
     /// In a prismatic joint the opening is measured perpendicular to the guide.
-    /// The angle between the joint's two axes (rad), multiplied by `size` (m), also counts as an opening.
+    /// The sine of the angle between the joint's two axes, multiplied by `size` (m), also counts as an opening.
     #[must_use]
     pub fn opening(&self, case: &Case, size: f64) -> [f64; 2] {
         let mut largest = [0.0; 2];
@@ -119,7 +119,7 @@ impl State {
         largest
     }
 
-    /// Largest moment (N m): that of a drive, or the force of a joint or drive times the lever arm `arm` (m).
+    /// Largest moment (N m): the moment of a drive, or the force of a joint or drive times the lever arm `arm` (m).
     #[must_use]
     pub fn largest_moment(&self, case: &Case, arm: f64) -> f64 {
         // A force is multiplied by the lever arm, a moment is used unchanged.

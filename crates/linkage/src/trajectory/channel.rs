@@ -46,7 +46,7 @@ pub struct ChannelKind {
 }
 
 impl ChannelKind {
-    /// Index of the row among those of its subject.
+    /// Index of the row among the rows of its subject.
     pub(crate) fn row(&self) -> usize {
         let own = CHANNELS.iter().filter(|kind| kind.subject == self.subject);
         own.take_while(|kind| kind.suffix != self.suffix).count()
@@ -63,15 +63,15 @@ const fn row(reading: Reading, suffix: &'static str, quantity: &'static str, uni
 /// The slide of a prismatic joint is the distance along its axis, from its point on the first link to its point on the
 /// second link.
 /// The moment of a prismatic joint acts from the first link on the second, about the joint's point on the second link.
-/// The friction of a joint acts on its second link. The reaction of the joint does not include it.
-/// The force of a transmission acts on its second member along its first line of action; a negative force acts along its
-/// second line.
-/// The force on the frame is the sum of the forces of the frame's joints and of the drive. The moment on the frame is
-/// about the origin.
+/// The friction of a joint acts on its second link. The reaction of the joint does not include this friction.
+/// The force of a transmission acts on its second member along its first line of action.
+/// A negative force acts along its second line.
+/// The force on the frame is the sum of all forces on it: of joints, drives, transmissions and loads. The moment on the
+/// frame is about the origin.
 /// The torque of a drive acts on the driving link. At a joint between moving links it acts from the joint's first link
 /// on its second link.
 /// The force of a drive acts along the axis of its prismatic joint from the first link on the second link.
-/// The force is positive if it increases the slide. The reaction of the joint does not include it.
+/// The force is positive if it increases the slide. The reaction of the joint does not include this force.
 pub static CHANNELS: [ChannelKind; 31] = TABLE;
 
 const TABLE: [ChannelKind; 31] = {
@@ -198,10 +198,10 @@ pub(crate) mod rows {
         rows_of!(FurtherThrust, OfDrive, OfDrive::Effort);
 }
 
-/// One channel of a trajectory: a row of [`CHANNELS`] for one link, point, joint or drive.
+/// One channel of a trajectory: a row of [`CHANNELS`] for one subject, such as a link, a joint or the frame.
 #[derive(Clone, Debug)]
 pub struct Channel {
-    /// Name of the link, point or joint; empty for the drive.
+    /// Name of the subject; empty for the frame and the first drive. A further drive has the name of its joint.
     pub of: String,
     /// Row of the table.
     pub kind: &'static ChannelKind,

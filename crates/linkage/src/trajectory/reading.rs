@@ -17,11 +17,11 @@ pub enum ChannelSubject {
     Guide,
     /// A transmission.
     Transmission,
-    /// The frame. All joints with the ground and the drive act on it.
+    /// The frame. Joints on the ground, drives, transmissions and loads act on it.
     Frame,
-    /// The drive.
+    /// The first drive, unless it moves a prismatic joint.
     Drive,
-    /// A drive other than the first drive, named after its joint.
+    /// A drive other than the first drive, named after its revolute joint.
     Motor,
     /// The first drive, if it moves a prismatic joint.
     Thrust,
@@ -102,9 +102,9 @@ pub enum Reading {
     Transmission(OfTransmission),
     /// A quantity of the frame.
     Frame(OfFrame),
-    /// A quantity of the drive.
+    /// A quantity of the first drive, unless it moves a prismatic joint.
     Drive(OfDrive),
-    /// A quantity of a drive other than the first drive.
+    /// A quantity of a drive of a revolute joint other than the first drive.
     Motor(OfDrive),
     /// A quantity of the first drive, if it moves a prismatic joint.
     Thrust(OfDrive),

@@ -18,7 +18,7 @@ use linkage::math::{Vec2, cross};
 use linkage::mechanism::LinkId;
 use linkage::trajectory::Stage;
 
-/// Number of values stored per link and interval: all values of a start except the fraction of the interval.
+/// Number of values stored per link and interval: all starting values of the link except the fraction of the interval.
 const KEPT: usize = OF_START - 1;
 /// Distance between two anchors (rad). It is slightly smaller than a step of [`PoseSolver`], so that rounding cannot
 /// make it larger.
@@ -67,7 +67,8 @@ impl<'a> Anchors<'a> {
         Ok(Some(Anchors { start: case.crank().start, ways: [way(STEP)?, way(-STEP)?] }))
     }
 
-    /// Writes the starts for the rows of a tile to the working memory; NaN if the interval of a row is not known.
+    /// Writes the starting values for the rows of a tile to the working memory; NaN if the interval of a row is not
+    /// known.
     pub(super) fn fill(&mut self, cranks: &[f64; TILE], groups: &Groups, work: &mut [Eight]) {
         for (row, crank) in cranks.iter().enumerate() {
             let way = &mut self.ways[usize::from(*crank < self.start)];

@@ -12,8 +12,8 @@ use crate::assur::groups::{self, Hangs};
 use linkage::math::Vec2;
 use linkage::mechanism::LinkId;
 
-/// Number of columns for the starting value of a link: its direction at the anchor (2), the fraction of the interval to
-/// the next anchor (1), and coefficients of the rotation from the anchor (5, rad).
+/// Number of columns for the starting values of a link: its direction at the anchor (2), the fraction of the interval
+/// to the next anchor (1), and coefficients of the rotation from the anchor (5, rad).
 pub(super) const OF_START: usize = 8;
 /// A link, and the joint to its parent. This joint is the link's pole.
 #[derive(Clone, Debug)]
@@ -92,14 +92,14 @@ impl Chain {
     }
 
     /// Number of columns in the working memory.
-    /// The columns contain the starts of the links, the joints of the tree, the arrows, and the factors of the
+    /// The columns contain the starting values of the links, the joints of the tree, the arrows, and the factors of the
     /// Jacobian.
     /// For each joint they contain the vector from its link's origin and the quantity needed at the present stage.
     pub(super) fn columns(&self) -> usize {
         self.first_factor(0) + elimination::columns(self.nodes.len())
     }
 
-    /// Returns the links with their numbers in the mechanism, in the order of their starts.
+    /// Returns the links with their numbers in the mechanism, in the order of their starting values.
     pub(super) fn links(&self) -> &[LinkId] {
         &self.links
     }

@@ -40,7 +40,7 @@ impl Groups {
         tile.put(self.layout.reach(), reach);
     }
 
-    /// Computes the reactions from the last dyad to the first, then the reactions and balancing moments of the driving
+    /// Computes the reactions from the last group to the first, then the reactions and balancing moments of the driving
     /// links.
     #[inline(always)]
     pub(super) fn load_joints<S: Simd>(&self, tile: &mut Window<S>, work: &mut Window<S>) {

@@ -68,10 +68,13 @@ pub(super) struct Groups {
 
 impl Groups {
     /// Returns the constants of a case. The plan must already have placed the start pose of the case.
-    /// Returns `None` if a group is neither an RRR dyad nor a higher group on pins.
-    /// Also returns `None` if there are transmissions, or if a driving link is attached to another driving link.
-    /// It also returns `None` if a load is not a moment of resistance.
-    /// The caller solves such cases pose by pose.
+    /// Returns `None` for a case that the caller must solve pose by pose. Such a case has at least one of the
+    /// following:
+    /// - a group that is neither an RRR dyad nor a higher group on pins with four or six links,
+    /// - a transmission,
+    /// - a driving link that is not a crank on the ground,
+    /// - several drives, one of them with a varying speed,
+    /// - a load that is not a moment of resistance.
     pub(super) fn of(case: &Case, plan: &SolutionPlan, layout: Layout) -> Option<Self> {
         let groups = &case.structure.groups;
         let simple = |load: &Load| load.resistance().is_some();

@@ -45,7 +45,7 @@ impl Driving {
 }
 
 impl DrivenPivot {
-    /// The driven joint of `link`, that of the drive with the number `index`.
+    /// The driven joint of `link`, which the drive with the number `index` moves.
     pub(super) fn of(case: &Case, link: LinkId, joint: JointId, index: usize) -> Self {
         let first = case.mechanism.joints()[joint].first.link;
         let axis = case.mechanism.joints()[joint].axis_on(first).unwrap_or_default();
@@ -57,8 +57,8 @@ impl DrivenPivot {
         }
     }
 
-    /// Stores the reaction and the driving moment or force that balance a force on the link (N) and its moment about the
-    /// world point `pole` (N m).
+    /// Stores the reaction and the driving moment or force that balance a force on the link (N) and its moment about
+    /// the world point `pole` (N m).
     /// The reaction includes the driving force, and at a joint between moving links the driving moment.
     #[inline]
     pub(super) fn balance(&self, force: Vec2, moment: f64, pole: Vec2, motions: &[Motion], reactions: &mut Reactions) {

@@ -45,10 +45,12 @@ enum Stuck {
     Several,
 }
 
-/// Solver for the normal forces of all joints with friction. Its memory is reused for every pose.
+/// Solver for the normal forces of all joints with friction and for the losses of transmissions. Its memory is reused
+/// for every pose.
 #[derive(Clone, Debug)]
 pub(crate) struct Dry {
-    /// Sense of the sliding of every joint: +1, -1, or 0 at standstill.
+    /// Sense of the motion of every joint with friction, then of every transmission with losses: +1, -1, or 0 at
+    /// standstill.
     pub(crate) senses: Vec<f64>,
     /// Sense of sliding that is assumed for a joint at standstill: 0 for no friction.
     /// The sense differs from 0 only while the interval of the driving force is computed.
@@ -65,7 +67,7 @@ pub(crate) struct Dry {
 }
 
 impl Dry {
-    /// The solver for a case; `None` if no joint has friction.
+    /// The solver for a case; `None` if no joint has friction and no transmission has losses.
     pub(crate) fn of(case: &Case) -> Option<Self> {
         let n = case.frictions().count();
         let zeros = || vec![0.0; n];

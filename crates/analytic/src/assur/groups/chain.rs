@@ -43,8 +43,8 @@ const MAX_TURN: f64 = 0.3;
 /// The remaining error is the square of the change, times the condition number of the pose.
 const LAST_CHANGE: f64 = 1e-8;
 
-/// If the last iteration changes no unknown by more than this (rad), its Jacobian is that of the final pose within
-/// rounding error.
+/// If the last iteration changes no unknown by more than this (rad), the Jacobian of this iteration is accurate for the
+/// final pose within rounding error.
 /// Predictions from five steps amplify the rounding error of an angle up to 31 times.
 /// For steps of a tenth of a degree, predictions are accurate enough to meet this limit.
 const SAME_POSE: f64 = 4e-14;
@@ -122,11 +122,11 @@ pub struct Chain {
     /// Length by which slides are divided, so that all unknowns are of one order of magnitude (m).
     size: f64,
     is_sliding: bool,
-    /// The joints with a given coordinate, one row of the Jacobian each, after those of the contours.
+    /// The joints with a given coordinate. Each has one row of the Jacobian, after the rows of the contours.
     given: Vec<Given>,
-    /// The transmissions, one row each, after the given coordinates.
+    /// The transmissions. Each has one row of the Jacobian, after the rows of the given coordinates.
     trains: Vec<Train>,
-    /// For every drive, the factor from a change of its input to the step (1 or 1/m).
+    /// For every drive: the factor by which a change of its input is multiplied to give the step (1 or 1/m).
     scales: Vec<f64>,
     /// Largest magnitude of the determinant so far.
     largest: f64,
@@ -219,8 +219,7 @@ impl Chain {
         self.is_sliding
     }
 
-    /// Treats the last pose as the pose at a first driving angle that is larger by `way` (rad), a whole number of
-    /// turns.
+    /// Adds `way` (rad), a whole number of turns, to the first driving angle of the last pose. The pose stays the same.
     pub(super) fn skip(&mut self, way: f64) {
         self.at[0] += way;
         // Discard the remembered steps: rounding of the whole turns makes the next step differ from the last.
@@ -260,7 +259,7 @@ impl Chain {
             self.kept_slides.copy_from_slice(&self.slides);
         }
         self.find_roots(motions);
-        // If a prediction exists, it is the first change of the unknowns.
+        // If a prediction exists, it is applied before the first iteration.
         let allowed = if self.memory.predict(&self.step) {
             for (index, node) in self.contours.nodes.iter().enumerate() {
                 let change = self.memory.change(index);
@@ -560,7 +559,7 @@ impl Chain {
     /// The first multipliers are the forces on the second links of the closing joints (N), x and y alternating.
     /// Next are the driving moments on the nodes with given joints (N m; for a slide, the force along the axis
     /// times [`Chain::size`]).
-    /// The last ones are those of the transmissions (N m), from which `Train::force` finds the forces.
+    /// The multipliers of the transmissions come last (N m). `Train::force` computes the forces from them.
     /// The input is the generalised forces on the unknowns (N m; for a slide, the force along the axis times
     /// [`Chain::size`]).
     /// The pose must be the last one solved.

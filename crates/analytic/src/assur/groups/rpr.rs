@@ -90,8 +90,9 @@ impl Rpr {
     }
 
     /// Limit of the gauge during a step of the crank. `farthest` is the largest squared distance of the pins at the
-    /// ends of the step (m^2). `step` is the crank's rotation in the step (rad). Inside the step the distance can
-    /// exceed that at the ends by at most `step` times the sum of the pins' speeds.
+    /// ends of the step (m^2). `step` is the crank's rotation in the step (rad).
+    /// Inside the step, the distance of the pins exceeds the larger distance at the ends by at most `step` times the
+    /// sum of the pins' speeds.
     pub(super) fn limit(&self, links: &Bounds, farthest: f64, step: f64) -> Option<Limit> {
         let [[v1, a1], [v2, a2]] = [self.pins[0].rates(links)?, self.pins[1].rates(links)?];
         let second = of_square([v1 + v2, a1 + a2], farthest.sqrt() + (v1 + v2) * step);

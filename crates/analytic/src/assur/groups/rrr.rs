@@ -127,8 +127,8 @@ impl Rrr {
         self.inner
     }
 
-    /// Vector to the outer joint of an arm from the origin of the known link, and the joint's position, velocity and
-    /// acceleration.
+    /// For the outer joint of an arm: the vector from the origin of the known link to the joint, and the joint's
+    /// position, velocity and acceleration.
     /// For joints on the ground, nothing is computed.
     #[inline(always)]
     fn base(arm: &Arm, motions: &[Motion]) -> [Vec2; 4] {
@@ -252,7 +252,8 @@ impl Rrr {
     }
 
     /// Writes the bounds of the dyad's links. The bounds hold while the gauge stays in `band`.
-    /// They follow from omega1 = (v2 - v1) . r2 / D and |D| = l1 l2 s, where 4 l1^2 l2^2 s^2 = (g - low) (high - g).
+    /// The bounds follow from omega1 = (v2 - v1) . r2 / D and |D| = l1 l2 s.
+    /// In |D|, the sine s satisfies 4 l1^2 l2^2 s^2 = (g - low) (high - g).
     pub(super) fn bound(&self, band: [f64; 2], links: &mut Bounds) {
         let rates = self.outer_rates(links);
         let sine = 0.5 * least_product(self.range, band).sqrt() * self.inverse_lengths;

@@ -36,8 +36,9 @@ impl Window {
     /// The driving link is at the angle `place` and has the given angular velocity and acceleration.
     /// `loads` finds the loads from the motions and angles of the links.
     /// In free motion, `shaft` contains the moment on the driving link and the moment of inertia that turns with it.
-    /// Each neighbouring pose then has the given angular velocity, and the acceleration that balances its driving link.
-    /// A residue is then a property of the motion.
+    /// Each neighbouring pose then has the given angular velocity. Its acceleration is the one that balances the
+    /// driving link.
+    /// In this case a residue is a property of the motion.
     pub(in crate::assur) fn reactions(
         &self,
         place: f64,

@@ -230,9 +230,9 @@ impl Window {
         node.plan.steps().ids().map(|group| node.plan.determinant(group)).collect()
     }
 
-    /// Relative error of the second transfer functions at the change point. Errors are divided by the largest transfer
-    /// function.
-    /// The error is the change of the result when the outermost or the innermost pair of nodes is left out.
+    /// Error of the second transfer functions at the change point, divided by the largest transfer function.
+    /// The error is the change of the result when the outermost or the innermost pair of nodes is left out, whichever
+    /// is larger.
     /// Without the outermost pair, the change shows the error of the polynomials; without the innermost pair, the
     /// rounding error.
     fn error(&self) -> f64 {

@@ -61,8 +61,8 @@ impl Window {
             };
             let mut lambda = at(system, alpha);
             if let Some([moment, inertia]) = shaft {
-                // Multipliers are linear in the acceleration. `gain` is their increase per unit of acceleration. It
-                // gives the acceleration that balances the crank.
+                // Multipliers are linear in the acceleration. `gain` is their increase per unit of acceleration.
+                // The acceleration that balances the crank follows from `gain`.
                 let unit = 1.0 + alpha.abs() + omega * omega;
                 let gain: Vec<f64> =
                     at(system, alpha + unit).iter().zip(&lambda).map(|(more, own)| (more - own) / unit).collect();
@@ -82,8 +82,8 @@ impl Window {
         Ok(())
     }
 
-    /// Multipliers at the distance `x`, from the multipliers at all poses. `None` if they grow without bound and `x` is
-    /// too small.
+    /// Multipliers at the distance `x`, from the multipliers at all poses.
+    /// `None` if a multiplier grows without bound and `x` is too small.
     fn beside(&self, x: f64, all: &[Vec<f64>]) -> Option<Vec<f64>> {
         let distances = &self.places;
         let nearest = distances.iter().fold(f64::INFINITY, |least, x| least.smaller(x.abs()));

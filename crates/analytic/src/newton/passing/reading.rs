@@ -33,7 +33,8 @@ impl Passing {
         Ok(())
     }
 
-    /// Computes velocities and accelerations after [`Passing::go_to`], from those of the crank.
+    /// Computes velocities and accelerations after [`Passing::go_to`], from the crank's angular velocity and
+    /// acceleration.
     pub(in crate::newton) fn rates(&self, system: &mut System, omega: f64, alpha: f64) {
         for (i, (slope, curve)) in self.spot.slope.iter().zip(&self.spot.curve).enumerate() {
             (system.rate[i], system.second[i]) = (slope * omega, slope * alpha + curve * omega * omega);

@@ -1,4 +1,4 @@
-//! The search for a change point, from one side.
+//! The search for a change point, in one direction of the crank's rotation.
 
 use super::spot::{Spot, walked};
 use crate::newton::steps::TRACKING_STEP;

@@ -14,7 +14,7 @@ pub(in crate::newton) struct Spot {
     pub(in crate::newton) curve: Vec<f64>,
     /// Signs of the blocks' determinants.
     pub(in crate::newton) signs: Vec<f64>,
-    /// Signed ratios of the blocks' determinants to the largest possible ones.
+    /// Signed ratios of the blocks' determinants to the largest possible ones; empty if they have not been computed.
     pub(in crate::newton) shares: Vec<f64>,
 }
 

@@ -182,7 +182,7 @@ impl Window {
         Ok(Window { at, reach, spots, places, turns: Vec::new(), coordinates, condition: f64::INFINITY })
     }
 
-    /// Writes the pose at an angle to a spot. Signs and determinants are those of the window's last pose on the same
+    /// Writes the pose at an angle to a spot. Signs and determinants come from the window's outermost pose on the same
     /// side of the change point.
     pub(super) fn put(&self, angle: f64, spot: &mut Spot) {
         spot.angle = angle;
@@ -193,7 +193,7 @@ impl Window {
         spot.shares.clone_from(&self.end(angle).shares);
     }
 
-    /// The window's last pose on the side of an angle.
+    /// The window's outermost pose on the side of an angle.
     pub(super) fn end(&self, angle: f64) -> &Spot {
         if angle < self.at { &self.spots[0] } else { &self.spots[self.spots.len() - 1] }
     }

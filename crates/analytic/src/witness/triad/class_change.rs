@@ -67,8 +67,8 @@ pub struct Transfer {
 }
 
 impl Transfer {
-    /// Angular velocities (rad/s) and accelerations (rad/s^2) of leads and base link, for the given values of the
-    /// crank.
+    /// Angular velocities (rad/s) and accelerations (rad/s^2) of leads and base link, for these values of the crank's
+    /// angular velocity and acceleration.
     #[must_use]
     pub fn rates(&self, omega: f64, alpha: f64) -> [[f64; 4]; 2] {
         let second = |k: usize| self.second[k] * omega * omega + self.first[k] * alpha;
@@ -183,8 +183,7 @@ impl ClassChange {
         self.step_to(target, halvings - 1)
     }
 
-    /// The chain driven by one of the two ground leads, and the last pose. The chain has the configuration of this
-    /// pose.
+    /// The chain driven by the ground lead `driver`, in the configuration of the last pose; then this pose.
     fn chain(&self, driver: usize) -> Option<(Chain, Place)> {
         let other = 1 - driver;
         let leads = [self.grounded[driver], self.grounded[other]];

@@ -3,19 +3,19 @@
 use crate::drive::Course;
 use crate::mechanism::{JointId, JointSide, LinkId};
 
-/// The sense of rotation of the link for which a moment acts.
+/// When a load acts: always, or only in one sense of a motion. For a spring: on one side of its unloaded state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Acts {
-    /// The moment acts during any motion of the link, and at standstill.
+    /// The load always acts, also at standstill.
     Always,
-    /// The moment acts while the link turns counter-clockwise, but not at standstill.
+    /// The load acts while the rate or deflection is positive (counter-clockwise, or an increasing slide), not at zero.
     CounterClockwise,
-    /// The moment acts while the link turns clockwise, but not at standstill.
+    /// The load acts while the rate or deflection is negative (clockwise, or a decreasing slide), not at zero.
     Clockwise,
 }
 
 impl Acts {
-    /// Whether the load acts at this rate or, for a spring, at this distance from the free slide.
+    /// Whether the load acts at this rate or, for a spring, at this deflection from the unloaded state.
     /// At zero, a load that is limited to one sense does not act.
     #[inline]
     #[must_use]
@@ -43,7 +43,7 @@ pub enum Senses {
     Joint(JointId),
 }
 
-/// Point or link on which a load acts.
+/// Points, links or joint on which a load acts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum On {
     /// A moment on a link.
@@ -114,7 +114,7 @@ pub enum LoadPart<'a> {
         /// The quantities, in SI units.
         values: &'a mut [Course],
     },
-    /// Sense of rotation for which the moment acts.
+    /// When the load acts.
     Acts(&'a mut Acts),
     /// Whether the force's direction turns with the link.
     Follows(&'a mut bool),

@@ -36,7 +36,7 @@ pub struct Action {
     pub force: Vec2,
     /// World coordinates of the point at which the force acts (m).
     pub place: Vec2,
-    /// Moment in addition to that of the force (N m), counter-clockwise positive.
+    /// Moment in addition to the moment of the force (N m), counter-clockwise positive.
     pub moment: f64,
 }
 

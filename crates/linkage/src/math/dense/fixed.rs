@@ -91,7 +91,7 @@ pub(super) fn solve<const N: usize>(a: &[f64], order: &[usize], inverse: &[f64],
     *b = x;
 }
 
-/// Solves A^T x = b for a factored matrix; `y` is replaced by `x`.
+/// Solves A^T x = y for a factored matrix; `y` is replaced by `x`.
 pub(super) fn solve_transposed<const N: usize>(a: &[f64], order: &[usize], inverse: &[f64], y: &mut [f64]) {
     let rows: &[[f64; N]; N] = first(a.as_chunks().0);
     let (order, inverse, y): (&[usize; N], &[f64; N], &mut [f64; N]) = (first(order), first(inverse), first_mut(y));

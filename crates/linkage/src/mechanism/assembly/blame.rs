@@ -11,7 +11,7 @@ use crate::sentences;
 pub struct Blame {
     /// Index of the group in the structure.
     pub group: GroupId,
-    /// Number of the configuration in which the later group can be placed, counted from 1.
+    /// Number of the group's configuration with which the later group can be placed, counted from 1.
     pub rank: usize,
     /// Assembly mode of this configuration.
     pub mode: AssemblyMode,

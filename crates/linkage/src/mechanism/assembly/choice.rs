@@ -80,8 +80,8 @@ fn nothing_asked(group: &Group) -> Error {
     }
 }
 
-/// Words for the approximate positions: "the rough place of point "B" is", or "the rough places of points "B" and "C"
-/// are".
+/// Subject of a sentence about the approximate positions: `the approximate position of point "B" is`, or `the
+/// approximate positions of points "B" and "C" are`.
 fn rough_places(wanted: &StartGroup) -> String {
     let names: Vec<String> = wanted.near.iter().map(|(point, _)| format!("\"{}\"", point.name)).collect();
     match &names[..] {
@@ -108,7 +108,7 @@ pub(super) fn distance(group: &Group, wanted: &StartGroup, one: &Configuration) 
 
 /// The configuration nearest to the approximate positions, and its distance from these positions (m).
 /// The third value is the distance of the second nearest configuration (m).
-/// Both distances are those of the configuration's point that is farthest from its approximate position.
+/// The distance of a configuration is the largest distance of one of its points from its approximate position.
 fn nearest<'a>(
     mechanism: &Mechanism,
     group: &Group,
@@ -117,7 +117,7 @@ fn nearest<'a>(
 ) -> Result<(&'a Configuration, f64, Option<f64>)> {
     let mut order: Vec<(f64, &Configuration)> = all.iter().map(|one| (distance(group, wanted, one), one)).collect();
     order.sort_by(|a, b| a.0.total_cmp(&b.0));
-    // The distance of the second nearest configuration must be at least twice that of the nearest configuration.
+    // The second nearest configuration must be at least twice as far away as the nearest configuration.
     // The distance of the nearest configuration must not exceed the size of the mechanism.
     if let [(first, a), (second, b), ..] = order[..]
         && 2.0 * first > second

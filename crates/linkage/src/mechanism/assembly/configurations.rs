@@ -38,8 +38,8 @@ pub fn configurations(mechanism: &Mechanism, group: &Group, pose: &Pose) -> Resu
     }
 }
 
-/// Sine of a dyad's transmission angle in the given pose; `None` for higher groups and driven links. The sine is zero at a
-/// dead point.
+/// Sine of a dyad's transmission angle in the given pose; `None` for higher groups and driven links.
+/// The sine is zero at a dead point.
 ///
 /// - RRR: signed area of the dyad's triangle (first outer, second outer, inner joint) divided by half the product of
 ///   the two link lengths. The sine is positive in the mode [`AssemblyMode::Left`](super::AssemblyMode::Left).

@@ -62,8 +62,8 @@ pub struct StartGroup {
     pub near: Vec<(SidePoint, Vec2)>,
 }
 
-/// The configuration chosen for a group at the start, and how much nearer it was to the approximate positions than the
-/// second nearest configuration.
+/// The configuration chosen for a group at the start. Distances show how clearly it is nearer to the approximate
+/// positions than the second nearest configuration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ConfigurationChoice {
     /// Assembly mode of the configuration.

@@ -289,6 +289,6 @@ impl Conditions {
     }
 }
 
-/// If the residual of a condition exceeds this fraction of the size, the pose is not valid.
+/// If the residual of a condition exceeds this fraction of the size plus the base's distance, the pose is not valid.
 /// The limit is rounding error with a margin for double roots, for which Newton's method finds only half the digits.
 const CLOSED: f64 = 1e-13;

@@ -20,8 +20,8 @@ pub enum GroupKind {
     Prp,
     /// Any group with more than two rigid bodies, and any group of several links with a transmission.
     Higher,
-    /// A link whose pose follows from a given joint on a link of an earlier group, or from a transmission between earlier
-    /// links. Such a link is a driving link (class I).
+    /// A link whose pose follows from a given joint on a link of an earlier group, or from a transmission between
+    /// earlier links. Such a link is a driving link (class I).
     Driven,
 }
 
@@ -72,11 +72,11 @@ pub struct Group {
     /// Two links on a given joint are one rigid body at every instant, a body of changing shape.
     /// Class and kind of the group are those of its bodies.
     pub given: Vec<JointId>,
-    /// The transmissions that the group contains: each couples a coordinate of the group to others of the group or of
-    /// earlier links.
+    /// The transmissions that the group contains. Each of them couples a coordinate of the group to coordinates of the
+    /// same group or of earlier links.
     pub trains: Vec<TransmissionId>,
-    /// Class: 1 for a driven link, 2 for dyads, otherwise the number of sides of the group's closed contour with the most sides
-    /// (Artobolevsky).
+    /// Class: 1 for a driven link, 2 for dyads. For other groups, the number of sides of the closed contour with the
+    /// most sides (Artobolevsky).
     pub class: usize,
     /// Kind of the group.
     pub kind: GroupKind,

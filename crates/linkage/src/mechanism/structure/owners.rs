@@ -1,4 +1,4 @@
-//! Ownership of equations. An equation of a joint or drive concerns two links, that of a transmission three.
+//! Ownership of equations. An equation of a joint or drive concerns two links, an equation of a transmission three.
 //! One of these links owns the equation. A link owns three equations.
 
 use crate::sentences;

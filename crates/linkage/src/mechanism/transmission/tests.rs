@@ -48,14 +48,14 @@ fn ratios_and_radii_follow_from_teeth_and_radii() {
         assert_relative_eq!(own.ratio().unwrap(), ratio, epsilon = 1e-14);
         assert_relative_eq!(own.members[0].radius, radii[0], epsilon = 1e-14);
         assert_relative_eq!(own.members[1].radius, radii[1], epsilon = 1e-14);
-        // Both lines have the same power, and the second one the opposite sense.
+        // Both lines have the same lever arm about the second axle, with opposite senses.
         let lever = |line: &LineOfAction| cross(line.feet[1] - own.members[1].place, line.direction);
         let lines = own.contact([0.0; 2]).lines;
         assert_relative_eq!(lever(&lines[0]), -lever(&lines[1]), epsilon = 1e-14);
     }
 }
 
-/// Teeth of external wheels push the axles apart, those of a ring pull them together, and so do strands.
+/// External teeth push the axles apart. The teeth of a ring gear and the strands of a belt pull the axles together.
 #[test]
 fn lines_of_action_push_or_pull_the_second_axle() {
     let along = |kind| two_wheels(kind).unwrap().contact([0.0; 2]).lines.map(|line| line.direction.x);

@@ -19,7 +19,8 @@ use linkage::trajectory::Stage;
 const LAST_CHANGE: f64 = 1e-8;
 
 impl Chain {
-    /// Computes the motion of all links. Returns NaN for poses that Newton's method does not reach from their starts.
+    /// Computes the motion of all links. Returns NaN for poses that Newton's method does not reach from the starting
+    /// values.
     #[inline(always)]
     pub(in crate::assur::batch) fn turn<S: Simd>(
         &self,

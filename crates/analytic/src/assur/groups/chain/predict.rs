@@ -49,7 +49,8 @@ impl Memory {
     }
 
     /// Begins a step of the driving angles. Returns whether this step equals the last step.
-    /// If it does, the changes of the unknowns are extrapolated from the last steps; otherwise they are zero.
+    /// If the steps are equal, the changes of the unknowns are extrapolated from the last steps; otherwise they are
+    /// zero.
     /// The extrapolation assumes that the next backward difference is zero.
     /// The next change is then the sum of the last change and all its differences.
     pub(super) fn predict(&mut self, step: &[f64]) -> bool {

@@ -14,7 +14,8 @@ impl Chain {
     }
 
     /// Writes the right-hand sides of the given coordinates and transmissions. The `order` is 1 for rates and 2 for
-    /// accelerations. `of` contains those of the drives; `led` returns that of a known angle.
+    /// accelerations.
+    /// `of` contains the rates or accelerations of the drives; `led` returns the rate or acceleration of a known angle.
     #[inline(never)]
     fn put_given(&mut self, order: usize, of: &[f64], led: impl Fn(&Motion) -> f64, motions: &[Motion]) {
         let first = 2 * self.contours.closings.len();
@@ -171,7 +172,7 @@ impl Chain {
     }
 }
 
-/// Coriolis acceleration of a sliding node along the normal of its axis; `speed` is that of the slide (m/s).
+/// Coriolis acceleration of a sliding node along the normal of its axis; `speed` is the rate of the slide (m/s).
 #[inline]
 fn coriolis(node: &Node, speed: f64, motions: &[Motion]) -> Vec2 {
     turned(node.slide_axis(motions)) * (2.0 * speed * motions[node.parent.link].omega)

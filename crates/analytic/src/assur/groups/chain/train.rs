@@ -23,7 +23,8 @@ enum Of {
 struct Term {
     of: Of,
     sign: f64,
-    /// The unknown on which the coordinate depends, with the derivative of the term by it; `None` for a known coordinate.
+    /// The unknown on which the coordinate depends, and the derivative of the term by this unknown; `None` for a known
+    /// coordinate.
     column: Option<(usize, f64)>,
     /// The coordinate at the last pose and at the present one.
     last: f64,
@@ -65,7 +66,8 @@ impl Term {
         self.sign * self.now
     }
 
-    /// Derivative (`order` 1 or 2) of a coordinate outside the group; `of_link` returns that of a link's angle.
+    /// Derivative (`order` 1 or 2) of a coordinate outside the group; `of_link` returns the derivative of a link's
+    /// angle.
     fn known(&self, order: usize, of_link: impl Fn(&Motion) -> f64, motions: &[Motion]) -> f64 {
         match &self.of {
             _ if self.column.is_some() => 0.0,

@@ -61,7 +61,7 @@ impl Case {
         )
     }
 
-    /// Margin to the limit of assembly: positive if the dyad has configurations, negative if not.
+    /// Margin to the limit of assembly: positive if the dyad has configurations, negative otherwise.
     /// The margin comes from the triangle inequality or from samples of a function, not from the formulas under test.
     fn reach(&self) -> f64 {
         let outer_pin =

@@ -16,7 +16,7 @@ pub struct PairEnd {
 #[derive(Clone, Copy, Debug)]
 pub struct LeadPair {
     pub slides: bool,
-    /// On the lead.
+    /// The side on the lead.
     pub lead: PairEnd,
     /// The side on the frame or on the base.
     pub body: PairEnd,
