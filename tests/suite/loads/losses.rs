@@ -244,6 +244,6 @@ fn efficiencies_beyond_their_limits_are_refused() {
         let error =
             Scenario::parse(&text.replace(line, &format!("{key} = {value}")), Path::new("test.toml")).unwrap_err();
         assert_eq!((error.kind(), error.scenario_key()), (ErrorKind::Input, Some("transmissions.thread")), "{error}");
-        assert!(error.advice_text_is_checked());
+        assert!(error.way_out().unwrap().contains("from 1e-6 to 1"), "{error}");
     }
 }
