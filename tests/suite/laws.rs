@@ -16,7 +16,7 @@ use crate::common::{assert_within, shipped, states};
 /// The shipped oscillating drive with another law and grid.
 fn swing(law: &str, grid: &str) -> Scenario {
     let text = include_str!("../../scenarios/cycloidal_start.toml");
-    let text = &text[..text.find("# Half-way the law").unwrap()];
+    let text = &text[..text.find("[[oracle]]").unwrap()];
     let grid = format!("[grid]\n{grid}\n");
     let (first, _) = text.split_at(text.find("[grid]").unwrap());
     let text = format!("{first}{grid}").replace("law = \"cycloidal\"\nto_deg = 200\ntime_s = 0.2", law);
