@@ -3,7 +3,6 @@
 use crate::sentences;
 use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, Table, Width, presets};
 
-use linkage::input::Input;
 use linkage::math::statistics;
 use prover::numbers;
 
@@ -22,11 +21,11 @@ pub fn table(header: &str) -> Table {
     table
 }
 
-/// Name, in two lines, of a column with the values of an input at which something occurs.
-pub fn at_input(input: Input) -> String {
-    let name = format!("at {}", input.noun());
+/// Name, in two lines, of a column with the values of a quantity at which something occurs.
+pub fn at_column(noun: &str, unit: &str) -> String {
+    let name = format!("at {noun}");
     let (first, last) = name.rsplit_once(' ').expect("it has a blank");
-    format!("{first}\n{last}, {}", input.shown_in().0)
+    format!("{first}\n{last}, {unit}")
 }
 
 /// A row of a table in Markdown, without a newline.

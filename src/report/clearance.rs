@@ -5,8 +5,8 @@ use serde_json::{Value, json};
 
 use super::pretty::{list, pretty};
 use super::table_csv::csv;
-use crate::plain::cells::{at_input, fitted, trimmed};
-use design::clearance::{ClearanceResult, ClearanceWork, DistanceCurve, Meeting, PairClearance};
+use crate::plain::cells::{at_column, fitted, trimmed};
+use design::clearance::{ClearanceResult, ClearanceWork, DistanceCurve, Meeting, PairClearance, RangeVariable};
 use linkage::error::{Error, Result};
 use linkage::input::Input;
 use linkage::math::Vec2;
@@ -62,10 +62,10 @@ pub(crate) fn text(
     width: Option<usize>,
 ) -> String {
     let mut text = String::new();
-    let input = scenario.case.crank().input;
-    let shown = |value: f64| numbers::fixed(input.shown(value), 4);
-    let with_unit = |value: f64| numbers::input_in(input.at(value), 4);
-    let (noun, [from, to]) = (input.noun(), found.range);
+    let variable = RangeVariable::of(&scenario.case);
+    let shown = |value: f64| numbers::fixed(variable.shown(value).0, 4);
+    let with_unit = |value: f64| numbers::fixed_in(variable.shown(value).0, 4, variable.shown(value).1);
+    let (noun, [from, to]) = (variable.noun(), found.range);
     say!(text, sentences::clearance_over_to(&scenario.name, &scenario.title, &noun, &shown(from), &with_unit(to)));
     if found.pairs.is_empty() {
         say!(text, sentences::NO_TWO_BODIES_CAN_MEET_ALL);
@@ -76,7 +76,8 @@ pub(crate) fn text(
             let contact = pair.collision.map_or(String::new(), |meeting| shown(meeting.cranks[1]));
             [format!("{first}, {second}"), millimetres(smallest.distance), shown(smallest.crank), one, two, contact]
         });
-        let (at, unit) = (at_input(input), input.shown_in().0);
+        let unit = variable.shown(0.0).1;
+        let at = at_column(noun, unit);
         let header =
             format!("bodies | smallest\ndistance, mm> | {at}> | nearest\npoints, mm> | > | contact\nat, {unit}>");
         say!(text, "{}\n", trimmed(fitted(&header, width).add_rows(rows)));
@@ -99,7 +100,7 @@ pub(crate) fn text(
         say!(text, sentences::not_proven_from_to(&shown(from), &with_unit(to), &why));
     }
     let said = |text: &mut String, what: &str, (pair, meeting): (&PairClearance, Meeting)| {
-        let ([one, two], at) = (names(asked, pair), numbers::input_told(input.at(meeting.cranks[1]), 4));
+        let ([one, two], at) = (names(asked, pair), format!("{noun} {}", with_unit(meeting.cranks[1])));
         say!(text, sentences::and_at_place(&what, &one, &two, &at, &place(meeting.place)));
     };
     if let Some(first) = found.first_collision() {
@@ -115,25 +116,28 @@ pub(crate) fn text(
 
 /// The answer as JSON: one entry of the document.
 pub(crate) fn value(scenario: &Scenario, asked: &ClearanceQuestion, found: &ClearanceResult) -> Value {
-    let time =
-        |crank: f64| Some(scenario.case.crank().time_of(crank)).filter(|t| t.is_finite() && !scenario.case.is_free());
+    let (drive, variable) = (scenario.case.crank(), RangeVariable::of(&scenario.case));
+    // Input and time at a value of the variable. In a free motion, the time is not known.
+    let instant = |value: f64| match variable {
+        RangeVariable::Time => (drive.at(value).value, Some(value)),
+        RangeVariable::Input(_) => {
+            (value, Some(drive.time_of(value)).filter(|t| t.is_finite() && !scenario.case.is_free()))
+        }
+    };
     let point = |point: Vec2| json!([point.x, point.y]);
-    let input = scenario.case.crank().input;
-    let (key, unit) = (input.key(), input.unit());
+    let (key, unit) = (drive.input.key(), variable.unit());
     let meeting = |own: Option<Meeting>| {
         own.map(|own| {
-            let [clear, crank] = own.cranks;
-            json!({
-                format!("clear_until_{unit}"): clear, key: crank, "t_s": time(crank), "place_m": point(own.place),
-            })
+            let (clear, (crank, time)) = (own.cranks[0], instant(own.cranks[1]));
+            json!({format!("clear_until_{unit}"): clear, key: crank, "t_s": time, "place_m": point(own.place)})
         })
     };
     let pairs = list(&found.pairs, |pair| {
-        let smallest = &pair.smallest;
+        let (smallest, (crank, time)) = (&pair.smallest, instant(pair.smallest.crank));
         json!({
             "bodies": names(asked, pair),
             "smallest_m": smallest.distance, "proven_least_m": smallest.least,
-            key: smallest.crank, "t_s": time(smallest.crank),
+            key: crank, "t_s": time,
             "points_m": smallest.points.map(point),
             "collision": meeting(pair.collision), "too_near": meeting(pair.too_near),
         })

@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use serde_json::{Value, json};
 
 use super::pretty::list;
-use crate::plain::cells::{at_input, fitted, trimmed, worded};
+use crate::plain::cells::{at_column, fitted, trimmed, worded};
 use analytic::range::{Extent, ExtremePosition, GroupCondition, LinkRange, Range, Singularity, ValueAtCrank};
 use linkage::input::Input;
 use linkage::mechanism::GroupId;
@@ -92,7 +92,7 @@ fn groups(scenario: &Scenario, range: &Range, width: Option<usize>) -> String {
         let (least, crank) = (numbers::fixed(value, 6), shown(crank, range, input));
         [names(scenario, index), least, transmission, crank, condition, at]
     });
-    let at = at_input(input);
+    let at = at_column(input.noun(), input.shown_in().0);
     let header =
         format!("group | smallest\ndeterminant> | transmission\nangle, deg> | {at}> | largest\ncondition> | {at}>");
     trimmed(fitted(&header, width).add_rows(rows))

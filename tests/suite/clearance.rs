@@ -77,7 +77,11 @@ fn distance(asked: &ClearanceQuestion, state: &State, pair: [usize; 2]) -> f64 {
 
 /// States of side 2 at crank angles.
 /// A drive of constant speed reaches the crank angles, whatever the law of the case.
+/// If several drives have varying speeds, `cranks` contains times (s).
 fn at(case: &Case, cranks: &[f64]) -> Vec<State> {
+    if case.goes_by_time() {
+        return states(&NewtonSolver, case, cranks).unwrap();
+    }
     let case = &case.at_top_speed();
     let times: Vec<f64> = Grid::of_inputs(case.crank(), cranks.to_vec()).times;
     states(&NewtonSolver, case, &times).unwrap()
@@ -181,6 +185,41 @@ fn check(case: &Case, asked: &ClearanceQuestion, found: &ClearanceResult, seen: 
 /// Mechanisms with driven slides and joints between moving links, and with transmissions.
 const GIVEN: [&str; 6] =
     ["boom_lift", "oldham_ram", "four_bar_relative", "rack_and_pinion", "planetary_train", "geared_five_bar"];
+
+/// Mechanisms with several drives of varying speed: cycloids and a table, at cranks, slides and joints between moving
+/// links. Also a harmonic and a formula in place of two of the laws.
+#[test]
+fn several_drives_with_laws_against_brute_force() {
+    let mut seen = Seen::default();
+    let laws = |text: &str, law: &str| {
+        let (first, rest) = text.split_once("law = \"cycloidal\"").unwrap();
+        let (keys, rest) = rest.split_once("\n\n").unwrap();
+        let kept = keys.lines().filter(|line| line.starts_with("start_")).collect::<Vec<_>>().join("\n");
+        format!("{first}{law}\n{kept}\n\n{rest}")
+    };
+    for (index, (name, law)) in [
+        ("platform_3rpr", None),
+        ("robot_arm", None),
+        ("belt_arm", None),
+        ("platform_3rpr", Some("law = \"harmonic\"\namplitude_mm = 30\nperiod_s = 4\n")),
+        ("robot_arm", Some("law = \"formula\"\nformula = \"start1 + 0.3*t^2 - 0.1*t^3\"\ntime_s = 1.6\n")),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let shipped = shipped(&format!("{name}.toml"));
+        let text = shipped.text.split("[[formula]]").next().unwrap().split("[[oracle]]").next().unwrap();
+        let text = law.map_or_else(|| text.to_string(), |law| laws(text, law));
+        let case = Scenario::parse(&text, Path::new("given.toml")).unwrap_or_else(|error| panic!("{text}{error}")).case;
+        assert!(case.goes_by_time());
+        let mut random = RandomSource::of_sample(12, index as u64);
+        let asked = asked(&mut random, &case);
+        let found = find(&case, &asked, &mut |_| ()).unwrap_or_else(|error| panic!("{name}: {error}"));
+        check(&case, &asked, &found, &mut seen, name);
+    }
+    println!("{seen:?}");
+    assert!(seen.pairs > 50 && seen.collisions > 5, "{seen:?}");
+}
 
 #[test]
 fn shipped_mechanisms_against_brute_force() {

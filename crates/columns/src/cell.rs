@@ -33,14 +33,12 @@ const EMPTY: [&str; 6] = ["-", "na", "n/a", "<na>", "null", "none"];
 const NO_NUMBER: [&str; 6] = ["nan", "nan(ind)", "inf", "infinity", "1.#ind", "1.#qnan"];
 
 /// Whether nothing was measured in the cell. A NaN that a program computed does not count as missing.
-#[must_use]
 pub fn is_missing(number: &Rounded) -> bool {
     number.value.is_nan() && number.error == 0.0
 }
 
 impl TableCell {
     /// Reads a cell; `None` if the text is neither a number nor a word for a missing or undefined number.
-    #[must_use]
     pub fn parse(text: &str) -> Option<TableCell> {
         let Some(decimal) = TableCell::decimal(text) else { return TableCell::word(text) };
         // A final `.0` is removed before the digits are counted, because Python appends `.0` to whole numbers of any
@@ -114,7 +112,6 @@ impl TableCell {
 /// Numbers in single precision are printed with up to nine digits but have fewer significant digits.
 /// The shortest text for such a number may lie half way to the neighbouring number.
 /// A number in single precision is therefore converted to single precision again.
-#[must_use]
 pub fn numbers(cells: &[TableCell]) -> Vec<Rounded> {
     numbers_as(cells, Precision::of(cells))
 }

@@ -20,7 +20,6 @@ const SINGLE: u16 = 7;
 /// columns. Constant columns, and columns of exact equidistant numbers ([`chosen`]), are not considered.
 /// If a column of `others` has a fixed number of decimals, as from `%.6f`, or contains only whole numbers, each column
 /// may have a separate format. The zeros may then be rounded to the format of their column.
-#[must_use]
 pub fn numbers_beside<Others>(cells: &[TableCell], others: impl FnOnce() -> Others) -> Vec<Rounded>
 where
     Others: IntoIterator<Item: AsRef<[TableCell]>>,

@@ -14,7 +14,6 @@ const EVIDENCE: f64 = 50.0;
 /// Chosen instants are multiples of one step.
 /// In addition, the number of multiples or the roundness of the step must show that no other step gives the same
 /// printed instants.
-#[must_use]
 pub fn chosen(values: &[Rounded]) -> bool {
     chosen_as(values, Sort::Any)
 }
@@ -24,7 +23,6 @@ pub fn chosen(values: &[Rounded]) -> bool {
 /// Whole degrees at unequal steps, such as 0, 30, 45, 60 and 90, count as chosen if they have a common divisor that
 /// whole numbers rarely have by chance.
 /// All other instants are judged as by [`chosen`].
-#[must_use]
 pub fn degrees_chosen(values: &[Rounded]) -> bool {
     let are_whole = values.iter().all(|at| at.value.fract() == 0.0);
     chosen_as(values, if are_whole { Sort::WholeDegrees } else { Sort::Any })
@@ -113,7 +111,6 @@ const STEEPER: f64 = 1.2;
 /// For each row the uncertainty is a slope times the uncertainty `slack` of the row's instant.
 /// The slope is taken from the steeper of the two neighbouring secants, and multiplied by a safety factor.
 /// `order` lists the rows in ascending order of the instants `at`. Angles may jump by a `turn`.
-#[must_use]
 pub fn drift(values: &[Rounded], at: &[f64], slack: &[f64], order: &[usize], turn: Option<f64>) -> Vec<f64> {
     let mut drift = vec![0.0; values.len()];
     for pair in order.windows(2) {

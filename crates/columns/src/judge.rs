@@ -26,7 +26,6 @@ pub struct RowPair {
 
 impl RowPair {
     /// Difference divided by the bound; infinite if a party has no number.
-    #[must_use]
     pub fn used(&self) -> f64 {
         let used = if self.difference == 0.0 { 0.0 } else { self.difference.abs() / self.bound };
         if used.is_nan() { f64::INFINITY } else { used }
@@ -72,7 +71,6 @@ pub struct ScaleColumn {
 
 impl ScaleColumn {
     /// Selects the reference. Each flag says whether the first or the second column comes from an analytic side.
-    #[must_use]
     pub fn among([one, other]: [bool; 2]) -> Self {
         ScaleColumn { party: usize::from(!one && other), is_analytic: one || other }
     }
@@ -101,7 +99,6 @@ pub struct JudgedColumns {
 
 /// Compares the two columns row by row.
 /// If one value is a number and the other value is a computed NaN, the row exceeds its bound.
-#[must_use]
 pub fn judge(both: &Beside) -> JudgedColumns {
     let Beside { values, places, drift, turn, allowance, measure } = *both;
     let (mut own, mut squares, mut numbers) = (JudgedColumns::default(), 0.0, 0usize);

@@ -45,19 +45,16 @@ impl<'a> Records<'a> {
     }
 
     /// Number of rows.
-    #[must_use]
     pub fn len(&self) -> usize {
         self.rows.len()
     }
 
     /// Whether there are no rows.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.rows.is_empty()
     }
 
     /// Byte range of a row's line.
-    #[must_use]
     pub fn line(&self, row: usize) -> Range<usize> {
         let start = self.rows[row] as usize;
         let length = self.text[start..].find(['\r', '\n']).unwrap_or(self.text.len() - start);
@@ -65,7 +62,6 @@ impl<'a> Records<'a> {
     }
 
     /// A cell, without its quotes and the spaces around it.
-    #[must_use]
     pub fn cell(&self, row: usize, column: usize) -> Cow<'a, str> {
         let line = &self.text[self.line(row)];
         if !line.contains('"') {

@@ -27,14 +27,12 @@ pub struct TextTable {
 
 impl TextTable {
     /// Number of rows.
-    #[must_use]
     pub fn len(&self) -> usize {
         self.columns.first().map_or(0, Vec::len)
     }
 
     /// Words for the row with this index, counted from 0: its line number if the table has lines, otherwise its row
     /// number.
-    #[must_use]
     pub fn place(&self, row: usize) -> String {
         match self.lines.get(row) {
             Some(line) => sentences::line_of_the_table(&line),
@@ -43,7 +41,6 @@ impl TextTable {
     }
 
     /// Whether there are no rows.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -97,7 +94,6 @@ impl fmt::Display for Twice {
 }
 
 /// Upper limit of the memory that the numbers of a text need (bytes).
-#[must_use]
 pub fn bytes(text: &str) -> f64 {
     let cells = text.bytes().filter(|byte| matches!(byte, b',' | b';' | b'\t' | b' ' | b'\n')).count() + 1;
     (cells * (size_of::<TableCell>() + size_of::<Rounded>())) as f64

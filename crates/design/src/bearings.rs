@@ -72,7 +72,6 @@ pub struct FrictionLoss {
 impl Peaks {
     /// Efficiency over the range: the fraction of the drives' work that is not lost by friction.
     /// `None` without friction, and if the drives do less work than friction takes.
-    #[must_use]
     pub fn efficiency(&self) -> Option<f64> {
         let lost: f64 = self.frictions.iter().map(|own| own.work).sum();
         (lost > 0.0 && self.drive_work > ROUNDING * lost).then(|| 1.0 - lost / self.drive_work)
@@ -82,7 +81,6 @@ impl Peaks {
 /// Smallest journal diameter (m) for the force `force` (N), the lever arm `lever` (m) and the bending stress `stress`
 /// (Pa).
 /// M = F l and sigma = 32 M / (pi d^3) give d = cbrt(32 F l / (pi sigma)).
-#[must_use]
 pub fn journal_diameter(force: f64, lever: f64, stress: f64) -> f64 {
     (32.0 * force * lever / (PI * stress)).cbrt()
 }

@@ -16,7 +16,6 @@ use std::f64::consts::TAU;
 
 use analytic::{AssurSolver, PoseSolver};
 use linkage::case::{Case, Wanted};
-use linkage::drive::Drive;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::input::Input;
 use linkage::math::Motion;
@@ -41,6 +40,46 @@ const TOUCH: f64 = 1e-9;
 /// `AREA_BUDGET` is the upper limit of the number of tests for one swept area.
 const BUDGET: usize = 5_000_000;
 const AREA_BUDGET: usize = 8_000_000;
+
+/// Variable of the range: the input of the first drive, or the time if several drives have varying speeds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RangeVariable {
+    /// Input of the first drive (rad or m).
+    Input(Input),
+    /// Time (s).
+    Time,
+}
+
+impl RangeVariable {
+    /// The variable of a case.
+    pub fn of(case: &Case) -> Self {
+        if case.goes_by_time() { RangeVariable::Time } else { RangeVariable::Input(case.crank().input) }
+    }
+
+    /// Name in texts.
+    pub fn noun(self) -> &'static str {
+        match self {
+            RangeVariable::Input(input) => input.noun(),
+            RangeVariable::Time => "time",
+        }
+    }
+
+    /// Value in the unit of texts, and this unit.
+    pub fn shown(self, value: f64) -> (f64, &'static str) {
+        match self {
+            RangeVariable::Input(input) => (input.shown(value), input.shown_in().0),
+            RangeVariable::Time => (value, "s"),
+        }
+    }
+
+    /// SI unit in the keys of JSON.
+    pub fn unit(self) -> &'static str {
+        match self {
+            RangeVariable::Input(input) => input.unit(),
+            RangeVariable::Time => "s",
+        }
+    }
+}
 
 /// Clearance of one pair of bodies.
 #[derive(Clone, Debug, PartialEq)]
@@ -90,13 +129,11 @@ pub struct ClearanceResult {
 impl ClearanceResult {
     /// Returns the pair that collides first, with its first contact.
     /// If several pairs touch at the start, the pair that comes first in the question is returned.
-    #[must_use]
     pub fn first_collision(&self) -> Option<(&PairClearance, Meeting)> {
         self.first(|pair| pair.collision)
     }
 
     /// Returns the pair that first violates the required clearance, and the pose of this violation.
-    #[must_use]
     pub fn first_too_near(&self) -> Option<(&PairClearance, Meeting)> {
         self.first(|pair| pair.too_near)
     }
@@ -108,7 +145,6 @@ impl ClearanceResult {
     }
 
     /// Returns the pair with the smallest distance.
-    #[must_use]
     pub fn smallest(&self) -> Option<&PairClearance> {
         self.pairs.iter().min_by(|a, b| a.smallest.distance.total_cmp(&b.smallest.distance))
     }
@@ -204,6 +240,7 @@ pub fn course(case: &Case, question: &ClearanceQuestion) -> Result<DistanceCurve
         };
         rows.push(question.pairs.iter().map(of).collect());
     }
+    let cranks = if case.goes_by_time() { case.grid.inputs.clone() } else { cranks };
     Ok(DistanceCurve { cranks, rows })
 }
 
@@ -225,13 +262,8 @@ fn cranks(case: &Case) -> Result<Vec<f64>> {
         let error = Error::new(ErrorKind::Unsupported, sentences::clearance_knows_no_cams(&cam.name()));
         return Err(error.help(sentences::LEAVE_THE_CAM_OUT));
     }
-    let varies = |drive: &Drive| !drive.is_free() && drive.constant_speed().is_none();
-    if !case.drives.further().is_empty() && case.drives.iter().any(varies) {
-        let error = Error::new(ErrorKind::Unsupported, sentences::CLEARANCE_NEEDS_CONSTANT_SPEEDS);
-        return Err(error.help(sentences::GIVE_ALL_DRIVES_CONSTANT_SPEEDS));
-    }
     if !case.is_free() {
-        return Ok(case.grid.inputs.clone());
+        return Ok(if case.goes_by_time() { &case.grid.times } else { &case.grid.inputs }.clone());
     }
     if !case.drives.further().is_empty() {
         let message = sentences::CLEARANCE_IS_LOOKED_FOR_OVER;
@@ -247,7 +279,7 @@ fn range(case: &Case) -> Result<[f64; 2]> {
     let [low, mut high] = ends(cranks(case)?);
     let dyads = case.structure.groups.iter().all(|group| group.kind != GroupKind::Higher);
     let repeats = dyads && case.crank().input != Input::Slide && case.mechanism.transmissions().is_empty();
-    let forwards = case.crank().sense() > 0.0;
+    let forwards = case.crank().sense() > 0.0 || case.goes_by_time();
     if repeats && case.drives.further().is_empty() && !case.crank().through && high - low > TAU {
         if !forwards {
             return Ok([high, high - TAU]);

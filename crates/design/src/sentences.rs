@@ -16,8 +16,6 @@ linkage::sentences! {
     PRESCRIBE_THE_DRIVES_OR_LET = "prescribe the drives, or let no more than one link move freely";
     clearance_knows_no_cams(name) = "clearance is not proven for cams such as \"{name}\"";
     LEAVE_THE_CAM_OUT = "leave the cam out and drive its follower";
-    CLEARANCE_NEEDS_CONSTANT_SPEEDS = "with several drives, clearance is proven for constant speeds only";
-    GIVE_ALL_DRIVES_CONSTANT_SPEEDS = "give all drives constant speeds";
     CLEARANCE_IS_LOOKED_FOR_OVER = "clearance is searched over crank angles, but forces determine several degrees of freedom of the motion";
     // plan/builder.rs
     along_the_guide(joint) = ", along the guide {joint}";

@@ -269,6 +269,19 @@ impl Case {
         }
     }
 
+    /// Whether the time determines the pose, not the input of the first drive: several drives, with varying speeds.
+    #[must_use]
+    pub fn goes_by_time(&self) -> bool {
+        self.drives.len() > 1 && self.drives.iter().any(|drive| drive.constant_speed().is_none())
+    }
+
+    /// Change of the variable that determines the pose, in which every driving link turns by at most `turn` (rad).
+    /// The variable is the input of the first drive or, as [`Case::goes_by_time`] states, the time.
+    #[must_use]
+    pub fn stride(&self, turn: f64) -> f64 {
+        if self.goes_by_time() { turn / self.drives.top_speed(self.mechanism.size()) } else { self.step(turn) }
+    }
+
     /// Change of the input that corresponds to a rotation of a driving link by `turn` (rad). A slide changes by the
     /// fraction `turn` of the mechanism's size.
     #[inline]

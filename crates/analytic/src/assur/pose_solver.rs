@@ -67,9 +67,8 @@ impl<'a> PoseSolver<'a> {
     /// [`ErrorKind::Geometry`] if the start pose is singular.
     pub fn new(case: &'a Case) -> Result<Self> {
         let plan = SolutionPlan::of(&case.mechanism, &case.structure, &case.modes);
-        let by_time = case.drives.len() > 1 && case.drives.iter().any(|drive| drive.constant_speed().is_none());
-        let largest = if plan.is_closed_form() { CLOSED_FORM_STEP } else { FOLLOWED_STEP };
-        let step = if by_time { largest / case.drives.top_speed(case.mechanism.size()) } else { case.step(largest) };
+        let by_time = case.goes_by_time();
+        let step = case.stride(if plan.is_closed_form() { CLOSED_FORM_STEP } else { FOLLOWED_STEP });
         let (statics, state) = (Kinetostatics::of(case, &plan), State::at_start(case));
         let inputs = vec![0.0; case.drives.len()];
         let gauges = Gauges::of(case, &plan, &state.motions);

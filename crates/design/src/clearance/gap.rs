@@ -70,14 +70,12 @@ pub struct Gap {
 impl Solid {
     /// Prepares an outline of a link for distance queries.
     /// parry2d receives lengths in units of `scale` (m), because its tolerances are absolute.
-    #[must_use]
     pub fn new(link: LinkId, outline: &Outline, scale: f64) -> Self {
         let pieces = outline.parts().iter().map(|part| Piece::new(part, scale)).collect();
         Solid { link, radius: outline.radius(), pieces, scale }
     }
 
     /// Computes the solid's pose at the middle of a part of the range, and the motion of its corners over the part.
-    #[must_use]
     pub fn placed(&self, slice: &Slice) -> PlacedSolid {
         let tube = &slice.tubes[self.link];
         let (origin, direction) = tube.frame();
@@ -116,7 +114,6 @@ impl Piece {
 /// Computes the distance of two solids over a part of the range.
 /// Nearest points are computed only for pairs of pieces that can come nearer than `enough` (m).
 /// `asked` counts these pairs.
-#[must_use]
 pub fn gap(
     [a, b]: [&Solid; 2],
     places: [&PlacedSolid; 2],

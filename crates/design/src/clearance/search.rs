@@ -152,7 +152,7 @@ impl DistanceSearch<'_, '_> {
     fn refine(&mut self, own: &mut Smallest, pair: [usize; 2]) -> Result<()> {
         let [from, to] = self.tubes.range;
         let (low, high) = (from.smaller(to), from.larger(to));
-        let wide = (self.tolerance / self.tubes.scale).sqrt();
+        let wide = self.tubes.stride((self.tolerance / self.tubes.scale).sqrt());
         for _ in 0..STRIDES {
             let begun = own.crank;
             let ends = [(begun - wide).larger(low), (begun + wide).smaller(high)];

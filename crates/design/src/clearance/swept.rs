@@ -43,7 +43,6 @@ pub struct Area {
 
 impl Area {
     /// Error bound of the value (m2).
-    #[must_use]
     pub fn error(&self) -> f64 {
         (self.most - self.value).larger(self.value - self.least)
     }

@@ -58,7 +58,6 @@ pub struct RangePart {
 
 impl RangePart {
     /// Returns both halves, in the direction of motion.
-    #[must_use]
     pub fn halves(self) -> [RangePart; 2] {
         [0, 1].map(|half| RangePart { halvings: self.halvings + 1, index: 2 * self.index + half })
     }
@@ -78,7 +77,6 @@ pub struct Track {
 
 impl Track {
     /// Largest distance from the position at the middle (m), for crank angles within `half` (rad) of the middle.
-    #[must_use]
     pub fn reach(&self, half: f64) -> f64 {
         self.rate.norm() * half + self.error
     }
@@ -112,7 +110,6 @@ impl Tube {
     };
 
     /// Track of a point of the link (m, in its frame).
-    #[must_use]
     pub fn point(&self, local: Vec2) -> Track {
         let (arm, turn) = (rotated(self.direction, local - self.centre), self.turn());
         Track {
@@ -128,13 +125,11 @@ impl Tube {
     }
 
     /// Origin and direction of the link's frame at the middle (m, world).
-    #[must_use]
     pub fn frame(&self) -> (Vec2, Vec2) {
         (self.at - rotated(self.direction, self.centre), self.direction)
     }
 
     /// Converts a world position into the link's frame at the middle (m).
-    #[must_use]
     pub fn local(&self, place: Vec2) -> Vec2 {
         rotated(Vec2::new(self.direction.x, -self.direction.y), place - self.at) + self.centre
     }
@@ -183,7 +178,7 @@ impl<'a> Tubes<'a> {
             let places: Vec<Vec2> = mechanism.joints().iter().filter_map(|joint| joint.on(link)).collect();
             places.iter().sum::<Vec2>() / (places.len() as f64).larger(1.0)
         };
-        let first = ((range[1] - range[0]).abs() / case.step(FIRST) - 1e-9).ceil().larger(1.0) as u64;
+        let first = ((range[1] - range[0]).abs() / case.stride(FIRST) - 1e-9).ceil().larger(1.0) as u64;
         let ground = mechanism.links()[GROUND].points.iter().map(|point| point.local.norm()).fold(0.0, f64::larger);
         Ok(Tubes {
             case,
@@ -204,15 +199,18 @@ impl<'a> Tubes<'a> {
     }
 
     /// Both ends of a part (rad), in the direction of motion.
-    #[must_use]
     pub fn ends(&self, part: RangePart) -> [f64; 2] {
         let count = self.first as f64 * f64::from(part.halvings).exp2();
         let [from, to] = self.range;
         [0, 1].map(|end| from + (to - from) * ((part.index + end) as f64 / count))
     }
 
+    /// Change of the variable in which every driving link turns by at most `turn` (rad).
+    pub fn stride(&self, turn: f64) -> f64 {
+        self.case.stride(turn)
+    }
+
     /// Rounding error of positions (m).
-    #[must_use]
     pub fn rounding(&self) -> f64 {
         ROUNDING * self.scale
     }
@@ -240,6 +238,12 @@ impl<'a> Tubes<'a> {
     pub fn slice(&mut self, crank: f64, half: f64) -> Result<Slice> {
         self.poses += 1;
         let case = self.case;
+        // Several drives with varying speeds: their rates at the middle, and the deviation from these rates.
+        let by_time = case.goes_by_time();
+        let course = |drive: &Drive| match by_time {
+            true => [drive.at(crank).rate, drive.largest_acceleration() * half * half / 2.0],
+            false => [f64::NAN, 0.0],
+        };
         let state = self.solver.solve(crank, 1.0, 0.0, Stage::Velocities)?;
         let mut tubes = vec![Tube::STILL; state.motions.len()];
         let rounding = ROUNDING * self.scale;
@@ -249,12 +253,21 @@ impl<'a> Tubes<'a> {
             let (direction, spin) = (motion.direction, motion.omega);
             *tube = Tube { centre, at, rate, direction, spin, off: rounding, twist: ROUNDING, half };
         }
-        for drive in case.drives.iter().filter(|drive| drive.input == Input::Angle) {
-            // A crank turns uniformly about its pivot on the ground.
-            // A link on a driven guide of the ground moves uniformly.
+        for drive in &case.drives {
+            // A crank turns about its pivot on the ground. A link on a driven guide of the ground moves along the guide.
             let pivot = case.mechanism.joints()[drive.joint].on(drive.link).unwrap_or_else(Vec2::zeros);
-            let (tube, motion) = (&mut tubes[drive.link], &state.motions[drive.link]);
-            (tube.centre, tube.at, tube.rate) = (pivot, motion.point(pivot), Vec2::zeros());
+            let (tube, motion, [_, bend]) = (&mut tubes[drive.link], &state.motions[drive.link], course(drive));
+            if drive.input == Input::Angle {
+                (tube.centre, tube.at, tube.rate) = (pivot, motion.point(pivot), Vec2::zeros());
+                tube.twist += bend;
+            } else {
+                tube.off += bend;
+            }
+        }
+        for row in self.units.iter_mut().flat_map(|(_, rows)| rows).filter(|_| by_time) {
+            if let Some(drive) = row.drive {
+                [row.rate, row.bend] = course(&case.drives[drive]);
+            }
         }
         let sound = self.units.iter().all(|(links, rows)| enclose(rows, links, half, &mut tubes, rounding));
         Ok(Slice { crank, half, tubes, sound })
@@ -280,8 +293,11 @@ fn units(case: &Case) -> Vec<(&[LinkId], Vec<Row<'_>>)> {
 /// An equation: the sum of its terms is zero, or changes at a known rate.
 struct Row<'a> {
     terms: Vec<(Term<'a>, f64)>,
-    /// Rate of the sum, per unit of the input.
+    /// Number of the drive that changes the sum, if one does.
+    drive: Option<usize>,
+    /// Rate of the sum, per unit of the variable, and the largest deviation of the sum from this rate.
     rate: f64,
+    bend: f64,
     /// Whether the sum must be zero at the middle. Otherwise the pose of side 1 gives the sum at the middle.
     is_zero: bool,
 }
@@ -309,7 +325,10 @@ fn rows<'a>(
 ) -> Vec<Row<'a>> {
     let all = case.mechanism.joints();
     let mut rows: Vec<Row> = joints.flat_map(|&id| closure(&all[id])).collect();
-    rows.extend(given.iter().map(|&id| motion(&all[id], rate(case, id))));
+    rows.extend(given.iter().map(|&id| {
+        let drive = case.drives.iter().position(|drive| drive.joint == id);
+        Row { drive, ..motion(&all[id], rate(case, id)) }
+    }));
     for &id in trains {
         let own = &case.mechanism.transmissions()[id];
         let ratio = own.ratio().unwrap_or(f64::NAN);
@@ -323,12 +342,12 @@ fn rows<'a>(
         };
         let [first, second] = &own.coordinates;
         let terms = first.iter().map(|own| of(own, -ratio)).chain(second.iter().map(|own| of(own, 1.0)));
-        rows.push(Row { terms: terms.collect(), rate: 0.0, is_zero: false });
+        rows.push(Row { terms: terms.collect(), drive: None, rate: 0.0, bend: 0.0, is_zero: false });
     }
     rows
 }
 
-/// Rate of a driven joint's coordinate, per unit of the input. If there are several drives, all speeds are constant.
+/// Rate of a driven joint's coordinate, per unit of the first drive's input, for constant speeds.
 fn rate(case: &Case, joint: JointId) -> f64 {
     let further = case.drives.further().iter().find(|drive| drive.joint == joint);
     let speed = |drive: &Drive| drive.constant_speed().unwrap_or(f64::NAN);
@@ -341,7 +360,7 @@ fn closure(joint: &Joint) -> [Row<'_>; 2] {
         None => [Vec2::x(), Vec2::y()].map(|way| Term::Along(joint, way)),
         Some(axes) => [Term::Inside(joint, turned(axes[0])), Term::Axes(joint, axes)],
     };
-    terms.map(|term| Row { terms: vec![(term, 1.0)], rate: 0.0, is_zero: true })
+    terms.map(|term| Row { terms: vec![(term, 1.0)], drive: None, rate: 0.0, bend: 0.0, is_zero: true })
 }
 
 /// The equation of a driven joint: its coordinate changes at the rate `rate` per unit of the input.
@@ -350,7 +369,7 @@ fn motion(joint: &Joint, rate: f64) -> Row<'_> {
         Some(axes) => vec![(Term::Inside(joint, axes[0]), 1.0)],
         None => vec![(Term::Angle(joint.second.link), 1.0), (Term::Angle(joint.first.link), -1.0)],
     };
-    Row { terms, rate, is_zero: false }
+    Row { terms, drive: None, rate, bend: 0.0, is_zero: false }
 }
 
 /// Writes the derivatives of all equations at the middle into `derivative`.
@@ -363,7 +382,7 @@ fn equations(
     derivative: &mut Matrix,
 ) -> Vec<f64> {
     let residual = |(row, own): (usize, &Row)| {
-        let [mut value, mut rate, mut error] = [0.0; 3];
+        let [mut value, mut rate, mut error] = [0.0, 0.0, own.bend];
         for &(term, weight) in &own.terms {
             let found = term.linear(tubes, half, column, |column, value| derivative[(row, column)] += weight * value);
             value += weight * found[0];

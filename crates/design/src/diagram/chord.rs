@@ -7,14 +7,12 @@
 //! In graphical integration, the increment is the value at the middle times the length of the interval.
 
 /// Returns the midpoints of the intervals between `places`.
-#[must_use]
 pub fn middles(places: &[f64]) -> Vec<f64> {
     places.windows(2).map(|pair| f64::midpoint(pair[0], pair[1])).collect()
 }
 
 /// Returns the slopes of the chords between the points (`places`, `values`).
 /// The slopes approximate the derivative at the midpoints of the intervals.
-#[must_use]
 pub fn slopes(places: &[f64], values: &[f64]) -> Vec<f64> {
     places.windows(2).zip(values.windows(2)).map(|(x, y)| (y[1] - y[0]) / (x[1] - x[0])).collect()
 }
@@ -22,7 +20,6 @@ pub fn slopes(places: &[f64], values: &[f64]) -> Vec<f64> {
 /// Integrates a function that has the value `start` at the first of `places`.
 /// The function has the derivatives `rates` at the midpoints of the intervals between `places`.
 /// Returns the values at `places`.
-#[must_use]
 pub fn integral(start: f64, places: &[f64], rates: &[f64]) -> Vec<f64> {
     let mut sum = start;
     let steps = places.windows(2).zip(rates).map(|(x, rate)| {
@@ -35,7 +32,6 @@ pub fn integral(start: f64, places: &[f64], rates: &[f64]) -> Vec<f64> {
 /// Returns the slopes of a curve that is periodic over `places`.
 /// The curve has the values `rates` at the midpoints of the intervals between `places`.
 /// Slopes are given at the inner places and at the last place.
-#[must_use]
 pub fn closed_slopes(places: &[f64], rates: &[f64]) -> Vec<f64> {
     let mut middles = middles(places);
     let mut values = rates.to_vec();

@@ -35,14 +35,12 @@ pub struct CrankGraph {
 
 impl CrankGraph {
     /// Lowest and highest value.
-    #[must_use]
     pub fn range(&self) -> [f64; 2] {
         let values = self.points.iter().map(|point| point[1]).chain(self.marks.iter().map(|mark| mark.at[1]));
         ends(values)
     }
 
     /// Whether the quantity is constant over the period up to rounding error.
-    #[must_use]
     pub fn is_constant(&self) -> bool {
         let [low, high] = self.range();
         high - low <= 1e-9 * self.size.abs()

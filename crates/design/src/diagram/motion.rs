@@ -102,7 +102,6 @@ linkage::words! {
 
 impl Method {
     /// Index of the quantity that the method computes: 0 displacement, 1 velocity, 2 acceleration.
-    #[must_use]
     pub fn gives(self) -> usize {
         match self {
             Method::IntegratedDisplacement => 0,
@@ -231,7 +230,6 @@ impl MotionDiagram {
     }
 
     /// Half the range of an exact curve (SI). Index 0 is the displacement, 1 the velocity, 2 the acceleration.
-    #[must_use]
     pub fn half_range(&self, which: usize) -> f64 {
         half_range(&self.exact[which])
     }

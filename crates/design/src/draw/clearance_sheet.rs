@@ -1,7 +1,7 @@
 //! Clearance drawing: the housing, the swept area of every link, and the mechanism with its outlines at the smallest
 //! distance or the first collision.
 
-use crate::clearance::{ClearanceResult, PairClearance, poses};
+use crate::clearance::{ClearanceResult, PairClearance, RangeVariable, poses};
 use crate::sentences;
 use drawing::paper::document::document;
 use drawing::paper::figure::{DrawnFigure, Tint, solid};
@@ -70,8 +70,9 @@ pub fn clearance(case: &Case, name: &str, asked: &ClearanceQuestion, found: &Cle
     }
     picture.draw_marks();
     picture.number_links();
-    let input = case.crank().input;
-    let crank = format!("{} {} {}", input.noun(), significant(input.shown(shown)), input.shown_in().0);
+    let variable = RangeVariable::of(case);
+    let (value, unit) = variable.shown(shown);
+    let crank = format!("{} {} {unit}", variable.noun(), significant(value));
     let names = |pair: &PairClearance| pair.bodies.map(|body| asked.bodies[body].name.as_str()).join(" and ");
     let words = if let Some((pair, meeting)) = collision {
         picture.figure.disc(meeting.place / scale, 2.2, "none", solid(ALARM, 0.8));

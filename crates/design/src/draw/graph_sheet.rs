@@ -21,7 +21,6 @@ const ASIDE: f64 = 28.0;
 const MEAN: Style = Style { colour: COLOURS[1], width: 0.3, dash: "2 1.2" };
 
 /// Returns the graphs as an SVG document with `title` above them.
-#[must_use]
 pub fn graphs(graphs: &Graphs, title: &str) -> String {
     let panels = graphs.graphs.iter().map(|graph| panel(graph, graphs.period));
     stacked(title, &graphs.notes, &ROOM, panels)

@@ -22,7 +22,6 @@ const LINE: f64 = 5.0;
 const POINTS: usize = 361;
 
 /// Returns the diagrams as an SVG document with `title` above them.
-#[must_use]
 pub fn motion(diagram: &MotionDiagram, title: &str) -> String {
     let note = sentences::chord_method_and_graphical_integration(&diagram.divisions);
     stacked(title, &[note], &ROOM, (0..3).map(|which| panel(diagram, which)))

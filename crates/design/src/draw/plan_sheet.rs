@@ -32,7 +32,6 @@ const SHARED: f64 = 1.0;
 const POINT: f64 = 0.15;
 
 /// Returns the plans as an SVG document true to scale, with `name` and `title` above them.
-#[must_use]
 pub fn plans(plans: &Plans, name: &str, title: &str) -> String {
     let heading = |words: &str, symbol: &str, index: &str, scale: f64, unit: &str| {
         (words.to_string(), sentences::scale_factor_3(&symbol, &sub(index), &scale, &scripted(unit)))

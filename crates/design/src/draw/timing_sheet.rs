@@ -24,7 +24,6 @@ const WANTED: Style = Style { colour: COLOURS[1], width: 0.45, dash: "2 1.2" };
 const REST: &str = "#e3edf4";
 
 /// Returns the diagram as an SVG document with `title` above it.
-#[must_use]
 pub fn timing(diagram: &TimingDiagram, title: &str) -> String {
     let mut figure = DrawnFigure::default();
     let x = |crank: f64| LONG * crank / TAU;

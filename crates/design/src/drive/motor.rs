@@ -32,7 +32,6 @@ pub struct CatalogueMotor {
 
 impl CatalogueMotor {
     /// Rated torque (N m): rated power divided by rated speed.
-    #[must_use]
     pub fn rated_torque(&self) -> f64 {
         self.power / self.rated_speed
     }
@@ -40,7 +39,6 @@ impl CatalogueMotor {
     /// The stable part of the motor's characteristic.
     /// This part is the straight line through the rated point and the synchronous speed, M = M_n (omega_s - omega) /
     /// (omega_s - omega_n).
-    #[must_use]
     pub fn law(&self) -> MotorLaw {
         let slope = -self.rated_torque() / (self.synchronous_speed - self.rated_speed);
         MotorLaw::Linear { at_rest: -slope * self.synchronous_speed, slope }
@@ -48,7 +46,6 @@ impl CatalogueMotor {
 
     /// The motor with a gearbox that reduces the rated speed to `crank` (rad/s, greater than zero).
     /// The gearbox has the efficiency `efficiency` (above 0, at most 1).
-    #[must_use]
     pub fn geared_to(&self, crank: f64, efficiency: f64) -> Motor {
         Motor { efficiency, ..Motor::ideal(self.law(), self.rated_speed / crank) }
     }
@@ -57,7 +54,6 @@ impl CatalogueMotor {
 /// The motor with the smallest rated power that is not below `power` (W).
 /// If several motors have this rated power, the first of them in the catalogue is chosen.
 /// `None` if all motors are too weak.
-#[must_use]
 pub fn weakest_sufficient(motors: &[CatalogueMotor], power: f64) -> Option<&CatalogueMotor> {
     motors.iter().filter(|motor| motor.power >= power).min_by(|a, b| a.power.total_cmp(&b.power))
 }
@@ -131,13 +127,11 @@ impl MotorChoice {
     }
 
     /// Torque (N m) on the motor's shaft that the peak requires, without inertia.
-    #[must_use]
     pub fn peak_torque(&self) -> f64 {
         self.peak.1 / (self.geared.ratio * self.geared.efficiency)
     }
 
     /// Torque (N m) on the motor's shaft that the mean resistance requires.
-    #[must_use]
     pub fn mean_torque(&self) -> f64 {
         self.mean / (self.geared.ratio * self.geared.efficiency)
     }

@@ -51,7 +51,6 @@ impl Plans {
     /// Draws the plans of a state with motions up to accelerations.
     /// `solver` finds the travel of the sliders on the case's grid.
     /// The travel determines the length of the guides in the kinematic diagram.
-    #[must_use]
     pub fn of(case: &Case, solver: &dyn Solver, state: &State, crank: f64) -> Self {
         let planner = Planner::of(&case.mechanism);
         let travels = travels(case, solver, state, &planner.slides);
@@ -105,7 +104,6 @@ pub struct Planner<'a> {
 
 impl<'a> Planner<'a> {
     /// Creates the planner of a mechanism.
-    #[must_use]
     pub fn of(mechanism: &'a Mechanism) -> Self {
         let mut places = places(mechanism, &Quantity::ALL.map(Quantity::pole));
         let slides = slides(mechanism, &mut places);
@@ -118,7 +116,6 @@ impl<'a> Planner<'a> {
     }
 
     /// Returns the plan of a state with motions up to `quantity`.
-    #[must_use]
     pub fn plan(&self, quantity: Quantity, state: &State) -> VectorPlan {
         Builder::new(quantity, self.mechanism, state, &self.places, &self.slides).plan()
     }

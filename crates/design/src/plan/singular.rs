@@ -107,7 +107,6 @@ impl SingularPoint {
     }
 
     /// Formats the point in the usual notation: `BD x CE`.
-    #[must_use]
     pub fn lines(&self) -> String {
         self.leads.each_ref().map(|[a, b]| super::names::pair(a, b)).join(" x ")
     }

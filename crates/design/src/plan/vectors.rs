@@ -31,19 +31,16 @@ impl Quantity {
     }
 
     /// SI unit.
-    #[must_use]
     pub fn unit(self) -> &'static str {
         self.of("m/s", "m/s^2")
     }
 
     /// Symbol of the vectors: v or a.
-    #[must_use]
     pub fn symbol(self) -> &'static str {
         self.of("v", "a")
     }
 
     /// Letter of the pole: p or π.
-    #[must_use]
     pub fn pole(self) -> &'static str {
         self.of("p", "π")
     }
@@ -160,7 +157,6 @@ impl VectorPlan {
     }
 
     /// Length of a vector on paper (mm).
-    #[must_use]
     pub fn paper(&self, vector: &Vector) -> f64 {
         vector.value.norm() / self.scale
     }

@@ -106,21 +106,18 @@ impl Achieved {
     }
 
     /// Largest motion in any dwell (fraction of the stroke).
-    #[must_use]
     pub fn unrest(&self, task: &Task) -> f64 {
         let dwells = self.with_next(task).filter(|(_, phase, _)| phase.sense == Sense::Dwell);
         dwells.map(|(done, ..)| done.motion).fold(0.0, f64::larger)
     }
 
     /// Largest distance travelled in the wrong sense in any phase (fraction of the stroke).
-    #[must_use]
     pub fn wrong(&self) -> f64 {
         self.phases.iter().map(|phase| phase.wrong).fold(0.0, f64::larger)
     }
 
     /// Largest deviation (rad) of an extreme position from its required crank angle.
     /// The required crank angle is the limit between two opposite motions.
-    #[must_use]
     pub fn late(&self, task: &Task) -> f64 {
         let turns = self.with_next(task).filter(|(_, phase, next)| phase.sense.sign() * next.sign() < 0.0);
         let apart = turns.map(|(done, phase, _)| done.end.map_or(TAU, |end| (end - phase.to).abs()));
@@ -130,7 +127,6 @@ impl Achieved {
     /// Largest crank angle (rad) by which a dwell is too short at its beginning or end.
     /// During this crank angle the output is outside [`BAND`] although it should dwell. A dwell that is too long does
     /// not count.
-    #[must_use]
     pub fn short(&self, task: &Task) -> f64 {
         let missing = |(done, phase, next): (&PhaseDone, &Phase, Sense)| match (phase.sense, next) {
             (Sense::Dwell, Sense::Dwell) => None,

@@ -62,7 +62,6 @@ fn pins(all: &[(&str, [&str; 2])]) -> String {
 
 impl CrankRocker {
     /// The scenario file.
-    #[must_use]
     pub fn scenario(&self, sheet: &DraftContents) -> String {
         let [o, c] = [self.wish.crank_pivot, self.wish.rocker_pivot];
         let mut text = sheet.head();
@@ -82,7 +81,6 @@ impl CrankRocker {
 
 impl SliderCrank {
     /// The scenario file.
-    #[must_use]
     pub fn scenario(&self, sheet: &DraftContents) -> String {
         let mut text = sheet.head();
         let _ = writeln!(text, "{}", sentences::ground_points_on_the_slider(&format_args!("{:?}", self.offset)));

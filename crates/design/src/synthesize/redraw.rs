@@ -19,7 +19,6 @@ fn rounded(value: f64, parts: f64) -> f64 {
 
 /// Values of a task's variables (SI), rounded as [`redrawn`] writes them: to a micrometre and a ten thousandth of a
 /// degree.
-#[must_use]
 pub fn round_values(task: &Task, values: &[f64]) -> Vec<f64> {
     let round = |(value, variable): (&f64, &crate::synthesize::task::Variable)| match variable.is_angle {
         true => rounded(value.to_degrees(), DECIMALS[1]).to_radians(),

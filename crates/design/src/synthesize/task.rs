@@ -55,7 +55,6 @@ pub enum TaskNumber {
 impl TaskNumber {
     /// Value of the number (SI). `values` are the values of the variables.
     #[inline]
-    #[must_use]
     pub fn value(self, values: &[f64]) -> f64 {
         match self {
             TaskNumber::Fixed(value) => value,
@@ -171,7 +170,6 @@ impl Task {
     }
 
     /// Sense of rotation of the crank: +1 or -1.
-    #[must_use]
     pub fn turning(&self) -> f64 {
         self.case.crank().sense()
     }

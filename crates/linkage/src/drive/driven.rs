@@ -127,6 +127,12 @@ impl Drive {
         self.by_law(MotionLaw::top_speed)
     }
 
+    /// Largest angular acceleration of the law (rad/s^2), as in [`MotionLaw::largest_acceleration`].
+    #[must_use]
+    pub fn largest_acceleration(&self) -> f64 {
+        self.by_law(MotionLaw::largest_acceleration)
+    }
+
     /// Sense of rotation of the law: +1 counter-clockwise, -1 clockwise.
     /// For an oscillating law, the result is the sense of the top speed.
     #[must_use]

@@ -137,6 +137,17 @@ impl MotionLaw {
         }
     }
 
+    /// Largest absolute value of the angular acceleration (rad/s^2).
+    #[must_use]
+    pub fn largest_acceleration(&self) -> f64 {
+        match self {
+            MotionLaw::ConstantSpeed(_) => 0.0,
+            MotionLaw::Ramp { speed, time } => (speed / time).abs(),
+            MotionLaw::Cycloidal { rise, time } => TAU * rise.abs() / (time * time),
+            MotionLaw::Curve(curve) => curve.sharpest(),
+        }
+    }
+
     /// First time (s) at which the driving link has turned by the angle `gone` (rad). For `gone` = 0 the result is 0.
     /// NaN if the law never reaches the angle.
     /// NaN also if a table or formula, or a harmonic within one period, reaches the angle more than once.

@@ -45,6 +45,8 @@ pub struct FormulaCurve {
     /// The first derivative with the largest absolute value, and its sign.
     /// The value is stored, because the search for it takes many evaluations.
     steepest: f64,
+    /// The second derivative with the largest absolute value, and its sign; stored for the same reason.
+    sharpest: f64,
 }
 
 impl FormulaCurve {
@@ -52,14 +54,17 @@ impl FormulaCurve {
     #[must_use]
     pub fn new(of: Arc<dyn Smooth>, end: f64) -> Self {
         let places = parts(end);
-        let [least, most] = [-1.0, 1.0].map(|sign| {
-            let mut slope = |x: f64| Ok::<_, Infallible>(sign * of.at(x)[1]);
-            let samples: Vec<f64> = places.iter().map(|&x| sign * of.at(x)[1]).collect();
-            let Ok((_, most)) = extremum::greatest(&places, &samples, &mut slope);
-            sign * most
-        });
-        let (shift, steepest) = (of.at(0.0)[0], larger_size(least, most));
-        FormulaCurve { of, shift, factor: 1.0, end, steepest }
+        let largest = |order: usize| {
+            let [least, most] = [-1.0, 1.0].map(|sign| {
+                let mut derivative = |x: f64| Ok::<_, Infallible>(sign * of.at(x)[order]);
+                let samples: Vec<f64> = places.iter().map(|&x| sign * of.at(x)[order]).collect();
+                let Ok((_, most)) = extremum::greatest(&places, &samples, &mut derivative);
+                sign * most
+            });
+            larger_size(least, most)
+        };
+        let (shift, steepest, sharpest) = (of.at(0.0)[0], largest(1), largest(2));
+        FormulaCurve { of, shift, factor: 1.0, end, steepest, sharpest }
     }
 
     /// The first searched x at which the function or one of its first two derivatives is undefined.
@@ -135,8 +140,9 @@ impl Curve {
                 Curve::Harmonic { amplitude: factor * amplitude, period, phase }
             }
             Curve::Formula(own) => {
-                let [factor, steepest] = [own.factor, own.steepest].map(|number| factor * number);
-                Curve::Formula(FormulaCurve { factor, steepest, ..own.clone() })
+                let [factor, steepest, sharpest] =
+                    [own.factor, own.steepest, own.sharpest].map(|number| factor * number);
+                Curve::Formula(FormulaCurve { factor, steepest, sharpest, ..own.clone() })
             }
         }
     }
@@ -161,6 +167,17 @@ impl Curve {
             }
             Curve::Harmonic { amplitude, period, .. } => amplitude.abs() * TAU / period,
             Curve::Formula(own) => own.steepest,
+        }
+    }
+
+    /// Largest absolute value of the second derivative.
+    /// For a formula, the value comes from a search over 1024 parts.
+    #[must_use]
+    pub fn sharpest(&self) -> f64 {
+        match self {
+            Curve::Table(table) => table.knots().iter().fold(0.0, |most, &knot| most.larger(table.at(knot)[2].abs())),
+            Curve::Harmonic { amplitude, period, .. } => amplitude.abs() * (TAU / period).powi(2),
+            Curve::Formula(own) => own.sharpest.abs(),
         }
     }
 

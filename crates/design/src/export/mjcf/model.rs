@@ -89,7 +89,6 @@ impl<'a> MjcfModel<'a> {
     }
 
     /// Inertia (kg m^2) of the rotor that keeps the speed of a prescribed drive.
-    #[must_use]
     pub fn rotor(&self) -> f64 {
         let (size, links) = (self.size(), self.case.mechanism.links());
         // Moment of inertia with all mass at the distance `size` from a point.
@@ -110,7 +109,6 @@ impl<'a> MjcfModel<'a> {
 
     /// Mass (kg) and moment of inertia (kg m^2) of a link for MuJoCo.
     /// If the link has no mass or no inertia, the missing value is that of a light rod.
-    #[must_use]
     pub fn inertial(&self, link: LinkId) -> (f64, f64) {
         let link = &self.case.mechanism.links()[link];
         let light = LIGHT * self.mass();

@@ -24,7 +24,6 @@ linkage::words! {
 impl Sense {
     /// +1 for forward motion, -1 for backward motion, 0 for rest.
     #[inline]
-    #[must_use]
     pub fn sign(self) -> f64 {
         match self {
             Sense::Dwell => 0.0,
@@ -122,20 +121,17 @@ impl Timing {
     }
 
     /// Phases.
-    #[must_use]
     pub fn phases(&self) -> &[Phase] {
         &self.phases
     }
 
     /// Whether the output must follow [`Timing::wanted`]. If not, it must only move in the right sense.
-    #[must_use]
     pub fn follows(&self) -> bool {
         self.follow
     }
 
     /// Level required at the end of a phase, either given or implied by the phases around it. `None` if the level is
     /// unknown.
-    #[must_use]
     pub fn level(&self, phase: usize) -> Option<f64> {
         self.levels.as_ref().map(|levels| levels[phase]).or(self.phases[phase].level)
     }
@@ -145,7 +141,6 @@ impl Timing {
     /// The output lies on the smooth curve through all levels.
     /// This curve is cycloidal, without jumps of the acceleration: u - sin(2 pi u) / 2 pi.
     /// `None` if a level is unknown.
-    #[must_use]
     pub fn wanted(&self, crank: f64) -> Option<f64> {
         let levels = self.levels.as_ref()?;
         let index = self.phases.iter().position(|phase| crank <= phase.to).unwrap_or(self.phases.len() - 1);
