@@ -163,7 +163,7 @@ pub(crate) fn value(scenario: &Scenario, asked: &ClearanceQuestion, found: &Clea
     })
 }
 
-/// A scenario that could not be answered, as an entry of the document.
+/// The errors of a scenario without a result, as entries of the document.
 pub(crate) fn failures(file: &str, error: &Error) -> Vec<Value> {
     let one = |error: &Error| {
         json!({

@@ -20,7 +20,7 @@ pub fn visible(text: &str) -> String {
     shown(text, is_unseen)
 }
 
-/// A text of several lines and of limited length, such as a help text that contains a section to add.
+/// A text of several lines and of limited length, such as the help of an error that quotes lines for the scenario.
 /// Every invisible character except the line feed is escaped.
 #[must_use]
 pub fn visible_lines(text: &str) -> String {

@@ -103,7 +103,7 @@ impl System {
     }
 }
 
-/// Column of a link's unknowns: origin x and y, angle.
+/// First of the three columns of a link's unknowns: origin x, origin y, angle.
 fn column(link: LinkId) -> usize {
     3 * (link.index() - 1)
 }

@@ -138,7 +138,8 @@ impl PrintedChannel {
     }
 }
 
-/// `value` and `digits` of a number in the scenario itself. TOML does not keep the printed text.
+/// `value` and `digits` of a number in the scenario itself. `digits` is a separate key, because TOML does not keep the
+/// printed text.
 pub(super) fn number(entry: &mut TomlTable) -> Result<Printed> {
     let value = entry.number("value")?;
     let digits = digits(entry)?;

@@ -433,7 +433,7 @@ linkage::sentences! {
     found_explained_by(slack, why) = "found {slack}, explained by \"{why}\"";
     GIVE_A_POSITIVE_NUMBER_AND_THE_REASON = "give a positive number and the reason why the published numbers are off by that much";
     WHY_EXPLAINS_SLACK_BY_WHICH_ALL = "`why` explains `slack`, by which all numbers of the table may be off";
-    GIVE_ONE_VALUE_FOR_EVERY_ROW = "give one value for every row, in their order";
+    GIVE_ONE_VALUE_FOR_EVERY_ROW = "give one value for every row, in the order of the rows";
     found_right_values_for_the_column(values, printed) = "found {values} right values for the column's {printed} rows";
     SAY_WHICH_FINDING_CALLS_THE_CELL = "name the finding that calls the cell wrong";
     FINDING_IS_MISSING = "`finding` is missing";

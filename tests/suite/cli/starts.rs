@@ -94,7 +94,9 @@ fn the_start_angle_option_overrides_the_file() {
         let asked = place.ok(&format!("solve scenarios/crank_rocker_runup.toml --with {solver} {option}"));
         assert_eq!(asked, moved, "{solver}");
     }
-    // Dyads, a class III and a class IV group whose approximate positions belong to the start in the file.
+    // The dyads of ov7_base have modes, which apply at the new start.
+    // The groups of class III (ov7_new) and IV (fourth_class) have approximate positions, which apply at the crank angle
+    // in the file. From there the configuration is followed to the new start.
     for (name, start, cranks) in
         [("ov7_base", -200, "0,-30,-250"), ("ov7_new", -70, "-60,-70,-80"), ("fourth_class", 200, "70,150,290")]
     {

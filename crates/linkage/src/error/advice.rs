@@ -40,7 +40,7 @@ pub enum Advice {
     FreeSettings,
     /// More work for the search of settings.
     MoreWork {
-        /// Amount of work to allow. The unit is one step of an engine without sweeps.
+        /// Amount of work to allow, in the unit of budgets: one time step of an engine on a four-bar, without sweeps.
         to: f64,
     },
     /// Fewer instants, or fewer channels.

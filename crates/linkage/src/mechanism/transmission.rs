@@ -47,7 +47,7 @@ pub enum TransmissionKind {
     /// In the plane it is a rack without pressure angle and a pinion of the radius lead / (2 pi).
     /// The axial force acts at this distance from the axle of the screw.
     Screw {
-        /// Slide of the nut along the axis for a turn of the screw counter-clockwise (m), not zero.
+        /// Slide of the nut along the axis for one counter-clockwise turn of the screw (m), not zero.
         lead: f64,
     },
     /// A belt or chain over two wheels.

@@ -91,8 +91,8 @@ struct One<'a> {
 
 /// Number of derivatives by which a formula is judged.
 fn orders(formula: &Formula, claim: &Claim, course: &KnownTrajectory) -> Result<usize> {
-    // An approximation is claimed for the value only, not for its derivatives. The same holds for a number for one
-    // instant.
+    // An approximation is claimed for the value only, not for its derivatives.
+    // The same holds for a formula that is claimed at a single crank angle.
     let is_instant = formula.valid[0].is_some() && formula.valid[0] == formula.valid[1];
     let known = course.orders(claim)?;
     Ok(if formula.error.is_some() || is_instant { 0 } else { known })

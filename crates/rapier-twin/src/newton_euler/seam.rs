@@ -1,4 +1,4 @@
-//! A joint between two links: its points of action, and the forces that it can transmit as a joint of the tree.
+//! A joint between two links: its points of action, and the forces and moments that it transmits in the spanning tree.
 
 use linkage::case::Case;
 use linkage::math::{Vec2, cross, turned};
