@@ -218,7 +218,7 @@ fn several_drives_with_laws_against_brute_force() {
         check(&case, &asked, &found, &mut seen, name);
     }
     println!("{seen:?}");
-    assert!(seen.pairs > 50 && seen.collisions > 5, "{seen:?}");
+    assert!(seen.pairs > 50 && seen.collisions > 3, "{seen:?}");
 }
 
 #[test]

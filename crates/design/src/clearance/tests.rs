@@ -2,8 +2,11 @@
 
 use std::f64::consts::{PI, TAU};
 
+use std::sync::Arc;
+
 use linkage::case::Case;
-use linkage::math::{KeepNan, Vec2};
+use linkage::drive::MotionLaw;
+use linkage::math::{Curve, KeepNan, Vec2};
 use linkage::mechanism::{AssemblyMode, GROUND, LinkId};
 
 use super::tube::Tubes;
@@ -39,6 +42,27 @@ fn four_bar() -> Case {
         .pin("C", "ground", "rocker")
         .crank("O", 10.0)
         .mode(&["coupler", "rocker"], AssemblyMode::Left);
+    case.build().unwrap()
+}
+
+/// A crank and a block on a guide, each with a separate law, joined by two rods.
+fn crank_and_block() -> Case {
+    let harmonic = Curve::Harmonic { amplitude: 0.05, period: 0.7, phase: 0.3 };
+    let case = Case::builder()
+        .ground(&[("O", [0.0, 0.0]), ("G", [0.5, 0.1])])
+        .link("crank", &[("O", [0.0, 0.0]), ("A", [0.1, 0.0])])
+        .link("rod", &[("A", [0.0, 0.0]), ("B", [0.4, 0.0])])
+        .link("arm", &[("B", [0.0, 0.0]), ("Q", [0.35, 0.0])])
+        .link("block", &[("Q", [0.0, 0.0])])
+        .pin("O", "ground", "crank")
+        .pin("A", "crank", "rod")
+        .pin("B", "rod", "arm")
+        .pin("Q", "arm", "block")
+        .slider("guide", ("ground", "G"), ("block", "Q"), [0.0, 0.0])
+        .driven("O", MotionLaw::Cycloidal { rise: 2.0, time: 1.0 })
+        .driven_from("guide", 0.05, MotionLaw::Curve(Arc::new(harmonic)))
+        .times(&[0.0, 0.9])
+        .mode(&["rod", "arm"], AssemblyMode::Left);
     case.build().unwrap()
 }
 
@@ -340,8 +364,10 @@ fn a_thin_link_sweeps_an_area() {
 /// Neighbouring tubes therefore overlap.
 #[test]
 fn tubes_contain_the_motion() {
-    for case in [slider_crank(), four_bar()] {
-        let mut tubes = Tubes::new(&case, [0.2, 0.2 + TAU], 0.0).unwrap();
+    for (case, range) in
+        [(slider_crank(), [0.2, 0.2 + TAU]), (four_bar(), [0.2, 0.2 + TAU]), (crank_and_block(), [0.0, 1.0])]
+    {
+        let mut tubes = Tubes::new(&case, range, 0.0).unwrap();
         let parts: Vec<_> = tubes.parts().flat_map(|part| part.halves()).collect();
         let mut widest: f64 = 0.0;
         for part in parts {
