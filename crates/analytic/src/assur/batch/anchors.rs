@@ -18,7 +18,8 @@ use linkage::math::{Vec2, cross};
 use linkage::mechanism::LinkId;
 use linkage::trajectory::Stage;
 
-/// Number of values stored per link and interval: all starting values of the link except the fraction of the interval.
+/// Number of values stored per link and interval: the starting values of the link (see `OF_START`), except the fraction
+/// of the interval, which depends on the pose.
 const KEPT: usize = OF_START - 1;
 /// Distance between two anchors (rad). It is slightly smaller than a step of [`PoseSolver`], so that rounding cannot
 /// make it larger.

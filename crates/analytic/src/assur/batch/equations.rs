@@ -75,7 +75,8 @@ impl Driver {
 }
 
 impl Arm {
-    /// World vector from the base link's origin to the outer joint, and the base's first column; `None` for the ground.
+    /// World vector from the base link's origin to the outer joint, and the first column of the base link (`None` for
+    /// the ground).
     #[inline(always)]
     fn base<S: Simd>(&self, tile: &Window<S>) -> (Plane<S>, Option<usize>) {
         match self.base {

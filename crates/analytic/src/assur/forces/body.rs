@@ -24,7 +24,8 @@ pub(super) struct Reactions<'a> {
     pub(super) loads: &'a [Wrench],
 }
 
-/// The joints and transmissions whose forces are known before a group is solved: those of later groups.
+/// The joints and transmissions whose forces are known before a group is solved: the joints and transmissions of all
+/// groups after it.
 #[derive(Debug)]
 pub(super) struct Settled {
     joints: PerJoint<bool>,
