@@ -36,7 +36,8 @@ pub struct Modes {
 }
 
 /// Moves the mechanism to a time (s), at which the crank angle is `crank` (rad).
-/// If a dead point lies on the path, moves the crank in the opposite direction to the same pose of the crank.
+/// If a dead point lies on the path, moves the crank in the opposite direction, to the crank angle that differs by one
+/// whole turn.
 /// Returns the crank angle reached.
 fn reached(case: &Case, t: f64, crank: f64) -> Result<(PoseSolver<'_>, f64)> {
     let mut poses = PoseSolver::counting_turns(case)?;

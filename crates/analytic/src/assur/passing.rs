@@ -89,7 +89,7 @@ impl Passing {
             return Ok(());
         }
         let mut from = from;
-        // If the step leaves windows or passes over them, continue on the branch of the nodes on the far side.
+        // If the step leaves or passes over a window, continue on the branch of the window's nodes on the side of `to`.
         while let Some(index) = self.left([from, to]) {
             let window = &self.windows[index];
             let [end, before] = window.ends(to);

@@ -112,7 +112,7 @@ impl<'a> PoseSolver<'a> {
 
     /// Returns the solver for a crank that is known to rotate fully.
     /// If all poses have a closed form, the solver no longer searches for change points.
-    /// Higher groups follow their last pose and are still watched.
+    /// Higher groups are solved from their last pose, so the solver still checks them for change points.
     pub(crate) fn turning_fully(mut self) -> Self {
         if self.plan.is_closed_form() && self.passing.is_none() {
             (self.gauges, self.watch) = (Gauges::none(), Watch::none());
@@ -321,10 +321,10 @@ impl<'a> PoseSolver<'a> {
         self.solve(input, drive.rate, drive.acceleration, deepest)
     }
 
-    /// The state at time `t` (s), at which the first drive has this input, for a list of configurations.
-    /// At a varying speed, the state has the top speed of the first drive.
+    /// The state for a list of configurations, at the time `t` (s) at which the first drive has this input.
+    /// If the speed of the first drive varies, the state is computed for the top speed of this drive.
     /// Further drives keep their speed ratios to the first drive.
-    /// Drives with separate laws have the rates of these laws.
+    /// Drives with separate laws have the rates of their own laws instead.
     pub(crate) fn solve_place(&mut self, t: f64, input: f64, deepest: Stage) -> Result<&State> {
         let drive = self.case.crank();
         if self.by_time {
@@ -415,8 +415,8 @@ impl<'a> PoseSolver<'a> {
 
     /// The last state with its links' angles (rad).
     /// If turns are [counted](PoseSolver::counting_turns), the angles include whole turns.
-    /// Otherwise only driving links with a given world angle have their present angles. All other links have the angles
-    /// of the start of the case.
+    /// Otherwise only driving links with a given world angle have their present angles. All other links have their
+    /// angles in the start pose.
     pub fn with_angles(&mut self) -> &State {
         if let Some(turns) = &self.turns {
             // Skip the frame, which does not turn, and a crank, whose angle is given as an input.

@@ -112,7 +112,7 @@ impl<'a> TransferSide<'a> {
     /// For such a step, extrapolation from the end of the step, with the slope at the end, gives a negative clearance
     /// at the beginning.
     /// A step in which the clearance only comes near zero is refused too.
-    /// Smaller steps past the same pose are no longer refused.
+    /// If the refused step is divided, its parts pass the pose of smallest clearance without being refused.
     fn keep_clear(&mut self) -> std::result::Result<(), OutOfReach> {
         for ((step, target), at) in self.unit.iter_mut().zip(&self.target).zip(&self.at) {
             *step = target - at;

@@ -14,7 +14,7 @@ use linkage::mechanism::{PerGroup, PerLink};
 
 /// If the clearance of a dyad is below this value, a change point may lie within a step.
 /// While the clearance goes from 0.8 to 0 and back, the links of the dyad turn by 106 deg relative to each other.
-/// If they turn [`FAST`] times as fast as the crank, the crank turns by 7 deg meanwhile.
+/// If this relative rotation is [`FAST`] times as fast as the crank's rotation, the crank turns by 7 deg meanwhile.
 /// This rotation of the crank is larger than a step for dyads behind a higher group, but smaller than a step of 15 deg
 /// for dyads alone.
 const NARROW: f64 = 0.8;
@@ -24,7 +24,7 @@ const NARROW: f64 = 0.8;
 /// The change of the sine over the next step then equals that over the last step, and a factor of 1 would suffice.
 /// Near a dead point the sine is proportional to the root of the distance.
 /// The change of the sine over the next step is then up to (1 + root 2) times that over the last step.
-/// The rest of the factor is a reserve, not a proof.
+/// The difference between the factor `CLEAR` and 1 + root 2 is a reserve, not a proof.
 pub(super) const CLEAR: f64 = 4.0;
 /// Largest expected rotation of a dyad's links relative to each other, divided by the rotation of the crank.
 /// The value is an assumption. It is valid if every carrying link is slower than 16 times the crank.
@@ -108,7 +108,8 @@ impl Watch {
         self.is_needed
     }
 
-    /// Computes the clearances from velocities that belong to this angular velocity of the crank.
+    /// Computes the clearances from the present velocities, which were computed for the given angular velocity of the
+    /// crank.
     /// Returns whether a group may have passed a change point.
     #[inline]
     pub(super) fn see(&mut self, plan: &SolutionPlan, motions: &[Motion], omega: f64, sense: f64) -> bool {

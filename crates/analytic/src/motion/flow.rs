@@ -135,7 +135,7 @@ impl Work<'_> {
         }
     }
 
-    /// Stores the sense of the present motion of a link, joint or point.
+    /// Stores the sense in which a link, joint or point moves at present.
     fn take_sense(&mut self, own: Sensed) -> Result<()> {
         let rate = self.rate(own)?;
         match own.1 {
@@ -240,7 +240,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
     }
 
     /// Chooses senses and branch at the beginning of the motion.
-    /// A crank at rest starts on the motor's branch of driving.
+    /// A crank at rest starts on the branch on which the motor drives.
     /// If other forces then accelerate the crank backwards, the branch on which power flows to the motor is chosen
     /// instead.
     fn begin(&self, work: &mut Work, place: &Place<N>) -> Result<()> {

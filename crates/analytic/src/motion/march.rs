@@ -44,13 +44,13 @@ pub(crate) const NARROWER: f64 = 0.8;
 pub(crate) const MOST_EMPTY: usize = 8;
 /// Largest number of steps of one piece. A hundred turns of a mechanism take about ten thousand steps.
 const MOST_STEPS: usize = 3_000_000;
-/// Each time this number of steps is completed, the total number of steps is predicted. If the total exceeds
+/// Each time this number of steps is completed, the total number of steps is predicted. If the predicted total exceeds
 /// `MOST_STEPS`, the march ends.
-/// This happens if a motor is much too strong for the machine: the motor's decay, not the motion, then limits the
-/// length of the steps.
+/// Too many steps are needed if a motor is much too strong for the machine: the motor's time constant, not the motion,
+/// then limits the length of the steps.
 const PREDICTED: usize = 50_000;
-/// A step is short if its length is at most this fraction of the integration interval or of the step's position,
-/// whichever is larger.
+/// A step is short if its length is at most this fraction of the larger of two values: the length of the integration
+/// interval, and the independent variable at the step's beginning.
 /// A long sequence of short steps ends the march.
 /// Short steps would never pass a singular pose: near it, accelerations are rounding errors or cannot be computed.
 const SHORTEST: f64 = 1e-9;

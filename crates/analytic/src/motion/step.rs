@@ -55,8 +55,8 @@ pub(super) fn a_step<const N: usize, F: Flow<N>>(flow: &F, x: f64, y: &[f64; N],
     Ok(method)
 }
 
-/// Reports an error of the flow in preference to an error of the library. An error in a repeated trial step does not
-/// count.
+/// Reports an error of the equation of motion in preference to an error of the library. An error in a trial step that
+/// was then repeated does not count.
 pub(super) fn checked<const N: usize, F: Flow<N>, T, E: std::fmt::Debug>(
     flow: &F,
     answer: std::result::Result<T, E>,

@@ -7,7 +7,7 @@
 //! Elimination over all rows together would carry the rounding error of the group's large accelerations into the
 //! accelerations of the crank's pin.
 //! Every block also has its own determinant.
-//! The determinant of the whole matrix would keep its sign if the determinants of two blocks change their signs.
+//! The determinant of the whole matrix does not show a change of sign in two blocks at the same time.
 
 use linkage::case::Case;
 use linkage::math::KeepNan;

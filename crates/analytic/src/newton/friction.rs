@@ -131,7 +131,7 @@ impl System<'_> {
                     }
                 };
                 let own: Vec<f64> = rows.clone().map(|row| self.lambda[row] + self.beside[row]).collect();
-                // The lever is positive against the sense of the sliding.
+                // A positive lever acts against the sense of the sliding.
                 let (normal, slopes) = of_multipliers(&friction, &own, joint.slides(), -lever);
                 let place = self.centre(joint.second.link) + self.arm(joint.second.link, joint.second.local);
                 for (link, sign) in ends {

@@ -1,5 +1,5 @@
-//! Side 2 through change points: the determinant of a block passes through zero, but the mechanism moves on.
-//! Side 2 then follows the branch with continuous velocities.
+//! Side 2 through change points, where the determinant of a block passes through zero but the mechanism moves on.
+//! At a change point, side 2 follows the branch with continuous velocities.
 //!
 //! The path is followed as a function of the crank angle, with the first and second derivatives of all coordinates by
 //! this angle.

@@ -32,7 +32,7 @@ const MOST_ITERATIONS: usize = 60;
 const SETTLED: f64 = 1e-3;
 /// Largest ratio of a step to the smallest singular value.
 /// In units of the mechanism's size, the derivatives of the equations are at most of order one.
-/// Another branch is therefore farther away than such a step.
+/// Another branch is therefore farther away than a step with this ratio.
 const SAFE: f64 = 0.5;
 /// Smallest accepted cosine of the angle between the tangents of neighbouring poses. It allows an angle of 0.25 rad.
 const STRAIGHT: f64 = 0.969;
@@ -49,9 +49,10 @@ const MOST_POINTS: usize = 200_000;
 /// coordinates.
 /// The work is in the unit of work budgets.
 const SQUARE: f64 = 1e-3;
-/// If the crank has turned this number of turns, the search for a return to the first pose ends.
+/// The search for a return to the first pose ends after this number of turns of the crank.
 const MOST_TURNS: i32 = 12;
-/// The same limit for a mechanism with transmissions. Its wheels may return to the first pose only after many turns.
+/// The limit of turns for a mechanism with transmissions, whose wheels may return to the first pose only after many
+/// turns.
 const MOST_GEARED_TURNS: i32 = 100;
 
 /// A pose on the curve.
@@ -87,11 +88,12 @@ const FAR: f64 = 50.0;
 /// Beyond this distance from the crank's pivot, in units of the mechanism's size, steps grow in proportion to the
 /// distance.
 const NEAR: f64 = 2.0;
-/// The pose with links at infinity is extrapolated from poses with distant links. It is accurate enough if it changes
-/// by less than this (rad) when the pose with the most distant links is left out.
+/// The pose with links at infinity is extrapolated from poses with distant links. The extrapolated pose is accurate
+/// enough if it changes by less than this (rad) when the pose with the most distant links is left out.
 /// Poses with still more distant links are then not needed.
 const AGREED: f64 = 1e-9;
-/// Growth factor of the extent between two extrapolations to links at infinity.
+/// Between two extrapolations to links at infinity, the distance of the farthest link from the crank's pivot grows by
+/// this factor.
 const FARTHER: f64 = 1.2;
 /// Largest number of poses from which a singular pose is extrapolated.
 const MOST_KNOWN: usize = 9;
@@ -106,7 +108,8 @@ pub(super) struct Tracker<'a> {
     unit: f64,
     /// Signs that make every group's determinant positive at the start.
     signs: Vec<f64>,
-    /// Direction of the smallest singular value at the last pose. The search at the next pose starts from it.
+    /// Direction of the smallest singular value at the last pose. The inverse iteration at the next pose starts from
+    /// this direction.
     weakest: RefCell<ColumnVector>,
     /// The error that reports that the allowed work is used up. After this error, no further pose is placed.
     over: OnceCell<Error>,

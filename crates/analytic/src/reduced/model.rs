@@ -68,7 +68,7 @@ pub struct ReducedModel<'a> {
     /// If the motion has limits, the limits are included.
     boundaries: Vec<f64>,
     /// Sense of the transfer function of each link in `sensed`, on each piece of one period: +1 or -1.
-    /// The values of the first piece come first, then those of the next piece.
+    /// The values are ordered by piece: all links on the first piece, then all links on each following piece.
     senses: Vec<f64>,
     pub(crate) motor: Option<Motor>,
     /// Sense in which the motor drives the crank: the sense of the prescribed speed in the scenario.
@@ -125,7 +125,8 @@ impl<'a> ReducedModel<'a> {
         if self.kinks.period.is_some() { poses.turning_fully() } else { poses }
     }
 
-    /// The same model with a flywheel on the crank's shaft. `inertia` is its moment of inertia (kg m^2).
+    /// This model with an additional flywheel on the crank's shaft. `inertia` is the flywheel's moment of inertia (kg
+    /// m^2).
     /// A negative value removes inertia; the total must stay positive.
     #[must_use]
     pub fn with_flywheel(&self, inertia: f64) -> Self {

@@ -266,7 +266,7 @@ pub struct RunUp {
 
 impl RunUp {
     /// Motion of the case's mechanism at the given times, with the channels that the case requests.
-    /// Kinetostatics uses the true speed and acceleration.
+    /// Kinetostatics uses the speed and acceleration of this motion.
     ///
     /// # Errors
     /// The errors of [`motion`].
@@ -292,7 +292,8 @@ impl RunUp {
     /// Largest difference between the shaft's moment and the moment from the crank's equilibrium.
     /// The difference is divided by the largest moment or by the largest reaction times the mechanism's size, whichever
     /// is larger.
-    /// The check compares the equation of motion with the reactions, which do not use reduced quantities.
+    /// The difference compares the equation of motion with the reactions, which are computed without reduced
+    /// quantities.
     /// `None` if the balancing moment is not requested.
     #[must_use]
     pub fn power_residual(&self) -> Option<f64> {

@@ -444,7 +444,8 @@ impl Chain {
             let is_last = within(&self.unknown, LAST_CHANGE);
             for (index, (node, &change)) in self.contours.nodes.iter().zip(&self.unknown).enumerate() {
                 if is_last && !(SLIDING && node.is_guided()) {
-                    // A first-order rotation is enough: the square of this angle is below rounding error.
+                    // A first-order rotation is enough: the square of the last change of an angle is below rounding
+                    // error.
                     let direction = &mut motions[node.link].direction;
                     *direction -= turned(*direction) * change;
                 } else {
@@ -537,7 +538,7 @@ impl Chain {
     /// Whether this step might lead over a dead point, near which the squared determinant is linear in the driving
     /// angles.
     /// Such a step would reduce the squared determinant to a small fraction, and must be shortened.
-    /// If it were not shortened, it might end beyond a gap between two branches.
+    /// Without shortening, the step might jump over crank angles without a pose and end on another branch.
     fn is_bold(&self) -> bool {
         let goes = self.step.iter().any(|step| step.abs() > SMALLEST_STEP);
         goes && self.square + self.foreseen() < LEAST_LEFT * self.square

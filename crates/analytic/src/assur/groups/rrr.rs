@@ -253,7 +253,7 @@ impl Rrr {
 
     /// Writes the bounds of the dyad's links. The bounds hold while the gauge stays in `band`.
     /// The bounds follow from omega1 = (v2 - v1) . r2 / D and |D| = l1 l2 s.
-    /// In |D|, the sine s satisfies 4 l1^2 l2^2 s^2 = (g - low) (high - g).
+    /// Here s is the sine of the transmission angle; with the gauge g, 4 l1^2 l2^2 s^2 = (g - low) (high - g).
     pub(super) fn bound(&self, band: [f64; 2], links: &mut Bounds) {
         let rates = self.outer_rates(links);
         let sine = 0.5 * least_product(self.range, band).sqrt() * self.inverse_lengths;

@@ -38,7 +38,7 @@ impl Window {
     /// In free motion, `shaft` contains the moment on the driving link and the moment of inertia that turns with it.
     /// Each neighbouring pose then has the given angular velocity. Its acceleration is the one that balances the
     /// driving link.
-    /// In this case a residue is a property of the motion.
+    /// In free motion, the residue of a reaction therefore depends on the angular velocity as well as on the pose.
     pub(in crate::assur) fn reactions(
         &self,
         place: f64,
