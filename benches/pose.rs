@@ -1,6 +1,7 @@
 //! Cost of one pose: all quantities (positions, velocities, accelerations, all reactions and the balancing moment),
 //! positions alone, and all quantities in a batch of poses.
-//! Each cost is divided by the cost of all quantities of a hand-written four-bar, which is timed in the same process.
+//! Each cost is divided by the cost of computing all quantities with a hand-written four-bar solver, which is timed in
+//! the same process.
 //! `cargo bench --bench pose`.
 
 mod four_bar;

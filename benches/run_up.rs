@@ -1,4 +1,5 @@
-//! Cost of a run-up at several accuracies, with the crank alone and with all channels, and of the steady motion.
+//! Cost of a run-up and of the steady motion. The run-up is computed at several accuracies, for the crank alone and for
+//! all channels.
 //! The run-up is half a second of `crank_rocker`, 501 output points.
 //! `cargo bench --bench run_up`.
 //!

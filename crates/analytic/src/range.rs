@@ -5,9 +5,9 @@
 //! In each direction, the curve ends where the start pose is reached again, or at a singular pose.
 //! At a *limit of rotation* (dead point of the crank) the determinant of one group is zero.
 //! Two branches meet at the limit and form one smooth curve, along which the crank reverses.
-//! At a *change point* two such curves cross.
+//! At a *change point* two curves of poses cross.
 //! The group's determinant changes its sign at the change point, and the crank does not reverse.
-//! Geometry does not decide which curve the mechanism follows.
+//! Geometry does not decide which of the two curves the mechanism follows beyond the change point.
 
 mod constraints;
 mod extremes;
@@ -176,7 +176,7 @@ pub fn is_singular(mechanism: &Mechanism, group: &Group, pose: &Pose) -> bool {
 }
 
 /// Condition number of every group at a pose, in order of solution.
-/// Errors propagate from group to group.
+/// Errors of position propagate from each group to the groups that it carries.
 /// The error of a link grows with the product of the condition numbers of its group and the groups before it.
 #[must_use]
 pub fn conditions(mechanism: &Mechanism, groups: &[Group], pose: &Pose) -> Vec<f64> {

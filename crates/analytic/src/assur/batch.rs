@@ -101,7 +101,8 @@ impl<'a> Batch<'a> {
 
     /// Solves the poses at the crank angles `cranks` (rad, as the scenario states them), up to the stage `deepest`.
     /// In all poses the crank has the angular velocity `omega` (rad/s) and the angular acceleration `alpha` (rad/s^2).
-    /// The poses equal those of [`PoseSolver::solve`] at the same crank angles in sequence, within rounding error.
+    /// Within rounding error, the poses equal those that [`PoseSolver::solve`] gives for the crank angles in this
+    /// sequence.
     /// The first call starts from the start pose, later calls from the last crank angle reached.
     /// If poses are [vectorised](Batch::is_vectorised), the bits of a pose do not depend on the position of its crank
     /// angle in `cranks`.

@@ -11,8 +11,8 @@
 //! For a dyad on other dyads, M follows from the bounds of the dyads that carry it.
 //! These bounds grow from dyad to dyad, and with the inverse of the sine of each dyad's transmission angle.
 //! If these bounds give no proof, the estimate of [`super::watch`] decides.
-//! That estimate also serves dyads on higher groups, dyads on sliders of two guides, and several driving links of
-//! changing speed ratios.
+//! The estimate of [`super::watch`] also serves dyads on higher groups, dyads on sliders of two guides, and mechanisms
+//! with several driving links whose speed ratios change.
 //!
 //! The bounds of one step are stored and used for later steps.
 //! The gauges may therefore vary within a band that is wider than the present step needs.
@@ -139,7 +139,8 @@ impl Gauges {
     /// Checks the step between two crank angles (rad) with bounds for this step, and divides the step where necessary.
     ///
     /// # Errors
-    /// [`Misfit::Passed`] with the change point. The last recorded pose is then again the pose before the step.
+    /// [`Misfit::Passed`] with the change point. After this error, the last recorded pose is again the pose before the
+    /// step.
     #[cold]
     pub(super) fn pass_closely(
         &mut self,

@@ -2,7 +2,7 @@
 //! continuous velocities.
 //!
 //! Along this branch all positions and transfer functions are smooth functions of the driving link's angle.
-//! Only the equations of the group are singular.
+//! At the change point, only the equations of the group are singular; the motion is not.
 //! The sine of the transmission angle, or the corresponding measure of the dyad, passes through zero linearly.
 //! The closed form keeps the sign of this sine, but beyond the change point the opposite sign is correct.
 //! In a [`Window`] around the change point, the equations of the pose are not solved.
@@ -77,7 +77,7 @@ impl Passing {
     }
 
     /// Places the mechanism with its driving link at the angle `to`.
-    /// The last pose, at the angle `from`, must be at most one step away.
+    /// The last pose, at the angle `from`, must be at most one step away from `to`.
     /// In a window the pose comes from the window, and the plan is not used.
     pub(super) fn place(
         &mut self,
@@ -157,7 +157,8 @@ impl Passing {
         let found: Vec<(GroupId, f64)> =
             plan.steps().ids().zip(plan.clearances(&self.motions)).filter_map(near).collect();
         self.last = (angle, plan.steps().ids().map(|group| plan.determinant(group)).collect());
-        // Forget the oldest intervals. If a forgotten interval is needed again, it is searched again.
+        // Forget the oldest intervals. If a forgotten interval is needed again, the search for change points in it is
+        // repeated.
         let old = self.clear.len().saturating_sub(MOST_CLEAR);
         self.clear.drain(..old);
         for (group, ahead) in found {

@@ -21,7 +21,7 @@ use linkage::work;
 
 /// A link that starts at its dead centre shows its sense of rotation after the crank has turned by this angle (rad).
 const NUDGE: f64 = 1e-7;
-/// Largest number of times a failing step is halved. The last step is a millionth of the first.
+/// Largest number of times a failing step is halved. The shortest step is a millionth of the undivided step.
 pub(super) const HALVINGS: u32 = 20;
 /// Explanation of a singular pose.
 const MEET: &str = sentences::THERE_THE_LINKS_OF_THE_GROUP;
@@ -56,7 +56,7 @@ pub struct PoseSolver<'a> {
     by_time: bool,
     pub(super) gauges: Gauges,
     pub(super) watch: Watch,
-    /// Change points; `None` unless the drive is set to pass them.
+    /// Change points; `None` unless the drive is set to pass change points.
     pub(super) passing: Option<Passing>,
 }
 
@@ -123,14 +123,14 @@ impl<'a> PoseSolver<'a> {
     /// The state at the crank angle `crank` (rad, as the scenario states it) for the crank's angular velocity `omega`
     /// (rad/s) and acceleration `alpha` (rad/s^2).
     /// The rates of further drives follow from their speed ratios at that crank angle.
-    /// Only stages up to `deepest` are computed. Later stages keep their old values.
-    /// The links' angles also keep their old values: see [`PoseSolver::with_angles`].
+    /// Only stages up to `deepest` are computed. The results of later stages keep the values of earlier calls.
+    /// The links' angles also keep the values of earlier calls: see [`PoseSolver::with_angles`].
     ///
     /// # Errors
-    /// [`ErrorKind::Geometry`] if the crank angle cannot be reached on the branch. The error states the group and the
-    /// angle at which it fails.
+    /// [`ErrorKind::Geometry`] if the crank angle cannot be reached on the branch. The error states the group that
+    /// fails and the crank angle.
     pub fn solve(&mut self, crank: f64, omega: f64, alpha: f64, deepest: Stage) -> Result<&State> {
-        // The solution in one pass needs 1 / omega. It is therefore used only if omega is a normal number.
+        // The solution in one pass needs 1 / omega. One pass is therefore used only if omega is a normal number.
         self.in_one_pass = deepest >= Stage::Accelerations && omega.is_normal();
         (self.omega, self.alpha) = (omega, alpha);
         self.go_to(crank)?;
@@ -162,7 +162,7 @@ impl<'a> PoseSolver<'a> {
     fn solve_passing(&mut self, omega: f64, alpha: f64, deepest: Stage) -> Result<&State> {
         let begun: PerLink<Motion> = self.state.motions.clone();
         self.pass([omega, alpha], deepest, None)?;
-        // Stages that were not requested keep their old values.
+        // The results of stages that are not requested keep the values of earlier calls.
         if deepest < Stage::Accelerations {
             for (motion, before) in self.state.motions.iter_mut().zip(&begun) {
                 (motion.acceleration, motion.alpha) = (before.acceleration, before.alpha);

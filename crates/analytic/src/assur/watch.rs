@@ -18,8 +18,8 @@ use linkage::mechanism::{PerGroup, PerLink};
 /// This rotation of the crank is larger than a step for dyads behind a higher group, but smaller than a step of 15 deg
 /// for dyads alone.
 const NARROW: f64 = 0.8;
-/// If a clearance exceeds this multiple of its expected change over the rest of the step, it is assumed to stay above
-/// zero.
+/// A clearance is assumed to stay above zero if it exceeds this multiple of its expected change over the rest of the
+/// step.
 /// Near a change point the sine is linear in the crank angle.
 /// The change of the sine over the next step then equals that over the last step, and a factor of 1 would suffice.
 /// Near a dead point the sine is proportional to the root of the distance.
@@ -27,7 +27,8 @@ const NARROW: f64 = 0.8;
 /// The difference between the factor `CLEAR` and 1 + root 2 is a reserve, not a proof.
 pub(super) const CLEAR: f64 = 4.0;
 /// Largest expected rotation of a dyad's links relative to each other, divided by the rotation of the crank.
-/// The value is an assumption. It is valid if every carrying link is slower than 16 times the crank.
+/// The value is an assumption. The assumption is valid if every link that carries a dyad turns at less than 16 times
+/// the speed of the crank.
 const FAST: f64 = 16.0;
 
 /// Placeholder for a group without a clearance.

@@ -55,7 +55,8 @@ const PREDICTED: usize = 50_000;
 /// Short steps would never pass a singular pose: near it, accelerations are rounding errors or cannot be computed.
 const SHORTEST: f64 = 1e-9;
 const MOST_SHORT: usize = 400;
-/// A step may be longer than planned by this factor if it then reaches the last target. The factor avoids a tiny last
+/// A step may be longer than planned by this factor if the longer step reaches the last target. The factor avoids a
+/// tiny last
 /// step.
 const STRETCH: f64 = 1.001;
 /// Number of bisections of a step for a first estimate of the position of a bound.
@@ -216,8 +217,8 @@ fn end_on_bound<const N: usize, F: Flow<N>>(
     Ok(Stop::Bound(passed.0))
 }
 
-/// Position in the last step, before `beyond`, at which the state passes a bound. This position is as accurate as the
-/// interpolation.
+/// Position in the last step, before `beyond`, at which the state passes a bound. The position is as accurate as the
+/// library's interpolation.
 fn crossing<const N: usize, F: Flow<N>>(
     flow: &F,
     course: &Course<N>,

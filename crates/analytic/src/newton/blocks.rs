@@ -110,7 +110,8 @@ impl Blocks {
         self.blocks.iter_mut().all(|block| block.matrix.factor())
     }
 
-    /// Smallest ratio of a block's determinant to the largest determinant possible with columns of the same lengths.
+    /// Smallest ratio of a block's determinant to the largest possible determinant, that of orthogonal columns with the
+    /// lengths of the block's columns.
     /// Columns are compared because all entries of a column have the same unit, unlike those of a row.
     pub(super) fn smallest_share(&self) -> f64 {
         self.shares().map(f64::abs).fold(f64::INFINITY, f64::smaller)

@@ -25,7 +25,7 @@ use linkage::math::{ColumnVector, KeepNan, Matrix, unit};
 use linkage::mechanism::{GroupId, LinkId};
 use linkage::work;
 
-/// Longest step. If only the crank turns, it is two degrees.
+/// Longest step along the curve. If only the crank turns, the longest step is two degrees.
 const LONGEST: f64 = std::f64::consts::PI / 90.0;
 /// Largest number of inverse iterations for the smallest singular value, and the relative change that ends them.
 const MOST_ITERATIONS: usize = 60;
@@ -34,7 +34,8 @@ const SETTLED: f64 = 1e-3;
 /// In units of the mechanism's size, the derivatives of the equations are at most of order one.
 /// Another branch is therefore farther away than a step with this ratio.
 const SAFE: f64 = 0.5;
-/// Smallest accepted cosine of the angle between the tangents of neighbouring poses. It allows an angle of 0.25 rad.
+/// Smallest accepted cosine of the angle between the tangents of neighbouring poses. This cosine allows an angle of
+/// 0.25 rad.
 const STRAIGHT: f64 = 0.969;
 /// Two branches count as meeting if their distance is below this value (in units of the mechanism's size and rad).
 /// Lengths rounded to 16 digits separate crossing branches by the square root of the rounding error, 1e-8.
@@ -373,7 +374,8 @@ impl<'a> Tracker<'a> {
     /// The smallest singular value is small if links are far away, even without a branch nearby, because the axes that
     /// guide these links are almost parallel.
     /// The singular value is therefore multiplied by the extent.
-    /// This factor is not valid for groups without a far link. For these groups, the determinants bound the distance.
+    /// The factor is not valid for groups without a far link. For groups without a far link, the determinants bound the
+    /// distance to another branch.
     fn clearance(&self, here: &Point) -> f64 {
         let extent = self.extent(&here.q);
         let all = here.sigma * extent;
@@ -417,7 +419,7 @@ impl<'a> Tracker<'a> {
         let moved = (&q - &last.q).norm();
         let q = if moved < 1e-3 { q } else { last.q.clone() };
         // If the crank stands still on the curve, the pose is a dead point, of one group or of several groups at once.
-        // Otherwise the pose is a change point.
+        // If the crank moves on along the curve, the pose is a change point.
         let kind =
             if self.crank_rate(last).abs() < 1e-3 { SingularityKind::DeadPoint } else { SingularityKind::ChangePoint };
         let mut end = Point { q, ..last.clone() };
@@ -427,7 +429,8 @@ impl<'a> Tracker<'a> {
         Ok(Track { points, end: End::Limit(singularity) })
     }
 
-    /// Whether the pose with links at infinity is known to rounding accuracy. No singular pose then lies before it.
+    /// Whether the pose with links at infinity is known to rounding accuracy. If so, no singular pose lies before the
+    /// pose with links at infinity.
     /// The test covers the angles of all links, and the determinants, which must keep their signs.
     fn is_settled(&self, points: &[Point]) -> bool {
         let last = &points[points.len() - 1];
@@ -491,7 +494,7 @@ impl<'a> Tracker<'a> {
     }
 }
 
-/// The last regular poses, with the determinant of a group.
+/// The last regular poses, each with the determinant of the group `group`.
 /// The determinant nearest to zero comes first. Each following determinant is more than 1.5 times the preceding one.
 fn by_determinant(points: &[Point], group: GroupId) -> Vec<(f64, &Point)> {
     let mut known: Vec<(f64, &Point)> = Vec::new();

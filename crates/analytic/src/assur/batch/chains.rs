@@ -1,7 +1,7 @@
 //! Constants of higher groups on pins, for several poses at once.
 //!
-//! The motion uses the equations of [`crate::assur::groups::Chain`]. The forces use those of the module
-//! `assur::forces`.
+//! The motion is computed with the equations of [`crate::assur::groups::Chain`], the forces with the equations of the
+//! module `assur::forces`.
 
 mod forces;
 mod motion;

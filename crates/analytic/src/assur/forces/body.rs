@@ -8,8 +8,8 @@ use linkage::mechanism::{
     Group, JointId, JointSide, LinkId, Mechanism, PerJoint, PerTransmission, Transmission, TransmissionId,
 };
 
-/// Reactions that the first link of every joint exerts on the second. They are filled in from the last group to the
-/// first.
+/// Reactions that the first link of every joint exerts on the second. The reactions are filled in from the last group
+/// to the first.
 #[derive(Debug)]
 pub(super) struct Reactions<'a> {
     /// Forces (N).

@@ -157,7 +157,8 @@ impl Higher {
     }
 }
 
-/// Adds the forces on every node's link to those on its parent, from the outermost node inwards.
+/// Adds the forces on every node's link to the forces on the link of the node's parent, from the outermost node
+/// inwards.
 fn gather<const SLIDING: bool>(inwards: &[Inwards], carried: &mut [(Vec2, f64)], chain: &Chain) {
     for link in inwards {
         let (force, moment) = carried[link.child];

@@ -13,7 +13,7 @@
 
 use linkage::math::{KeepNan, Vec2};
 
-/// Bounds of a link's motion during a step. They are magnitudes of derivatives with respect to the crank angle.
+/// Bounds of a link's motion during a step. The bounds are magnitudes of derivatives with respect to the crank angle.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::assur) struct Bound {
     /// Reference point of the link, in its frame (m).
@@ -54,7 +54,7 @@ impl Bound {
     }
 }
 
-/// Bounds of the links known so far; `None` for links without bounds, for example those of higher groups.
+/// Bounds of the links known so far; `None` for links without bounds, for example links of higher groups.
 pub(in crate::assur) type Bounds = [Option<Bound>];
 
 /// Range and second derivative of a dyad's gauge over a step.

@@ -17,7 +17,7 @@ pub enum Misfit {
         /// Length of the rod (m).
         length: f64,
     },
-    /// RPR: the distance of the outer pins is smaller than the offsets of the pins from the axis allow.
+    /// RPR: the outer pins are closer together than the offset of the second pin from the axis through the first pin.
     Swing {
         /// Distance of the pins (m).
         distance: f64,

@@ -110,9 +110,9 @@ impl Window {
                 window.turns = turns;
                 let shares = window.spots.iter().map(|spot| spot.shares[block].abs());
                 let (least, most) = shares.fold((f64::INFINITY, 0.0f64), |(a, b), s| (a.smaller(s), b.larger(s)));
-                // The larger of two condition numbers is stored. The first is about the inverse of the sine of the
-                // innermost pose.
-                // The second follows from the error of the second derivatives.
+                // The larger of two condition numbers is stored. The first number is about the inverse of the sine of
+                // the innermost pose.
+                // The second number follows from the error of the second derivatives.
                 // The rounding errors of all blocks that are singular together add up, so the first condition number
                 // grows with the number of these blocks.
                 let inner = [&window.spots[SIDE - 1].shares, &window.spots[SIDE].shares];
@@ -246,7 +246,7 @@ fn point(spot: &Spot, at: f64) -> (f64, [&[f64]; 3]) {
     (spot.angle - at, [&spot.q, &spot.slope, &spot.curve])
 }
 
-/// The poses with the indices `CHOSEN` of one side, the outermost first.
+/// The poses on one side of the change point that have the indices `CHOSEN`, the outermost first.
 fn chosen(spots: &[Spot], at: f64) -> Vec<(f64, [&[f64]; 3])> {
     CHOSEN.iter().map(|&k| point(&spots[k], at)).collect()
 }

@@ -13,7 +13,7 @@ pub(super) struct Guided {
     pub(super) turn: Vec2,
 }
 
-/// A link of the group. A joint connects it to its parent, which is placed before it.
+/// A link of the group. A joint connects the link to its parent, which is placed before the link.
 #[derive(Clone, Copy, Debug)]
 pub struct Node {
     /// The link.

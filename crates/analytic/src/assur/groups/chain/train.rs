@@ -52,7 +52,8 @@ impl Term {
         Term { of, sign, column, last: 0.0, now: 0.0 }
     }
 
-    /// The coordinate at the present pose, with the angle nearest to that of the last pose.
+    /// The coordinate at the present pose, with the whole turns that bring its angle nearest to the angle at the last
+    /// pose.
     fn read(&mut self, slides: &[f64], motions: &[Motion]) -> f64 {
         self.now = match &self.of {
             Of::Angle(link) => {
