@@ -175,8 +175,8 @@ impl Step {
         }
     }
 
-    /// If the group is a dyad with two configurations, returns the dyad in the configuration other than the present
-    /// one, and the dyad's links.
+    /// If the group is a dyad with two configurations, returns the dyad switched to its other configuration, and the
+    /// dyad's links.
     /// Returns `None` for groups that are not dyads with two configurations.
     fn other(&self) -> Option<(Step, [LinkId; 2])> {
         match self {

@@ -31,7 +31,8 @@ const LOOK: f64 = 1.0;
 const NEXT: f64 = 1.3;
 /// Two change points closer together than this (rad) count as one change point, at which several groups are singular.
 const SAME: f64 = 1e-6;
-/// Largest number of windows kept; the nearest windows are kept. A discarded window is found again when it is needed.
+/// Largest number of windows kept; the nearest windows are kept. If a discarded window is needed again, its change
+/// point is searched for again.
 const MOST_WINDOWS: usize = 8;
 /// Largest number of remembered intervals without a change point. A motion of many small steps produces this many
 /// intervals.

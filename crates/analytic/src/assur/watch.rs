@@ -15,8 +15,8 @@ use linkage::mechanism::{PerGroup, PerLink};
 /// If the clearance of a dyad is below this value, a change point may lie within a step.
 /// While the clearance goes from 0.8 to 0 and back, the links of the dyad turn by 106 deg relative to each other.
 /// If this relative rotation is [`FAST`] times as fast as the crank's rotation, the crank turns by 7 deg meanwhile.
-/// This rotation of the crank is larger than a step for dyads behind a higher group, but smaller than a step of 15 deg
-/// for dyads alone.
+/// These 7 deg are more than one step for dyads behind a higher group (2 deg), but less than one step for dyads alone
+/// (15 deg).
 const NARROW: f64 = 0.8;
 /// A clearance is assumed to stay above zero if it exceeds this multiple of its expected change over the rest of the
 /// step.

@@ -1,5 +1,5 @@
-//! Constraint equations of a mechanism without its first drive. There is one equation fewer than coordinates, so that
-//! the solutions are curves.
+//! Constraint equations of a mechanism without its first drive. The number of equations is the number of coordinates
+//! minus one, so that the solutions are curves.
 //! The coordinate of a driven joint between moving links is an additional coordinate.
 //! Every driven or geared slide is also an additional coordinate.
 //!

@@ -44,7 +44,7 @@ pub fn moment_of_resistance(case: &Case, state: &State) -> f64 {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Kinks {
     /// Crank angle (rad) after which the mechanism is back at its first pose, under the same loads.
-    /// This angle is one turn, or several turns with higher groups and with tables that cover several turns.
+    /// The period is one turn, or several turns if there are higher groups or tables that cover several turns.
     /// `None` if the crank cannot turn fully.
     pub period: Option<f64>,
     /// Crank angles (rad) of the kinks. At a kink, a loaded link reverses and its load changes sense, or a load table

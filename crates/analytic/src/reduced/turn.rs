@@ -37,7 +37,7 @@ pub(super) struct FullTurn {
     pub(super) reversals: Vec<f64>,
 }
 
-/// Angular velocity of a link at a crank angle, for a crank with 1 rad/s, and the derivative of this velocity with
+/// Angular velocity of a link at a crank angle if the crank turns at 1 rad/s, and the derivative of this velocity with
 /// respect to the crank angle.
 #[derive(Clone, Copy, Debug)]
 struct Rate {

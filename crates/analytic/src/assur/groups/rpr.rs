@@ -78,7 +78,7 @@ impl Rpr {
         (axis, axis.dot(&(self.pins[1].place(motions) - self.pins[0].place(motions))))
     }
 
-    /// Returns the dyad in the configuration other than the present one.
+    /// Returns the dyad, switched to its other configuration.
     pub(super) fn flipped(self) -> Self {
         Self { sense: -self.sense, ..self }
     }

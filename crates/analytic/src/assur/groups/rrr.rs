@@ -225,7 +225,7 @@ impl Rrr {
         Ok(())
     }
 
-    /// Returns the dyad in the configuration other than the present one.
+    /// Returns the dyad, switched to its other configuration.
     pub(super) fn flipped(self) -> Self {
         Self { half: -self.half, ..self }
     }

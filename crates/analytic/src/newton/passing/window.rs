@@ -30,7 +30,7 @@ const CORE: f64 = 0.2;
 /// Half widths that are tried (rad).
 const WIDTHS: [f64; 11] = [0.5, 0.36, 0.25, 0.18, 0.12, 0.08, 0.06, 0.04, 0.025, 0.017, 0.01];
 /// If the path is lost in a window, the next half width is at most this fraction of the failing half width.
-/// The path is lost because of another singular pose nearby, towards which multipliers may grow without bound.
+/// The cause of a lost path is another singular pose nearby, towards which multipliers may grow without bound.
 const CLEAR: f64 = 0.5;
 /// A change point is passed only if the error of the second derivatives, divided by the largest derivative, is below
 /// this value.
