@@ -1,7 +1,8 @@
 //! Cost of a chain of four-bars as a function of its length.
-//! The cost is measured for building the case, for each analytic side, for the double-double solution, and for both
-//! sides with their judgement.
-//! The growth of each cost from the previous chain in the list is printed beside the growth of n and of n log n.
+//! Five costs are measured: of building the case, of side 1, of side 2, of the double-double solution, and of solving
+//! with both sides and comparing them.
+//! The growth of each cost from one chain to the next is printed beside the growth of n and of n log n, where n is the
+//! number of four-bars.
 //!
 //! `cargo bench --bench chain [-- N..]`
 

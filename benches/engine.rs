@@ -31,7 +31,7 @@ fn seconds(run: impl FnOnce()) -> f64 {
     since.elapsed().as_secs_f64()
 }
 
-/// The shortest program that only performs the steps.
+/// The bare loop, which only performs the steps.
 fn bare(engine: &Rapier, build: Build, case: &Case, steps: usize) {
     let tree =
         if build == Build::Impulse { SpanningTree::none(&case.mechanism) } else { SpanningTree::of(&case.mechanism) };
@@ -68,8 +68,8 @@ fn main() {
                 let engine = Rapier::new(build, Precision::Double, step);
                 let engine = engine.set(Settings { sweeps, ..engine.settings() });
                 let last = STEPS as f64 * step;
-                // The engine also does sixteen steps outside the grid: six backwards from t = 0, the same six forwards,
-                // and four beyond the end.
+                // The engine also does sixteen steps outside the grid: six backwards from t = 0, six forwards to t = 0
+                // again, and four beyond the end.
                 // `bare` therefore gets sixteen additional steps, so that its work is nearly that of the engine.
                 let none = base.on(Grid::of_times(base.crank(), vec![last])).unwrap().wanting(Wanted::of(&[]));
                 let all = |every: usize| {

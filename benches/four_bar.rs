@@ -24,7 +24,8 @@ pub struct FourBar {
     pub resistance: f64,
 }
 
-/// Forces at O, A, B, C (on the second link, as in the scenario) and the balancing moment.
+/// Components of the forces at O, A, B and C on the second link of each joint in the scenario, then the balancing
+/// moment.
 pub type Forces = [f64; 9];
 
 impl FourBar {

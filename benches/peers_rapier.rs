@@ -17,15 +17,15 @@ use scenario::Scenario;
 
 /// Compared channels, besides the crank angle.
 const CHANNELS: [&str; 2] = ["joint.B.fx_N", "joint.B.fy_N"];
-/// Steps (s) of the coarsest runs.
+/// Steps (s) of the coarsest run of a combination.
 const STEPS: [f64; 6] = [1e-3, 7e-4, 5e-4, 4.5e-4, 3.5e-4, 2.5e-4];
 /// Largest number of runs in a combination.
 const RUNS: usize = 5;
 /// Finest step (s); with smaller steps, second differences are rounding noise.
 const FINEST: f64 = 1.2e-5;
 /// Sweeps per step.
-/// More sweeps than these numbers change nothing; with 8 sweeps the reaction at the first instant is wrong by a few
-/// percent.
+/// These numbers suffice: more sweeps change nothing.
+/// With 8 sweeps, the reaction at the first instant is wrong by a few percent.
 const SWEEPS: [usize; 2] = [12, 16];
 
 /// Crank angle (rad) and reaction (N) over the grid, and the shortest times (s) with and without reading reactions.
@@ -71,7 +71,7 @@ fn run(case: &Case, step: f64, sweeps: usize, repeats: usize) -> Option<Run> {
 }
 
 /// Weights of the runs at h, h/2, h/4, ... for extrapolation to step zero.
-/// They assume an error that is a series in all powers of h.
+/// The weights assume that the error is a series in h with all powers.
 fn weights(runs: usize) -> Vec<f64> {
     let at = |k: usize| 0.5f64.powi(k as i32);
     let others = |k: usize| (0..runs).filter(move |&j| j != k);

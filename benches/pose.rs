@@ -1,6 +1,7 @@
 //! Cost of one pose: all quantities (positions, velocities, accelerations, all reactions and the balancing moment),
 //! positions alone, and all quantities in a batch of poses.
-//! Each cost is divided by the cost of all quantities of a hand-written four-bar, which is timed in the same process.
+//! Each cost is divided by the cost of computing all quantities with a hand-written four-bar solver, which is timed in
+//! the same process.
 //! `cargo bench --bench pose`.
 
 mod four_bar;
@@ -115,7 +116,7 @@ fn turns_of(case: &Case, part: Part) -> Box<dyn FnMut() + '_> {
     }
 }
 
-/// Only solves a few revolutions, without timing, for programs that count instructions:
+/// Solves a few revolutions without timing them, so that another program can count the instructions:
 /// `valgrind --tool=callgrind target/release/deps/pose-... --turns ov7_new all 3`.
 fn count(name: &str, part: &str, turns: usize) {
     if name == "hand" {
@@ -162,7 +163,7 @@ fn main() {
     let crank = boom.mechanism.joint_named("O").expect("the boom is hinged at O");
     let inputs = |case: &Case| case.grid.inputs.clone();
     let of_ram = shortest(swing_of(&boom, &inputs(&boom)));
-    // The same mechanism and motion, but driven at the boom's hinge.
+    // The boom lift with the same motion of the boom, but driven at the boom's hinge instead of its cylinder.
     let angles = angles_of(&boom);
     let rise = angles[angles.len() - 1] - angles[0];
     let law = |_| MotionLaw::Cycloidal { rise, time: 1.0 };
@@ -176,7 +177,7 @@ fn main() {
     );
 }
 
-/// Returns a function that solves `POSES` poses, forwards and back between the first and the last of `inputs`.
+/// Returns a function that solves `POSES` poses on the way from the first to the last of `inputs` and back.
 fn swing_of<'a>(case: &'a Case, inputs: &[f64]) -> Box<dyn FnMut() + 'a> {
     let (from, to) = (inputs[0], inputs[inputs.len() - 1]);
     let at = |k: usize| from + (to - from) * (1.0 - (angle(k)).cos()) / 2.0;

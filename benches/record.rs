@@ -1,6 +1,6 @@
 //! Cost of a proof and its recording together, divided by the cost of the proof alone.
-//! For a long recording, the cost of the plain MCAP writer for the same prepared messages is divided by the cost of
-//! writing the recording.
+//! For a long recording, a second ratio is measured: the cost of writing its prepared messages with the plain MCAP
+//! writer, divided by the cost of writing the recording.
 //! Only ratios from one run are printed: `cargo bench --bench record`.
 
 use std::collections::BTreeMap;
@@ -47,7 +47,7 @@ fn shortest(mut work: impl FnMut()) -> f64 {
     times.fold(f64::INFINITY, f64::smaller)
 }
 
-/// Records sides as a run does.
+/// Records the sides as the command `run` does.
 fn record(scenario: &Scenario, sides: &[RecordedSide], errors: Option<&Trajectory>, path: &Path) {
     let recording = Recording {
         name: &scenario.name,

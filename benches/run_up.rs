@@ -1,8 +1,10 @@
-//! Cost of a run-up at several accuracies, with the crank alone and with all channels, and of the steady motion.
+//! Cost of a run-up and of the steady motion. The run-up is computed at several accuracies, for the crank alone and for
+//! all channels.
 //! The run-up is half a second of `crank_rocker`, 501 output points.
 //! `cargo bench --bench run_up`.
 //!
-//! The errors do not depend on the clock; `tests/suite/bench.rs` tests them at the usual accuracy and at 1e-8.
+//! This benchmark does not check errors; `tests/suite/bench.rs` tests the errors of the run-up at the usual accuracy
+//! and at 1e-8.
 
 use std::path::Path;
 use std::sync::LazyLock;
@@ -27,7 +29,7 @@ fn main() {
     divan::main();
 }
 
-/// The reduced model: range of motion and kinks.
+/// Cost of building the reduced model, including the range of motion and the kinks.
 #[divan::bench]
 fn model(bencher: Bencher) {
     let case = &*CASE;

@@ -1,5 +1,5 @@
-//! Cost of the whole solution, divided by the cost of answering a single question.
-//! The ratio is measured for both sides, and for Rapier at one setting.
+//! Cost of solving for all channels, divided by the cost of solving for a few requested channels only.
+//! The ratio is measured for both analytic sides, and for Rapier at one setting.
 //! Only ratios from one run are printed: `cargo bench --bench skip`.
 
 use std::hint::black_box;
@@ -18,8 +18,8 @@ const REPEATS: usize = 15;
 /// Instants of a turn.
 const INSTANTS: usize = 3600;
 
-/// Mechanisms with their questions.
-/// The questions are all positions, positions of a point of the first or the last group, a point's whole motion without
+/// Mechanisms, each with its list of requests.
+/// Requests are: all positions, positions of a point of the first or the last group, a point's whole motion without
 /// forces, and one joint.
 const QUESTIONS: [(&str, &[&str]); 4] = [
     ("crank_rocker", &["positions", "point.B.positions", "joint.B"]),

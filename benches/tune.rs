@@ -55,8 +55,7 @@ fn seconds(engine: &dyn Engine, case: &Case, repeats: usize) -> f64 {
     shortest
 }
 
-/// Cost of the settings of a row, which differ only in the step: a constant plus a part proportional to the number of
-/// steps.
+/// Cost of settings that differ only in the step: a constant plus a part proportional to the number of steps.
 /// Runs at two steps determine the constant and the proportional part.
 struct Clock<'a> {
     case: &'a Case,
@@ -206,7 +205,7 @@ fn main() {
     let named = |name: &&str| words.len() == usize::from(of_model) || words.iter().any(|word| word == name);
     let names: Vec<&str> = REFERENCES.into_iter().filter(named).collect();
     if of_model {
-        // The searches are not timed, so both halves run in parallel.
+        // The searches are not timed, so the two halves of the list of scenarios are searched in parallel.
         let (one, other) = names.split_at(names.len() / 2);
         return std::thread::scope(|scope| {
             scope.spawn(|| whole(one));

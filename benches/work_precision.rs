@@ -19,8 +19,9 @@ const STEPS: [f64; 3] = [0.8, 0.24, 0.08];
 const ACCURACIES: [f64; 2] = [1e-4, 1e-10];
 /// Number of timings; the shortest counts. Runs longer than a second are timed once.
 const REPEATS: usize = 3;
-/// Sweeps of the multibody build; the flywheel on the twin's driving link makes this number sufficient here.
-/// The impulse build needs its full default number.
+/// Sweeps of Rapier's multibody build. This number is sufficient here because the simulated driving link has a
+/// flywheel.
+/// Rapier's impulse build needs its full default number of sweeps.
 const SWEEPS: usize = 256;
 
 struct Row {
@@ -31,7 +32,7 @@ struct Row {
     seconds: f64,
 }
 
-/// Largest error divided by the channel's scale, over the channels of some stages.
+/// Largest error divided by the channel's scale, over the channels of the given stages.
 fn error(reference: &Trajectory, found: &Trajectory, stages: &[Stage]) -> f64 {
     let residuals = residuals(reference, found).expect("both stand on one grid");
     let own = residuals.iter().filter(|r| stages.contains(&r.channel.kind.stage));

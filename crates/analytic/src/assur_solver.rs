@@ -67,7 +67,7 @@ impl Solver for AssurAt {
 /// Side 1 with a tighter integration of motions under forces.
 /// The results differ from those of [`AssurSolver`] by the integration error of [`AssurSolver`].
 /// Both sides have this error, because they share the integrator.
-/// A prescribed motion is not integrated, so its results do not differ.
+/// For a prescribed motion, both solvers give the same results, because the motion is not integrated.
 pub const TIGHT_ASSUR: AssurAt = AssurAt(TIGHTER * ACCURACY);
 
 /// Solves a motion under forces.
@@ -93,7 +93,7 @@ fn free_motion(case: &Case, accuracy: f64, visit: Visit, progress: Progress) -> 
         model => model?,
     };
     if model.kinks().meets {
-        // The motion has a change point as a limit, so it is solved with transfer functions.
+        // The reduced equation ends at a change point, so the motion is solved with transfer functions instead.
         // This method follows the motion beyond the change point, where the momentum selects the branch.
         return free::sweep(case, &mut TransferSide::new(case, share)?, accuracy, visit, progress);
     }

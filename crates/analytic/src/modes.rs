@@ -36,7 +36,8 @@ pub struct Modes {
 }
 
 /// Moves the mechanism to a time (s), at which the crank angle is `crank` (rad).
-/// If a dead point lies on the path, moves the crank in the opposite direction to the same pose of the crank.
+/// If a dead point lies on the path, moves the crank in the opposite direction, to the crank angle that differs by one
+/// whole turn.
 /// Returns the crank angle reached.
 fn reached(case: &Case, t: f64, crank: f64) -> Result<(PoseSolver<'_>, f64)> {
     let mut poses = PoseSolver::counting_turns(case)?;
@@ -52,7 +53,7 @@ fn reached(case: &Case, t: f64, crank: f64) -> Result<(PoseSolver<'_>, f64)> {
 }
 
 /// The real configurations of every group (in the order of the structure) at an instant.
-/// The links before a group have the pose that the case follows.
+/// Links that are placed before the group are in the pose of the branch that the case follows.
 ///
 /// # Errors
 /// [`ErrorKind::Geometry`] if the crank angle cannot be reached on the case's branch.

@@ -2,12 +2,12 @@
 //! of the groups.
 //!
 //! The crank is not driven. The curve of all poses is followed by arc length, in both directions from the start pose.
-//! The curve ends at the start pose or at a singular pose.
+//! In each direction, the curve ends where the start pose is reached again, or at a singular pose.
 //! At a *limit of rotation* (dead point of the crank) the determinant of one group is zero.
 //! Two branches meet at the limit and form one smooth curve, along which the crank reverses.
-//! At a *change point* two such curves cross.
+//! At a *change point* two curves of poses cross.
 //! The group's determinant changes its sign at the change point, and the crank does not reverse.
-//! Geometry does not decide which curve the mechanism follows.
+//! Geometry does not decide which of the two curves the mechanism follows beyond the change point.
 
 mod constraints;
 mod extremes;
@@ -38,7 +38,7 @@ use tracking::{End, Point, Tracker};
 const CONTACT: f64 = 1e-3;
 /// If a group's determinant is smaller than this value, the pose counts as singular.
 /// Rounding separates coinciding configurations by the square root of the rounding error, 1e-8 to 1e-7.
-/// The value is therefore larger than this separation.
+/// The limit is therefore larger than this separation.
 const SINGULAR: f64 = 1e-6;
 
 /// Work allowed for finding the reachable crank angles as a by-product, for example for an error message.
@@ -176,7 +176,7 @@ pub fn is_singular(mechanism: &Mechanism, group: &Group, pose: &Pose) -> bool {
 }
 
 /// Condition number of every group at a pose, in order of solution.
-/// Errors propagate from group to group.
+/// Errors of position propagate from each group to the groups that it carries.
 /// The error of a link grows with the product of the condition numbers of its group and the groups before it.
 #[must_use]
 pub fn conditions(mechanism: &Mechanism, groups: &[Group], pose: &Pose) -> Vec<f64> {

@@ -3,7 +3,7 @@
 //! Several crank angles are solved at once, as many as fit into the machine's registers.
 //! The case must consist of driving links, RRR dyads and higher groups on pins, and all loads must be moments of
 //! resistance.
-//! The poses of such a case are independent of each other.
+//! Each pose of such a case can be solved without the other poses.
 //! Any other case is solved pose by pose.
 
 mod anchors;
@@ -101,12 +101,14 @@ impl<'a> Batch<'a> {
 
     /// Solves the poses at the crank angles `cranks` (rad, as the scenario states them), up to the stage `deepest`.
     /// In all poses the crank has the angular velocity `omega` (rad/s) and the angular acceleration `alpha` (rad/s^2).
-    /// The poses equal those of [`PoseSolver::solve`] at the same crank angles in sequence, within rounding error.
+    /// Within rounding error, the poses equal those that [`PoseSolver::solve`] gives for the crank angles in this
+    /// sequence.
     /// The first call starts from the start pose, later calls from the last crank angle reached.
-    /// If poses are [vectorised](Batch::is_vectorised), a crank angle gives the same bits at every position in the
-    /// list.
+    /// If poses are [vectorised](Batch::is_vectorised), the bits of a pose do not depend on the position of its crank
+    /// angle in `cranks`.
     /// Higher groups are followed from the start pose in steps of two degrees.
-    /// Their poses are solved one by one near a dead point, and more than 50 000 steps from the start pose.
+    /// Near a dead point, and more than 50 000 steps from the start pose, poses of a case with higher groups are solved
+    /// one by one.
     /// Between rows more than 15 degrees apart, intermediate poses are solved too.
     ///
     /// # Errors
@@ -150,7 +152,7 @@ impl<'a> Batch<'a> {
     }
 }
 
-/// Input of one call: what to solve.
+/// Input of one call of [`Batch::solve`].
 #[derive(Clone, Copy, Debug)]
 struct Asked<'a> {
     cranks: &'a [f64],
@@ -242,8 +244,8 @@ mod tests {
         widths
     }
 
-    /// Each error of the vector sine and cosine is at most one unit in the last place of 1.
-    /// Of this unit, the standard library contributes at most half; the vector functions contribute the rest.
+    /// The vector sine and cosine differ from those of the standard library by at most one unit in the last place of 1.
+    /// At most half of this unit is the error of the standard library; the rest is the error of the vector functions.
     #[test]
     fn sines_and_cosines_match_the_standard_library() {
         for k in -400_000..400_000 {

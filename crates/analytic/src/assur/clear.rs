@@ -75,7 +75,7 @@ impl PoseSolver<'_> {
             let seen = self.watch.groups[group];
             if seen.may_pass(sense) {
                 self.search(group, target, [seen.last, seen.now])?;
-                // The search has changed the pose and the clearances: restore those of `target`.
+                // The search has changed the pose and the clearances: restore the pose and the clearances of `target`.
                 self.turn(target);
                 self.plan.positions(&self.inputs, &mut self.state.motions)?;
                 self.find_clearances(target, sense);
@@ -86,7 +86,7 @@ impl PoseSolver<'_> {
 
     /// Searches for the smallest clearance of a group between the present crank angle and `target`, by bisection on its
     /// slope.
-    /// Refuses the step if that clearance is zero within rounding error.
+    /// Refuses the step if the smallest clearance is zero within rounding error.
     #[cold]
     fn search(&mut self, group: GroupId, target: f64, ends: [SingularityDistance; 2]) -> Result<(), OutOfReach> {
         let ([mut low, mut high], [mut before, mut after]) = ([self.crank, target], ends);

@@ -52,7 +52,7 @@ pub(super) struct Kinetostatics {
     resistances: Option<Vec<(LinkId, Load)>>,
     /// Whether any drive moves a joint other than the crank's joint.
     drives_joints: bool,
-    /// The joints with friction, if there are any, and the loads without friction.
+    /// The joints with friction, if there are any, and the loads before friction is added.
     dry: Option<Box<(Dry, Vec<Wrench>)>>,
     tally: WorkTally,
 }
@@ -96,7 +96,7 @@ impl Kinetostatics {
 
     /// Writes to `state` the reaction in every joint (first link on second; N, N m) and the balancing moments on the
     /// driving links (N m).
-    /// The balancing moments follow from equilibrium about the pivots.
+    /// The balancing moments follow from the equilibrium of the driving links about their pivots.
     /// The pose must be the last one that `plan` has solved. Loads may use the state's angles.
     ///
     /// # Errors

@@ -1,6 +1,7 @@
 //! Proof that no dyad passes a change point on a step of `PoseSolver`.
 //!
-//! Where two branches of a dyad meet, its [gauge](crate::assur::groups::Step::gauge) is at an end of its range.
+//! In a pose where two branches of a dyad meet, the dyad's [gauge](crate::assur::groups::Step::gauge) is at an end of
+//! the range of the gauge.
 //! Between two poses the gauge differs from linear interpolation by at most M h^2 / 8.
 //! Here h is the step and M a bound of the gauge's second derivative.
 //! If the gauge cannot leave its range even with this deviation, the dyad stays on one branch.
@@ -8,14 +9,15 @@
 //! If the deviation for the whole step is too large for a proof, the step is divided.
 //! The division ends when every part is proven or the change point is found.
 //! For a dyad on other dyads, M follows from the bounds of the dyads that carry it.
-//! These bounds grow from dyad to dyad and with the inverse of the dyads' sines.
+//! These bounds grow from dyad to dyad, and with the inverse of the sine of each dyad's transmission angle.
 //! If these bounds give no proof, the estimate of [`super::watch`] decides.
-//! That estimate also serves dyads on higher groups, dyads on sliders of two guides, and several driving links of
-//! changing speed ratios.
+//! The estimate of [`super::watch`] also serves dyads on higher groups, dyads on sliders of two guides, and mechanisms
+//! with several driving links whose speed ratios change.
 //!
-//! Bounds are kept for later steps.
+//! The bounds of one step are stored and used for later steps.
 //! The gauges may therefore vary within a band that is wider than the present step needs.
-//! The bounds hold until a gauge leaves its band, a step is longer, or the crank has moved too far.
+//! The stored bounds hold until a gauge leaves its band, a step is longer than the stored one, or the crank has moved
+//! farther than the stored travel.
 //! See docs/numerics/change_points.md.
 
 use crate::assur::groups::{Bound, Limit, Misfit, OutOfReach, SINGULAR, SolutionPlan};
@@ -23,10 +25,12 @@ use linkage::case::Case;
 use linkage::math::{KeepNan, Motion};
 use linkage::mechanism::GroupId;
 
-/// The present step leaves a distance between its band and each end of the gauge's range.
-/// The stored band is wider: it leaves only this fraction of that distance.
+/// During the present step, a gauge stays in a band at a distance from each end of its range.
+/// The stored band is wider: its distance from each end of the range is only this fraction of the distance in the
+/// present step.
 const SPARE: f64 = 0.25;
-/// Bounds are computed for steps longer by this factor. The steps of a grid are equal only within rounding error.
+/// Bounds are computed for a step that is longer than the present one by this factor, because the steps of a grid are
+/// equal only within rounding error.
 const LONGER: f64 = 1.0 + 1e-6;
 /// A gauge without an upper limit may grow by this factor while the bounds are valid.
 const GROWN: f64 = 4.0;
@@ -63,7 +67,8 @@ pub(super) struct Gauges {
     left: f64,
 }
 
-/// One end of a step: crank angle, gauges of all watched groups, and pose. Only the pose at the far end is used.
+/// One end of a step: crank angle, gauges of all watched groups, and pose. The pose is used only at the second end of a
+/// step.
 #[derive(Clone, Debug)]
 struct End {
     crank: f64,
@@ -134,7 +139,8 @@ impl Gauges {
     /// Checks the step between two crank angles (rad) with bounds for this step, and divides the step where necessary.
     ///
     /// # Errors
-    /// [`Misfit::Passed`] with the change point. The last recorded pose is then again the pose before the step.
+    /// [`Misfit::Passed`] with the change point. After this error, the last recorded pose is again the pose before the
+    /// step.
     #[cold]
     pub(super) fn pass_closely(
         &mut self,
@@ -178,9 +184,10 @@ impl Gauges {
 
     /// Whether the gauges of all direct groups stay within their ranges between two poses, for steps of length `step`
     /// (rad).
-    /// Stores the bounds of this proof. This step leaves a distance between a gauge's band and each end of its range;
-    /// the stored band leaves the fraction `share` of it.
-    /// An indirect group without a proof is marked open.
+    /// Stores the bounds of this proof, with a band for each gauge.
+    /// The distance of the stored band from each end of the gauge's range is the fraction `share` of the distance in
+    /// this step.
+    /// A group that is not direct and has no proof is marked open.
     fn prove(&mut self, ends: &[End; 2], plan: &SolutionPlan, step: f64, share: f64) -> bool {
         let motions = &ends[1].motions;
         (self.reach, self.left) = (-1.0, f64::INFINITY);

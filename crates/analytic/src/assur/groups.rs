@@ -175,8 +175,8 @@ impl Step {
         }
     }
 
-    /// If the group is a dyad with two configurations, returns the dyad in the configuration other than the present
-    /// one, and the dyad's links.
+    /// If the group is a dyad with two configurations, returns the dyad switched to its other configuration, and the
+    /// dyad's links.
     /// Returns `None` for groups that are not dyads with two configurations.
     fn other(&self) -> Option<(Step, [LinkId; 2])> {
         match self {
@@ -207,7 +207,7 @@ pub struct OutOfReach {
 }
 
 impl SolutionPlan {
-    /// Adds `way` (rad), a whole number of turns, to the driving angle of the last pose. The pose stays the same.
+    /// Adds `way` (rad), a whole number of turns, to the driving angle of the last pose. The links stay where they are.
     pub(in crate::assur) fn skip(&mut self, way: f64) {
         for step in &mut self.steps {
             if let Step::Chain(chain) = step {
@@ -265,7 +265,7 @@ impl SolutionPlan {
     }
 
     /// Computes the positions, velocities and accelerations of all links in one pass.
-    /// The arguments are those of the three separate functions.
+    /// The arguments are those of the separate functions for positions, velocities and accelerations.
     ///
     /// # Errors
     /// The errors of [`SolutionPlan::positions`].

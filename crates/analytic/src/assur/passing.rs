@@ -2,7 +2,7 @@
 //! continuous velocities.
 //!
 //! Along this branch all positions and transfer functions are smooth functions of the driving link's angle.
-//! Only the equations of the group are singular.
+//! At the change point, only the equations of the group are singular; the motion is not.
 //! The sine of the transmission angle, or the corresponding measure of the dyad, passes through zero linearly.
 //! The closed form keeps the sign of this sine, but beyond the change point the opposite sign is correct.
 //! In a [`Window`] around the change point, the equations of the pose are not solved.
@@ -31,7 +31,8 @@ const LOOK: f64 = 1.0;
 const NEXT: f64 = 1.3;
 /// Two change points closer together than this (rad) count as one change point, at which several groups are singular.
 const SAME: f64 = 1e-6;
-/// Largest number of windows kept; the nearest windows are kept. A discarded window is found again when it is needed.
+/// Largest number of windows kept; the nearest windows are kept. If a discarded window is needed again, its change
+/// point is searched for again.
 const MOST_WINDOWS: usize = 8;
 /// Largest number of remembered intervals without a change point. A motion of many small steps produces this many
 /// intervals.
@@ -77,7 +78,7 @@ impl Passing {
     }
 
     /// Places the mechanism with its driving link at the angle `to`.
-    /// The last pose, at the angle `from`, must be at most one step away.
+    /// The last pose, at the angle `from`, must be at most one step away from `to`.
     /// In a window the pose comes from the window, and the plan is not used.
     pub(super) fn place(
         &mut self,
@@ -89,7 +90,7 @@ impl Passing {
             return Ok(());
         }
         let mut from = from;
-        // If the step leaves windows or passes over them, continue on the branch of the nodes on the far side.
+        // If the step leaves or passes over a window, continue on the branch of the window's nodes on the side of `to`.
         while let Some(index) = self.left([from, to]) {
             let window = &self.windows[index];
             let [end, before] = window.ends(to);
@@ -157,7 +158,8 @@ impl Passing {
         let found: Vec<(GroupId, f64)> =
             plan.steps().ids().zip(plan.clearances(&self.motions)).filter_map(near).collect();
         self.last = (angle, plan.steps().ids().map(|group| plan.determinant(group)).collect());
-        // Forget the oldest intervals. If a forgotten interval is needed again, it is searched again.
+        // Forget the oldest intervals. If a forgotten interval is needed again, the search for change points in it is
+        // repeated.
         let old = self.clear.len().saturating_sub(MOST_CLEAR);
         self.clear.drain(..old);
         for (group, ahead) in found {

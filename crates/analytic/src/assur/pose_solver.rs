@@ -21,7 +21,7 @@ use linkage::work;
 
 /// A link that starts at its dead centre shows its sense of rotation after the crank has turned by this angle (rad).
 const NUDGE: f64 = 1e-7;
-/// Largest number of times a failing step is halved. The last step is a millionth of the first.
+/// Largest number of times a failing step is halved. The shortest step is a millionth of the undivided step.
 pub(super) const HALVINGS: u32 = 20;
 /// Explanation of a singular pose.
 const MEET: &str = sentences::THERE_THE_LINKS_OF_THE_GROUP;
@@ -56,7 +56,7 @@ pub struct PoseSolver<'a> {
     by_time: bool,
     pub(super) gauges: Gauges,
     pub(super) watch: Watch,
-    /// Change points; `None` unless the drive is set to pass them.
+    /// Change points; `None` unless the drive is set to pass change points.
     pub(super) passing: Option<Passing>,
 }
 
@@ -112,7 +112,7 @@ impl<'a> PoseSolver<'a> {
 
     /// Returns the solver for a crank that is known to rotate fully.
     /// If all poses have a closed form, the solver no longer searches for change points.
-    /// Higher groups follow their last pose and are still watched.
+    /// Higher groups are solved from their last pose, so the solver still checks them for change points.
     pub(crate) fn turning_fully(mut self) -> Self {
         if self.plan.is_closed_form() && self.passing.is_none() {
             (self.gauges, self.watch) = (Gauges::none(), Watch::none());
@@ -123,14 +123,14 @@ impl<'a> PoseSolver<'a> {
     /// The state at the crank angle `crank` (rad, as the scenario states it) for the crank's angular velocity `omega`
     /// (rad/s) and acceleration `alpha` (rad/s^2).
     /// The rates of further drives follow from their speed ratios at that crank angle.
-    /// Only stages up to `deepest` are computed. Later stages keep their old values.
-    /// The links' angles also keep their old values: see [`PoseSolver::with_angles`].
+    /// Only stages up to `deepest` are computed. The results of later stages keep the values of earlier calls.
+    /// The links' angles also keep the values of earlier calls: see [`PoseSolver::with_angles`].
     ///
     /// # Errors
-    /// [`ErrorKind::Geometry`] if the crank angle cannot be reached on the branch. The error states the group and the
-    /// angle at which it fails.
+    /// [`ErrorKind::Geometry`] if the crank angle cannot be reached on the branch. The error states the group that
+    /// fails and the crank angle.
     pub fn solve(&mut self, crank: f64, omega: f64, alpha: f64, deepest: Stage) -> Result<&State> {
-        // The solution in one pass needs 1 / omega. It is therefore used only if omega is a normal number.
+        // The solution in one pass needs 1 / omega. One pass is therefore used only if omega is a normal number.
         self.in_one_pass = deepest >= Stage::Accelerations && omega.is_normal();
         (self.omega, self.alpha) = (omega, alpha);
         self.go_to(crank)?;
@@ -162,7 +162,7 @@ impl<'a> PoseSolver<'a> {
     fn solve_passing(&mut self, omega: f64, alpha: f64, deepest: Stage) -> Result<&State> {
         let begun: PerLink<Motion> = self.state.motions.clone();
         self.pass([omega, alpha], deepest, None)?;
-        // Stages that were not requested keep their old values.
+        // The results of stages that are not requested keep the values of earlier calls.
         if deepest < Stage::Accelerations {
             for (motion, before) in self.state.motions.iter_mut().zip(&begun) {
                 (motion.acceleration, motion.alpha) = (before.acceleration, before.alpha);
@@ -321,10 +321,10 @@ impl<'a> PoseSolver<'a> {
         self.solve(input, drive.rate, drive.acceleration, deepest)
     }
 
-    /// The state at time `t` (s), at which the first drive has this input, for a list of configurations.
-    /// At a varying speed, the state has the top speed of the first drive.
+    /// The state for a list of configurations, at the time `t` (s) at which the first drive has this input.
+    /// If the speed of the first drive varies, the state is computed for the top speed of this drive.
     /// Further drives keep their speed ratios to the first drive.
-    /// Drives with separate laws have the rates of these laws.
+    /// Drives with separate laws have the rates of their own laws instead.
     pub(crate) fn solve_place(&mut self, t: f64, input: f64, deepest: Stage) -> Result<&State> {
         let drive = self.case.crank();
         if self.by_time {
@@ -415,8 +415,8 @@ impl<'a> PoseSolver<'a> {
 
     /// The last state with its links' angles (rad).
     /// If turns are [counted](PoseSolver::counting_turns), the angles include whole turns.
-    /// Otherwise only driving links with a given world angle have their present angles. All other links have the angles
-    /// of the start of the case.
+    /// Otherwise only driving links with a given world angle have their present angles. All other links have their
+    /// angles in the start pose.
     pub fn with_angles(&mut self) -> &State {
         if let Some(turns) = &self.turns {
             // Skip the frame, which does not turn, and a crank, whose angle is given as an input.

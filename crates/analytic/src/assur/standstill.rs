@@ -26,8 +26,8 @@ pub fn rows_at_rest(case: &Case) -> Result<Vec<Vec<usize>>> {
 }
 
 /// Smallest and largest moment (N m) or force (N) of the first drive at the instant `row` of the grid.
-/// The range covers all combinations of both senses of the friction in the joints at rest, and the state without
-/// friction in these joints.
+/// The friction in each joint at rest may act in either sense: the range covers all combinations of senses, and the
+/// state without friction in the joints at rest.
 /// `None` if every joint with friction is in motion.
 ///
 /// # Errors

@@ -109,10 +109,10 @@ impl<'a> TransferSide<'a> {
     }
 
     /// Refuses a step over a change point, where a clearance falls to zero and rises again.
-    /// For such a step, extrapolation from the end of the step, with the slope at the end, gives a negative clearance
-    /// at the beginning.
+    /// In a step over a change point, extrapolation from the end of the step, with the slope at the end, gives a
+    /// negative clearance at the beginning.
     /// A step in which the clearance only comes near zero is refused too.
-    /// Smaller steps past the same pose are no longer refused.
+    /// If the refused step is divided, its parts pass the pose of smallest clearance without being refused.
     fn keep_clear(&mut self) -> std::result::Result<(), OutOfReach> {
         for ((step, target), at) in self.unit.iter_mut().zip(&self.target).zip(&self.at) {
             *step = target - at;

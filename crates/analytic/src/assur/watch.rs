@@ -14,20 +14,21 @@ use linkage::mechanism::{PerGroup, PerLink};
 
 /// If the clearance of a dyad is below this value, a change point may lie within a step.
 /// While the clearance goes from 0.8 to 0 and back, the links of the dyad turn by 106 deg relative to each other.
-/// If they turn [`FAST`] times as fast as the crank, the crank turns by 7 deg meanwhile.
-/// This rotation of the crank is larger than a step for dyads behind a higher group, but smaller than a step of 15 deg
-/// for dyads alone.
+/// If this relative rotation is [`FAST`] times as fast as the crank's rotation, the crank turns by 7 deg meanwhile.
+/// These 7 deg are more than one step for dyads behind a higher group (2 deg), but less than one step for dyads alone
+/// (15 deg).
 const NARROW: f64 = 0.8;
-/// If a clearance exceeds this multiple of its expected change over the rest of the step, it is assumed to stay above
-/// zero.
+/// A clearance is assumed to stay above zero if it exceeds this multiple of its expected change over the rest of the
+/// step.
 /// Near a change point the sine is linear in the crank angle.
 /// The change of the sine over the next step then equals that over the last step, and a factor of 1 would suffice.
 /// Near a dead point the sine is proportional to the root of the distance.
 /// The change of the sine over the next step is then up to (1 + root 2) times that over the last step.
-/// The rest of the factor is a reserve, not a proof.
+/// The difference between the factor `CLEAR` and 1 + root 2 is a reserve, not a proof.
 pub(super) const CLEAR: f64 = 4.0;
 /// Largest expected rotation of a dyad's links relative to each other, divided by the rotation of the crank.
-/// The value is an assumption. It is valid if every carrying link is slower than 16 times the crank.
+/// The value is an assumption. The assumption is valid if every link that carries a dyad turns at less than 16 times
+/// the speed of the crank.
 const FAST: f64 = 16.0;
 
 /// Placeholder for a group without a clearance.
@@ -108,7 +109,8 @@ impl Watch {
         self.is_needed
     }
 
-    /// Computes the clearances from velocities that belong to this angular velocity of the crank.
+    /// Computes the clearances from the present velocities, which were computed for the given angular velocity of the
+    /// crank.
     /// Returns whether a group may have passed a change point.
     #[inline]
     pub(super) fn see(&mut self, plan: &SolutionPlan, motions: &[Motion], omega: f64, sense: f64) -> bool {

@@ -1,8 +1,8 @@
 //! Whole turns of the crank during a motion to a distant crank angle.
 //!
 //! With one drive, a pose is a function of the crank angle and the branch.
-//! If every link is back at its old pose after one whole turn in small steps, the next turns are the same.
-//! These turns are counted, not followed.
+//! If every link is back at its old pose after one whole turn in small steps, all further turns repeat this turn.
+//! The repeated turns are counted, not followed.
 //! See docs/numerics/change_points.md.
 
 use std::f64::consts::TAU;
@@ -22,7 +22,7 @@ impl PoseSolver<'_> {
     /// Follows one whole turn towards the crank angle `target` and skips the following turns if they are equal to it.
     /// At most a few turns then remain.
     /// No turns are skipped if the mechanism is not back at its old pose after one turn.
-    /// No turns are skipped if further drives or change points make turns differ.
+    /// No turns are skipped if further drives or change points make the turns differ from each other.
     pub(super) fn skip_turns(&mut self, target: f64) -> Result<()> {
         let Some((whole, _)) = self.case.crank().input.period() else { return Ok(()) };
         let turns = ((target - self.crank).abs() / whole).floor() - 1.0;

@@ -25,7 +25,8 @@ const FARTHEST: f64 = std::f64::consts::PI;
 /// A bound of a piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Bound {
-    /// The link, point or joint that determines the sense of the load or transmission with this number reverses.
+    /// A reversal of the link, point or joint whose sense of motion the load or transmission with this number depends
+    /// on.
     Sense(usize),
     /// The motor leaves its branch towards higher speeds.
     TooFast,
@@ -73,7 +74,7 @@ fn sensed(case: &Case, senses: Senses) -> Senses {
     }
 }
 
-/// A motion in pieces. Its equations are of first order in the free driving links' angles and speeds.
+/// A motion in pieces. The equations of motion are of first order in the free driving links' angles and speeds.
 pub(super) struct Pieces<'a, const N: usize> {
     case: &'a Case,
     work: RefCell<Work<'a>>,
@@ -135,7 +136,7 @@ impl Work<'_> {
         }
     }
 
-    /// Stores the sense of the present motion of a link, joint or point.
+    /// Stores the sense in which a link, joint or point moves at present.
     fn take_sense(&mut self, own: Sensed) -> Result<()> {
         let rate = self.rate(own)?;
         match own.1 {
@@ -201,7 +202,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
         work.side.accelerate(&mut work.inputs, &work.held)
     }
 
-    /// The whole state.
+    /// Fills in the whole state at time `t`.
     pub(super) fn fill(&self, t: f64, y: &[f64; N], state: &mut State) -> Result<()> {
         let work = &mut *self.work.borrow_mut();
         self.accelerate(work, t, y)?;
@@ -240,7 +241,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
     }
 
     /// Chooses senses and branch at the beginning of the motion.
-    /// A crank at rest starts on the motor's branch of driving.
+    /// A crank at rest starts on the branch on which the motor drives.
     /// If other forces then accelerate the crank backwards, the branch on which power flows to the motor is chosen
     /// instead.
     fn begin(&self, work: &mut Work, place: &Place<N>) -> Result<()> {
@@ -297,7 +298,8 @@ impl<'a, const N: usize> Pieces<'a, N> {
     }
 
     /// The entries of `sensed` that stand still at the end of a piece.
-    /// These are the entry of the bound, and every further entry that stops at the same instant.
+    /// The result contains the entry of the bound, and every further entry that stops at the same instant as this
+    /// entry.
     /// A point that has only changed its direction is not at rest.
     fn stopped(&self, work: &mut Work, place: &Place<N>, bound: usize) -> Result<Vec<Sensed>> {
         self.put(&mut work.inputs, place.x, &place.y);
@@ -402,7 +404,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
     /// With several degrees of freedom, a force changes the direction of its point's acceleration.
     /// The acceleration is linear in the force: a(u) = a0 + B u with the direction u.
     /// The solution satisfies a(u) = s u with s > 0, so that |(s - B)^-1 a0| = 1.
-    /// The left side falls as s grows. If it is below 1 at s = 0, the force holds the point at rest.
+    /// The left side falls as s grows. If the left side is below 1 at s = 0, the force holds the point at rest.
     fn settle(&self, work: &mut Work, place: &Place<N>, stood: &[Sensed]) -> Result<()> {
         for _ in 0..ROUNDS {
             let mut moved = 0.0f64;

@@ -3,7 +3,7 @@
 //! The shared integrator integrates these accelerations in time.
 //!
 //! The independent coordinates are the angles of the driving links (coordinate partitioning: Wehage and Haug 1982).
-//! Resistances and the losses of a reducer jump if a motion changes its sense.
+//! Resistances and the losses of a reducer jump when the motion on which they depend changes its sense.
 //! Each sense is constant within one piece of the motion. Pieces end exactly at the instant at which a sense changes.
 
 use super::flow::{self, Pieces};

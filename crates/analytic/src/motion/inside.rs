@@ -6,7 +6,8 @@
 //! The first term is a cubic H through the values and rates at both ends. The second term is s^2 (1 - s)^2 times a
 //! cubic C.
 //! The library exchanges s and 1 - s in C. The library's value at s therefore contains C at 1 - s, and has order 4.
-//! The factor of C is the same at s and 1 - s. The true value is therefore H(s) + (library(1 - s) - H(1 - s)).
+//! The factor s^2 (1 - s)^2 has equal values at s and 1 - s. The true value is therefore H(s) + (library(1 - s) - H(1 -
+//! s)).
 //! A test below checks the order. The test will fail if the library corrects this error.
 //! See docs/numerics/forces.md.
 

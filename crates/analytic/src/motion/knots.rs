@@ -5,9 +5,9 @@
 use linkage::case::Case;
 use linkage::math::KeepNan;
 
-/// A piece ends beyond a knot. The distance from the knot is this fraction of the knot's absolute crank angle plus 1
-/// rad.
-/// The distance lets a motion that reverses exactly on the knot leave the knot.
+/// A piece ends beyond a knot. The distance from the knot is this fraction of the sum of 1 rad and the magnitude of the
+/// knot's crank angle.
+/// Because of this distance, a motion that reverses exactly on a knot can leave the knot.
 /// Over this distance, loads keep the values at the knot, so that they do not jump within a piece.
 const BEYOND: f64 = 1e-12;
 

@@ -44,18 +44,19 @@ pub(crate) const NARROWER: f64 = 0.8;
 pub(crate) const MOST_EMPTY: usize = 8;
 /// Largest number of steps of one piece. A hundred turns of a mechanism take about ten thousand steps.
 const MOST_STEPS: usize = 3_000_000;
-/// Each time this number of steps is completed, the total number of steps is predicted. If the total exceeds
+/// Each time this number of steps is completed, the total number of steps is predicted. If the predicted total exceeds
 /// `MOST_STEPS`, the march ends.
-/// This happens if a motor is much too strong for the machine: the motor's decay, not the motion, then limits the
-/// length of the steps.
+/// Too many steps are needed if a motor is much too strong for the machine: the motor's time constant, not the motion,
+/// then limits the length of the steps.
 const PREDICTED: usize = 50_000;
-/// A step is short if its length is at most this fraction of the integration interval or of the step's position,
-/// whichever is larger.
+/// A step is short if its length is at most this fraction of the larger of two values: the length of the integration
+/// interval, and the independent variable at the step's beginning.
 /// A long sequence of short steps ends the march.
 /// Short steps would never pass a singular pose: near it, accelerations are rounding errors or cannot be computed.
 const SHORTEST: f64 = 1e-9;
 const MOST_SHORT: usize = 400;
-/// A step may be longer than planned by this factor if it then reaches the last target. The factor avoids a tiny last
+/// A step may be longer than planned by this factor if the longer step reaches the last target. The factor avoids a
+/// tiny last
 /// step.
 const STRETCH: f64 = 1.001;
 /// Number of bisections of a step for a first estimate of the position of a bound.
@@ -216,8 +217,8 @@ fn end_on_bound<const N: usize, F: Flow<N>>(
     Ok(Stop::Bound(passed.0))
 }
 
-/// Position in the last step, before `beyond`, at which the state passes a bound. This position is as accurate as the
-/// interpolation.
+/// Position in the last step, before `beyond`, at which the state passes a bound. The position is as accurate as the
+/// library's interpolation.
 fn crossing<const N: usize, F: Flow<N>>(
     flow: &F,
     course: &Course<N>,

@@ -21,7 +21,7 @@ pub(crate) struct Inputs {
     pub(crate) accelerations: Vec<f64>,
 }
 
-/// The actions besides gravity. Their form is constant during one piece of the motion.
+/// The data of motor, loads and losses that stay constant during a step or during one piece of the motion.
 #[derive(Clone, Debug)]
 pub(crate) struct Held {
     /// Moment of the motor on the crank (N m), counter-clockwise positive.
@@ -40,8 +40,8 @@ pub(crate) struct Held {
 
 impl Held {
     /// Direction of motion against which a load acts on a point with this velocity (m/s).
-    /// The direction turns with the velocity. If the point reverses, the direction continues as if the point had not
-    /// reversed.
+    /// The direction turns with the velocity. If the point reverses within a step, the direction does not reverse with
+    /// it.
     fn way(&self, load: usize, velocity: Vec2) -> Vec2 {
         let held = self.ways[load];
         let now = sense_of(velocity);

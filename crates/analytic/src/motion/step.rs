@@ -44,7 +44,7 @@ pub(crate) fn one_step<const N: usize, F: Flow<N>>(flow: &F, x: f64, y: &[f64; N
 pub(super) fn a_step<const N: usize, F: Flow<N>>(flow: &F, x: f64, y: &[f64; N], h: f64) -> Result<Method<N>> {
     flow.begin(x, y);
     let mut method: Method<N> = ExplicitRungeKutta::dop853().rtol(1e6).atol(1e6).h0(h);
-    // The interval is longer than the step. Otherwise rounding would shorten the step.
+    // The interval is longer than the step, so that rounding of the interval's end does not shorten the step.
     let begun = method.init(flow, x, x + 2.0 * h, y);
     checked(flow, begun, x)?;
     let taken = method.step(flow);
@@ -55,8 +55,8 @@ pub(super) fn a_step<const N: usize, F: Flow<N>>(flow: &F, x: f64, y: &[f64; N],
     Ok(method)
 }
 
-/// Reports an error of the flow in preference to an error of the library. An error in a repeated trial step does not
-/// count.
+/// Reports an error of the equation of motion in preference to an error of the library. An error in a trial step that
+/// was then repeated does not count.
 pub(super) fn checked<const N: usize, F: Flow<N>, T, E: std::fmt::Debug>(
     flow: &F,
     answer: std::result::Result<T, E>,

@@ -7,7 +7,7 @@
 //! Elimination over all rows together would carry the rounding error of the group's large accelerations into the
 //! accelerations of the crank's pin.
 //! Every block also has its own determinant.
-//! The determinant of the whole matrix would keep its sign if the determinants of two blocks change their signs.
+//! The determinant of the whole matrix does not show a change of sign in two blocks at the same time.
 
 use linkage::case::Case;
 use linkage::math::KeepNan;
@@ -110,7 +110,8 @@ impl Blocks {
         self.blocks.iter_mut().all(|block| block.matrix.factor())
     }
 
-    /// Smallest ratio of a block's determinant to the largest determinant possible with columns of the same lengths.
+    /// Smallest ratio of a block's determinant to the largest possible determinant, that of orthogonal columns with the
+    /// lengths of the block's columns.
     /// Columns are compared because all entries of a column have the same unit, unlike those of a row.
     pub(super) fn smallest_share(&self) -> f64 {
         self.shares().map(f64::abs).fold(f64::INFINITY, f64::smaller)

@@ -1,6 +1,7 @@
 //! Friction in the complete system: M q'' = Q + J^T lambda + F(lambda).
 //!
-//! The friction of a joint is a function of its multipliers. In a revolute joint it is mu r |lambda|.
+//! The friction of a joint is a function of its multipliers. In a revolute joint, the moment of friction is mu r
+//! |lambda|.
 //! The multipliers of a prismatic joint are its normal force and its moment; the friction is mu times the larger of
 //! |lambda_1| and 2 |lambda_2| / l.
 //! Newton's method solves for all multipliers together and, in a free motion, for the accelerations of the free drives.
@@ -131,7 +132,7 @@ impl System<'_> {
                     }
                 };
                 let own: Vec<f64> = rows.clone().map(|row| self.lambda[row] + self.beside[row]).collect();
-                // The lever is positive against the sense of the sliding.
+                // A positive lever acts against the sense of the sliding.
                 let (normal, slopes) = of_multipliers(&friction, &own, joint.slides(), -lever);
                 let place = self.centre(joint.second.link) + self.arm(joint.second.link, joint.second.local);
                 for (link, sign) in ends {

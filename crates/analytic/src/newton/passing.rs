@@ -1,11 +1,11 @@
-//! Side 2 through change points: the determinant of a block passes through zero, but the mechanism moves on.
-//! Side 2 then follows the branch with continuous velocities.
+//! Side 2 through change points, where the determinant of a block passes through zero but the mechanism moves on.
+//! At a change point, side 2 follows the branch with continuous velocities.
 //!
 //! The path is followed as a function of the crank angle, with the first and second derivatives of all coordinates by
 //! this angle.
 //! In a [`Window`] around a change point, no system of equations is solved.
-//! Instead, an osculating polynomial through poses on both sides gives the coordinates. Its derivatives give velocities
-//! and accelerations.
+//! Instead, an osculating polynomial through poses on both sides gives the coordinates. The polynomial's derivatives
+//! give velocities and accelerations.
 //! See docs/numerics/change_points.md.
 
 mod multipliers;
@@ -135,7 +135,8 @@ impl Passing {
         if turned == 0.0 {
             return Ok(());
         }
-        // Forget the oldest intervals. If a forgotten interval is needed again, it is searched again.
+        // Forget the oldest intervals. If a forgotten interval is needed again, the search for change points in it is
+        // repeated.
         let old = self.clear.len().saturating_sub(MOST_CLEAR);
         self.clear.drain(..old);
         for block in 0..self.spot.shares.len() {

@@ -23,7 +23,7 @@ pub(super) const HALVINGS: u32 = 40;
 /// If a step changes to another branch where two branches cross, the velocity jumps, even if the step is very small.
 const VELOCITY_JUMP: f64 = 0.1;
 /// A pose is singular if the ratio of a block's determinant to the largest possible determinant is below this value.
-/// The largest possible determinant is that of columns of the same lengths.
+/// The largest possible determinant is the determinant of orthogonal columns with the lengths of the block's columns.
 /// For a dyad the ratio is about a tenth of the sine of its transmission angle.
 /// The error of angles is about the rounding error divided by this sine. Below the limit the sine itself is mostly
 /// rounding error.
@@ -137,8 +137,8 @@ impl System<'_> {
                 self.q[i] -= step;
                 change = change.larger(step.abs() / if i % 3 == 2 { 1.0 } else { size });
             }
-            // Convergence is quadratic: after a change below 1e-9, the next change is rounding error. One more step
-            // makes sure of this.
+            // Convergence is quadratic: after a change below 1e-9, the next change is rounding error. The method takes
+            // one more step to be sure.
             if change < 1e-14 || last.larger(change) < self.settled {
                 return Ok(());
             }
@@ -228,7 +228,8 @@ impl System<'_> {
         Ok(())
     }
 
-    /// Refuses a pose on another branch. Such a pose lies beyond a singular pose, or far from the prediction.
+    /// Refuses a pose on another branch. A pose on another branch lies beyond a singular pose, or far from the
+    /// prediction.
     pub(super) fn check_branch(&self, dt: f64) -> Result<()> {
         self.check_signs()?;
         // Positions are checked too: if axes become parallel, a slider moves to infinity and returns from the opposite

@@ -26,7 +26,8 @@ pub(super) struct System<'a> {
     /// Multipliers of the joints, transmissions and drives, in this order. The multipliers of the joints are in the
     /// order of [`Mechanism::rows`](linkage::mechanism::Mechanism::rows).
     pub(super) lambda: Vec<f64>,
-    /// Changes of the multipliers because the forces of some transmissions act along their second lines of action.
+    /// Changes of the multipliers that arise because the forces of some transmissions act along their second lines of
+    /// action.
     pub(super) beside: Vec<f64>,
     /// For every joint: see [`twist`].
     pub(super) twists: Vec<f64>,
@@ -174,8 +175,9 @@ fn by_law(drive: &Drive, t: f64) -> InputState {
     InputState { value: drive.coordinate(state.value), ..state }
 }
 
-/// Angle of a joint's second link minus that of its first link (rad), if the axes of a prismatic joint are parallel.
-/// This angle includes the whole turns of the start pose. For a revolute joint it is 0 and unused.
+/// For a prismatic joint: angle of the second link minus angle of the first link (rad) that makes the joint's axes on
+/// both links parallel.
+/// This angle includes the whole turns of the start pose. For a revolute joint the function returns 0, which is unused.
 fn twist(case: &Case, joint: &Joint) -> f64 {
     let Some(axes) = joint.kind.axes() else { return 0.0 };
     let [first, second] = axes.map(|axis| axis.y.atan2(axis.x));

@@ -1,9 +1,11 @@
-//! The equations of a transmission: the feet on both members have the same speed along the first line of action.
+//! The equations of a transmission. Each member has a foot, a point on the first line of action; both feet have the
+//! same speed along this line.
 //!
 //! C' = w . (v2 - v1) with the line's direction w at the feet.
 //! The residual is c2 (q2 - f(q1)), minus its value in the start pose, plus the gaps of axles and guide along the line.
-//! The gaps are zero in the solution. Because of them, the row C' is the derivative of the residual.
-//! For cams, the feet move in the carrier with the velocity q1' p, and the line turns in it with the rate k q1'.
+//! The gaps are zero in the solution. They are included so that the row C' is the exact derivative of the residual.
+//! For cams, the feet move relative to the carrier with the velocity q1' p, and the line turns relative to the carrier
+//! with the rate k q1'.
 //! With the angular velocities omega_i of the members and omega_0 of the carrier, and the velocity v of the point of
 //! contact,
 //! ```text
@@ -11,7 +13,7 @@
 //! ```
 //!
 //! The multiplier of the row is the force in the first line of action.
-//! If it is negative, the second line carries the force, and the reactions change accordingly.
+//! If the multiplier is negative, the second line of action carries the force, and the reactions change accordingly.
 
 use super::system::System;
 use linkage::math::{Vec2, cross, turned};

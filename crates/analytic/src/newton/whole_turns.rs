@@ -1,8 +1,8 @@
 //! Whole turns of the crank during a motion to a distant instant.
 //!
 //! With one drive, a pose is a function of the crank angle and the branch.
-//! If every link is back at its old pose after one whole turn in small steps, the next turns are the same.
-//! These turns are not followed one by one.
+//! If every link is back at its old pose after one whole turn in small steps, all further turns repeat this turn.
+//! The repeated turns are not followed one by one.
 //! See docs/numerics/change_points.md.
 
 use std::f64::consts::TAU;

@@ -1,5 +1,5 @@
-//! Constraint equations of a mechanism without its first drive. There is one equation fewer than coordinates, so that
-//! the solutions are curves.
+//! Constraint equations of a mechanism without its first drive. The number of equations is the number of coordinates
+//! minus one, so that the solutions are curves.
 //! The coordinate of a driven joint between moving links is an additional coordinate.
 //! Every driven or geared slide is also an additional coordinate.
 //!
@@ -43,14 +43,14 @@ impl Gearing {
     }
 }
 
-/// A joint whose coordinate is an additional coordinate of the equations. It is not the joint of a crank.
+/// A joint whose coordinate is an additional coordinate of the equations. A joint of a crank is never a `Given`.
 pub(super) struct Given(pub(super) JointId);
 
 /// The equations of a mechanism.
 pub(super) struct Constraints<'a> {
     mechanism: &'a Mechanism,
-    /// World position of the coordinates' origin (m). It lies near the mechanism, so that no digits are lost far from
-    /// the world's origin.
+    /// World position of the coordinates' origin (m). The coordinates' origin lies near the mechanism, so that no
+    /// digits are lost if the mechanism is far from the world's origin.
     origin: Vec2,
     /// Length by which all lengths are divided (m).
     size: f64,

@@ -95,7 +95,7 @@ pub(super) fn least(tracker: &Tracker, points: &[Point], closed: bool, f: &dyn F
     refined(tracker, points, closed, place, f)
 }
 
-/// The local minimum of `f` next to the pose at `place`.
+/// The local minimum of `f` next to the pose with the index `place`.
 fn refined(tracker: &Tracker, points: &[Point], closed: bool, place: usize, f: &dyn Fn(&Point) -> f64) -> Point {
     let slope = |point: &Point| {
         let step = (0.01 * point.sigma).smaller(1e-4);

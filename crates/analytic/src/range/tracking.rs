@@ -25,16 +25,17 @@ use linkage::math::{ColumnVector, KeepNan, Matrix, unit};
 use linkage::mechanism::{GroupId, LinkId};
 use linkage::work;
 
-/// Longest step. If only the crank turns, it is two degrees.
+/// Longest step along the curve. If only the crank turns, the longest step is two degrees.
 const LONGEST: f64 = std::f64::consts::PI / 90.0;
 /// Largest number of inverse iterations for the smallest singular value, and the relative change that ends them.
 const MOST_ITERATIONS: usize = 60;
 const SETTLED: f64 = 1e-3;
 /// Largest ratio of a step to the smallest singular value.
 /// In units of the mechanism's size, the derivatives of the equations are at most of order one.
-/// Another branch is therefore farther away than such a step.
+/// Another branch is therefore farther away than a step with this ratio.
 const SAFE: f64 = 0.5;
-/// Smallest accepted cosine of the angle between the tangents of neighbouring poses. It allows an angle of 0.25 rad.
+/// Smallest accepted cosine of the angle between the tangents of neighbouring poses. This cosine allows an angle of
+/// 0.25 rad.
 const STRAIGHT: f64 = 0.969;
 /// Two branches count as meeting if their distance is below this value (in units of the mechanism's size and rad).
 /// Lengths rounded to 16 digits separate crossing branches by the square root of the rounding error, 1e-8.
@@ -49,9 +50,10 @@ const MOST_POINTS: usize = 200_000;
 /// coordinates.
 /// The work is in the unit of work budgets.
 const SQUARE: f64 = 1e-3;
-/// If the crank has turned this number of turns, the search for a return to the first pose ends.
+/// The search for a return to the first pose ends after this number of turns of the crank.
 const MOST_TURNS: i32 = 12;
-/// The same limit for a mechanism with transmissions. Its wheels may return to the first pose only after many turns.
+/// The limit of turns for a mechanism with transmissions, whose wheels may return to the first pose only after many
+/// turns.
 const MOST_GEARED_TURNS: i32 = 100;
 
 /// A pose on the curve.
@@ -87,11 +89,12 @@ const FAR: f64 = 50.0;
 /// Beyond this distance from the crank's pivot, in units of the mechanism's size, steps grow in proportion to the
 /// distance.
 const NEAR: f64 = 2.0;
-/// The pose with links at infinity is extrapolated from poses with distant links. It is accurate enough if it changes
-/// by less than this (rad) when the pose with the most distant links is left out.
+/// The pose with links at infinity is extrapolated from poses with distant links. The extrapolated pose is accurate
+/// enough if it changes by less than this (rad) when the pose with the most distant links is left out.
 /// Poses with still more distant links are then not needed.
 const AGREED: f64 = 1e-9;
-/// Growth factor of the extent between two extrapolations to links at infinity.
+/// Between two extrapolations to links at infinity, the distance of the farthest link from the crank's pivot grows by
+/// this factor.
 const FARTHER: f64 = 1.2;
 /// Largest number of poses from which a singular pose is extrapolated.
 const MOST_KNOWN: usize = 9;
@@ -106,7 +109,8 @@ pub(super) struct Tracker<'a> {
     unit: f64,
     /// Signs that make every group's determinant positive at the start.
     signs: Vec<f64>,
-    /// Direction of the smallest singular value at the last pose. The search at the next pose starts from it.
+    /// Direction of the smallest singular value at the last pose. The inverse iteration at the next pose starts from
+    /// this direction.
     weakest: RefCell<ColumnVector>,
     /// The error that reports that the allowed work is used up. After this error, no further pose is placed.
     over: OnceCell<Error>,
@@ -370,7 +374,8 @@ impl<'a> Tracker<'a> {
     /// The smallest singular value is small if links are far away, even without a branch nearby, because the axes that
     /// guide these links are almost parallel.
     /// The singular value is therefore multiplied by the extent.
-    /// This factor is not valid for groups without a far link. For these groups, the determinants bound the distance.
+    /// The factor is not valid for groups without a far link. For groups without a far link, the determinants bound the
+    /// distance to another branch.
     fn clearance(&self, here: &Point) -> f64 {
         let extent = self.extent(&here.q);
         let all = here.sigma * extent;
@@ -414,7 +419,7 @@ impl<'a> Tracker<'a> {
         let moved = (&q - &last.q).norm();
         let q = if moved < 1e-3 { q } else { last.q.clone() };
         // If the crank stands still on the curve, the pose is a dead point, of one group or of several groups at once.
-        // Otherwise the pose is a change point.
+        // If the crank moves on along the curve, the pose is a change point.
         let kind =
             if self.crank_rate(last).abs() < 1e-3 { SingularityKind::DeadPoint } else { SingularityKind::ChangePoint };
         let mut end = Point { q, ..last.clone() };
@@ -424,7 +429,8 @@ impl<'a> Tracker<'a> {
         Ok(Track { points, end: End::Limit(singularity) })
     }
 
-    /// Whether the pose with links at infinity is known to rounding accuracy. No singular pose then lies before it.
+    /// Whether the pose with links at infinity is known to rounding accuracy. If so, no singular pose lies before the
+    /// pose with links at infinity.
     /// The test covers the angles of all links, and the determinants, which must keep their signs.
     fn is_settled(&self, points: &[Point]) -> bool {
         let last = &points[points.len() - 1];
@@ -488,7 +494,7 @@ impl<'a> Tracker<'a> {
     }
 }
 
-/// The last regular poses, with the determinant of a group.
+/// The last regular poses, each with the determinant of the group `group`.
 /// The determinant nearest to zero comes first. Each following determinant is more than 1.5 times the preceding one.
 fn by_determinant(points: &[Point], group: GroupId) -> Vec<(f64, &Point)> {
     let mut known: Vec<(f64, &Point)> = Vec::new();

@@ -22,7 +22,7 @@ use linkage::work::{Count, WorkTally};
 /// The first trial of a step may exceed this distance; the trial is then refused.
 const FARTHEST: f64 = std::f64::consts::TAU;
 
-/// The evaluation of the forces, which both forms share.
+/// The evaluation of the forces, which both forms of the equation of motion share.
 pub(crate) struct Forces<'m, 'a> {
     pub(crate) model: &'m ReducedModel<'a>,
     poses: RefCell<PoseSolver<'a>>,
@@ -61,7 +61,7 @@ impl<'m, 'a> Forces<'m, 'a> {
     }
 
     /// Reduced quantities on the present piece, including the inertia that turns with the crank.
-    /// All quantities are NaN if the crank angle is too far away; the step is then repeated.
+    /// All quantities are NaN if the crank angle is too far from the beginning of the step; the step is then repeated.
     /// After an error, all quantities are NaN too, and the error is stored.
     pub(crate) fn reduced(&self, crank: f64) -> Reduced {
         if !((crank - self.origin.get()).abs() <= FARTHEST) {

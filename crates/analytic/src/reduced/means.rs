@@ -44,12 +44,13 @@ pub fn moment_of_resistance(case: &Case, state: &State) -> f64 {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Kinks {
     /// Crank angle (rad) after which the mechanism is back at its first pose, under the same loads.
-    /// This angle is one turn, or several turns with higher groups and with tables that cover several turns.
+    /// The period is one turn, or several turns if there are higher groups or tables that cover several turns.
     /// `None` if the crank cannot turn fully.
     pub period: Option<f64>,
     /// Crank angles (rad) of the kinks. At a kink, a loaded link reverses and its load changes sense, or a load table
     /// has a breakpoint.
-    /// The angles are ascending. They cover one period that begins at the start, or all angles that can be reached.
+    /// The angles are ascending. The angles cover one period that begins at the start, or all crank angles that can be
+    /// reached.
     pub cranks: Vec<f64>,
     /// Limits of the crank angles that can be reached (rad); `None` if there are no limits.
     pub limits: Option<[f64; 2]>,
@@ -121,7 +122,8 @@ pub fn kinks(case: &Case) -> Result<Kinks> {
     let start = case.crank().start;
     let within = |crank: f64, period: f64| {
         let inside = (crank - start).rem_euclid(period);
-        // Rounding may place a kink slightly before the start. This kink is then set to the start.
+        // Rounding may place a kink slightly before the start. A kink that rounding places before the start is set to
+        // the start.
         start + if period - inside < 1e-12 { 0.0 } else { inside }
     };
     let Reach { turns, limits, meets, reversals: mut cranks } = match FullTurn::of(case, &sensed) {

@@ -20,8 +20,8 @@ pub struct Reduced {
     /// Reduced moment of inertia I* (kg m^2), without motor, reducer and flywheel.
     pub inertia: f64,
     /// Derivative dI*/dphi of the reduced moment of inertia (kg m^2).
-    /// It is twice the sum of m v . a + J omega alpha for a crank with the speed 1 rad/s and the acceleration 0
-    /// rad/s^2.
+    /// The derivative is twice the sum of m v . a + J omega alpha for a crank with the speed 1 rad/s and the
+    /// acceleration 0 rad/s^2.
     pub slope: f64,
     /// Moment of gravity and loads reduced to the crank (N m), counter-clockwise positive.
     pub applied: f64,
@@ -68,7 +68,7 @@ pub struct ReducedModel<'a> {
     /// If the motion has limits, the limits are included.
     boundaries: Vec<f64>,
     /// Sense of the transfer function of each link in `sensed`, on each piece of one period: +1 or -1.
-    /// The values of the first piece come first, then those of the next piece.
+    /// The values are ordered by piece: all links on the first piece, then all links on each following piece.
     senses: Vec<f64>,
     pub(crate) motor: Option<Motor>,
     /// Sense in which the motor drives the crank: the sense of the prescribed speed in the scenario.
@@ -125,7 +125,8 @@ impl<'a> ReducedModel<'a> {
         if self.kinks.period.is_some() { poses.turning_fully() } else { poses }
     }
 
-    /// The same model with a flywheel on the crank's shaft. `inertia` is its moment of inertia (kg m^2).
+    /// This model with an additional flywheel on the crank's shaft. `inertia` is the flywheel's moment of inertia (kg
+    /// m^2).
     /// A negative value removes inertia; the total must stay positive.
     #[must_use]
     pub fn with_flywheel(&self, inertia: f64) -> Self {
@@ -184,7 +185,8 @@ impl<'a> ReducedModel<'a> {
         Piece { index, ends: [self.boundary(index), self.boundary(index + 1)] }
     }
 
-    /// The piece at `crank`. At a boundary, it is the piece in the direction `way` (+1 or -1). `None` beyond a limit.
+    /// The piece at `crank`. At a boundary, the result is the piece on the side of `way` (+1 or -1). `None` beyond a
+    /// limit.
     pub(crate) fn piece_at(&self, crank: f64, way: f64) -> Option<Piece> {
         let all = &self.boundaries;
         let (turns, inside) = match self.kinks.period {
@@ -196,7 +198,7 @@ impl<'a> ReducedModel<'a> {
         };
         let below = all.iter().filter(|&&boundary| boundary <= inside).count() as i64 - 1;
         let count = all.len() as i64;
-        // Check the neighbouring pieces too: rounding may have selected one of them.
+        // Check the neighbouring pieces too, because rounding may have selected a neighbour of the right piece.
         let guess = below + turns * count;
         let holds = |piece: &Piece| match way > 0.0 {
             true => crank >= piece.ends[0] && crank < piece.ends[1],

@@ -18,7 +18,7 @@ pub struct CrankState {
     pub t: f64,
     /// Crank angle (rad, as the scenario states it), including whole turns.
     pub crank: f64,
-    /// Crank angle (rad) without the completed periods. It loses no digits after many turns.
+    /// Crank angle (rad) without the completed periods. This angle loses no digits after many turns.
     pub within: f64,
     /// Angular velocity of the crank (rad/s).
     pub omega: f64,
@@ -214,7 +214,7 @@ impl<'m, 'a> Runner<'m, 'a> {
         if let RunUpEnd::Held(t, crank) = end
             && times.get(found.len()) == Some(&t)
         {
-            // The shaft transmits the whole moment of the motor: the forces that hold the crank balance it.
+            // The shaft transmits the whole moment of the motor, which the forces that hold the crank balance.
             let motor = self.flow.0.motor_moment(0.0);
             found.push(CrankState { t, crank, within: crank - self.gone, omega: 0.0, alpha: 0.0, motor, shaft: motor });
         }
@@ -259,14 +259,14 @@ pub struct RunUp {
     pub trajectory: Trajectory,
     /// How the motion ended.
     pub end: RunUpEnd,
-    /// Largest reaction times the mechanism's size (N m). It is the reference for moments if all moments on the crank
-    /// are smaller.
+    /// Largest reaction times the mechanism's size (N m). This product is the reference for moments if it exceeds all
+    /// moments on the crank.
     natural: f64,
 }
 
 impl RunUp {
     /// Motion of the case's mechanism at the given times, with the channels that the case requests.
-    /// Kinetostatics uses the true speed and acceleration.
+    /// Kinetostatics uses the speed and acceleration of this motion.
     ///
     /// # Errors
     /// The errors of [`motion`].
@@ -292,7 +292,8 @@ impl RunUp {
     /// Largest difference between the shaft's moment and the moment from the crank's equilibrium.
     /// The difference is divided by the largest moment or by the largest reaction times the mechanism's size, whichever
     /// is larger.
-    /// The check compares the equation of motion with the reactions, which do not use reduced quantities.
+    /// The difference compares the equation of motion with the reactions, which are computed without reduced
+    /// quantities.
     /// `None` if the balancing moment is not requested.
     #[must_use]
     pub fn power_residual(&self) -> Option<f64> {

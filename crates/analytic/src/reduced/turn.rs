@@ -16,8 +16,8 @@ use linkage::trajectory::Stage;
 /// Number of poses in one turn of the crank. The poses are three degrees apart.
 /// Even two reversals between neighbouring poses are detected, from the slopes.
 const POSES: u32 = 120;
-/// If the crank has turned this number of turns, the search for a return to the first pose ends. The range of motion
-/// has the same limit.
+/// The search for a return to the first pose ends after this number of turns of the crank. The analysis of the range of
+/// motion uses the same limit.
 const MOST_TURNS: u32 = 12;
 /// If the crank turns at 1 rad/s and a link turns more slowly than this (rad/s), the link's angular velocity is
 /// rounding error.
@@ -37,7 +37,7 @@ pub(super) struct FullTurn {
     pub(super) reversals: Vec<f64>,
 }
 
-/// Angular velocity of a link at a crank angle, for a crank with 1 rad/s, and the derivative of this velocity with
+/// Angular velocity of a link at a crank angle if the crank turns at 1 rad/s, and the derivative of this velocity with
 /// respect to the crank angle.
 #[derive(Clone, Copy, Debug)]
 struct Rate {
@@ -82,7 +82,8 @@ impl FullTurn {
     }
 }
 
-/// Adds the crank angles at which a link reverses, between poses of a whole period.
+/// Adds the crank angles at which a link reverses in a whole period, from the link's angular velocities at the poses of
+/// this period.
 fn reversals_of(
     poses: &mut PoseSolver,
     link: LinkId,

@@ -18,10 +18,11 @@ use linkage::math::{Vec2, cross};
 use linkage::mechanism::LinkId;
 use linkage::trajectory::Stage;
 
-/// Number of values stored per link and interval: all starting values of the link except the fraction of the interval.
+/// Number of values stored per link and interval: the starting values of the link (see `OF_START`), except the fraction
+/// of the interval, which depends on the pose.
 const KEPT: usize = OF_START - 1;
-/// Distance between two anchors (rad). It is slightly smaller than a step of [`PoseSolver`], so that rounding cannot
-/// make it larger.
+/// Distance between two anchors (rad). The distance is slightly smaller than the longest step of [`PoseSolver`], so
+/// that rounding does not make it larger than this step.
 const STEP: f64 = FOLLOWED_STEP * (1.0 - 1e-9);
 /// Largest number of intervals in one direction, about three hundred turns. Poses farther away are solved one by one.
 const MOST: usize = 50_000;

@@ -6,8 +6,8 @@ use linkage::drive::Load;
 use linkage::math::Vec2;
 use linkage::mechanism::{JointId, JointSide, LinkId};
 
-/// Action of a joint on one of its links: `sign` times its reaction, at `arm` from the link's pole, in the link's
-/// frame.
+/// Action of a joint on one of its links: `sign` times the joint's reaction, applied at the vector `arm` from the
+/// link's pole, in the link's frame.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Action {
     /// Column of the reaction.

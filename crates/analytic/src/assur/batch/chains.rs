@@ -1,7 +1,7 @@
 //! Constants of higher groups on pins, for several poses at once.
 //!
-//! The motion uses the equations of [`crate::assur::groups::Chain`]. The forces use those of the module
-//! `assur::forces`.
+//! The motion is computed with the equations of [`crate::assur::groups::Chain`], the forces with the equations of the
+//! module `assur::forces`.
 
 mod forces;
 mod motion;
@@ -49,9 +49,10 @@ pub(super) struct Chain {
     nodes: Vec<Node>,
     closings: Vec<Closing>,
     arrows: Vec<Arrow>,
-    /// First columns of the links outside the group, `None` for the ground, and the joints on them.
+    /// For each joint on a link outside the group: the first column of this link (`None` for the ground), and the
+    /// position of the joint on the link.
     roots: Vec<(Option<usize>, Vec2)>,
-    /// Sign of the determinant.
+    /// Sign of the group's determinant on the followed branch.
     branch: f64,
     /// The links of the group, with their numbers in the mechanism.
     links: Vec<LinkId>,
@@ -94,7 +95,8 @@ impl Chain {
     /// Number of columns in the working memory.
     /// The columns contain the starting values of the links, the joints of the tree, the arrows, and the factors of the
     /// Jacobian.
-    /// For each joint they contain the vector from its link's origin and the quantity needed at the present stage.
+    /// For each joint, the columns also contain the vector from its link's origin and the quantity needed at the
+    /// present stage.
     pub(super) fn columns(&self) -> usize {
         self.first_factor(0) + elimination::columns(self.nodes.len())
     }

@@ -1,7 +1,7 @@
 //! Linear systems of fixed order for several poses at once, by LU decomposition with partial pivoting.
 //!
-//! Every pose has a separate row order: if a lower row has the larger pivot, the two rows are exchanged in that lane
-//! only.
+//! Every pose has its own row order: if a lower row has the larger pivot in one pose, the two rows are exchanged for
+//! this pose only.
 
 use pulp::Simd;
 

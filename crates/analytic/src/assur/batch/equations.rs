@@ -1,8 +1,9 @@
 //! The equations of driving links and RRR dyads for several poses at once.
 //!
-//! The motion uses the equations of [`crate::assur::groups::Rrr`]. The forces use those of the module `assur::forces`.
-//! Both modules name their sources.
-//! Arms of forces start at the pole, in the link's frame, so that no world positions are needed.
+//! The motion is computed with the equations of [`crate::assur::groups::Rrr`], the forces with the equations of the
+//! module `assur::forces`.
+//! The sources of the equations are named in these two modules.
+//! The arm of a force is the vector from the link's pole in the link's frame, so that no world positions are needed.
 
 use pulp::Simd;
 
@@ -75,7 +76,8 @@ impl Driver {
 }
 
 impl Arm {
-    /// World vector from the base link's origin to the outer joint, and the base's first column; `None` for the ground.
+    /// World vector from the base link's origin to the outer joint, and the first column of the base link (`None` for
+    /// the ground).
     #[inline(always)]
     fn base<S: Simd>(&self, tile: &Window<S>) -> (Plane<S>, Option<usize>) {
         match self.base {

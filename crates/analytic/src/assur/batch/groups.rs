@@ -68,8 +68,8 @@ pub(super) struct Groups {
 
 impl Groups {
     /// Returns the constants of a case. The plan must already have placed the start pose of the case.
-    /// Returns `None` for a case that the caller must solve pose by pose. Such a case has at least one of the
-    /// following:
+    /// Returns `None` for a case that the caller must solve pose by pose. A case that must be solved pose by pose has
+    /// at least one of the following:
     /// - a group that is neither an RRR dyad nor a higher group on pins with four or six links,
     /// - a transmission,
     /// - a driving link that is not a crank on the ground,

@@ -9,7 +9,7 @@ use pulp::Simd;
 
 use linkage::math::Vec2;
 
-/// Number of poses that are adjacent in memory.
+/// Number of poses in a tile, which are adjacent in memory.
 pub(super) const TILE: usize = 8;
 
 /// One column of a tile.
@@ -203,7 +203,7 @@ impl<S: Simd> Plane<S> {
 pub(super) struct Window<'a, S: Simd> {
     pub(super) simd: S,
     pub(super) columns: &'a mut [Eight],
-    /// Index of the part of the tile.
+    /// Index of this part of the tile.
     pub(super) part: usize,
 }
 

@@ -8,8 +8,8 @@ use linkage::mechanism::{
     Group, JointId, JointSide, LinkId, Mechanism, PerJoint, PerTransmission, Transmission, TransmissionId,
 };
 
-/// Reactions that the first link of every joint exerts on the second. They are filled in from the last group to the
-/// first.
+/// Reactions that the first link of every joint exerts on the second. The reactions are filled in from the last group
+/// to the first.
 #[derive(Debug)]
 pub(super) struct Reactions<'a> {
     /// Forces (N).
@@ -24,7 +24,8 @@ pub(super) struct Reactions<'a> {
     pub(super) loads: &'a [Wrench],
 }
 
-/// The joints and transmissions whose forces are known before a group is solved: those of later groups.
+/// The joints and transmissions whose forces are known before a group is solved: the joints and transmissions of all
+/// groups after it.
 #[derive(Debug)]
 pub(super) struct Settled {
     joints: PerJoint<bool>,

@@ -45,7 +45,7 @@ impl Driving {
 }
 
 impl DrivenPivot {
-    /// The driven joint of `link`, which the drive with the number `index` moves.
+    /// The driven joint by which the drive with the number `index` moves `link`.
     pub(super) fn of(case: &Case, link: LinkId, joint: JointId, index: usize) -> Self {
         let first = case.mechanism.joints()[joint].first.link;
         let axis = case.mechanism.joints()[joint].axis_on(first).unwrap_or_default();

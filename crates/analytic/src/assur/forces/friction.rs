@@ -5,9 +5,9 @@
 //! Each normal force is a norm of its joint's reaction, so p is a solution of p = |R0 + C p|.
 //! The equation is solved by iteration of p = |R0 + C p|. If the iteration converges slowly, Newton's method follows.
 //! With L_ij = |C_ij|, the iteration is a contraction if the spectral radius of L is below 1.
-//! The solution is then the only one (Banach).
-//! Otherwise Newton's method is tried from several starts.
-//! Without a solution the friction locks the mechanism; with two solutions the forces are undetermined.
+//! By Banach's theorem, the equation then has exactly one solution.
+//! If the iteration is not proven to be a contraction, Newton's method is tried from several start values.
+//! If no solution is found, friction locks the mechanism; if two solutions are found, the forces are undetermined.
 //! By Collatz and Wielandt, the spectral radius is at most the largest ratio (L v)_i / v_i, for any v > 0.
 
 use crate::sentences;
@@ -20,10 +20,10 @@ use linkage::solver::State;
 /// Reaction of a joint: force (N) and moment (N m).
 type Reaction = (Vec2, f64);
 
-/// Largest number of linearisations. One is enough unless a transmission changes its line of action.
+/// Largest number of linearisations. One linearisation is enough unless a transmission changes its line of action.
 const ROUNDS: usize = 20;
 /// The normal forces are settled if they change by less than this fraction of the largest one.
-/// Rounding errors of the reactions are larger.
+/// A smaller limit has no use, because the rounding errors of the reactions are larger than this fraction.
 const SETTLED: f64 = 1e-14;
 /// A change below this fraction of the largest normal force is rounding error if the changes no longer decrease.
 const ROUNDING: f64 = 1e-10;
@@ -31,7 +31,7 @@ const ROUNDING: f64 = 1e-10;
 const MOST: usize = 60;
 /// The iteration continues while each change is below this fraction of the previous change.
 const QUICK: f64 = 0.3;
-/// Number of multiplications by L from which the spectral radius is bounded.
+/// Number of multiplications of a vector v by L. Each multiplication gives an upper bound of the spectral radius.
 const POWERS: usize = 8;
 /// Two solutions are different if a normal force differs by more than this fraction of the sum of its two values.
 const DIFFERENT: f64 = 1e-6;

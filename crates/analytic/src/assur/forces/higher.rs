@@ -100,7 +100,7 @@ impl Higher {
                 let Some(node) = node else { continue };
                 let (total, moment) = &mut self.cut[node];
                 *total += force * sign;
-                // Only guides need moments.
+                // Only a group with guides needs moments, because a pin transmits no moment.
                 if SLIDING {
                     *moment += cross(closing.place(motions) - chain.pole(node), force) * sign;
                 }
@@ -126,8 +126,10 @@ impl Higher {
     }
 
     /// Finds the forces of the transmissions and adds them to the forces on the nodes' links.
-    /// The multiplier of a transmission is its force, although its row has only angles and slides.
-    /// With the forces at their feet as known forces, the other multipliers are those of the joints.
+    /// The multiplier of a transmission gives its force, although the row of the transmission contains only derivatives
+    /// by angles and slides.
+    /// If the transmissions' forces are then applied to the links as known forces, the remaining multipliers give the
+    /// forces in the joints.
     fn transmit<const SLIDING: bool>(
         &mut self,
         case: &Case,
@@ -155,7 +157,8 @@ impl Higher {
     }
 }
 
-/// Adds the forces on every node's link to those on its parent, from the outermost node inwards.
+/// Adds the forces on every node's link to the forces on the link of the node's parent, from the outermost node
+/// inwards.
 fn gather<const SLIDING: bool>(inwards: &[Inwards], carried: &mut [(Vec2, f64)], chain: &Chain) {
     for link in inwards {
         let (force, moment) = carried[link.child];

@@ -1,4 +1,4 @@
-//! Bounds of speeds over a step of the crank. The bounds prove that a dyad passes no singular pose in this step.
+//! Bounds of the links' speeds over a step of the crank, which prove that a dyad passes no singular pose in this step.
 //!
 //! Every dyad that can be singular has a gauge g, a smooth function of the positions of its outer joints.
 //! Inside the gauge's range the dyad can be assembled; at an end of the range it is singular.
@@ -13,7 +13,7 @@
 
 use linkage::math::{KeepNan, Vec2};
 
-/// Bounds of a link's motion during a step. They are magnitudes of derivatives with respect to the crank angle.
+/// Bounds of a link's motion during a step. The bounds are magnitudes of derivatives with respect to the crank angle.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::assur) struct Bound {
     /// Reference point of the link, in its frame (m).
@@ -37,24 +37,24 @@ impl Bound {
         Bound { about, speed, second, turn, spin: 0.0 }
     }
 
-    /// Speed and acceleration of a point of the link.
+    /// Bounds of the speed and acceleration of a point of the link.
     pub(super) fn at(&self, local: Vec2) -> [f64; 2] {
         self.beyond((local - self.about).norm())
     }
 
-    /// Speed and acceleration of a point at the distance `arm` (m) from the reference point.
+    /// Bounds of the speed and acceleration of a point at the distance `arm` (m) from the reference point.
     pub(super) fn beyond(&self, arm: f64) -> [f64; 2] {
         [self.speed + self.turn * arm, self.second + self.centripetal() * arm]
     }
 
-    /// Acceleration of a point of the link relative to the reference point, divided by the distance between the two
-    /// points.
+    /// Bound of the acceleration of a point of the link relative to the reference point, divided by the distance
+    /// between the two points.
     pub(super) fn centripetal(&self) -> f64 {
         self.spin + self.turn * self.turn
     }
 }
 
-/// Bounds of the links known so far; `None` for links without bounds, for example those of higher groups.
+/// Bounds of the links known so far; `None` for links without bounds, for example links of higher groups.
 pub(in crate::assur) type Bounds = [Option<Bound>];
 
 /// Range and second derivative of a dyad's gauge over a step.
@@ -68,9 +68,9 @@ pub(in crate::assur) struct Limit {
     pub(in crate::assur) way: f64,
 }
 
-/// Bound of the second derivative of a squared distance. It follows from the relative speed and acceleration of the two
-/// ends.
-/// `most` is the largest distance.
+/// Bound of the second derivative of the squared distance of two points, from bounds of their relative speed and
+/// acceleration.
+/// `most` is the largest distance of the two points.
 pub(super) fn of_square([speed, second]: [f64; 2], most: f64) -> f64 {
     2.0 * (speed * speed + most * second)
 }

@@ -8,8 +8,8 @@
 //! Each transmission gives one equation too (`train.rs`).
 //! There are as many unknowns as equations.
 //! The gap of a closing joint is the sum of the link and slide vectors along both paths to this joint.
-//! The gap's derivative by an angle is the sum of the vectors that turn with that angle, rotated by 90 degrees. Its
-//! derivative by a slide is the axis.
+//! The gap's derivative by an angle is the sum of the vectors that turn with that angle, rotated by 90 degrees. The
+//! gap's derivative by a slide is the axis of this slide.
 //! Velocities and accelerations follow from the same Jacobian: J q' = -(velocity of the ends), J q'' = -(acceleration
 //! of the ends) + centripetal and Coriolis parts.
 
@@ -73,7 +73,7 @@ fn slightly_turned(direction: Vec2, angle: f64) -> Vec2 {
     let cosine = 1.0 - square * (0.5 - square * (1.0 / 24.0 - square * (1.0 / 720.0)));
     let turned = rotated(direction, Vec2::new(cosine, sine));
     // Restores unit length with an approximate inverse root. The length before this correction differs from 1 by at
-    // most 1e-8. The remaining error is of the order of the square of that difference.
+    // most 1e-8, and the remaining error is of the order of the square of this difference.
     turned * (1.5 - 0.5 * turned.norm_squared())
 }
 
@@ -219,7 +219,8 @@ impl Chain {
         self.is_sliding
     }
 
-    /// Adds `way` (rad), a whole number of turns, to the first driving angle of the last pose. The pose stays the same.
+    /// Adds `way` (rad), a whole number of turns, to the first driving angle of the last pose. The links stay where
+    /// they are.
     pub(super) fn skip(&mut self, way: f64) {
         self.at[0] += way;
         // Discard the remembered steps: rounding of the whole turns makes the next step differ from the last.
@@ -317,7 +318,8 @@ impl Chain {
         !(self.determinant.abs() >= SINGULAR * self.largest)
     }
 
-    /// Determinant of the Jacobian at the last pose. Along a branch it passes through zero at a change point.
+    /// Determinant of the Jacobian at the last pose. Along a branch, the determinant passes through zero at a change
+    /// point.
     pub(crate) fn determinant(&self) -> f64 {
         self.determinant
     }
@@ -444,7 +446,8 @@ impl Chain {
             let is_last = within(&self.unknown, LAST_CHANGE);
             for (index, (node, &change)) in self.contours.nodes.iter().zip(&self.unknown).enumerate() {
                 if is_last && !(SLIDING && node.is_guided()) {
-                    // A first-order rotation is enough: the square of this angle is below rounding error.
+                    // A first-order rotation is enough: the square of the last change of an angle is below rounding
+                    // error.
                     let direction = &mut motions[node.link].direction;
                     *direction -= turned(*direction) * change;
                 } else {
@@ -537,7 +540,7 @@ impl Chain {
     /// Whether this step might lead over a dead point, near which the squared determinant is linear in the driving
     /// angles.
     /// Such a step would reduce the squared determinant to a small fraction, and must be shortened.
-    /// If it were not shortened, it might end beyond a gap between two branches.
+    /// Without shortening, the step might jump over crank angles without a pose and end on another branch.
     fn is_bold(&self) -> bool {
         let goes = self.step.iter().any(|step| step.abs() > SMALLEST_STEP);
         goes && self.square + self.foreseen() < LEAST_LEFT * self.square
@@ -556,10 +559,11 @@ impl Chain {
     }
 
     /// Computes the multipliers of the closing joints, given coordinates and transmissions in place: J^T lambda = -Q.
-    /// The first multipliers are the forces on the second links of the closing joints (N), x and y alternating.
+    /// First come the forces on the second links of the closing joints (N), x and y alternating.
     /// Next are the driving moments on the nodes with given joints (N m; for a slide, the force along the axis
     /// times [`Chain::size`]).
-    /// The multipliers of the transmissions come last (N m). `Train::force` computes the forces from them.
+    /// The multipliers of the transmissions come last (N m). `Train::force` computes the forces of the transmissions
+    /// from these multipliers.
     /// The input is the generalised forces on the unknowns (N m; for a slide, the force along the axis times
     /// [`Chain::size`]).
     /// The pose must be the last one solved.

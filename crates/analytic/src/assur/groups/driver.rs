@@ -1,9 +1,10 @@
 //! A driving link: its pose follows from the pose of its base and the coordinate of its joint.
 //!
-//! With the base point p, the base's angular velocity w and the sign g of the joint's order:
-//! a crank has the given world angle; a link on a given angle has the angle of its base plus g q.
-//! A link on a given slide has its point at p + g q e, with the velocity of this point of the base plus g q' e and the
-//! acceleration of this point of the base plus g q'' e + 2 w g q' (z x e).
+//! Let p be the joint's point on the base, w the base's angular velocity, and g the sign of the joint's order.
+//! A crank has the given world angle. A link with a given angle q has the angle of its base plus g q.
+//! For a given slide q along the axis e, the joint's point on the link is at P = p + g q e.
+//! Its velocity is that of the base at P, plus g q' e.
+//! Its acceleration is that of the base at P, plus g q'' e + 2 w g q' (z x e).
 
 use linkage::input::Input;
 use linkage::math::{Motion, Vec2, rotated, turned, unit};
@@ -16,10 +17,10 @@ use super::guide::turn_between;
 enum Way {
     /// The world angle is given.
     Angle,
-    /// The angle to the base is given, with this sign.
+    /// The angle relative to the base is given, counted with this sign.
     Turn(f64),
-    /// The slide along the axis of the base is given, with this sign. `turn` is the link's direction in the base's
-    /// frame.
+    /// The slide along an axis of the base is given, counted with this sign. `turn` is the link's direction in the
+    /// base's frame.
     Slide { axis: Vec2, turn: Vec2, sign: f64 },
 }
 
@@ -122,7 +123,7 @@ impl Driver {
         }
     }
 
-    /// [`Driver::place_at`] of any link.
+    /// The general case of [`Driver::place_at`], for every driving link that is not a plain crank.
     #[inline(never)]
     fn place_carried(&self, [coordinate, rate, second]: [f64; 3], motions: &mut [Motion]) {
         if let Way::Slide { axis, turn, sign } = self.way {

@@ -3,8 +3,8 @@
 use linkage::math::{Motion, Vec2, cross, rotated, turned};
 use linkage::mechanism::{Joint, JointSide, LinkId};
 
-/// Returns `a` times the conjugate of `b` as complex numbers. If a frame has the returned direction, its unit vector
-/// `b` points along the world vector `a`.
+/// Direction of a frame whose unit vector `b` points along the world vector `a`: `a` times the conjugate of `b`, as
+/// complex numbers.
 #[inline]
 pub(super) fn turn_between(a: Vec2, b: Vec2) -> Vec2 {
     Vec2::new(b.dot(&a), cross(b, a))

@@ -17,7 +17,7 @@ pub enum Misfit {
         /// Length of the rod (m).
         length: f64,
     },
-    /// RPR: the distance of the outer pins is smaller than the offsets of the pins from the axis allow.
+    /// RPR: the outer pins are closer together than the offset of the second pin from the axis through the first pin.
     Swing {
         /// Distance of the pins (m).
         distance: f64,
@@ -55,7 +55,8 @@ pub const SINGULAR: f64 = 1e-7;
 const PARALLEL: f64 = 1e-14;
 
 /// Returns the sign of the sine of the angle between two axes.
-/// If `side` is known, the sign must agree with it: a dyad that has passed through infinity is on another branch.
+/// If the sign `side` of the branch is known, the sign of the sine must agree with it. After a slide has passed through
+/// infinity, the dyad is on another branch.
 /// A dyad whose axes are parallel within rounding error has no pose.
 pub(super) fn kept_side(side: f64, sine: f64) -> Result<f64, Misfit> {
     let now = sine.signum();

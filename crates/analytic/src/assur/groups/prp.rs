@@ -4,7 +4,7 @@
 //! The inner joint C lies on two lines along the axes e and b: (C1 + s e - C2) x b = 0.
 //! C1 and C2 are the positions of C on the two links at slide zero.
 //! E1 and E2 are the points of the guides' links at C. The velocities of E1 and E2 satisfy v_E1 + s' e = v_E2 + t' b.
-//! The accelerations satisfy the same equation, with their Coriolis parts.
+//! The accelerations of E1 and E2, with their Coriolis parts, satisfy the corresponding equation with s'' and t''.
 //! The equations are derived from the closure of the vector contour. In Artobolevsky's classification, the PRP dyad is
 //! the class II group of the fourth kind.
 //! Background: I. I. Artobolevsky, Theory of Mechanisms and Machines, 4th ed., Nauka 1988.

@@ -2,8 +2,8 @@
 //!
 //! All angles follow from the guide's link, which carries the axis e.
 //! b is the inner axis, and X a point of the slider on the inner axis.
-//! X slides along e. X also lies on a line along b that turns about the pin.
-//! b x (X - line) = 0 gives the slide s, and b x (v_E - v_A) + s' b x e = 0 gives s'.
+//! X slides along e. X also lies on a line along b through the point C of the pinned link.
+//! b x (X - C) = 0 gives the slide s, and b x (v_E - v_A) + s' b x e = 0 gives s'.
 //! E and A are the points of the guide's link and of the pinned link at X.
 //! The accelerations, with both Coriolis parts, give s''.
 //! These equations are derived here from the closure of the vector contour.

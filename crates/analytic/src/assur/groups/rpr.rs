@@ -26,7 +26,7 @@ pub struct Rpr {
     /// the left of this line.
     across: f64,
     sense: f64,
-    /// Size of the mechanism (m). The distance of the pins along the axis is compared with it.
+    /// Size of the mechanism (m), with which the distance of the pins along the axis is compared.
     size: f64,
     /// d^2 at the last pose (m^2).
     gauge: f64,
@@ -78,7 +78,7 @@ impl Rpr {
         (axis, axis.dot(&(self.pins[1].place(motions) - self.pins[0].place(motions))))
     }
 
-    /// Returns the dyad in the configuration other than the present one.
+    /// Returns the dyad, switched to its other configuration.
     pub(super) fn flipped(self) -> Self {
         Self { sense: -self.sense, ..self }
     }

@@ -72,7 +72,7 @@ impl Rrp {
         Ok(())
     }
 
-    /// Returns the dyad in the configuration other than the present one.
+    /// Returns the dyad, switched to its other configuration.
     pub(super) fn flipped(self) -> Self {
         Self { sense: -self.sense, ..self }
     }
@@ -109,7 +109,7 @@ impl Rrp {
 
     /// Writes the bounds of the dyad's links. The bounds hold while the gauge stays in `band`, for `FAR` steps of the
     /// crank.
-    /// The bounds follow from the formulas of omega and alpha, with |e . r| >= l s.
+    /// The bounds follow from the formulas of omega and alpha, with the smallest |e . r| = sqrt(l^2 - h^2) in `band`.
     pub(super) fn bound(&self, band: [f64; 2], step: f64, motions: &[Motion], links: &mut Bounds) {
         let Some((pin, zero, guide, distance)) = self.outer_rates(links, motions, FAR * step) else { return };
         let length = self.span.norm();

@@ -4,7 +4,8 @@
 //! Position: r1 = d f + (z x d) h with f = (l1^2 - l2^2 + d^2) / 2 d^2 and 4 D^2 = 4 d^4 h^2 = ((l1 + l2)^2 - d^2)
 //! (d^2 - (l1 - l2)^2).
 //! Velocity: v1 + omega1 x r1 = v2 + omega2 x r2 gives omega1 = (v2 - v1) . r2 / D and omega2 = (v2 - v1) . r1 / D.
-//! The same equations hold for the accelerations minus their centripetal parts.
+//! With the accelerations minus their centripetal parts in place of the velocities, these equations give the angular
+//! accelerations.
 //! All these equations are derived here from the closure of the vector contour.
 //! Background: I. I. Artobolevsky, Theory of Mechanisms and Machines, 4th ed., Nauka 1988.
 
@@ -190,7 +191,7 @@ impl Rrr {
 
     /// Positions, velocities and accelerations in one pass. Shared values stay in registers, and every motion is
     /// written once.
-    /// The arithmetic operations are those of the three separate functions, so the bits are the same.
+    /// The arithmetic operations and therefore the bits are those of the three separate functions.
     #[inline(always)]
     pub(super) fn motions(&mut self, motions: &mut [Motion]) -> Result<(), Misfit> {
         let [[bases0, p1, v1, a1], [bases1, p2, v2, a2]] = [0, 1].map(|k| Self::base(&self.arms[k], motions));
@@ -224,7 +225,7 @@ impl Rrr {
         Ok(())
     }
 
-    /// Returns the dyad in the configuration other than the present one.
+    /// Returns the dyad, switched to its other configuration.
     pub(super) fn flipped(self) -> Self {
         Self { half: -self.half, ..self }
     }
@@ -253,7 +254,7 @@ impl Rrr {
 
     /// Writes the bounds of the dyad's links. The bounds hold while the gauge stays in `band`.
     /// The bounds follow from omega1 = (v2 - v1) . r2 / D and |D| = l1 l2 s.
-    /// In |D|, the sine s satisfies 4 l1^2 l2^2 s^2 = (g - low) (high - g).
+    /// Here s is the sine of the transmission angle; with the gauge g, 4 l1^2 l2^2 s^2 = (g - low) (high - g).
     pub(super) fn bound(&self, band: [f64; 2], links: &mut Bounds) {
         let rates = self.outer_rates(links);
         let sine = 0.5 * least_product(self.range, band).sqrt() * self.inverse_lengths;

@@ -7,7 +7,8 @@
 //! The dyad is solved with the present vectors p in closed form.
 //! With w = p' in world axes, the velocity of the inner joint is v + omega x r + w. Its acceleration has the additional
 //! terms p'' in world axes and 2 omega x w (relative motion, Coriolis).
-//! The velocities of the dyad are thus those of rigid links whose outer joints have the velocities v1 + w1 and v2 + w2.
+//! The dyad therefore moves with the velocities of a dyad of rigid links whose outer joints have the velocities v1 + w1
+//! and v2 + w2.
 
 use super::driver::Driver;
 use super::misfit::{Misfit, SingularityDistance};
@@ -220,7 +221,7 @@ impl Shaped {
         }
     }
 
-    /// Returns the dyad in the configuration other than the present one.
+    /// Returns the dyad, switched to its other configuration.
     pub(super) fn flipped(&self) -> Self {
         Shaped { dyad: self.dyad.flipped(), ..self.clone() }
     }

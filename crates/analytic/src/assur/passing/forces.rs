@@ -28,7 +28,7 @@ const NEAREST: f64 = 1e-7;
 /// Writes the loads on all links at their motions and angles (rad).
 pub(in crate::assur) type Loads<'a> = &'a mut dyn FnMut(&[Motion], &[f64], &mut [Wrench]);
 
-/// Reactions that grow without bound: the pose is the change point itself, or next to it.
+/// Reactions grow without bound, because the pose is the change point itself or next to a change point.
 pub(in crate::assur) struct Unbounded;
 
 impl Window {
@@ -36,9 +36,9 @@ impl Window {
     /// The driving link is at the angle `place` and has the given angular velocity and acceleration.
     /// `loads` finds the loads from the motions and angles of the links.
     /// In free motion, `shaft` contains the moment on the driving link and the moment of inertia that turns with it.
-    /// Each neighbouring pose then has the given angular velocity. Its acceleration is the one that balances the
+    /// In free motion, each neighbouring pose has the given angular velocity, and the acceleration that balances the
     /// driving link.
-    /// In this case a residue is a property of the motion.
+    /// In free motion, the residue of a reaction therefore depends on the angular velocity as well as on the pose.
     pub(in crate::assur) fn reactions(
         &self,
         place: f64,

@@ -30,7 +30,7 @@ const CORE: f64 = 0.2;
 /// Half widths that are tried (rad).
 const WIDTHS: [f64; 11] = [0.5, 0.36, 0.25, 0.18, 0.12, 0.08, 0.06, 0.04, 0.025, 0.017, 0.01];
 /// If the path is lost in a window, the next half width is at most this fraction of the failing half width.
-/// The path is lost because of another singular pose nearby, towards which multipliers may grow without bound.
+/// The cause of a lost path is another singular pose nearby, towards which multipliers may grow without bound.
 const CLEAR: f64 = 0.5;
 /// A change point is passed only if the error of the second derivatives, divided by the largest derivative, is below
 /// this value.
@@ -110,9 +110,9 @@ impl Window {
                 window.turns = turns;
                 let shares = window.spots.iter().map(|spot| spot.shares[block].abs());
                 let (least, most) = shares.fold((f64::INFINITY, 0.0f64), |(a, b), s| (a.smaller(s), b.larger(s)));
-                // The larger of two condition numbers is stored. The first is about the inverse of the sine of the
-                // innermost pose.
-                // The second follows from the error of the second derivatives.
+                // The larger of two condition numbers is stored. The first number is about the inverse of the sine of
+                // the innermost pose.
+                // The second number follows from the error of the second derivatives.
                 // The rounding errors of all blocks that are singular together add up, so the first condition number
                 // grows with the number of these blocks.
                 let inner = [&window.spots[SIDE - 1].shares, &window.spots[SIDE].shares];
@@ -246,7 +246,7 @@ fn point(spot: &Spot, at: f64) -> (f64, [&[f64]; 3]) {
     (spot.angle - at, [&spot.q, &spot.slope, &spot.curve])
 }
 
-/// The poses with the indices `CHOSEN` of one side, the outermost first.
+/// The poses on one side of the change point that have the indices `CHOSEN`, the outermost first.
 fn chosen(spots: &[Spot], at: f64) -> Vec<(f64, [&[f64]; 3])> {
     CHOSEN.iter().map(|&k| point(&spots[k], at)).collect()
 }

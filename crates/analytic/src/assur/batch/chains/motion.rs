@@ -1,7 +1,7 @@
 //! Motion of higher groups on pins, for several poses at once.
 //!
 //! Every pose starts from link directions interpolated between two anchors (see `batch::anchors`).
-//! One Newton correction leads to the pose; a second Jacobian is assembled at the pose itself.
+//! One Newton correction of these directions gives the pose; a second Jacobian is assembled at the corrected pose.
 
 use pulp::Simd;
 

@@ -13,7 +13,7 @@ pub(super) struct Guided {
     pub(super) turn: Vec2,
 }
 
-/// A link of the group. A joint connects it to its parent, which is placed before it.
+/// A link of the group. A joint connects the link to its parent, which is placed before the link.
 #[derive(Clone, Copy, Debug)]
 pub struct Node {
     /// The link.
@@ -23,7 +23,7 @@ pub struct Node {
     /// Position of the joint in the link's frame, and whether this position is the origin.
     pub own: Vec2,
     pub(super) at_origin: bool,
-    /// The joint on the parent.
+    /// The parent, and the position of the joint on it.
     pub parent: JointSide,
     /// Index of the parent among the nodes; `None` for a link outside the group.
     pub parent_node: Option<usize>,
@@ -37,7 +37,7 @@ pub struct Node {
     pub(super) guided: Option<Guided>,
 }
 
-/// Position of a joint on the link that is placed first.
+/// Position of a joint on the one of its two links that is placed first.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::assur) enum Hangs {
     /// A joint on a link outside the group: index in [`Contours::roots`].

@@ -1,4 +1,4 @@
-//! The equation of a transmission in a group: q2 - f(q1) keeps the value of the start pose.
+//! The equation of a transmission in a group: q2 - f(q1) keeps the value that it has in the start pose.
 //! The coordinates q1 and q2 are sums of angles of links and slides, inside or outside the group. Angles count whole
 //! turns.
 
@@ -52,7 +52,8 @@ impl Term {
         Term { of, sign, column, last: 0.0, now: 0.0 }
     }
 
-    /// The coordinate at the present pose, with the angle nearest to that of the last pose.
+    /// The coordinate at the present pose, with the whole turns that bring its angle nearest to the angle at the last
+    /// pose.
     fn read(&mut self, slides: &[f64], motions: &[Motion]) -> f64 {
         self.now = match &self.of {
             Of::Angle(link) => {
@@ -85,7 +86,7 @@ pub(in crate::assur) struct Train {
     transmission: Transmission,
     /// The terms of q1 and q2.
     terms: [Vec<Term>; 2],
-    /// Unit of q2 in the row: 1, or the unit of slides (m).
+    /// Unit of q2 in the equation's row of the Jacobian: 1, or the unit of slides (m).
     unit: f64,
     /// The value of q2 - f(q1); NaN before the first pose.
     value: f64,
@@ -109,7 +110,7 @@ impl Train {
         multiplier / (self.transmission.contact(at).factor * self.unit)
     }
 
-    /// Takes the value of the equation from the start pose, at the first call.
+    /// At the first call, stores the value of q2 - f(q1) in the start pose.
     pub(super) fn start(&mut self, slides: &[f64], motions: &[Motion]) {
         if self.value.is_nan() {
             self.value = self.read(slides, motions);
