@@ -82,7 +82,7 @@ impl TableCell {
         self.significant > 0 && !self.value.is_nan()
     }
 
-    /// The same number with the trailing zeros that the column's format left out.
+    /// The cell with the trailing zeros that the column's format left out.
     /// Zeros are added until the cell has `decimals` decimals or `significant` significant digits.
     pub(crate) fn with_zeros(mut self, decimals: i32, significant: u16) -> TableCell {
         let mut zeros = decimals.saturating_sub(self.decimals).max(0);
@@ -102,7 +102,7 @@ impl TableCell {
 /// The largest number of decimals or digits of any cell is therefore the fixed number.
 /// The uncertainty is half a unit of the last printed digit. The uncertainty is computed for both formats, and the
 /// larger value counts.
-/// The larger value is always that of the actual format:
+/// The larger value is always the uncertainty for the actual format:
 /// With fixed decimals, the number of largest magnitude has the most significant digits.
 /// With fixed significant digits, the number of smallest magnitude has the most decimals.
 ///
@@ -151,7 +151,7 @@ const FEW: usize = 2;
 
 /// A column counts as single precision only if at least this many cells have eight or more digits.
 /// In addition, each cell must be the shortest text of a number in single precision.
-/// By chance, about one in five decimal numbers with eight digits is such a text.
+/// By chance, about one in five decimal numbers with eight digits is the shortest text of such a number.
 const TELLING: usize = 8;
 
 /// Precision of the numbers of a column before the numbers were printed. Single precision comes before double

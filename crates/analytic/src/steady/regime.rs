@@ -14,7 +14,7 @@ use linkage::error::{Error, ErrorKind, Result};
 
 /// Largest number of Newton steps of the shooting method. The method usually needs three to six.
 const MOST_SHOTS: usize = 60;
-/// If the relative change of the energy over a period is at most this value, it counts as zero.
+/// If the relative change of the energy over a period is at most this value, the change counts as zero.
 const CLOSED: f64 = 2e-14;
 
 /// Speed of the crank at a crank angle.
@@ -98,8 +98,8 @@ impl ReducedModel<'_> {
         Err(Error::new(ErrorKind::Numeric, message).help(sentences::FOLLOW_THE_RUN_UP_INSTEAD))
     }
 
-    /// A steady motion of this model at the crank angles `cranks`, in the form of [`ReducedModel::regime`].
-    /// The motion is followed over one more period; it is not searched for again.
+    /// The results of [`ReducedModel::regime`] for the known steady motion `found`, at the crank angles `cranks`.
+    /// The motion is followed over one more period, without another search.
     ///
     /// # Errors
     /// The errors of [`ReducedModel::regime`].
@@ -135,7 +135,7 @@ impl<'m, 'a> Turn<'m, 'a> {
         let (way, last) = (forces.way.get(), self.start + self.period);
         forces.begin_at(way * self.start);
         let mut place = Place { x: self.start, y: [energy, 0.0, 1.0], h: 0.0 };
-        // The speed at which a branch has just ended.
+        // The speed at which a branch of the motor's law has just ended.
         // A speed computed from the energy would have a rounding error and might lie on the wrong side of the end.
         let mut reached: Option<f64> = None;
         let mut empty = 0;

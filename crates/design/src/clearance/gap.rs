@@ -153,8 +153,8 @@ pub fn gap(
                 ask((p - q) / core);
             }
             if core < CLOSE * a.scale {
-                // The direction between points this close is only rounding error, so the normals of the sides are tried
-                // too.
+                // The direction between points as near to each other as these is only rounding error.
+                // The normals of the sides are therefore tried too.
                 // If two convex parts can be separated, one of these normals separates them.
                 normals(&own.corners, -1.0, &mut ask);
                 normals(&other.corners, 1.0, &mut ask);
