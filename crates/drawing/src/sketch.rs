@@ -65,7 +65,7 @@ pub enum Lettering {
 pub struct SketchLabel {
     /// The text.
     pub text: String,
-    /// What it names.
+    /// What the label names.
     pub names: Lettering,
     /// The place.
     pub at: JointSide,
@@ -134,7 +134,7 @@ impl Sketch {
         self
     }
 
-    /// All marks of all links, with the link's number, in drawing order.
+    /// All marks of all links, each with the number of its link, in drawing order.
     /// The marks are ordered by layer; within a layer, larger links come first.
     /// The springs and dampers in `stretched` are not in this list; they belong to [`Layer::Stretched`].
     pub fn in_order(&self) -> Vec<(LinkId, &Mark)> {

@@ -52,7 +52,7 @@ pub struct Shot {
 /// The path of a point: its link, and its positions in the world (m).
 pub type Trace = (LinkId, Vec<Vec2>);
 
-/// The shots as figures at one scale. Each figure fits into this size (mm) and has no heading.
+/// The shots as figures at one scale. Each figure fits into the size `room` (mm) and has no heading.
 pub fn cells(
     subject: &DrawnSubject,
     shots: &[Shot],

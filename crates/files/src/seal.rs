@@ -48,7 +48,7 @@ fn hash(bytes: &[u8]) -> u64 {
     letters.fold(0xcbf2_9ce4_8422_2325, |hash, &byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
 }
 
-/// Check digits of a word. `super::temporary` recognises the names of temporary files by them.
+/// Check digits of a word. `super::temporary` recognises the names of temporary files by these digits.
 pub(super) fn check(word: &str) -> String {
     format!("{:08x}", hash(word.as_bytes()) >> 32)
 }

@@ -60,8 +60,8 @@ pub fn text_from(from: impl Read) -> io::Result<String> {
     decoded(bytes).map_err(|other| io::Error::new(io::ErrorKind::InvalidData, other))
 }
 
-/// The same as [`read_text`], for a file that another file names.
-/// The file must be regular. The reading of any other kind of file, such as a terminal, might never end.
+/// Text of a file that another file names, at most 64 MiB.
+/// The file must be regular, because reading a file of another kind, such as a terminal, might never end.
 ///
 /// # Errors
 /// The errors of [`read_text`], or an error if the file is not regular.

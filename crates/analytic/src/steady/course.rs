@@ -50,7 +50,7 @@ impl ReducedModel<'_> {
         Ok(ReducedRow { crank, inertia: found.inertia, slope: found.slope, resistance })
     }
 
-    /// Extremes over one period of the reduced moments of inertia and of resistance, refined between samples.
+    /// Extremes of the reduced moments of inertia and of resistance over one period, refined between samples.
     ///
     /// # Errors
     /// [`ErrorKind::Geometry`](linkage::error::ErrorKind::Geometry) for a crank that does not turn fully.
@@ -58,7 +58,7 @@ impl ReducedModel<'_> {
         self.extremes_of([|row| row.inertia, |row| row.resistance])
     }
 
-    /// Extremes over one period of dI*/dphi, refined between samples.
+    /// Extremes of dI*/dphi over one period, refined between samples.
     ///
     /// # Errors
     /// The errors of [`ReducedModel::extremes`].

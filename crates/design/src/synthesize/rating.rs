@@ -54,7 +54,7 @@ impl<'a> Rater<'a> {
         Rater::on(timing, turns, ends)
     }
 
-    /// Places rows at most `step` (rad) apart. The limits of all phases are among them.
+    /// Places rows at most `step` (rad) apart. Each limit of a phase is one of the rows.
     /// Two more rows close to each limit give the output's rate at the limit.
     /// If the rate were computed over whole steps, the extreme position would be wrong by a few hundredths of a degree.
     pub(super) fn fitted(timing: &'a Timing, step: f64) -> Self {

@@ -18,7 +18,7 @@ use linkage::math::{Motion, Vec2, turned};
 pub struct Contours {
     /// Vectors from foot to head of each lead (m).
     pub leads: [Vec2; 3],
-    /// Vectors from the first head to the second and to the third (m).
+    /// Vectors from the first head to the second head and to the third head (m).
     pub sides: [Vec2; 2],
 }
 
@@ -85,7 +85,8 @@ impl Contours {
 }
 
 /// Angular velocities (rad/s) and angular accelerations (rad/s^2) of leads and base link.
-/// `motions` must contain the directions of the group's links and the complete motion of the links that carry its feet.
+/// `motions` must contain the directions of the group's links, and the complete motion of the links that carry the
+/// group's feet.
 ///
 /// # Errors
 /// [`ErrorKind::Numeric`](linkage::ErrorKind::Numeric) at a dead point of the group.

@@ -81,7 +81,8 @@ impl Place {
     }
 
     /// The slopes follow from the first and second derivatives of driver + base = FG + other.
-    /// The scalar product with one of the vectors base and other eliminates the rate of this vector.
+    /// FG is the vector from the driver's foot to the foot of the other ground lead.
+    /// The scalar product with `base` or with `other` eliminates the rate of that vector.
     pub(super) fn slopes(&self) -> Slopes {
         let (p, r) = (self.base, self.other);
         let d = [turned(self.driver), -self.driver];
