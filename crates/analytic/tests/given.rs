@@ -1,4 +1,4 @@
-//! Mechanisms with given joint coordinates: both sides agree, and the powers balance.
+//! Mechanisms with given joint coordinates: both solvers agree, and the powers balance.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -21,7 +21,7 @@ fn states(case: &Case, solver: &dyn Solver) -> Vec<State> {
     all
 }
 
-/// Asserts that both sides agree and that the powers sum to zero.
+/// Asserts that both solvers agree and that the powers sum to zero.
 /// The numbers of a state form four lists, and each difference is compared with the largest number of its list.
 fn agrees(case: &Case) -> Vec<State> {
     let [one, other] = [states(case, &AssurSolver), states(case, &NewtonSolver)];

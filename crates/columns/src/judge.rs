@@ -1,4 +1,4 @@
-//! Comparison of two columns.
+//! Comparison of two columns, each of them from one party, such as a solver or a table.
 
 use crate::cell::is_missing;
 use formula::Rounded;

@@ -98,9 +98,9 @@ pub struct PairClearance {
 /// Operation counts of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ClearanceWork {
-    /// Number of poses that side 1 computes for distances.
+    /// Number of poses that the analytic solver (side 1) computes for distances.
     pub poses: usize,
-    /// Number of additional poses that side 1 computes for swept areas.
+    /// Number of additional poses that the analytic solver (side 1) computes for swept areas.
     pub positions: usize,
     /// Number of pairs of convex parts whose nearest points were computed.
     pub distances: usize,

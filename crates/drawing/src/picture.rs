@@ -238,7 +238,7 @@ impl<'a> Picture<'a> {
         marks.iter().for_each(|mark| self.put(mark, GROUND, |own| own + at));
     }
 
-    /// Draws the path of a point in the world (m). Later drawings cover the path.
+    /// Draws the path of a point in the world (m). Marks that are drawn later cover the path.
     pub fn draw_trace(&mut self, path: &[Vec2], link: LinkId) {
         let points: Vec<Vec2> = path.iter().map(|at| at / self.scale).collect();
         if points.len() > 1 {

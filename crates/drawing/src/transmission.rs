@@ -54,7 +54,7 @@ fn rack(mechanism: &Mechanism, travels: &Travels, own: &Transmission) -> Option<
     let (axis, guide) = (joint.axis_on(carrier)?, joint.on(carrier)?);
     let foot = axis.dot(&(rack.place - guide));
     let travel = travels.of(index).unwrap_or([0.0; 2]);
-    // The rack's travel is the travel of the block on the guide.
+    // `travel` is the travel of the block on the guide.
     let is_guide = mechanism.guide_and_block(joint)?[0].link == rack.link;
     let contact = travel.map(|way| if is_guide { foot + way } else { foot - way });
     let beyond = BEYOND * pinion.radius;

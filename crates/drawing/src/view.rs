@@ -89,7 +89,8 @@ fn figure(
         picture.draw_trace(path, *link);
     }
     for (index, (centre, radius)) in laid.reaches.iter().enumerate() {
-        // The arc lies towards the other circle of the same dyad. Without another circle, it lies along x.
+        // The arc lies towards the other circle of the same dyad. If the dyad has only one circle, the arc lies along
+        // x.
         let other = laid.reaches.get(index ^ 1).map_or(Vec2::new(1.0, 0.0), |other| other.0 - centre);
         picture.draw_reach(*centre, *radius, other);
     }

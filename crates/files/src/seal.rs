@@ -41,7 +41,7 @@ pub fn is_sealed(bytes: &[u8]) -> bool {
     })
 }
 
-/// FNV-1a hash. The hash is the same in every version of the language.
+/// FNV-1a hash. The hash is the same with every version of Rust.
 /// Carriage returns are not hashed, because tools change line endings.
 fn hash(bytes: &[u8]) -> u64 {
     let letters = bytes.iter().filter(|&&byte| byte != b'\r');

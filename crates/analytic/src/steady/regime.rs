@@ -123,7 +123,7 @@ impl<'m, 'a> Turn<'m, 'a> {
     }
 
     /// Energy and time at the end of a period that begins with `energy` (J), and the [multiplier](Regime::multiplier).
-    /// The visited steps are divided at the targets.
+    /// `visit` receives every step. Steps are divided at the crank angles `targets`.
     fn run(
         &self,
         energy: f64,

@@ -1,5 +1,5 @@
-//! Poses of all links over an interval of crank angles: side 1's pose at the middle, a uniform motion through this
-//! pose, and a proven bound on the deviation from the uniform motion.
+//! Poses of all links over an interval of crank angles: the pose of the analytic solver (side 1) at the middle, a
+//! uniform motion through this pose, and a proven bound on the deviation from the uniform motion.
 //!
 //! Over the interval, a uniform motion approximates the motion of each link.
 //! The link's reference point moves along a straight line, and the link's angle changes in proportion to the crank
@@ -161,7 +161,7 @@ pub struct Tubes<'a> {
     /// Size of the mechanism including its distance from the world origin (m).
     pub scale: f64,
     kept: BTreeMap<RangePart, Rc<Slice>>,
-    /// Number of poses computed by side 1.
+    /// Number of poses computed by the analytic solver (side 1).
     pub poses: usize,
 }
 
@@ -297,10 +297,10 @@ struct Row<'a> {
     terms: Vec<(Term<'a>, f64)>,
     /// Number of the drive that changes the sum; `None` if no drive changes it.
     drive: Option<usize>,
-    /// Rate of the sum, per unit of the variable, and the largest deviation of the sum from this rate.
+    /// Rate of the sum per unit of the variable, and the largest deviation of the sum from a change at this rate.
     rate: f64,
     bend: f64,
-    /// Whether the sum must be zero at the middle. Otherwise the pose of side 1 gives the sum at the middle.
+    /// Whether the sum must be zero at the middle. Otherwise the solver's pose gives the sum at the middle.
     is_zero: bool,
 }
 

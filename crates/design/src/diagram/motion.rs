@@ -22,8 +22,8 @@ pub const DIVISIONS: std::ops::RangeInclusive<usize> = 4..=1000;
 /// Lower limit of the number of points of the exact curves.
 const CURVE: usize = 720;
 /// Lower limit of a derivative's scale, divided by its natural scale.
-/// A nearly constant derivative has errors that come from the displacement.
-/// The range of this derivative alone would be too small a scale for these errors.
+/// The errors of a nearly constant derivative come from the displacement.
+/// The range of a nearly constant derivative would be too small a scale for such errors.
 const SMALLEST: f64 = 1e-3;
 /// A motion repeats if each rate at the end differs from that at the start by at most this fraction of its half range.
 const REPEATS: f64 = 1e-6;

@@ -16,8 +16,8 @@
 //!   The rotor's inertia is so large that its speed is practically constant: the speed changes by 1e-9 of its value per
 //!   radian.
 //!   The speed is constant with any integrator and at any step.
-//!   A velocity actuator of the same stiffness diverges, because `implicitfast` solves the constraints without the
-//!   actuator's damping.
+//!   A velocity actuator that kept the speed as well as the rotor would diverge, because `implicitfast` solves the
+//!   constraints without the actuator's damping.
 //!   A softer velocity actuator lags.
 //!   The rotor does not enter the interaction forces that sensors read.
 //!   The torque sensor of the hinge therefore reads the driving moment.

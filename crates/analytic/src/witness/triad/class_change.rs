@@ -25,7 +25,7 @@
 //! Both ground leads then stand still, and both are equally unsuitable as the driver.
 //! The second dyad then changes from one of its two configurations to the other.
 //! The closing condition of the second dyad holds for both configurations and is smooth in theta.
-//! The closing condition is solved instead of the second dyad's angle, so limit positions of this kind are passed
+//! The closing condition is solved instead of the second dyad's angle, so limit positions of the second kind are passed
 //! without difficulty.
 //! A dead point of the group itself, q . F' = 0, cannot be passed.
 

@@ -21,8 +21,8 @@ pub(super) struct Chain {
     pub(super) leads: [Grounded; 2],
     /// Head of lead 3 in the base link's frame (m).
     pub(super) third: Vec2,
-    /// The other ground lead's head lies on this side of the line from the driver's head to the other ground lead's
-    /// foot: +1 for left, -1 for right.
+    /// Side of the line from the driver's head to the other ground lead's foot: +1 left, -1 right.
+    /// The other ground lead's head lies on this side.
     pub(super) side: f64,
 }
 
