@@ -91,7 +91,7 @@ impl Laid {
         )
     }
 
-    /// The poses of all links from which the configurations of a group are computed.
+    /// Start poses of all links for computing the configurations of a group.
     /// In a driven group, the driven joints have the coordinates `angles`.
     fn pose_for(&self, mechanism: &Mechanism, structure: &Structure, group: &Group, angles: &[f64]) -> Pose {
         let mut pose = self.pose();

@@ -93,7 +93,7 @@ pub fn twisted(mechanism: &Mechanism, load: &Load, u: f64) -> Option<(LinkId, Ve
     Some((link, vec![drum, Mark::line(MarkRole::TorsionDamper, vane), first, last]))
 }
 
-/// The arrow in the direction of a drive, in the frame of the driven link, and the circle of its motor.
+/// The arrow in the direction of a drive and the circle of the drive's motor, in the frame of the driven link.
 pub fn of_drive(mechanism: &Mechanism, drive: &Drive, u: f64) -> Vec<Mark> {
     let Some(pin) = mechanism.joints()[drive.joint].on(drive.link) else { return Vec::new() };
     let places = super::body::places(mechanism, drive.link);

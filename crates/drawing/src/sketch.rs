@@ -12,7 +12,7 @@ use linkage::mechanism::{GROUND, JointSide, LinkId, Mechanism};
 
 /// Size of a mechanism in units of its sketch, if the size of the picture is unknown.
 const UNITS: f64 = 60.0;
-/// Half length of the stroke at a ground point on a guide, in units of the sketch.
+/// Half length of the line drawn across a guide at a ground point, in units of the sketch.
 const STOP: f64 = 1.4;
 
 /// The unit (m) of a sketch if the size of its picture is unknown: a pin is 2.4 units wide, a block 10 units long.

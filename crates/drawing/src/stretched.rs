@@ -1,4 +1,4 @@
-//! Springs and dampers: drawings that reach from one point to another, whatever their distance.
+//! Springs and dampers: drawings that reach from one point to another, whatever the distance of the two points.
 
 use super::mark::{Mark, MarkRole};
 use linkage::drive::{Load, On};

@@ -67,7 +67,8 @@ fn rack(mechanism: &Mechanism, travels: &Travels, own: &Transmission) -> Option<
     Some((rack.link, Mark::line(MarkRole::Wheel, ends.map(|end| rack.local + along * end))))
 }
 
-/// What touches the cam: the roller, or the flat face as wide as the cam's largest radius `reach` on both sides.
+/// The part of a follower that touches the cam: the roller, or the flat face.
+/// The flat face extends by the cam's largest radius `reach` to both sides.
 fn follower(mechanism: &Mechanism, own: &Transmission, contact: CamContact, reach: f64) -> Option<(LinkId, Mark)> {
     let link = own.members[1].link;
     let mark = match contact {

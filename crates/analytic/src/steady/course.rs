@@ -45,7 +45,7 @@ impl ReducedModel<'_> {
 
     fn row(&self, poses: &mut PoseSolver, crank: f64) -> Result<ReducedRow> {
         let found = self.at(poses, crank, self.sense)?;
-        // The moment is positive against the motion, in either direction of the crank.
+        // A moment against the motion is positive, whichever way the crank turns.
         let resistance = -self.sense * found.applied;
         Ok(ReducedRow { crank, inertia: found.inertia, slope: found.slope, resistance })
     }

@@ -62,7 +62,8 @@ impl Regime {
 
 impl ReducedModel<'_> {
     /// The steady periodic motion in the motor's sense.
-    /// Newton's method finds the energy at the start of a period; its derivative is integrated along with the motion.
+    /// Newton's method finds the energy at the start of a period.
+    /// The derivative that Newton's method needs is integrated along with the motion.
     /// `cranks` are the crank angles (rad) at which the crank's speed is requested.
     /// These angles lie in one period from the start of the case, in the order of the motion.
     ///
@@ -155,7 +156,7 @@ impl<'m, 'a> Turn<'m, 'a> {
             let stop = march(&self.flow, &mut place, &targets, accuracy, visit)
                 .map_err(|error| if error.kind() == ErrorKind::Numeric { stalled(way * from) } else { error })?;
             if let Stop::Bound(bound) = stop {
-                // Sets the energy exactly to the speed at which the present branch ends and the next begins.
+                // Sets the energy to its exact value at the speed where the present branch ends and the next begins.
                 let speeds = forces.branch.get().map_or([0.0; 2], |branch| branch.speeds);
                 let speed = speeds[1 - bound];
                 place.y[0] = forces.reduced(way * place.x).inertia * speed * speed / 2.0;

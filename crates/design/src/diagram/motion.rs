@@ -25,7 +25,7 @@ const CURVE: usize = 720;
 /// The errors of a nearly constant derivative come from the displacement.
 /// The range of a nearly constant derivative would be too small a scale for such errors.
 const SMALLEST: f64 = 1e-3;
-/// A motion repeats if each rate at the end differs from that at the start by at most this fraction of its half range.
+/// A motion repeats if each rate changes from start to end by at most this fraction of half the rate's range.
 const REPEATS: f64 = 1e-6;
 /// If an error is below this fraction of its scale, it is rounding error and no order is computed from it.
 const ROUNDING: f64 = 1e-11;

@@ -67,7 +67,7 @@ impl Plans {
     }
 
     /// Keeps only the vectors of the points and links in `names`.
-    /// A point keeps its vectors; a link keeps all its points and its mass centre.
+    /// For a point, its vectors are kept; for a link, the vectors of all its points and of its mass centre.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for a name of neither a point nor a link.

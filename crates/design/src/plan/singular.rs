@@ -10,7 +10,7 @@
 //! The accelerations of S on the two base links differ by d.
 //! Along the lead BD (unit vector u), d . u = omega5^2 (D - S) . u - omega2^2 (B - S) . u - omega3^2 |BD|.
 //! The same equation holds along CE with the quantities of that lead.
-//! Then the equation a_A + ... + d = a_K + ... is solved by the same construction as that of the velocities.
+//! Then the equation a_A + ... + d = a_K + ... is solved by the construction that gives the velocities.
 
 use crate::sentences;
 use linkage::case::Case;

@@ -59,7 +59,7 @@ pub struct SearchResult {
     pub refined: Vec<f64>,
 }
 
-/// Searches the dimensions of a task with `threads` threads; 0 means as many as the machine has.
+/// Searches for the dimensions of a task with `threads` threads; 0 means one thread for each core.
 /// `progress` is called with values from 0 to 1.
 ///
 /// # Errors

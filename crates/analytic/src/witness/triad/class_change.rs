@@ -20,7 +20,7 @@
 //! There are two kinds of limit positions.
 //! In the first kind, the base link is in line with the ground lead that does not drive.
 //! The first dyad is then at its limit.
-//! The ground lead whose first dyad is farther from its limit is therefore chosen as the driver.
+//! The driver is therefore chosen so that the first dyad is as far as possible from its limit.
 //! In the second kind, the crank and lead 3 are in line.
 //! Both ground leads then stand still, and both are equally unsuitable as the driver.
 //! The second dyad then changes from one of its two configurations to the other.

@@ -14,7 +14,7 @@ use linkage::solver::State;
 
 /// Inertia of a drive's rotor, divided by an estimate of the mechanism's moment of inertia about one of its points.
 /// The mechanism's inertia forces cause moments of about this estimate times the square of the speed.
-/// These moments therefore change the speed by 1e-9 of its value per radian.
+/// With such a rotor, these moments change the speed by 1e-9 of its value per radian.
 const ROTOR: f64 = 1e9;
 /// Mass of a massless link, divided by the mass of the whole mechanism. MuJoCo refuses a mass of zero.
 /// A smaller mass would falsify reactions less, but it would make loops softer.

@@ -1,5 +1,5 @@
 //! The XML document.
-//! Simple shapes show the links; they have no mass and no contacts.
+//! Simple shapes show the links. The shapes have no mass and no contacts.
 
 use crate::sentences;
 use std::fmt::Write;

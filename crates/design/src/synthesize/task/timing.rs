@@ -65,7 +65,7 @@ impl Timing {
     ///
     /// # Errors
     /// [`ErrorKind::Input`] with the number of the phase (`phases[2]`) if the phases do not follow each other over a
-    /// whole turn, or contradict themselves.
+    /// whole turn, or contradict one another.
     pub fn of(phases: Vec<Phase>) -> Result<Self> {
         let of_all = |message: String, help: &str| Err(wrong("phases", message).help(help));
         let of_one = |index: usize, message: String, help: &str| {
