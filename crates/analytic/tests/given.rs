@@ -1,4 +1,4 @@
-//! Mechanisms with given joint coordinates: both sides agree, and the powers balance.
+//! Mechanisms with given joint coordinates: both solvers agree, and the powers balance.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -21,8 +21,8 @@ fn states(case: &Case, solver: &dyn Solver) -> Vec<State> {
     all
 }
 
-/// Asserts that both sides agree and that the powers sum to zero. A difference is compared with the largest value of
-/// the same list of quantities.
+/// Asserts that both solvers agree and that the powers sum to zero.
+/// The numbers of a state form four lists, and each difference is compared with the largest number of its list.
 fn agrees(case: &Case) -> Vec<State> {
     let [one, other] = [states(case, &AssurSolver), states(case, &NewtonSolver)];
     let numbers = |state: &State| -> Vec<Vec<f64>> {
@@ -110,7 +110,7 @@ fn the_order_of_the_links_changes_the_sign_alone() {
     }
 }
 
-/// A piston on the ground drives a slider-crank: the prismatic joint on the ground is given.
+/// A piston on the ground drives a slider-crank: the coordinate of the prismatic joint on the ground is given.
 #[test]
 fn val_a_piston_drives_a_crank() {
     let case = Case::builder()
@@ -215,7 +215,7 @@ fn val_a_platform_on_three_cylinders() {
     agrees(&case);
 }
 
-/// Two links in series, each driven relative to the one before, and a telescope on the second.
+/// Two links in series, each driven relative to the link before it, and a telescope on the second link.
 #[test]
 fn val_an_arm_with_relative_drives() {
     let case = Case::builder()

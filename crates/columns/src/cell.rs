@@ -82,7 +82,7 @@ impl TableCell {
         self.significant > 0 && !self.value.is_nan()
     }
 
-    /// The same number with the trailing zeros that the column's format left out.
+    /// The cell with the trailing zeros that the column's format left out.
     /// Zeros are added until the cell has `decimals` decimals or `significant` significant digits.
     pub(crate) fn with_zeros(mut self, decimals: i32, significant: u16) -> TableCell {
         let mut zeros = decimals.saturating_sub(self.decimals).max(0);
@@ -102,7 +102,7 @@ impl TableCell {
 /// The largest number of decimals or digits of any cell is therefore the fixed number.
 /// The uncertainty is half a unit of the last printed digit. The uncertainty is computed for both formats, and the
 /// larger value counts.
-/// The larger value is always that of the actual format:
+/// The larger value is always the uncertainty for the actual format:
 /// With fixed decimals, the number of largest magnitude has the most significant digits.
 /// With fixed significant digits, the number of smallest magnitude has the most decimals.
 ///
@@ -110,7 +110,7 @@ impl TableCell {
 /// The trailing zeros then count as digits lost in rounding, unless the numbers count as exact: see [`chosen`].
 ///
 /// Numbers in single precision are printed with up to nine digits but have fewer significant digits.
-/// The shortest text for such a number may lie half way to the neighbouring number.
+/// The shortest text for a number in single precision may lie half way to the neighbouring number.
 /// A number in single precision is therefore converted to single precision again.
 pub fn numbers(cells: &[TableCell]) -> Vec<Rounded> {
     numbers_as(cells, Precision::of(cells))
@@ -151,11 +151,11 @@ const FEW: usize = 2;
 
 /// A column counts as single precision only if at least this many cells have eight or more digits.
 /// In addition, each cell must be the shortest text of a number in single precision.
-/// By chance, about one in five decimal numbers with eight digits is such a text.
+/// By chance, about one in five decimal numbers with eight digits is the shortest text of such a number.
 const TELLING: usize = 8;
 
-/// Precision of the numbers of a column before the numbers were printed. Single precision comes before double
-/// precision.
+/// Precision of the numbers of a column before the numbers were printed. In the order of the variants, single precision
+/// comes first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Precision {
     /// Single: each number has just enough digits to be distinguished from its neighbours.

@@ -16,8 +16,9 @@ const SINGLE: u16 = 7;
 /// a half.
 /// A file usually has one format. If this format omits trailing zeros, both the number of decimals and the number of
 /// significant digits vary from cell to cell in a column that is not constant.
-/// If they vary in every column of `others`, the zeros have at least the decimals and digits of the coarsest of these
-/// columns. Constant columns, and columns of exact equidistant numbers ([`chosen`]), are not considered.
+/// If both numbers vary in every column of `others`, the zeros have at least the decimals and digits of the coarsest of
+/// these columns.
+/// Constant columns, and columns of exact equidistant numbers ([`chosen`]), are not considered.
 /// If a column of `others` has a fixed number of decimals, as from `%.6f`, or contains only whole numbers, each column
 /// may have a separate format. The zeros may then be rounded to the format of their column.
 pub fn numbers_beside<Others>(cells: &[TableCell], others: impl FnOnce() -> Others) -> Vec<Rounded>
@@ -44,7 +45,7 @@ struct Vouched {
 }
 
 /// Evidence from the columns `others`.
-/// `None` if these columns give no evidence, or if the format of one of them does not omit trailing zeros.
+/// `None` if these columns give no evidence, or if the format of one of these columns does not omit trailing zeros.
 fn vouched(others: impl IntoIterator<Item: AsRef<[TableCell]>>) -> Option<Vouched> {
     let mut coarsest: Option<Vouched> = None;
     for column in others {
@@ -131,7 +132,7 @@ mod tests {
     #[test]
     fn a_constant_in_a_different_format_may_be_rounded() {
         // These columns have fixed decimals, an exponent, or whole numbers.
-        // Steps and constants give no evidence.
+        // Columns of equidistant numbers and constant columns give no evidence.
         for fixed in [["0.125000", "1.500000", "12.345679"], ["1.25e-1", "1.50e0", "1.23e1"], ["2450", "-13", "301"]] {
             approx::assert_relative_eq!(error(&["0", "0", "0"], &[GENERAL, &fixed]), 0.5, max_relative = 1e-6);
         }

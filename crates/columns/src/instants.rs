@@ -6,7 +6,8 @@ use linkage::math::KeepNan;
 /// If the probability that a pattern of printed instants occurs by chance is at most one in this number, the instants
 /// count as exact.
 /// Rounded instants look equally spaced over n steps by chance with the probability 1 / n.
-/// Their step, in units of the last digit, is divisible by two with the probability 1 / 2 and by five with 1 / 5.
+/// The step of rounded instants, in units of the last digit, is divisible by two with the probability 1 / 2 and by five
+/// with the probability 1 / 5.
 /// A trailing zero therefore occurs by chance with the probability 1 / 10.
 const EVIDENCE: f64 = 50.0;
 

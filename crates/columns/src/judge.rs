@@ -1,4 +1,4 @@
-//! Comparison of two columns.
+//! Comparison of two columns, each of them from one party, such as a solver or a table.
 
 use crate::cell::is_missing;
 use formula::Rounded;
@@ -51,7 +51,7 @@ pub struct Beside<'a> {
     pub places: [&'a [f64]; 2],
     /// Uncertainty caused by the digits of the instants, row by row; empty if the digits cause no uncertainty.
     pub drift: &'a [f64],
-    /// Period of a quantity, such as a whole turn. Values that differ by a multiple of the period mean the same.
+    /// Period of a quantity, such as a whole turn. Values that differ by a multiple of the period count as equal.
     pub turn: Option<f64>,
     /// Difference that is allowed in addition to the known part of the bound.
     pub allowance: Allowance,
@@ -59,7 +59,8 @@ pub struct Beside<'a> {
     pub measure: ScaleColumn,
 }
 
-/// Selects the reference of two columns: the first, unless only the second comes from an analytic side.
+/// Selects the reference of two columns.
+/// The second column is the reference if only this column comes from an analytic side, otherwise the first.
 #[derive(Clone, Copy, Debug)]
 pub struct ScaleColumn {
     /// Index of the reference column: 0 or 1.
@@ -70,7 +71,7 @@ pub struct ScaleColumn {
 }
 
 impl ScaleColumn {
-    /// Selects the reference. Each flag says whether the first or the second column comes from an analytic side.
+    /// Selects the reference. The flags say for each of the two columns whether it comes from an analytic side.
     pub fn among([one, other]: [bool; 2]) -> Self {
         ScaleColumn { party: usize::from(!one && other), is_analytic: one || other }
     }

@@ -5,8 +5,8 @@
 //! - [`Records`]: the rows of a table whose cells are not all numbers.
 //! - [`TableCell`] and [`numbers`]: the numbers of a column, each with the uncertainty caused by the printing of its
 //!   digits.
-//! - [`numbers_beside`]: the same uncertainty for a column of a file. The file's other columns show the format of a
-//!   column of zeros.
+//! - [`numbers_beside`]: the numbers of a column of a file, each with its uncertainty.
+//!   The file's other columns show the format of a column of zeros.
 //! - [`chosen`]: whether printed instants are exact or rounded.
 //! - [`judge`]: comparison of two columns.
 

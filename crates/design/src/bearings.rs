@@ -56,7 +56,7 @@ pub struct Peaks {
 pub struct FrictionLoss {
     /// Name of the joint, or of the transmission with losses.
     pub name: String,
-    /// Whether it is a transmission.
+    /// Whether the losses are those of a transmission.
     pub is_mesh: bool,
     /// Whether the friction is a force, in a prismatic joint.
     pub is_force: bool,
@@ -65,7 +65,7 @@ pub struct FrictionLoss {
     /// Work that the friction takes over the range (J), not negative.
     pub work: f64,
     /// Largest product of the normal force and the sliding speed of the contact (W).
-    /// Divided by the bearing area it is the product of pressure and speed.
+    /// Divided by the bearing area, this value is the product of bearing pressure and speed.
     pub pressure_speed: f64,
 }
 

@@ -51,7 +51,7 @@ pub enum RangeVariable {
 }
 
 impl RangeVariable {
-    /// The variable of a case.
+    /// Range variable of a case.
     pub fn of(case: &Case) -> Self {
         if case.goes_by_time() { RangeVariable::Time } else { RangeVariable::Input(case.crank().input) }
     }
@@ -98,9 +98,9 @@ pub struct PairClearance {
 /// Operation counts of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ClearanceWork {
-    /// Number of poses that side 1 computes for distances.
+    /// Number of poses that the analytic solver (side 1) computes for distances.
     pub poses: usize,
-    /// Number of additional poses that side 1 computes for swept areas.
+    /// Number of additional poses that the analytic solver (side 1) computes for swept areas.
     pub positions: usize,
     /// Number of pairs of convex parts whose nearest points were computed.
     pub distances: usize,
@@ -155,7 +155,7 @@ impl ClearanceResult {
 ///
 /// The poses repeat after a turn if all of these conditions hold:
 /// - All groups are dyads.
-/// - The only drive turns a joint.
+/// - There is only one drive, and this drive turns a joint.
 /// - There are no transmissions.
 /// - The motion does not pass change points.
 ///

@@ -1,4 +1,4 @@
-//! Design of a mechanism whose numbers are proven. This crate is not part of the proof.
+//! Design of a mechanism from results that other crates have proven. This crate is not part of the proof.
 //! The crate covers bearings, clearance, diagrams, export, flywheel, motor choice, plans and synthesis.
 
 pub mod bearings;

@@ -8,7 +8,7 @@ use linkage::math::{KeepNan, Vec2, cross, turned};
 use linkage::mechanism::{GROUND, Guise, Joint, JointId, JointSide, LinkId, Mechanism};
 
 /// Half length and half width of a block, in units of the sketch: `FIXED` in a fixed guide, `MOVING` on a moving guide.
-/// The two sizes differ so that both blocks are visible at the same joint.
+/// The two sizes differ so that two blocks at the same joint are both visible.
 const FIXED: [f64; 2] = [5.0, 3.2];
 const MOVING: [f64; 2] = [3.8, 2.0];
 /// Clearance between a block and the wall beside it, in units of the sketch.
@@ -70,7 +70,7 @@ pub fn marks(mechanism: &Mechanism, travels: &Travels, unit: f64) -> Vec<(LinkId
 
 /// Whether a prismatic pair is drawn as a piston in a cylinder.
 /// If the joint states how it is drawn, this statement decides.
-/// Otherwise the pair is a cylinder if the names say so.
+/// Otherwise the pair is a cylinder if a name contains one of the words [`CYLINDERS`].
 /// The pair is also a cylinder if the guide moves and all points of the block's link lie on the axis.
 fn is_cylinder(mechanism: &Mechanism, joint: &Joint, guide: JointSide, block: JointSide, axis: Vec2) -> bool {
     if let Some(guise) = joint.drawn {
@@ -95,7 +95,7 @@ impl Guide {
         [self.travel[0] - self.half[0], self.travel[1] + self.half[0]]
     }
 
-    /// The corners of a strip around the guide, in its link's frame.
+    /// The corners of a strip around the guide, in the frame of the guide's link.
     fn strip(&self, [from, to]: [f64; 2], half: f64) -> [Vec2; 4] {
         let aside = turned(self.axes[0]) * half;
         let [start, end] = [from, to].map(|way| self.guide.local + self.axes[0] * way);
@@ -125,7 +125,7 @@ impl Guide {
         if self.travel[1] + self.travel[0] >= 0.0 { 1.0 } else { -1.0 }
     }
 
-    /// Ends of a cylinder: beyond the piston, with a gap at its head.
+    /// Ends of a cylinder: those of the range that the piston covers, plus a gap at the cylinder's head.
     fn barrel(&self) -> [f64; 2] {
         let [from, to] = self.covered();
         if self.head() > 0.0 { [from, to + HEAD * self.unit] } else { [from - HEAD * self.unit, to] }
@@ -144,7 +144,7 @@ impl Guide {
         self.lead(ends).into_iter().chain([guide]).collect()
     }
 
-    /// The corners of a strip, in order from its open end around the head.
+    /// The corners of a strip, in order: from the strip's open end, around its closed end, and back.
     fn open(&self, [a, b, c, d]: [Vec2; 4]) -> [Vec2; 4] {
         if self.head() > 0.0 { [a, d, c, b] } else { [d, a, b, c] }
     }
@@ -203,7 +203,8 @@ fn pieces(rail: [Vec2; 2], pivots: &[Vec2], unit: f64) -> Vec<[Vec2; 2]> {
     })
 }
 
-/// Fractions of a segment's length at which it enters and leaves the box around `centre` (Liang and Barsky 1984).
+/// Fractions of a segment's length at which the segment enters and leaves the box around `centre` (Liang and Barsky
+/// 1984).
 pub fn inside(segment: &[Vec2; 2], centre: Vec2, half: Vec2) -> Option<[f64; 2]> {
     let [start, end] = segment.map(|point| point - centre);
     let along = end - start;

@@ -31,7 +31,8 @@ pub struct Laid {
     pub faults: Vec<Error>,
     /// Assembly mode of each group that is placed.
     pub modes: Vec<GroupPlacement>,
-    /// Poses of the links that are not placed. Links on driven joints have the right pose relative to each other.
+    /// Preliminary poses, used for links without a place.
+    /// In these poses, links on driven joints have the right pose relative to each other.
     shape: Option<Pose>,
 }
 
@@ -77,8 +78,8 @@ impl Laid {
         laid
     }
 
-    /// The poses of all links. Links without a place have the pose in `shape`, or are at the origin if `shape` is
-    /// `None`.
+    /// The poses of all links.
+    /// A link without a place has its pose in `shape`; if `shape` is `None`, the link is at the origin.
     fn pose(&self) -> Pose {
         let shape = |link: LinkId| self.shape.as_ref().map_or(LinkPose::GROUND, |shape| shape.0[link]);
         Pose(
@@ -90,7 +91,8 @@ impl Laid {
         )
     }
 
-    /// The poses of all links for the configurations of a group.
+    /// Start poses of all links for computing the configurations of a group.
+    /// In a driven group, the driven joints have the coordinates `angles`.
     fn pose_for(&self, mechanism: &Mechanism, structure: &Structure, group: &Group, angles: &[f64]) -> Pose {
         let mut pose = self.pose();
         if group.kind == GroupKind::Driven {
@@ -135,7 +137,7 @@ pub fn lay(mechanism: &Mechanism, structure: &Structure, angles: &[f64], starts:
             }
             Err(error) => {
                 // If the group cannot be closed, the circles on which its inner pin would lie are listed.
-                // Otherwise only its mode is not specified.
+                // Otherwise the group can be closed, and only the choice of its mode is missing.
                 if configurations(mechanism, group, &laid.pose()).is_err() {
                     laid.reaches.extend(reaches(mechanism, group, &laid));
                 }

@@ -105,7 +105,7 @@ roles! {
     Slot = "slot": Link, Paper, 0.6, Links;
     /// Cylinder of a moving link, in which a piston slides.
     Cylinder = "cylinder": Link, Paper, 0.6, Links;
-    /// Pitch circle of a wheel with a stroke that turns with it, or pitch line of a rack.
+    /// Pitch circle of a wheel, with a stroke that turns with the wheel; or pitch line of a rack.
     Wheel = "wheel": Link, None, 0.45, Links;
     /// Strand of a belt.
     Strand = "strand": Link, None, 0.45, Links;
@@ -190,7 +190,7 @@ pub enum Layer {
 /// How a mark is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Look {
-    /// Colour of its line.
+    /// Colour of the mark's line.
     pub ink: Ink,
     /// Fill of the area that a closed line encloses.
     pub fill: Fill,

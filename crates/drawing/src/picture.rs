@@ -88,7 +88,8 @@ enum Sort {
 }
 
 impl<'a> Picture<'a> {
-    /// The links of a sketch at their poses, at a scale (m/mm).
+    /// A picture of a sketch with its links at the poses `places`, at a scale (m/mm).
+    /// No mark is drawn yet.
     pub fn of(sketch: &'a Sketch, places: &'a [LinkPlacement], scale: f64) -> Picture<'a> {
         let (figure, obstacles) = (DrawnFigure::default(), Obstacles::default());
         Picture { sketch, places, scale, figure, obstacles, written: Vec::new() }
@@ -123,7 +124,7 @@ impl<'a> Picture<'a> {
         }
     }
 
-    /// Draws a mark of a link: `at` maps its points to paper.
+    /// Draws a mark of a link: `at` maps the mark's points to paper.
     fn put(&mut self, mark: &Mark, link: LinkId, at: impl Fn(Vec2) -> Vec2) {
         let (style, fill) = style(mark.role.look(), link, &self.places[link]);
         if let MarkShape::Circle { centre, radius } = mark.shape {
@@ -237,7 +238,7 @@ impl<'a> Picture<'a> {
         marks.iter().for_each(|mark| self.put(mark, GROUND, |own| own + at));
     }
 
-    /// Draws the path of a point in the world (m). Later drawings cover the path.
+    /// Draws the path of a point in the world (m). Marks that are drawn later cover the path.
     pub fn draw_trace(&mut self, path: &[Vec2], link: LinkId) {
         let points: Vec<Vec2> = path.iter().map(|at| at / self.scale).collect();
         if points.len() > 1 {
@@ -245,7 +246,7 @@ impl<'a> Picture<'a> {
         }
     }
 
-    /// The lengths of all links between their corners, in mm.
+    /// Writes beside each side of each link its length in mm.
     pub fn draw_lengths(&mut self, mechanism: &Mechanism) {
         for link in mechanism.links().ids().skip(1) {
             let places = super::body::corners(mechanism, link);
@@ -259,7 +260,8 @@ impl<'a> Picture<'a> {
         }
     }
 
-    /// Part of the circle that a point can reach (world, m), around the direction `toward`, as a construction line.
+    /// Draws a part of the circle of points that a point can reach (world, m), as a construction line.
+    /// The part lies around the direction `toward`.
     pub fn draw_reach(&mut self, centre: Vec2, radius: f64, toward: Vec2) {
         let from = toward.y.atan2(toward.x) - REACH;
         let (centre, radius) = (centre / self.scale, radius / self.scale);
@@ -267,7 +269,7 @@ impl<'a> Picture<'a> {
         self.figure.curve(points, None, Style { colour: GREY, width: 0.3, dash: CONSTRUCTION });
     }
 
-    /// A gap between two points in the world (m) that a joint should hold together, with its size.
+    /// Draws the gap between two points (world, m) that a joint should hold together, and writes the gap's size.
     pub fn draw_gap(&mut self, [from, to]: [Vec2; 2]) {
         let ends = [from, to].map(|at| at / self.scale);
         let style = solid(ALARM, 0.7);
@@ -316,7 +318,7 @@ fn short(value: f64) -> String {
     }
 }
 
-/// Line and fill for the look of a link at its pose.
+/// Line style and fill of a mark with the look `look`, for the placement of the mark's link.
 fn style(look: Look, link: LinkId, place: &LinkPlacement) -> (Style, Option<Tint>) {
     let paint = match look.ink {
         Ink::Link => colour(link),

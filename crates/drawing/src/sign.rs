@@ -36,7 +36,8 @@ pub struct LoadSign {
     pub at: JointSide,
 }
 
-/// The point at which moments on a link are drawn: its pin on the ground, any pin, any point, or its mass centre.
+/// The point at which moments on a link are drawn: the link's pin on the ground.
+/// If there is no such pin, the point is another pin, else a point of the link, else its mass centre.
 fn place_of(mechanism: &Mechanism, link: LinkId) -> Vec2 {
     let pins = || mechanism.joints().iter().filter(|joint| joint.is_pin() && joint.on(link).is_some());
     let on_ground = pins().find(|joint| joint.other(link).link == GROUND);
@@ -92,7 +93,7 @@ pub fn twisted(mechanism: &Mechanism, load: &Load, u: f64) -> Option<(LinkId, Ve
     Some((link, vec![drum, Mark::line(MarkRole::TorsionDamper, vane), first, last]))
 }
 
-/// The arrow in the direction of a drive, in the frame of the driven link, and the circle of its motor.
+/// The arrow in the direction of a drive and the circle of the drive's motor, in the frame of the driven link.
 pub fn of_drive(mechanism: &Mechanism, drive: &Drive, u: f64) -> Vec<Mark> {
     let Some(pin) = mechanism.joints()[drive.joint].on(drive.link) else { return Vec::new() };
     let places = super::body::places(mechanism, drive.link);
@@ -145,7 +146,7 @@ pub fn arrow(tip: Vec2, unit: f64) -> Vec<Mark> {
 }
 
 /// An arrow around the origin: its arc and its head. The arrow is counter-clockwise for a `sense` above 0.
-/// The arrow begins in the direction `from` (rad) at the distance `radius` (m), for a sketch of this unit (m).
+/// The arrow begins in the direction `from` (rad) at the distance `radius` (m). `u` is the unit of the sketch (m).
 pub fn turning(sense: f64, radius: f64, from: f64, u: f64) -> [Mark; 2] {
     let sense = sense.signum();
     let end = unit(from + sense * SWEEP) * radius;

@@ -12,7 +12,7 @@ use linkage::mechanism::{GROUND, JointSide, LinkId, Mechanism};
 
 /// Size of a mechanism in units of its sketch, if the size of the picture is unknown.
 const UNITS: f64 = 60.0;
-/// Half length of the stroke at a ground point on a guide, in units of the sketch.
+/// Half length of the line drawn across a guide at a ground point, in units of the sketch.
 const STOP: f64 = 1.4;
 
 /// The unit (m) of a sketch if the size of its picture is unknown: a pin is 2.4 units wide, a block 10 units long.
@@ -65,7 +65,7 @@ pub enum Lettering {
 pub struct SketchLabel {
     /// The text.
     pub text: String,
-    /// What it names.
+    /// What the label names.
     pub names: Lettering,
     /// The place.
     pub at: JointSide,
@@ -134,7 +134,7 @@ impl Sketch {
         self
     }
 
-    /// All marks of all links, with the link's number, in drawing order.
+    /// All marks of all links, each with the number of its link, in drawing order.
     /// The marks are ordered by layer; within a layer, larger links come first.
     /// The springs and dampers in `stretched` are not in this list; they belong to [`Layer::Stretched`].
     pub fn in_order(&self) -> Vec<(LinkId, &Mark)> {

@@ -1,4 +1,4 @@
-//! Springs and dampers: drawings that reach from one point to another, whatever their distance.
+//! Springs and dampers: drawings that reach from one point to another, whatever the distance of the two points.
 
 use super::mark::{Mark, MarkRole};
 use linkage::drive::{Load, On};
@@ -14,7 +14,7 @@ const APART: f64 = 1.25;
 const TEETH: usize = 8;
 const COIL: [f64; 2] = [0.18, 0.82];
 
-/// A spring or damper from a point of one link to a point of another.
+/// A spring or damper from a point of one link to a point of another link.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stretched {
     /// [`MarkRole::Spring`] or [`MarkRole::Damper`].

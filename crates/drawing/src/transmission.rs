@@ -6,7 +6,7 @@ use super::travel::Travels;
 use linkage::math::{KeepNan, Vec2, turned, unit};
 use linkage::mechanism::{CamContact, LinkId, Mechanism, Transmission, TransmissionId, TransmissionKind};
 
-/// Inner end of the stroke that shows how far a wheel has turned, as a fraction of its radius.
+/// Inner end of the stroke that shows how far a wheel has turned, as a fraction of the wheel's radius.
 const STROKE: f64 = 0.8;
 /// Length of a rack beyond the contact at both ends of its travel, as a fraction of the pinion's radius.
 const BEYOND: f64 = 0.6;
@@ -54,7 +54,7 @@ fn rack(mechanism: &Mechanism, travels: &Travels, own: &Transmission) -> Option<
     let (axis, guide) = (joint.axis_on(carrier)?, joint.on(carrier)?);
     let foot = axis.dot(&(rack.place - guide));
     let travel = travels.of(index).unwrap_or([0.0; 2]);
-    // The travel is that of the block on the guide.
+    // `travel` is the travel of the block on the guide.
     let is_guide = mechanism.guide_and_block(joint)?[0].link == rack.link;
     let contact = travel.map(|way| if is_guide { foot + way } else { foot - way });
     let beyond = BEYOND * pinion.radius;
@@ -67,7 +67,8 @@ fn rack(mechanism: &Mechanism, travels: &Travels, own: &Transmission) -> Option<
     Some((rack.link, Mark::line(MarkRole::Wheel, ends.map(|end| rack.local + along * end))))
 }
 
-/// What touches the cam: the roller, or the flat face as wide as the cam's largest radius `reach` on both sides.
+/// The part of a follower that touches the cam: the roller, or the flat face.
+/// The flat face extends by the cam's largest radius `reach` to both sides.
 fn follower(mechanism: &Mechanism, own: &Transmission, contact: CamContact, reach: f64) -> Option<(LinkId, Mark)> {
     let link = own.members[1].link;
     let mark = match contact {

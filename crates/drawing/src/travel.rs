@@ -1,5 +1,5 @@
 //! Travel of blocks on their guides, which sets the drawn length of the guides.
-//! A pose of the members of every transmission, which sets the profiles of cams.
+//! Also one pose of the members of every transmission; this pose sets the profiles of cams.
 
 use linkage::math::{KeepNan, Motion, Vec2};
 use linkage::mechanism::{JointId, LinkId, Mechanism, TransmissionId};

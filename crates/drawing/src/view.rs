@@ -52,7 +52,7 @@ pub struct Shot {
 /// The path of a point: its link, and its positions in the world (m).
 pub type Trace = (LinkId, Vec<Vec2>);
 
-/// The shots as figures at one scale. Each figure fits into this size (mm) and has no heading.
+/// The shots as figures at one scale. Each figure fits into the size `room` (mm) and has no heading.
 pub fn cells(
     subject: &DrawnSubject,
     shots: &[Shot],
@@ -89,7 +89,8 @@ fn figure(
         picture.draw_trace(path, *link);
     }
     for (index, (centre, radius)) in laid.reaches.iter().enumerate() {
-        // The arc lies towards the other circle of the same dyad. Without another circle, it lies along x.
+        // The arc lies towards the other circle of the same dyad. If the dyad has only one circle, the arc lies along
+        // x.
         let other = laid.reaches.get(index ^ 1).map_or(Vec2::new(1.0, 0.0), |other| other.0 - centre);
         picture.draw_reach(*centre, *radius, other);
     }

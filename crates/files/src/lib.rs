@@ -1,8 +1,8 @@
 //! Writes files completely or not at all.
 //! An existing file is replaced only if the caller named it or this program wrote it.
 //!
-//! The content is first written to a new, locked temporary file in the same directory.
-//! When it is complete, the temporary file replaces the target.
+//! The content is first written to a new, locked temporary file in the directory of the target.
+//! When the temporary file is complete, it replaces the target.
 //! A run that fails or is killed therefore leaves an older file unchanged.
 //! If two runs write to one path, their contents do not mix.
 

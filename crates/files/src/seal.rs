@@ -41,14 +41,14 @@ pub fn is_sealed(bytes: &[u8]) -> bool {
     })
 }
 
-/// FNV-1a hash. The hash is the same in every version of the language.
+/// FNV-1a hash. The hash is the same with every version of Rust.
 /// Carriage returns are not hashed, because tools change line endings.
 fn hash(bytes: &[u8]) -> u64 {
     let letters = bytes.iter().filter(|&&byte| byte != b'\r');
     letters.fold(0xcbf2_9ce4_8422_2325, |hash, &byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
 }
 
-/// Check digits of a word. `super::temporary` recognises the names of temporary files by them.
+/// Check digits of a word. `super::temporary` recognises the names of temporary files by these digits.
 pub(super) fn check(word: &str) -> String {
     format!("{:08x}", hash(word.as_bytes()) >> 32)
 }

@@ -96,7 +96,8 @@ fn followed(path: &Path) -> io::Result<PathBuf> {
     Err(io::Error::other(sentences::more_than_symbolic_links_lead(&LINKS)))
 }
 
-/// Tests whether a file can be written at `path`, which the caller named. The test comes before any work.
+/// Tests whether a file can be written at `path`, which the caller named.
+/// Callers run this test before they compute the file's content.
 /// The test leaves no file behind and does not change an existing file.
 ///
 /// # Errors

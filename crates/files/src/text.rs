@@ -13,15 +13,15 @@ pub const LARGEST: u64 = 64 << 20;
 /// Upper limit of the length of a message that is shown (characters).
 const LONGEST: usize = 2000;
 
-/// A text of limited length, with every invisible character escaped.
+/// Limits the length of a text and escapes every invisible character.
 /// The escapes prevent a name from a file from imitating a line of output or controlling a terminal.
 #[must_use]
 pub fn visible(text: &str) -> String {
     shown(text, is_unseen)
 }
 
-/// A text of several lines and of limited length, such as the help of an error that quotes lines for the scenario.
-/// Every invisible character except the line feed is escaped.
+/// Limits the length of a text of several lines and escapes every invisible character except the line feed.
+/// An example is the help of an error that quotes lines for the scenario.
 #[must_use]
 pub fn visible_lines(text: &str) -> String {
     shown(text, |letter| letter != '\n' && is_unseen(letter))
@@ -60,8 +60,8 @@ pub fn text_from(from: impl Read) -> io::Result<String> {
     decoded(bytes).map_err(|other| io::Error::new(io::ErrorKind::InvalidData, other))
 }
 
-/// The same as [`read_text`], for a file that another file names.
-/// The file must be regular. The reading of any other kind of file, such as a terminal, might never end.
+/// Text of a file that another file names, at most 64 MiB.
+/// The file must be regular, because reading a file of another kind, such as a terminal, might never end.
 ///
 /// # Errors
 /// The errors of [`read_text`], or an error if the file is not regular.

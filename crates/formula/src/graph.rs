@@ -23,7 +23,7 @@ pub(crate) enum Node<P = NodeId> {
 }
 
 impl<P: Copy> Node<P> {
-    /// The same operation, with each reference to an argument changed by `to`.
+    /// The operation of this node, with each reference to an argument changed by `to`.
     pub(crate) fn map<Q>(self, to: impl Fn(P) -> Q) -> Node<Q> {
         match self {
             Node::Input(input) => Node::Input(input),
@@ -145,7 +145,7 @@ impl FormulaGraph {
         self.added(tree, false)
     }
 
-    /// The same as [`FormulaGraph::add`], for a formula that must have a value.
+    /// Adds a formula that must have a value.
     ///
     /// # Errors
     /// The errors of [`FormulaGraph::add`].
@@ -206,7 +206,7 @@ impl FormulaGraph {
         })
     }
 
-    /// The value of a node; `None` if it depends on an input.
+    /// The value of a node; `None` if the node depends on an input.
     #[must_use]
     pub fn constant_of(&self, id: NodeId) -> Option<Rounded> {
         self.constants[id.0 as usize]
@@ -230,7 +230,7 @@ impl FormulaGraph {
     }
 
     /// All nodes on which the given nodes depend, including the given nodes, arguments first.
-    /// A node for which `is_done` is true is left out, and so is a node that only such nodes need.
+    /// A node is left out if `is_done` is true for it, or if only nodes that are left out need it.
     /// Common parts of formulas are therefore visited once.
     pub(crate) fn needed_but(&self, nodes: &[NodeId], is_done: &dyn Fn(NodeId) -> bool) -> Vec<NodeId> {
         let mut needed: BTreeSet<NodeId> = nodes.iter().copied().filter(|id| !is_done(*id)).collect();

@@ -41,7 +41,7 @@ fn refused<T>(message: impl Into<String>, at: Range<usize>, help: impl Into<Stri
 
 impl FormulaTree {
     /// Parses a formula: numbers, names (with dots if needed), `+ - * / ^`, parentheses and calls of a [`Function`].
-    /// A name with any other character, such as that of a column, is put in backquotes.
+    /// A name that contains any other character, such as a space in a column's name, is put in backquotes.
     /// `^` is right-associative and binds tighter than a minus before it: -x^2 is -(x^2), 2^3^2 is 2^9.
     ///
     /// # Errors
@@ -226,7 +226,7 @@ fn parentheses(input: &mut Input<'_>, start: usize) -> Read<FormulaTree> {
     Ok(inner)
 }
 
-/// Consumes the parenthesis that closes the one at `start`.
+/// Consumes the closing parenthesis that belongs to the opening parenthesis at `start`.
 fn closed(input: &mut Input<'_>, start: usize) -> Read<()> {
     let at = input.current_token_start();
     match input.chars().next() {

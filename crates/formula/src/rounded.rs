@@ -3,7 +3,7 @@
 use crate::tree::{Function, Operator};
 
 /// A number with a bound on its error.
-/// Every operation propagates the errors of its arguments and adds its rounding error.
+/// Every operation propagates the errors of its arguments and adds the operation's own rounding error.
 ///
 /// An operation outside its domain gives [`Rounded::UNDEFINED`], and so does every operation on an undefined number.
 /// Unlike in IEEE 754, `1/(1/0)`, `(0/0)^0` and `atan(1/0)` have no value.
@@ -118,8 +118,8 @@ impl Rounded {
             }
             Function::Tan => {
                 let value = x.value.tan();
-                // The slope is taken at the end of the argument's interval that is nearer to a pole, where it is
-                // steepest.
+                // The slope is taken at the end of the argument's interval that is nearer to a pole, because the
+                // function is steepest there.
                 let steepest = value.abs() + x.error * (1.0 + value * value) * 2.0;
                 let is_near = !(x.error * (1.0 + value.abs()) < 0.1);
                 let error = if is_near { f64::INFINITY } else { x.error * (1.0 + steepest * steepest) };
@@ -131,7 +131,7 @@ impl Rounded {
                 let end = x.value.abs() + x.error;
                 if end < 1.0 {
                     // The slope is taken at the end of the argument's interval that is nearer to the end of the domain,
-                    // where it is steepest.
+                    // because the function is steepest there.
                     return Rounded::of(of(x.value), x.error / ((1.0 - end) * (1.0 + end)).sqrt(), WHOLE);
                 }
                 growing(of, x, [-1.0, 1.0])
@@ -179,7 +179,7 @@ fn swing(x: Rounded, slope: f64) -> f64 {
     least(least(slope.abs() * x.error + x.error * x.error / 2.0, x.error), 2.0)
 }
 
-/// The number, or zero if it is negative. NaN stays.
+/// The number, or zero if the number is negative. NaN stays NaN.
 fn not_below_zero(number: f64) -> f64 {
     if number < 0.0 { 0.0 } else { number }
 }
@@ -194,7 +194,7 @@ fn larger(one: f64, other: f64) -> f64 {
 }
 
 /// Value of a function that is monotonic from `domain[0]` to `domain[1]`.
-/// The error is the larger of the two changes of the value from the argument to the ends of the argument's interval.
+/// The error is the larger of two changes of the value: from the argument to either end of the argument's interval.
 /// If the argument is outside the domain by less than its error, the end of the domain is used instead.
 fn growing(function: impl Fn(f64) -> f64, x: Rounded, domain: [f64; 2]) -> Rounded {
     let at = |value: f64| function(value.clamp(domain[0], domain[1]));

@@ -1,4 +1,4 @@
-//! A derivation stored part by part and evaluated at some instants.
+//! A derivation stored part by part and evaluated at several instants.
 //! After a change of one part, only the parts that depend on the changed part are evaluated again.
 
 use std::collections::BTreeMap;
@@ -7,7 +7,7 @@ use crate::graph::Node;
 use crate::rounded::Rounded;
 use crate::tree::{FormulaTree, NodeShape, Operator};
 
-/// A part of the sheet. Its arguments are earlier parts, so their indices are smaller.
+/// A part of the sheet. The arguments of a part are earlier parts, with smaller indices.
 #[derive(Clone, Copy, Debug)]
 enum Part {
     /// A reference by name to another part, given as the position of that part.
@@ -15,7 +15,7 @@ enum Part {
     Own(Node<usize>),
 }
 
-/// Formulas of a derivation, part by part, and their values at some instants.
+/// Formulas of a derivation, part by part, and their values at several instants.
 #[derive(Clone, Debug, Default)]
 pub struct DerivationSheet {
     parts: Vec<Part>,
@@ -43,7 +43,7 @@ const DIFFERENCE: f64 = 1e-6;
 /// Correct value of a formula at an instant.
 #[derive(Clone, Copy, Debug)]
 pub struct FormulaTarget {
-    /// The right value.
+    /// The correct value.
     pub value: f64,
     /// Largest allowed distance of a value from the correct value.
     pub bound: f64,

@@ -174,7 +174,8 @@ fn limit_of_differences(function: &dyn Fn(f64) -> Rounded) -> Option<(f64, f64)>
     for level in 0..9 {
         let step = 0.02 * 0.6f64.powi(level);
         let [above, below] = [function(step), function(-step)];
-        // The arguments x + step are rounded too. This changes the values by the slope times the rounding error.
+        // The arguments x + step are rounded too. This rounding changes the values by the slope times the rounding
+        // error.
         let slope = (above.value - below.value).abs() / (2.0 * step);
         let rounding = (above.error + below.error + 4.0 * f64::EPSILON * (1.0 + slope)) / (2.0 * step);
         let mut row = vec![(above.value - below.value) / (2.0 * step)];
@@ -530,7 +531,7 @@ fn overflow_and_underflow_are_not_undefined() {
         let found = at(text, one, one);
         assert!(!found.is_undefined() && found.error > 0.0, "{text}: {found:?}");
     }
-    // If an argument is outside a domain by less than its error, it is moved to the end of the domain.
+    // If an argument is outside a domain by less than its error, the argument is moved to the end of the domain.
     let near = |value: f64| Rounded { value, error: 1e-15 };
     for (text, value) in [("sqrt(x)", -1e-16), ("acos(x)", 1.0 + 4e-16), ("x^0.5", -1e-16)] {
         let found = at(text, near(value), one);

@@ -45,12 +45,12 @@ impl ReducedModel<'_> {
 
     fn row(&self, poses: &mut PoseSolver, crank: f64) -> Result<ReducedRow> {
         let found = self.at(poses, crank, self.sense)?;
-        // The moment is positive against the motion, in either direction of the crank.
+        // A moment against the motion is positive, whichever way the crank turns.
         let resistance = -self.sense * found.applied;
         Ok(ReducedRow { crank, inertia: found.inertia, slope: found.slope, resistance })
     }
 
-    /// Extremes over one period of the reduced moments of inertia and of resistance, refined between samples.
+    /// Extremes of the reduced moments of inertia and of resistance over one period, refined between samples.
     ///
     /// # Errors
     /// [`ErrorKind::Geometry`](linkage::error::ErrorKind::Geometry) for a crank that does not turn fully.
@@ -58,7 +58,7 @@ impl ReducedModel<'_> {
         self.extremes_of([|row| row.inertia, |row| row.resistance])
     }
 
-    /// Extremes over one period of dI*/dphi, refined between samples.
+    /// Extremes of dI*/dphi over one period, refined between samples.
     ///
     /// # Errors
     /// The errors of [`ReducedModel::extremes`].

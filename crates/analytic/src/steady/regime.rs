@@ -14,7 +14,7 @@ use linkage::error::{Error, ErrorKind, Result};
 
 /// Largest number of Newton steps of the shooting method. The method usually needs three to six.
 const MOST_SHOTS: usize = 60;
-/// If the relative change of the energy over a period is at most this value, it counts as zero.
+/// If the relative change of the energy over a period is at most this value, the change counts as zero.
 const CLOSED: f64 = 2e-14;
 
 /// Speed of the crank at a crank angle.
@@ -62,7 +62,8 @@ impl Regime {
 
 impl ReducedModel<'_> {
     /// The steady periodic motion in the motor's sense.
-    /// Newton's method finds the energy at the start of a period; its derivative is integrated along with the motion.
+    /// Newton's method finds the energy at the start of a period.
+    /// The derivative that Newton's method needs is integrated along with the motion.
     /// `cranks` are the crank angles (rad) at which the crank's speed is requested.
     /// These angles lie in one period from the start of the case, in the order of the motion.
     ///
@@ -98,8 +99,8 @@ impl ReducedModel<'_> {
         Err(Error::new(ErrorKind::Numeric, message).help(sentences::FOLLOW_THE_RUN_UP_INSTEAD))
     }
 
-    /// A steady motion of this model at the crank angles `cranks`, in the form of [`ReducedModel::regime`].
-    /// The motion is followed over one more period; it is not searched for again.
+    /// The results of [`ReducedModel::regime`] for the known steady motion `found`, at the crank angles `cranks`.
+    /// The motion is followed over one more period, without another search.
     ///
     /// # Errors
     /// The errors of [`ReducedModel::regime`].
@@ -123,7 +124,7 @@ impl<'m, 'a> Turn<'m, 'a> {
     }
 
     /// Energy and time at the end of a period that begins with `energy` (J), and the [multiplier](Regime::multiplier).
-    /// The visited steps are divided at the targets.
+    /// `visit` receives every step. Steps are divided at the crank angles `targets`.
     fn run(
         &self,
         energy: f64,
@@ -135,7 +136,7 @@ impl<'m, 'a> Turn<'m, 'a> {
         let (way, last) = (forces.way.get(), self.start + self.period);
         forces.begin_at(way * self.start);
         let mut place = Place { x: self.start, y: [energy, 0.0, 1.0], h: 0.0 };
-        // The speed at which a branch has just ended.
+        // The speed at which a branch of the motor's law has just ended.
         // A speed computed from the energy would have a rounding error and might lie on the wrong side of the end.
         let mut reached: Option<f64> = None;
         let mut empty = 0;
@@ -155,7 +156,7 @@ impl<'m, 'a> Turn<'m, 'a> {
             let stop = march(&self.flow, &mut place, &targets, accuracy, visit)
                 .map_err(|error| if error.kind() == ErrorKind::Numeric { stalled(way * from) } else { error })?;
             if let Stop::Bound(bound) = stop {
-                // Sets the energy exactly to the speed at which the present branch ends and the next begins.
+                // Sets the energy to its exact value at the speed where the present branch ends and the next begins.
                 let speeds = forces.branch.get().map_or([0.0; 2], |branch| branch.speeds);
                 let speed = speeds[1 - bound];
                 place.y[0] = forces.reduced(way * place.x).inertia * speed * speed / 2.0;

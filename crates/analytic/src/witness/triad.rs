@@ -1,6 +1,6 @@
 //! Published methods for the class III group of order 3: a base link on three leads, all joints revolute.
 //!
-//! The methods compute quantities that the two solvers also compute, but with independent equations.
+//! The methods compute, with independent equations, quantities that the two solvers also compute.
 //! For the motion, there are first transfer functions by Cramer's rule ([`cramer`]) and the exchange of the driving
 //! link ([`class_change`]).
 //! For the reactions, there are the singular Assur point ([`assur_point`]) and all equations of equilibrium at once
@@ -51,9 +51,10 @@ pub struct Triad {
 }
 
 impl Triad {
-    /// Interprets a group as a base link on three leads. `None` for any other group.
-    /// Also `None` if a joint on one of the group's links is not revolute, because it would also transmit a moment.
-    /// This condition includes joints with later groups.
+    /// Interprets a group as a base link on three leads.
+    /// `None` for any other group, and also if a joint on one of the group's links is not revolute.
+    /// A joint that is not revolute would also transmit a moment.
+    /// This condition includes the joints that connect later groups to the group's links.
     #[must_use]
     pub fn of(mechanism: &Mechanism, group: &Group) -> Option<Self> {
         let touching = mechanism.joints().iter().filter(|joint| group.links.iter().any(|&l| joint.on(l).is_some()));
@@ -80,7 +81,7 @@ impl Triad {
         Some(Triad { base, leads: [lead(group.outer[0])?, lead(group.outer[1])?, lead(group.outer[2])?] })
     }
 
-    /// All class III groups of order 3 in a case that have revolute pairs only.
+    /// All class III groups of order 3 with revolute pairs only, of one case.
     #[must_use]
     pub fn all(case: &Case) -> Vec<Self> {
         case.structure.groups.iter().filter_map(|group| Triad::of(&case.mechanism, group)).collect()
@@ -103,7 +104,7 @@ impl Triad {
 
     /// Resultant of the known forces on each link: all forces except the group's reactions.
     /// The known forces are gravity and inertia m (g - a) at the mass centre, the moment -J alpha, and loads.
-    /// They include the forces in the joints with later groups, which are taken from the state.
+    /// The known forces include those in the joints with later groups, which are taken from the state.
     #[must_use]
     pub fn known(&self, case: &Case, state: &State) -> [KnownResultant; 4] {
         let (motions, forces) = (&state.motions, &state.forces);
@@ -127,7 +128,7 @@ impl Triad {
         })
     }
 
-    /// Reactions as forces of each joint's first link on its second (N): joint and force, feet first.
+    /// Reactions as forces of each joint's first link on its second link (N): joint and force, feet first.
     #[must_use]
     pub fn joint_forces(&self, mechanism: &Mechanism, reactions: &Reactions) -> [(JointId, Vec2); 6] {
         let of = |joint: JointId, loaded: LinkId, force: Vec2| {

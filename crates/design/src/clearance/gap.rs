@@ -153,9 +153,9 @@ pub fn gap(
                 ask((p - q) / core);
             }
             if core < CLOSE * a.scale {
-                // The direction between points this close is only rounding error, so the normals of the sides are tried
-                // too.
-                // If two convex parts can be separated, one of these normals separates them.
+                // The nearest points are so close that the direction between them is only rounding error.
+                // The normals of the sides are therefore tried too.
+                // If two convex parts can be separated, the normal of one of their sides separates them.
                 normals(&own.corners, -1.0, &mut ask);
                 normals(&other.corners, 1.0, &mut ask);
             }

@@ -176,8 +176,8 @@ impl DistanceSearch<'_, '_> {
     }
 
     /// Finds where a pair first comes as near as `threshold` (m).
-    /// If the result is `None`, the pair is proven farther apart, except in the parts of the range that are reported as
-    /// unproven.
+    /// If the result is `None`, the distance of the pair is proven larger than `threshold`.
+    /// The proof does not cover the parts of the range that are reported as unproven.
     ///
     /// # Errors
     /// The errors of the pose solver.

@@ -2,8 +2,8 @@
 //!
 //! The plane is divided into squares. A square that is proven neither covered nor free is divided into four.
 //! A square is covered if it lies inside the outline at one instant or if a side of the outline passes over it.
-//! A square is free if the outline stays away from it during every part of the range. `Sweep::least` proves this with a
-//! bound like that of [`super::gap`].
+//! A square is free if the outline stays away from it during every part of the range.
+//! `Sweep::least` proves this by a lower bound of the distance, as [`super::gap`] does for two bodies.
 //! The remaining squares lie on the border of the area and determine the error bound of the area.
 //! The covered fraction of the remaining squares is computed as if the border were straight.
 

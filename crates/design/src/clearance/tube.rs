@@ -1,5 +1,5 @@
-//! Poses of all links over an interval of crank angles: side 1's pose at the middle, a uniform motion through this
-//! pose, and a proven bound on the deviation from the uniform motion.
+//! Poses of all links over an interval of crank angles: the pose of the analytic solver (side 1) at the middle, a
+//! uniform motion through this pose, and a proven bound on the deviation from the uniform motion.
 //!
 //! Over the interval, a uniform motion approximates the motion of each link.
 //! The link's reference point moves along a straight line, and the link's angle changes in proportion to the crank
@@ -33,7 +33,7 @@ use linkage::mechanism::{Coordinate, GROUND, Joint, JointId, LinkId, Transmissio
 use linkage::trajectory::Stage;
 
 /// Upper limit of the width of the first parts, into which the range is divided at the beginning.
-/// It is an angle (rad), or for a slide a fraction of the mechanism's size.
+/// The limit is an angle (rad) for a crank, or a fraction of the mechanism's size for a slide.
 const FIRST: f64 = std::f64::consts::PI / 24.0;
 /// Upper limit of the number of halvings of a first part.
 /// The width of the smallest part is about 1.5e-8 times the width of the first part.
@@ -161,7 +161,7 @@ pub struct Tubes<'a> {
     /// Size of the mechanism including its distance from the world origin (m).
     pub scale: f64,
     kept: BTreeMap<RangePart, Rc<Slice>>,
-    /// Number of poses computed by side 1.
+    /// Number of poses computed by the analytic solver (side 1).
     pub poses: usize,
 }
 
@@ -205,7 +205,7 @@ impl<'a> Tubes<'a> {
         [0, 1].map(|end| from + (to - from) * ((part.index + end) as f64 / count))
     }
 
-    /// Change of the variable in which every driving link turns by at most `turn` (rad).
+    /// Largest change of the range's variable during which no driving link turns by more than `turn` (rad).
     pub fn stride(&self, turn: f64) -> f64 {
         self.case.stride(turn)
     }
@@ -238,7 +238,8 @@ impl<'a> Tubes<'a> {
     pub fn slice(&mut self, crank: f64, half: f64) -> Result<Slice> {
         self.poses += 1;
         let case = self.case;
-        // Several drives with varying speeds: their rates at the middle, and the deviation from these rates.
+        // If several drives have varying speeds, the rate of each drive is taken at the middle, with a bound on the
+        // deviation from this rate.
         let by_time = case.goes_by_time();
         let course = |drive: &Drive| match by_time {
             true => [drive.at(crank).rate, drive.largest_acceleration() * half * half / 2.0],
@@ -274,7 +275,8 @@ impl<'a> Tubes<'a> {
     }
 }
 
-/// The driving links on moving links, and the groups, each with their equations, in the order of solution.
+/// The units in the order of solution: the driving links on moving links, and the groups.
+/// Each unit has its equations.
 fn units(case: &Case) -> Vec<(&[LinkId], Vec<Row<'_>>)> {
     let mechanism = &case.mechanism;
     let drivers = case.structure.leading().map(|(_, driver)| driver);
@@ -293,12 +295,12 @@ fn units(case: &Case) -> Vec<(&[LinkId], Vec<Row<'_>>)> {
 /// An equation: the sum of its terms is zero, or changes at a known rate.
 struct Row<'a> {
     terms: Vec<(Term<'a>, f64)>,
-    /// Number of the drive that changes the sum, if one does.
+    /// Number of the drive that changes the sum; `None` if no drive changes it.
     drive: Option<usize>,
-    /// Rate of the sum, per unit of the variable, and the largest deviation of the sum from this rate.
+    /// Rate of the sum per unit of the variable, and the largest deviation of the sum from a change at this rate.
     rate: f64,
     bend: f64,
-    /// Whether the sum must be zero at the middle. Otherwise the pose of side 1 gives the sum at the middle.
+    /// Whether the sum must be zero at the middle. Otherwise the solver's pose gives the sum at the middle.
     is_zero: bool,
 }
 
@@ -316,7 +318,7 @@ enum Term<'a> {
 }
 
 /// The equations of joints, driven joints and transmissions.
-/// A cam has no ratio, so nothing is proven for its links.
+/// The equation of a cam has no constant ratio, so nothing is proven for the links of a cam.
 fn rows<'a>(
     case: &'a Case,
     joints: impl Iterator<Item = &'a JointId>,
@@ -453,7 +455,8 @@ impl Term<'_> {
     /// The term as a linear function of the crank angle, for a uniform motion of the group's links.
     /// Returns the term's value at the middle, its rate, and its largest deviation from the linear function.
     /// Links outside the group may be anywhere in their tubes.
-    /// Calls `put` with the columns of the derivative at the middle and its values.
+    /// Calls `put` with the number of each column that the term affects, and with the derivative at the middle in this
+    /// column.
     fn linear(
         self,
         tubes: &[Tube],

@@ -29,7 +29,8 @@ pub struct CrankGraph {
     /// Lowest and highest point of the graph on paper.
     pub marks: [GraphPoint; 2],
     /// Reference size for the range of values.
-    /// If the range is below a billionth of this size, it is rounding error, and the quantity counts as constant.
+    /// If the range is below a billionth of this size, the range is rounding error, and the quantity counts as
+    /// constant.
     pub size: f64,
 }
 

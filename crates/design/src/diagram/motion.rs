@@ -1,5 +1,5 @@
 //! Motion diagrams over one turn of the crank, or over the stroke of a slide.
-//! They show displacement, velocity and acceleration, exact and by graphical methods.
+//! The diagrams show displacement, velocity and acceleration: exact, and by graphical methods.
 //!
 //! Differentiation: chords of the displacement give the velocity at the midpoints of the divisions.
 //! Chords of the chord velocity give the acceleration at the ends of the divisions.
@@ -22,10 +22,10 @@ pub const DIVISIONS: std::ops::RangeInclusive<usize> = 4..=1000;
 /// Lower limit of the number of points of the exact curves.
 const CURVE: usize = 720;
 /// Lower limit of a derivative's scale, divided by its natural scale.
-/// The limit is needed because the errors of a nearly constant derivative come from the displacement.
-/// The range of such a derivative would be too small a scale for these errors.
+/// The errors of a nearly constant derivative come from the displacement.
+/// The range of a nearly constant derivative would be too small a scale for such errors.
 const SMALLEST: f64 = 1e-3;
-/// A motion repeats if its rates at both ends differ by less than this fraction of their half range.
+/// A motion repeats if each rate changes from start to end by at most this fraction of half the rate's range.
 const REPEATS: f64 = 1e-6;
 /// If an error is below this fraction of its scale, it is rounding error and no order is computed from it.
 const ROUNDING: f64 = 1e-11;
@@ -162,7 +162,7 @@ impl MotionDiagram {
     /// Computes the diagrams of `course` over one turn of the crank, with `divisions` equal divisions.
     /// The turn begins at the crank's start and follows its sense of rotation.
     /// If the input is a slide, the range of the grid replaces the turn.
-    /// If the motion does not repeat after the range, chords of chords begin and end one division inside.
+    /// If the motion does not repeat after the range, chords of chords begin and end one division inside the range.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for a number of divisions outside [`DIVISIONS`], or if the grid of a slide has no stroke.

@@ -28,6 +28,6 @@ pub struct TimingDiagram {
     pub wanted: Vec<[f64; 2]>,
     /// Phases.
     pub stretches: Vec<Stretch>,
-    /// Main figures of the motion, separated by `; `.
+    /// Main values of the motion, separated by `; `.
     pub note: String,
 }

@@ -16,7 +16,8 @@ pub struct Flywheel {
     pub regime: Regime,
 }
 
-/// Upper limit of the flywheel's inertia divided by the first guess: sixty doublings.
+/// Upper limit of the flywheel's inertia, divided by the first guess of the inertia. The factor is that of sixty
+/// doublings.
 /// If a larger flywheel would be needed, the required coefficient counts as unreachable.
 const LARGEST: f64 = (1u64 << 60) as f64;
 /// Upper limit of the number of regula falsi steps. About eight steps are needed.

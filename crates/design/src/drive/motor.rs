@@ -2,8 +2,8 @@
 //!
 //! The power on the crank's shaft is computed at the peak and at the required speed.
 //! This power divided by the efficiency between motor and crank is the smallest allowed rated power of the motor.
-//! Courses of machine design teach this rule.
-//! The rule is conservative, because it ignores that inertia carries the crank over peaks.
+//! Courses of machine design teach this choice of a motor.
+//! The choice is conservative, because it ignores that inertia carries the crank over peaks.
 
 use crate::sentences;
 use analytic::AssurSolver;
@@ -82,12 +82,13 @@ pub struct MotorChoice {
 }
 
 impl MotorChoice {
-    /// The weakest motor of the catalogue with enough power for the peak, at the crank's speed in the scenario.
+    /// Chooses the weakest motor of the catalogue that has enough power for the peak at the crank's speed in the
+    /// scenario.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for an efficiency of 0 or less or above 1, or if every motor is too weak.
     /// [`ErrorKind::Numeric`] if the mechanism needs no motor, or the motor has no steady speed.
-    /// The errors of [`ReducedModel::of`] and of the search for its extremes.
+    /// The errors of [`ReducedModel::of`] and of the search for the extremes of the reduced quantities.
     pub fn of(case: &Case, catalogue: &[CatalogueMotor], efficiency: f64) -> Result<Self> {
         if !(efficiency > 0.0 && efficiency <= 1.0) {
             return Err(Error::new(ErrorKind::Input, sentences::the_efficiency_is(&efficiency))

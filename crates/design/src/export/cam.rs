@@ -58,7 +58,7 @@ pub fn drawing(case: &Case) -> Result<String> {
     put(0, "SECTION");
     put(2, "ENTITIES");
     for (name, points) in profiles(case)? {
-        // The flags: vertices follow; closed.
+        // The flag 66 says that vertices follow. The flag 70 says that the polyline is closed.
         for (code, value) in [(0, "POLYLINE"), (8, name), (66, "1"), (70, "1")] {
             put(code, value);
         }

@@ -3,26 +3,30 @@
 //! Contents of the file:
 //!
 //! - The plane of motion is XOY. Every body's frame is the frame of its link, in the start pose.
-//!   `ref` makes the joint coordinates those of the mechanism.
+//!   With the attribute `ref`, the joint coordinates of the model equal those of the mechanism.
 //!   The coordinate of a hinge is the angle of the child minus that of its parent.
-//!   The coordinate of a slide is that of the prismatic joint's channel.
+//!   The coordinate of a slide is the value of the prismatic joint's channel.
 //! - A joint that closes a loop is a `connect` of two sites.
-//!   Its third row, along z, is zero in a planar mechanism: the row costs a little time and has no effect.
-//! - A transmission is a fixed tendon of constant length: the sum of coordinates times factors.
-//!   Its force acts as moments, so reactions of axles lack the radial part of tooth forces and the tension of strands.
+//!   The third row of a `connect`, along z, is zero in a planar mechanism: the row costs a little time and has no
+//!   effect.
+//! - A transmission is a fixed tendon of constant length; the length is a sum of joint coordinates times factors.
+//!   The tendon's force acts as moments.
+//!   Reactions of axles therefore lack the radial part of tooth forces and the tension of strands.
 //! - A drive is a rotor ([`MjcfModel::rotor`]) on the driven hinge.
-//!   Its inertia is so large that the speed is practically constant: the speed changes by 1e-9 of its value per radian.
+//!   The rotor's inertia is so large that its speed is practically constant: the speed changes by 1e-9 of its value per
+//!   radian.
 //!   The speed is constant with any integrator and at any step.
-//!   A velocity actuator of the same stiffness diverges, because `implicitfast` solves the constraints without the
-//!   actuator's damping.
+//!   A velocity actuator that kept the speed as well as the rotor would diverge, because `implicitfast` solves the
+//!   constraints without the actuator's damping.
 //!   A softer velocity actuator lags.
 //!   The rotor does not enter the interaction forces that sensors read.
 //!   The torque sensor of the hinge therefore reads the driving moment.
 //! - A free link has no rotor except that of its motor.
 //!   The motor is an actuator whose moment is a linear function of the speed.
 //!   A motor with losses becomes two actuators: one drives, the other brakes.
-//! - Moments, forces and torsional springs and dampers are actuators.
-//!   They act on a hinge, on a site, or on a fixed tendon whose length is an angle or a difference of angles.
+//! - Moments, forces, torsional springs and torsional dampers are actuators.
+//!   These actuators act on a hinge, on a site, or on a fixed tendon whose length is an angle or a difference of
+//!   angles.
 //!   Springs and dampers between points are spatial tendons.
 //! - A moment that resists the rotation of a link is dry friction.
 //!   The friction acts in the link's hinge if this is the only hinge between the ground and the link.

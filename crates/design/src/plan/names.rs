@@ -64,7 +64,7 @@ pub fn places(mechanism: &Mechanism, poles: &[&str]) -> Vec<NamedPoint> {
     all
 }
 
-/// Appends primes to `name` until it is not `taken`.
+/// Appends primes to `name` until the name is not `taken`.
 pub fn primed(mut name: String, taken: impl Fn(&str) -> bool) -> String {
     while taken(&name) {
         name.push('\'');

@@ -6,7 +6,7 @@
 //! The image of a link in the velocity plan is the link turned by 90 deg and scaled by omega.
 //! In the acceleration plan, the image is the link turned by 180 deg - atan2(alpha, omega^2) and scaled by
 //! sqrt(alpha^2 + omega^4).
-//! Both statements are theorems, by Mehmke and Burmester.
+//! Both statements about images are theorems, by Mehmke and Burmester.
 //!
 //! A point A that slides on a moving guide of link 3 coincides with a point A3 of that link.
 //! In the guide's axes, the position of A along the guide is s(t).
@@ -67,7 +67,7 @@ impl Plans {
     }
 
     /// Keeps only the vectors of the points and links in `names`.
-    /// A point keeps its vectors; a link keeps all its points and its mass centre.
+    /// For a point, its vectors are kept; for a link, the vectors of all its points and of its mass centre.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for a name of neither a point nor a link.

@@ -2,15 +2,15 @@
 //!
 //! Two base links have the outer joints A and K; two leads BD and CE connect them.
 //! The lines of the leads intersect in S, written S = BD x CE. S is treated as a point of either base link.
-//! The velocity component of S along a lead equals that of the lead's end.
-//! The reason is that rotation adds no component along a line through S.
+//! The velocity component of S along a lead equals that of the lead's end, because rotation adds no component along a
+//! line through S.
 //! Two components determine a vector, so S has equal velocities on both base links:
 //! v_S = v_A + omega2 x AS = v_K + omega5 x KS.
 //! The directions of omega2 x AS and omega5 x KS are known, so v_S is the intersection of two lines.
 //! The accelerations of S on the two base links differ by d.
 //! Along the lead BD (unit vector u), d . u = omega5^2 (D - S) . u - omega2^2 (B - S) . u - omega3^2 |BD|.
 //! The same equation holds along CE with the quantities of that lead.
-//! Then the equation a_A + ... + d = a_K + ... is solved by the same construction as that of the velocities.
+//! Then the equation a_A + ... + d = a_K + ... is solved by the construction that gives the velocities.
 
 use crate::sentences;
 use linkage::case::Case;

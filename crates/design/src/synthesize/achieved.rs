@@ -31,7 +31,7 @@ pub struct PhaseDone {
     /// Between two motions in opposite senses, `end` is the crank angle of the extreme position.
     /// At the beginning or end of a dwell, `end` is the crank angle at which the output enters or leaves the band.
     /// The band has the half width [`BAND`] about the mean of the dwell's largest and smallest output.
-    /// `end` is `None` between two phases of the same sense, and if no such crank angle is nearby.
+    /// `end` is `None` between two phases of the same sense, or if there is no extreme position or dwell limit nearby.
     pub end: Option<f64>,
 }
 
@@ -84,8 +84,8 @@ impl Achieved {
     }
 
     /// Achieved motion as in [`Achieved::of`].
-    /// If the task leaves the forward sense open, the sense is chosen with which the total distance travelled in the
-    /// wrong sense is smaller.
+    /// If the task leaves the forward sense open, both senses are tried.
+    /// The sense with the smaller total distance travelled in the wrong sense is chosen.
     ///
     /// # Errors
     /// The errors of [`Achieved::of`].

@@ -1,7 +1,7 @@
 //! Crank-rocker from the two extreme positions of its rocker, in closed form.
 //!
 //! In the extreme positions crank and coupler are in line: stretched, `|O B1| = OA + AB`; folded, `|O B2| = AB - OA`.
-//! With both positions of B given, AB is half the sum and OA half the difference of the two distances.
+//! With both positions of B given, AB is half the sum of |O B1| and |O B2|, and OA half their difference.
 //! This module derives the solution from these two equations. Background: I. I. Artobolevsky, Theory of Mechanisms and
 //! Machines, 4th ed., Nauka 1988.
 
@@ -91,7 +91,7 @@ impl CrankRocker {
         let lengths = [frame.norm(), crank, coupler, wish.rocker];
         let found = FourBar::of_lengths(lengths).of_type;
         // In both extreme positions, O, B and C form a triangle. So the crank is the shortest link and turns fully.
-        // Only rounding errors can put O, B and C on one line; such requirements are refused.
+        // Only rounding errors can put O, B and C on one line. Requirements for which this happens are refused.
         if found != FourBarType::CrankRocker {
             let message = sentences::an_extreme_position_lies_on_the_line(&told, &found.name());
             return Err(Error::new(ErrorKind::Geometry, message).help(sentences::MOVE_A_PIVOT_OR_TURN_THE_EXTREME));

@@ -45,7 +45,7 @@ impl<'a> Rater<'a> {
     pub(super) fn even(timing: &'a Timing, count: usize) -> Self {
         let turns: Vec<f64> = (0..=count).map(|row| TAU * (row as f64 / count as f64)).collect();
         let phases = timing.phases();
-        // Every phase, however short, has a row before its end and one after it.
+        // Every phase, however short, has a row before its end and a row after its end.
         let end = |(index, phase): (usize, &Phase)| {
             let row = (phase.to / TAU * count as f64).round() as usize;
             row.clamp(index + 1, count + index + 1 - phases.len())
@@ -54,7 +54,7 @@ impl<'a> Rater<'a> {
         Rater::on(timing, turns, ends)
     }
 
-    /// Places rows at most `step` (rad) apart. The limits of all phases are among them.
+    /// Places rows at most `step` (rad) apart. Each limit of a phase is one of the rows.
     /// Two more rows close to each limit give the output's rate at the limit.
     /// If the rate were computed over whole steps, the extreme position would be wrong by a few hundredths of a degree.
     pub(super) fn fitted(timing: &'a Timing, step: f64) -> Self {

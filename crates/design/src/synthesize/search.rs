@@ -59,7 +59,7 @@ pub struct SearchResult {
     pub refined: Vec<f64>,
 }
 
-/// Searches the dimensions of a task with `threads` threads; 0 means as many as the machine has.
+/// Searches for the dimensions of a task with `threads` threads; 0 means one thread for each core.
 /// `progress` is called with values from 0 to 1.
 ///
 /// # Errors
@@ -157,7 +157,8 @@ impl<'a> Random<'a> {
         (best, assembled)
     }
 
-    /// Cost of a candidate, and its sense that counts as forward. If the crank's zero is free, it is chosen here.
+    /// Cost of a candidate, and the sense of its output that counts as forward.
+    /// If the crank's zero is free, this function chooses the zero.
     /// `None` if the candidate cannot be assembled, or is far outside the limits.
     fn rate(&mut self, shares: &mut [f64]) -> Option<(f64, f64)> {
         if let Some(zero) = self.zero {

@@ -5,7 +5,7 @@
 //! Squaring this equation twice gives an equation that is linear in r^2: `r^2 = s^2 (4 (l^2 - e^2) - s^2) / (4 (4 l^2 -
 //! s^2))`.
 //! The crank turns fully if l > r + |e|.
-//! At equality `l = (|e| + sqrt(e^2 + s^2)) / 2`; no shorter rod is possible.
+//! In the limit l = r + |e|, the rod has its smallest possible length, `l = (|e| + sqrt(e^2 + s^2)) / 2`.
 //! With the time ratio K the directions of the extreme positions differ by theta = pi (K - 1) / (K + 1).
 //! The distance n along the line from the pivot to the nearer extreme position solves `n^2 + s n + e^2 - |e| s
 //! cot(theta) = 0`.
@@ -60,8 +60,8 @@ impl SliderCrank {
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for numbers that make no sense.
-    /// [`ErrorKind::Geometry`] if no crank turns fully, with the limit, or if the time ratio does not determine the
-    /// mechanism.
+    /// [`ErrorKind::Geometry`] if no crank turns fully (the error states the limit), or if the time ratio does not
+    /// determine the mechanism.
     pub fn of(stroke: f64, offset: f64, given: Given) -> Result<Self> {
         if !(stroke > 0.0 && stroke.is_finite()) {
             return Err(wrong("stroke", sentences::the_stroke_is(&stroke), sentences::GIVE_A_LENGTH_GREATER_THAN_ZERO));

@@ -1,7 +1,7 @@
 //! Input of a synthesis, in SI units and world axes.
 //! The input consists of a structure with a starting drawing, the variable dimensions, the required motion, and
 //! constraints.
-//! The required motion is that of a link or point.
+//! The required motion is the motion of a link or of a point.
 
 mod timing;
 
@@ -35,7 +35,7 @@ pub enum OutputQuantity {
 /// A variable quantity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Variable {
-    /// Name for the reader: `crank.A length`.
+    /// Name of the variable in texts, such as `crank.A length`.
     pub name: String,
     /// Smallest and largest value (m or rad).
     pub bounds: [f64; 2],

@@ -32,7 +32,7 @@ pub struct TaskFile {
 
 impl TaskFile {
     /// Reads the synthesis file at `path` and the scenario that this file names.
-    /// The scenario is searched in the directory of the synthesis file.
+    /// The scenario is looked for in the directory of the synthesis file.
     ///
     /// # Errors
     /// [`ErrorKind::Io`] if a file cannot be read.

@@ -35,7 +35,7 @@ struct Problem<'a> {
 }
 
 impl Problem<'_> {
-    /// The pose of a missing link. Its unknowns are x and y, divided by the mechanism's size, and its angle.
+    /// The pose of a missing link. The unknowns of a link are x and y, divided by the mechanism's size, and the angle.
     fn pose_of(&self, unknowns: &ColumnVector, k: usize) -> LinkPose {
         let origin = Vec2::new(unknowns[3 * k], unknowns[3 * k + 1]) * self.size;
         LinkPose { origin, angle: unknowns[3 * k + 2] }
@@ -48,7 +48,7 @@ impl Problem<'_> {
         }
     }
 
-    /// Start values. The links are turned by multiples of the same angle, and each link lies at a placed neighbour.
+    /// Start values. The links are turned by multiples of one angle, and each link lies at a placed neighbour.
     fn start(&self, number: usize) -> ColumnVector {
         let mut unknowns = ColumnVector::zeros(3 * self.missing.len());
         for (k, &link) in self.missing.iter().enumerate() {

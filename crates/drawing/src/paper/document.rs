@@ -4,8 +4,8 @@ use super::figure::DrawnFigure;
 use crate::sentences;
 use svg::Document;
 
-/// The document of a figure on white paper. The document's upper left corner is the figure's origin, and its size is in
-/// mm.
+/// The document of a figure on white paper of the given size (mm).
+/// The document's upper left corner is the figure's origin.
 pub fn document(figure: &DrawnFigure, [width, height]: [f64; 2], title: &str) -> String {
     let mut document = Document::new()
         .set("width", format!("{width:.0}mm"))

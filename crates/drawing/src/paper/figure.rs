@@ -58,7 +58,7 @@ pub fn width(text: &str, size: f64) -> f64 {
     sum
 }
 
-/// Length (mm) of the part of a text to the left of its position.
+/// Length (mm) of the part of a text to the left of the text's anchor.
 fn left(text: &str, set: &Type) -> f64 {
     match set.anchor {
         "middle" => width(text, set.size) / 2.0,
@@ -183,9 +183,9 @@ impl DrawnFigure {
         self.ink.push(Ink::Text { at, text, set });
     }
 
-    /// Adds another figure as one element of this opacity, with a name that appears when the mouse points at the
-    /// element.
-    /// Overlaps inside the element are not darker.
+    /// Adds another figure as one element of the opacity `opacity`.
+    /// The element has a name that appears when the mouse points at the element.
+    /// Places where shapes of the element overlap are not darker than the rest.
     pub fn group(&mut self, other: DrawnFigure, opacity: f64, name: String) {
         if let Some(bounds) = other.low {
             bounds.iter().for_each(|corner| self.reach(*corner));
@@ -322,8 +322,8 @@ pub(crate) fn pieces(text: &str, size: f64) -> Vec<Piece> {
     pieces
 }
 
-/// Text element, written as a string, because white space must not separate an element inside a text from its
-/// neighbours.
+/// Text element as a string.
+/// In a tree of elements, the writer could add white space between the parts of the text.
 fn text_element(at: Vec2, text: &str, set: &Type) -> String {
     let size = set.size;
     let mut shift = 0.0;

@@ -32,7 +32,7 @@ const FAR: f64 = 3.2;
 /// A label to be placed; paper coordinates (mm), y upwards.
 #[derive(Clone, Copy, Debug)]
 pub struct PlacedLabel {
-    /// The point it names.
+    /// The point that the label names.
     pub anchor: Vec2,
     /// Preferred direction from the anchor; zero if there is no preferred direction.
     pub away: Vec2,

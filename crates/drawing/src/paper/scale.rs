@@ -3,14 +3,15 @@
 use linkage::math::KeepNan;
 
 /// A number counts as round if it exceeds a round number by at most this fraction of the number.
-/// The fraction allows for the quotient's rounding error.
+/// The fraction allows for the rounding error of the division that gives the number.
 const SAME: f64 = 1e-12;
 
 /// The smallest number of the form 1, 2, 2.5 or 5 times a power of ten that is at least `least`.
 /// The result is 1 if `least` is zero, negative, infinite or NaN.
 ///
 /// Neighbouring numbers of this form differ by a factor of two at most.
-/// A vector drawn at this scale therefore fills more than half of the available length.
+/// If a scale factor is rounded up to such a number, the longest vector therefore still fills more than half of the
+/// available length.
 pub fn round_up(least: f64) -> f64 {
     if !(least > 0.0 && least.is_finite()) {
         return 1.0;

@@ -7,8 +7,9 @@
 //! The equilibrium of the base link and these two leads also gives the forces along the first two leads.
 //! The equilibrium of each lead gives the reaction at its head.
 //! Background: I. I. Artobolevsky, Theory of Mechanisms and Machines, 4th ed., Nauka 1988.
-//! There are three Assur points, one for each pair of leads. The method uses the pair whose angle is nearest to a right
-//! angle. The Assur point of parallel leads is at infinity.
+//! There are three Assur points, one for each pair of leads.
+//! The method uses the pair of leads whose lines are nearest to perpendicular.
+//! The Assur point of parallel leads is at infinity.
 
 use super::{KnownResultant, Places, Reactions, singular};
 use crate::sentences;
@@ -57,7 +58,7 @@ pub fn reactions(places: &Places, known: &[KnownResultant; 4]) -> Result<Reactio
     });
     let point = best(places);
     let ([i, j, k], pole) = (point.leads, point.place);
-    // The moments are those of the actions on the base link and on the leads i and j.
+    // The moments are those of all actions on the base link and on the leads i and j together.
     // Lead k acts on the base link at its head with the force `third`.
     let third = across[k] + known[k].force;
     let with_two = |pole: Vec2| {

@@ -1,8 +1,8 @@
 //! The class III group by exchange of the driving link.
 //!
 //! If one ground lead of the group is taken as conditional driver, the mechanism is a chain of class II dyads.
-//! The first dyad consists of the base link and the other ground lead. The second dyad consists of lead 3 and the
-//! crank.
+//! The first dyad consists of the base link and the ground lead that does not drive.
+//! The second dyad consists of lead 3 and the crank.
 //! The first dyad is placed in closed form.
 //! The second dyad requires that the distance from the head F of lead 3 to the crank pin C equals the length of lead 3.
 //! The crank angle alpha is therefore a function of the driving lead's angle theta. The true motion is the inverse
@@ -20,12 +20,13 @@
 //! There are two kinds of limit positions.
 //! In the first kind, the base link is in line with the ground lead that does not drive.
 //! The first dyad is then at its limit.
-//! The ground lead whose first dyad is farther from its limit is therefore chosen as the driver.
+//! The driver is therefore chosen so that the first dyad is as far as possible from its limit.
 //! In the second kind, the crank and lead 3 are in line.
 //! Both ground leads then stand still, and both are equally unsuitable as the driver.
 //! The second dyad then changes from one of its two configurations to the other.
 //! The closing condition of the second dyad holds for both configurations and is smooth in theta.
-//! This condition is solved instead of the angle of the dyad, so such points are passed without difficulty.
+//! The closing condition is solved instead of the second dyad's angle, so limit positions of the second kind are passed
+//! without difficulty.
 //! A dead point of the group itself, q . F' = 0, cannot be passed.
 
 mod chain;
@@ -41,7 +42,7 @@ use linkage::mechanism::{GROUND, LinkId};
 
 /// Largest rotation of the crank between two poses (rad): one degree.
 const TRACKING_STEP: f64 = std::f64::consts::PI / 180.0;
-/// Largest number of times a failing step is halved. The last step is a millionth of the first.
+/// Largest number of times a failing step is halved. The smallest step is about a millionth of the step before halving.
 const HALVINGS: u32 = 20;
 /// Largest rotation of a link in one step (rad) that is accepted as a continuation of the branch.
 const MAX_TURN: f64 = 0.3;
@@ -67,8 +68,8 @@ pub struct Transfer {
 }
 
 impl Transfer {
-    /// Angular velocities (rad/s) and accelerations (rad/s^2) of leads and base link, for these values of the crank's
-    /// angular velocity and acceleration.
+    /// Angular velocities (rad/s) and accelerations (rad/s^2) of leads and base link.
+    /// `omega` and `alpha` are the crank's angular velocity and acceleration.
     #[must_use]
     pub fn rates(&self, omega: f64, alpha: f64) -> [[f64; 4]; 2] {
         let second = |k: usize| self.second[k] * omega * omega + self.first[k] * alpha;
@@ -153,11 +154,11 @@ impl ClassChange {
         Ok(change)
     }
 
-    /// Transfer functions at the crank angle `crank` (rad, as the scenario states it). The crank moves from the last
-    /// angle to `crank` in small steps.
+    /// Transfer functions at the crank angle `crank` (rad, as the scenario states it).
+    /// The crank moves in small steps from the angle of the previous call to `crank`.
     ///
     /// # Errors
-    /// [`ErrorKind::Geometry`] if the branch has a dead point between the two angles.
+    /// [`ErrorKind::Geometry`] if the branch has a dead point between the previous crank angle and `crank`.
     pub fn solve(&mut self, crank: f64) -> Result<&Transfer> {
         let from = self.crank;
         let parts = ((crank - from).abs() / TRACKING_STEP).ceil().larger(1.0);
@@ -183,7 +184,8 @@ impl ClassChange {
         self.step_to(target, halvings - 1)
     }
 
-    /// The chain driven by the ground lead `driver`, in the configuration of the last pose; then this pose.
+    /// Returns the chain driven by the ground lead `driver`, in the configuration of the last pose, and the last pose
+    /// itself.
     fn chain(&self, driver: usize) -> Option<(Chain, Place)> {
         let other = 1 - driver;
         let leads = [self.grounded[driver], self.grounded[other]];
@@ -212,7 +214,7 @@ impl ClassChange {
         let place = chain.place(rotated(unit(turn), before.driver))?;
         let found = self.transfer(driver, &place, closing(&place), pin);
         // q . F' times the area of the first dyad is the determinant of the group.
-        // If the ground leads are exchanged, two columns are exchanged and the sign changes.
+        // If the ground leads are exchanged, two columns of the determinant are exchanged, and its sign changes.
         let sense = if driver == 0 { 1.0 } else { -1.0 };
         let branch = (closing(&place).dot(&place.slopes().third[0]) * place.sine() * sense).signum();
         let near = |k: usize| {
@@ -261,7 +263,7 @@ struct Ended;
 
 /// The zero next to `guess` (rad) of a function, found by Newton's method with bisection between bounds.
 /// `gap` returns the value of the function and its derivative.
-/// `None` if there is no zero within [`MAX_TURN`], or if the function is undefined before the zero.
+/// `None` if there is no zero within [`MAX_TURN`], or if the function is undefined between `guess` and the zero.
 fn zero(gap: impl Fn(f64) -> Option<(f64, f64)>, guess: f64) -> Option<f64> {
     let (value, slope) = gap(guess)?;
     if value == 0.0 {
@@ -293,7 +295,7 @@ mod tests {
 
     #[test]
     fn a_zero_is_found_where_plain_newton_diverges() {
-        // From 0.1, Newton's method on atan(20 x) goes to -0.18, then to 0.7, and diverges.
+        // From the guess 0.1, Newton's method on atan(20 x) goes to -0.18, then to 0.7, and diverges.
         let steep = |x: f64| Some(((20.0 * x).atan(), 20.0 / (1.0 + 400.0 * x * x)));
         assert!(zero(steep, 0.1).unwrap().abs() < f64::EPSILON);
         assert_eq!(zero(|x| Some((x * x + 1.0, 2.0 * x)), 0.1), None);

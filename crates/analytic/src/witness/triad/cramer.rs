@@ -4,8 +4,8 @@
 //! `l_1 e(alpha_1) + b_k e(alpha_4 + beta_k) = A_1 A_k + l_k e(alpha_k)`.
 //! The derivatives by the crank angle (or by time) give four linear equations for alpha_1' .. alpha_4'. The right-hand
 //! side contains the velocities of the feet.
-//! The second derivatives give equations with the same determinant. The right-hand side contains the accelerations of
-//! the feet and the centripetal parts of the links.
+//! The second derivatives give equations with the determinant of the first equations. The right-hand side contains the
+//! accelerations of the feet and the centripetal parts of the links.
 //! Each unknown is a quotient of two 4 x 4 determinants (method of the transfer functions).
 //! Background: I. I. Artobolevsky, Theory of Mechanisms and Machines, 4th ed., Nauka 1988.
 
@@ -18,7 +18,7 @@ use linkage::math::{Motion, Vec2, turned};
 pub struct Contours {
     /// Vectors from foot to head of each lead (m).
     pub leads: [Vec2; 3],
-    /// Vectors from the first head to the second and to the third (m).
+    /// Vectors from the first head to the second head and to the third head (m).
     pub sides: [Vec2; 2],
 }
 
@@ -85,7 +85,8 @@ impl Contours {
 }
 
 /// Angular velocities (rad/s) and angular accelerations (rad/s^2) of leads and base link.
-/// `motions` must contain the directions of the group's links and the complete motion of the links that carry its feet.
+/// `motions` must contain the directions of the group's links, and the complete motion of the links that carry the
+/// group's feet.
 ///
 /// # Errors
 /// [`ErrorKind::Numeric`](linkage::ErrorKind::Numeric) at a dead point of the group.

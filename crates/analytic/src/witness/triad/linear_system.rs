@@ -2,8 +2,8 @@
 //!
 //! There are twelve unknowns: x and y of the forces at the three feet and the three heads.
 //! Each of the four links has three equations: forces along x, forces along y, and moments.
-//! The moments of a lead are about its head, those of the base link about the first head. All moments are divided by a
-//! length, so that all rows have the unit of force.
+//! The moments on a lead are taken about the lead's head, the moments on the base link about the first head.
+//! All moments are divided by a length, so that all rows have the unit of force.
 //! All links are solved together, without any order.
 
 use super::{KnownResultant, Places, Reactions, singular};

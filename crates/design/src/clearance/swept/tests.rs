@@ -1,4 +1,4 @@
-//! Tests of sides that pass over discs, against samples of sides and discs.
+//! Tests of outline sides that pass over discs, against samples of sides and discs.
 
 use std::f64::consts::TAU;
 
@@ -37,8 +37,8 @@ fn squares_are_covered_or_free_including_their_corners() {
     assert!(counts.iter().all(|count| *count > 50), "{counts:?}");
 }
 
-/// If a side passes over a disc, every point of the disc changes from the left of the side's line to the right, or vice
-/// versa.
+/// If a side of an outline passes over a disc, every point of the disc changes from the left of the side's line to the
+/// right, or vice versa.
 /// At every instant the point lies between the two ends of the side.
 /// Both statements are true for all positions of the ends within their errors.
 #[test]

@@ -13,12 +13,12 @@ use linkage::mechanism::{
 use linkage::solver::State;
 
 /// Inertia of a drive's rotor, divided by an estimate of the mechanism's moment of inertia about one of its points.
-/// The inertia forces cause moments of about this moment of inertia times the square of the speed.
-/// These moments therefore change the speed by 1e-9 of its value per radian.
+/// The mechanism's inertia forces cause moments of about this estimate times the square of the speed.
+/// With such a rotor, these moments change the speed by 1e-9 of its value per radian.
 const ROTOR: f64 = 1e9;
 /// Mass of a massless link, divided by the mass of the whole mechanism. MuJoCo refuses a mass of zero.
-/// A smaller mass would falsify reactions less.
-/// But MuJoCo softens every loop in proportion to the inverse of the masses that the loop connects.
+/// A smaller mass would falsify reactions less, but it would make loops softer.
+/// MuJoCo softens every loop in proportion to the inverse of the masses that the loop connects.
 /// docs/mjcf.md states the resulting errors.
 const LIGHT: f64 = 1e-5;
 /// Radius of gyration of a link without inertia, divided by the link's size.
@@ -154,7 +154,8 @@ impl<'a> MjcfModel<'a> {
         hinges
     }
 
-    /// The coordinates of branches that a transmission couples, and their factors: the sum is constant.
+    /// Branches whose coordinates a transmission couples, each with a factor.
+    /// The sum of the coordinates times their factors is constant.
     pub(super) fn coupled(&self, transmission: &Transmission) -> Vec<(usize, f64)> {
         let mut sum: Vec<(usize, f64)> = Vec::new();
         let mut add = |branch: usize, factor: f64| match sum.iter_mut().find(|(own, _)| *own == branch) {

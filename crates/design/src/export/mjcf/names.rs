@@ -1,4 +1,4 @@
-//! Names in the file. These are the names of the scenario wherever MuJoCo accepts them.
+//! Names in the file. The file has the names of the scenario wherever MuJoCo accepts them.
 
 use crate::sentences;
 use std::collections::BTreeSet;

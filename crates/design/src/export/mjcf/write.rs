@@ -1,5 +1,5 @@
 //! The XML document.
-//! Simple shapes show the links; they have no mass and no contacts.
+//! Simple shapes show the links. The shapes have no mass and no contacts.
 
 use crate::sentences;
 use std::fmt::Write;
@@ -14,7 +14,7 @@ use super::xml::{Xml, about_z, flat, number, numbers};
 use linkage::math::{KeepNan, Vec2, corners, rotated, unit};
 use linkage::mechanism::{GROUND, JointSide, LinkId};
 
-/// Stiffness of every constraint: see the module documentation.
+/// Stiffness of every constraint, as explained in the documentation of the module `mjcf`.
 const STIFF: &str = "1e-9 0.5";
 /// Impedance of every constraint: the largest impedance that MuJoCo accepts, the same for every gap.
 const HARD: &str = "0.9999 0.9999 1";
@@ -194,7 +194,7 @@ fn keyframe(xml: &mut Xml, model: &MjcfModel) {
 /// Thickness of the shapes, divided by the mechanism's size.
 const THICKNESS: f64 = 0.012;
 
-/// Shapes of a link: rods between its joints, and a block or a guide where it slides.
+/// Shapes of a link: rods between the link's joints, and a block or a guide at each prismatic joint.
 pub(super) fn draw(xml: &mut Xml, model: &MjcfModel, link: LinkId, colour: &str) {
     let mechanism = &model.case.mechanism;
     let thick = THICKNESS * model.size();

@@ -116,7 +116,7 @@ fn evolve(bench: &mut Bench, zero: Option<usize>, evaluations: usize, number: us
 /// Runs COBYLA from the best candidate so far, with decreasing initial steps.
 fn approximate(bench: &mut Bench, zero: Option<usize>, evaluations: usize) {
     let each = evaluations / RADII.len();
-    // COBYLA would treat zero evaluations as no limit. It is therefore not called with zero evaluations.
+    // COBYLA would treat zero evaluations as no limit. COBYLA is therefore not called with zero evaluations.
     if each == 0 {
         return;
     }
@@ -165,7 +165,8 @@ pub(super) fn of_share(share: f64, variable: &Variable) -> f64 {
     low + share * (high - low)
 }
 
-/// The variable that is the crank's zero, if its bounds span a full turn and there is no higher group.
+/// The variable that is the crank's zero.
+/// `None` if the bounds of this variable do not span a full turn, or if the mechanism has a higher group.
 /// This variable is periodic, because it only shifts the motion along the crank angle.
 pub(super) fn free_zero(task: &Task) -> Option<usize> {
     let TaskNumber::Free(index) = task.zero else { return None };

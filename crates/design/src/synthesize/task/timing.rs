@@ -55,8 +55,8 @@ pub struct Timing {
     phases: Vec<Phase>,
     /// Levels at the ends of all phases, if all are known.
     levels: Option<Vec<f64>>,
-    /// Whether the output must follow the smooth curve between the levels. If not, it must only move in the right
-    /// sense.
+    /// Whether the output must follow the smooth curve between the levels.
+    /// If not, the output must only move in the required sense.
     follow: bool,
 }
 
@@ -65,7 +65,7 @@ impl Timing {
     ///
     /// # Errors
     /// [`ErrorKind::Input`] with the number of the phase (`phases[2]`) if the phases do not follow each other over a
-    /// whole turn, or contradict themselves.
+    /// whole turn, or contradict one another.
     pub fn of(phases: Vec<Phase>) -> Result<Self> {
         let of_all = |message: String, help: &str| Err(wrong("phases", message).help(help));
         let of_one = |index: usize, message: String, help: &str| {
@@ -108,7 +108,7 @@ impl Timing {
         Ok(Timing { levels: levels(&phases), phases, follow: false })
     }
 
-    /// The same timing, with a curve that the output must follow.
+    /// This timing, with a curve that the output must follow.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] if a level is not known.
@@ -125,7 +125,7 @@ impl Timing {
         &self.phases
     }
 
-    /// Whether the output must follow [`Timing::wanted`]. If not, it must only move in the right sense.
+    /// Whether the output must follow [`Timing::wanted`]. If not, the output must only move in the required sense.
     pub fn follows(&self) -> bool {
         self.follow
     }

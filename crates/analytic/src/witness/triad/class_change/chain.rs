@@ -21,8 +21,8 @@ pub(super) struct Chain {
     pub(super) leads: [Grounded; 2],
     /// Head of lead 3 in the base link's frame (m).
     pub(super) third: Vec2,
-    /// The other ground lead's head lies on this side of the line from the driver's head to the other ground lead's
-    /// foot: +1 for left, -1 for right.
+    /// Side of the line from the driver's head to the other ground lead's foot: +1 left, -1 right.
+    /// The other ground lead's head lies on this side.
     pub(super) side: f64,
 }
 
@@ -81,7 +81,8 @@ impl Place {
     }
 
     /// The slopes follow from the first and second derivatives of driver + base = FG + other.
-    /// The scalar product with one of the vectors base and other eliminates the rate of this vector.
+    /// FG is the vector from the driver's foot to the foot of the other ground lead.
+    /// The scalar product with `base` or with `other` eliminates the rate of that vector.
     pub(super) fn slopes(&self) -> Slopes {
         let (p, r) = (self.base, self.other);
         let d = [turned(self.driver), -self.driver];
