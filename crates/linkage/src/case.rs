@@ -40,7 +40,8 @@ const STANDSTILL: f64 = 1e-12;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Case {
     parts: CaseParts,
-    /// For every link: the representative of the links with the same angle up to a constant.
+    /// For every link: the representative of its class. A class contains the links whose angles differ only by
+    /// constants.
     classes: Vec<LinkId>,
     /// Speed below which a joint counts as standing still (rad/s): the rounding error of the drives' top speeds.
     standstill: f64,
@@ -91,7 +92,8 @@ impl Case {
     }
 
     /// Returns a case made of `parts`, the changed parts of this case.
-    /// The classes of links with the same angle are copied from this case, so the change must not affect them.
+    /// The classes of links whose angles differ only by constants are copied from this case, so the changed parts must
+    /// not affect these classes.
     fn of_parts(&self, parts: CaseParts) -> Case {
         Case::made(parts, self.classes.clone())
     }
@@ -234,7 +236,8 @@ impl Case {
         InputState { value: drive.from_coordinate(value), rate, acceleration }
     }
 
-    /// Channels whose signed sum is the coordinate of the first drive, its rate and its second derivative.
+    /// Channels whose signed sums are the coordinate of the first drive and the first two time derivatives of this
+    /// coordinate.
     /// The coordinate differs from the input by the drive's zero.
     #[must_use]
     pub fn input_channels(&self) -> [Vec<(Channel, f64)>; 3] {
@@ -269,7 +272,8 @@ impl Case {
         }
     }
 
-    /// Whether the time determines the pose, not the input of the first drive: several drives, with varying speeds.
+    /// Whether the pose is given as a function of the time instead of the first drive's input.
+    /// This is so if there are several drives and the speed of at least one of them varies.
     #[must_use]
     pub fn goes_by_time(&self) -> bool {
         self.drives.len() > 1 && self.drives.iter().any(|drive| drive.constant_speed().is_none())
@@ -395,7 +399,8 @@ impl Case {
         self.classes[link] != self.classes[GROUND]
     }
 
-    /// Whether a joint can move. The links of some revolute joints keep their angle, as in two sliders joined by a pin.
+    /// Whether a joint can move. Some revolute joints cannot: two sliders on fixed guides, for example, cannot turn
+    /// about the pin that joins them.
     #[must_use]
     pub fn can_move(&self, joint: JointId) -> bool {
         let joint = &self.mechanism.joints()[joint];

@@ -54,8 +54,8 @@ impl Mechanism {
     /// A mechanism with these links (the first is the ground) and joints.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] for each of these faults, except for the first one with the key of the link or joint at
-    /// fault:
+    /// [`ErrorKind::Input`] for each of the faults below.
+    /// The error names the key of the link or joint at fault, except if a name is not allowed.
     /// - names that are not allowed;
     /// - duplicate names;
     /// - an axis that is not a unit vector;
@@ -96,7 +96,7 @@ impl Mechanism {
         Mechanism { links, joints, transmissions: PerTransmission::default(), on, rows, size }
     }
 
-    /// This mechanism with the given transmissions instead of its present ones.
+    /// This mechanism with its transmissions replaced by the given transmissions.
     ///
     /// # Errors
     /// The errors of [`Transmission::of`]; [`ErrorKind::Input`] for two transmissions of one name.
@@ -209,8 +209,8 @@ impl Mechanism {
             .then(|| if is_cylinder || size(first) >= size(second) { [first, second] } else { [second, first] })
     }
 
-    /// Points of moving links, each name once. Each entry has the first link that carries the point and its position on
-    /// that link.
+    /// Points of moving links, each name once.
+    /// Each entry has the first link that carries the point, and the position of the point on that link.
     pub fn moving_points(&self) -> impl Iterator<Item = (&str, JointSide)> {
         let mut seen: BTreeSet<&str> = self.links[GROUND].points.iter().map(|point| point.name.as_str()).collect();
         let mut points = Vec::new();

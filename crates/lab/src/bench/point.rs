@@ -68,7 +68,7 @@ pub struct BenchPoint {
     pub resolution: String,
     /// Settings of an engine.
     pub settings: Option<Settings>,
-    /// Whether the settings are the program's defaults. The field is set only for sides.
+    /// Whether the settings are the program's defaults. The field is set only for analytic sides.
     pub is_usual: bool,
     /// Outcome of the method.
     pub outcome: BenchOutcome,

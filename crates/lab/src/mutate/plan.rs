@@ -1,4 +1,4 @@
-//! Chooses faults and parties, and plants every fault in every party.
+//! Chooses faults, and parties (analytic sides, engine, formulas), and plants every fault in every party.
 //! For a fault with a size, a search finds the smallest size at which a proof still finds the fault.
 
 use super::effect::Effect;
@@ -208,8 +208,8 @@ fn of_kind(stage: &Stage, kind: &'static FaultKind, asked: &MutationPlan) -> Res
 
 /// Smallest size that is tried, divided by the first size. Effects of smaller faults are below rounding error.
 const LEAST: f64 = 1e-16;
-/// Factor from the whole size to the first guess, if there is no margin, and between successive sizes of the upward
-/// search.
+/// Factor between successive sizes of the upward search.
+/// Without a margin, the whole size divided by this factor is the first guess.
 const STEP: f64 = 10.0;
 /// The search ends if the smallest detected size is at most this multiple of an undetected size.
 const FACTOR: f64 = 2.0;

@@ -1,5 +1,5 @@
 //! One scenario with its correct parties, and proofs with a fault in one party.
-//! A fault is a hook of a solver or an engine.
+//! A fault is planted by a hook, which changes the case or the answers of a solver or an engine.
 
 use crate::sentences;
 use std::sync::OnceLock;
@@ -28,7 +28,7 @@ type Around<'a> = &'a dyn Fn(Box<dyn Engine>) -> Box<dyn Engine>;
 /// A scenario's proof without a fault, and its reusable parts.
 pub(super) struct Stage<'a> {
     pub(super) scenario: &'a Scenario,
-    /// The part of the mechanism that the scenario requests.
+    /// The part of the case on which the requested channels depend.
     pub(super) case: Case,
     options: &'a Options,
     /// The analytic sides without a fault.
@@ -58,7 +58,8 @@ impl<'a> Stage<'a> {
         let of_sides = || ObservedSides::of(problem, whole, TRUE_SIDES, options.reference, &mut Ledger::default());
         let (sides, done) = counted(|| limited(allowed, of_sides).0);
         let sides = sides?;
-        // Side 2 does not count groups; it places as many links as side 1, so the groups of side 1 are counted twice.
+        // Side 2 does not count the groups that it places. It places as many links as side 1, so the groups of side 1
+        // are counted twice.
         let placed = PLACED * 2.0 * done.of(Count::Groups) as f64 + done.of(Count::Intervals) as f64;
         let right = AssurSolver.solve(&case)?;
         let integration = sides.integration();
@@ -167,7 +168,7 @@ impl<'a> Stage<'a> {
     }
 
     /// The proof with a fault in the code that all parties share.
-    /// The parties then agree with each other, so only external references can contradict.
+    /// The parties then agree with each other, so only external reference values can contradict the wrong answers.
     fn in_all(&self, fault: Fault) -> Result<FaultyProof> {
         let case = match fault.kind.plant {
             Plant::Case(change) => match change(&self.case, fault.size) {

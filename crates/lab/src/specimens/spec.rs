@@ -80,16 +80,17 @@ pub struct Start {
     pub ask: Ask,
 }
 
-/// A dyad's links, and whether its inner joint is on the left.
+/// An RRR dyad's links, and whether its inner joint is on the left of the line from the first to the second outer
+/// joint.
 #[derive(Clone, Debug)]
 pub struct Dyad {
     /// The links of the dyad.
     pub links: [String; 2],
-    /// Whether the dyad's inner joint is on the left.
+    /// Whether the inner joint is on the left of the line from the first to the second outer joint.
     pub left: bool,
 }
 
-/// A whole scenario, in SI.
+/// A whole scenario, in SI units.
 #[derive(Clone, Debug, Default)]
 pub struct Spec {
     /// Points of the ground (m).

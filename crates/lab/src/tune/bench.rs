@@ -61,7 +61,8 @@ pub(super) struct Bench<'a> {
 }
 
 /// Lower limit of a run's cost at any step, as pairs of number of sweeps and cost, in ascending order.
-/// A run cannot cost less, because instants are read, and some routes do all sweeps at each instant.
+/// A run cannot cost less than this limit: results are read at every instant, and some methods for reactions do all
+/// sweeps at every instant.
 struct Floor(Vec<(usize, f64)>);
 
 impl Floor {
@@ -107,7 +108,7 @@ impl Search<'_> {
 }
 
 impl Bench<'_> {
-    /// Cheapest settings of one engine that cost less than `others`.
+    /// Cheapest settings of one engine that cost less than `others`, the lowest cost of the other engines.
     pub(super) fn best_of(
         &mut self,
         engine: &dyn Engine,
@@ -130,7 +131,8 @@ impl Bench<'_> {
     }
 
     /// Searches one method with increasing numbers of sweeps.
-    /// At a fixed cost, the error first falls with more sweeps. When there are more sweeps than needed, it rises again.
+    /// At a fixed cost, the error first falls with the number of sweeps. With more sweeps than needed, the error rises
+    /// again.
     /// The search ends early if the error rises twice in a row, or if more sweeps would cost too much.
     fn through_sweeps(&mut self, search: &mut Search, way: &Settings, sweeps: &[usize]) {
         let unlimited = search.limit().is_infinite();
@@ -263,11 +265,12 @@ impl Bench<'_> {
         let settings = engine.settings();
         let at = |factor: f64| Settings { resolution: settings.resolution * factor, ..settings };
         let mut rungs = vec![at(2.0), settings, at(0.5)];
-        // The comparison run has twice the sweeps.
+        // The comparison run has twice the sweeps of the run at `settings`.
         // The iteration error of the comparison run is small compared with that of the run at `settings`.
         // The difference of the two runs is therefore the iteration error at `settings`.
-        // (A proof compares with a run with half of the sweeps. That run costs a quarter of a run with twice the
-        // sweeps, but its comparison overestimates the error.)
+        // (A proof instead compares the run at `settings` with a run that has half of the sweeps.
+        // A run with half of the sweeps costs a quarter of a run with twice the sweeps, but the comparison with it
+        // overestimates the error.)
         if settings.sweeps > 0 {
             rungs.push(Settings { sweeps: settings.sweeps * 2, ..settings });
         }

@@ -17,7 +17,7 @@ const CLOSE: f64 = 1.06;
 const FLAT: f64 = 0.3;
 /// Largest factor from one step to the next.
 const LEAP: f64 = 16.0;
-/// Highest order that is assumed possible: extrapolated accelerations were observed to fall with order 4.
+/// Highest order that is assumed possible: the errors of extrapolated accelerations were observed to fall with order 4.
 const STEEPEST: f64 = 6.0;
 /// If a run costs at least this fraction of the limit, its step counts as the finest affordable step.
 const AT_THE_LIMIT: f64 = 0.9;

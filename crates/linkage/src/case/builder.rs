@@ -16,7 +16,7 @@ use crate::mechanism::{
 #[derive(Clone, Debug)]
 struct Wish {
     name: String,
-    /// Link name and point name of both sides.
+    /// Link name and point name on each side of the joint.
     sides: [[String; 2]; 2],
     /// Angles of the axis in the frames of both links (rad); prismatic joints only.
     axes: Option<[f64; 2]>,
@@ -34,7 +34,7 @@ struct Coupling {
 
 /// Builds a [`Case`] from names and numbers (SI units).
 ///
-/// The single steps check nothing. [`CaseBuilder::build`] checks everything and names every fault.
+/// The methods that add or set a part check nothing. [`CaseBuilder::build`] checks all parts and names every fault.
 ///
 /// ```
 /// use linkproof_linkage::case::Case;
@@ -161,8 +161,8 @@ impl CaseBuilder {
         self
     }
 
-    /// Sets the efficiencies of the last transmission: for power from the first member to the second, then for power
-    /// from the second member to the first.
+    /// Sets the two efficiencies of the transmission added last: for power flow from the first member to the second,
+    /// and for power flow from the second member to the first.
     pub fn efficiency(mut self, efficiency: [f64; 2]) -> Self {
         if let Some(last) = self.transmissions.last_mut() {
             last.efficiency = efficiency;

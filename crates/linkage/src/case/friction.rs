@@ -9,7 +9,8 @@
 //! The loss acts like friction: a moment between carrier and first member, in proportion to the transmission's force F.
 //! See docs/numerics/friction.md.
 //! J. L. Meriam, L. G. Kraige, Engineering Mechanics: Statics, 7th ed., Wiley 2012, sections 6/3 and 6/6.
-//! The radius of the friction circle is mu r here. The forces of the two contacts follow from equilibrium.
+//! In this source, mu r is the radius of a journal's friction circle. The forces of a guide's two contacts follow from
+//! equilibrium.
 
 use super::{Case, STANDSTILL, fastest};
 use crate::drive::{Action, Load, Senses, Wrench};
@@ -163,7 +164,7 @@ impl Friction<'_> {
         }
     }
 
-    /// The largest change of [`normal`](Friction::normal) for a change of the reaction.
+    /// Upper bound of the change of [`normal`](Friction::normal) if the reaction changes by `change`.
     #[must_use]
     pub fn largest(&self, change: (Vec2, f64)) -> f64 {
         match self.seat {

@@ -9,7 +9,8 @@ use crate::math::{Piecewise, just_below};
 /// At the stated crank angle, all solvers therefore find the value after the jump.
 const BEFORE: f64 = 4e-9;
 
-/// A table over a slide keeps its end values over this multiple of 1 m plus the magnitudes of its first and last slide.
+/// Beyond its last slide, a table over a slide keeps its end values over the length `FAR` (1 m + |first slide| + |last
+/// slide|).
 const FAR: f64 = 100.0;
 
 /// If the values on both sides of a knot differ relatively by no more than twice this number, there is no jump.

@@ -70,7 +70,8 @@ impl Drive {
     /// Input and driving link of a drive at `joint`.
     /// A prismatic joint has its slide as input.
     /// A revolute joint on the ground has the world angle of its moving link as input.
-    /// A revolute joint between a free link and the link of a drive in `before` has the same kind of input.
+    /// A revolute joint between a free link and the link of a drive in `before` has the world angle of the free link as
+    /// input.
     /// Any other revolute joint has the angle between its two links as input.
     #[must_use]
     pub fn of_joint(joint: &Joint, before: &[Drive], is_free: bool) -> (Input, LinkId) {

@@ -26,7 +26,7 @@ pub struct InputState {
 #[derive(Clone, Debug, PartialEq)]
 pub enum MotionLaw {
     /// Constant angular velocity (rad/s), counter-clockwise positive.
-    /// Only a further drive may have the speed 0: it then holds its joint.
+    /// Only a drive other than the first may have the speed 0: such a drive holds its joint.
     ConstantSpeed(f64),
     /// Constant acceleration from rest to a final speed. After the acceleration the speed is constant.
     Ramp {

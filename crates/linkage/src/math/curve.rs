@@ -45,7 +45,8 @@ pub struct FormulaCurve {
     /// The first derivative with the largest absolute value, and its sign.
     /// The value is stored, because the search for it takes many evaluations.
     steepest: f64,
-    /// The second derivative with the largest absolute value, and its sign; stored for the same reason.
+    /// The second derivative with the largest absolute value, and its sign.
+    /// The value is stored, because the search for it takes many evaluations.
     sharpest: f64,
 }
 
@@ -74,7 +75,7 @@ impl FormulaCurve {
     }
 }
 
-/// The places of a search from 0 to `end`.
+/// Equally spaced x from 0 to `end`, at which a search evaluates the formula.
 fn parts(end: f64) -> Vec<f64> {
     (0..=PARTS).map(|part| end * f64::from(part) / f64::from(PARTS)).collect()
 }
@@ -131,7 +132,7 @@ impl Curve {
         }
     }
 
-    /// The same function multiplied by `factor`.
+    /// This curve multiplied by `factor`.
     #[must_use]
     pub fn times(&self, factor: f64) -> Self {
         match self {

@@ -3,9 +3,9 @@
 //! If a function has different signs at two neighbouring extrema, it has one zero between them.
 //! If the function has the same sign at both extrema, it has no zero between them.
 //! The extrema are the zeros of the derivative, which are computed from eigenvalues.
-//! If two zeros nearly coincide, rounding errors move them by the square root of the rounding error.
-//! The extremum between them is still a simple zero of the derivative and therefore accurate.
-//! The sign at this extremum distinguishes a close pair of zeros from a near miss.
+//! If two zeros nearly coincide, rounding errors move both zeros by the square root of the rounding error.
+//! The extremum between two such zeros is still a simple zero of the derivative and therefore accurate.
+//! The function's sign at this extremum distinguishes a close pair of zeros from a near miss.
 
 use crate::math::KeepNan;
 use nalgebra::{Complex, DMatrix, linalg::Schur};
@@ -25,7 +25,7 @@ const ON_CIRCLE: f64 = 1e-3;
 /// The limit is the rounding error of the coefficients, multiplied by a margin of two digits.
 const ZERO: f64 = 1e-14;
 /// If two zeros are closer together than this distance (rad), they count as a single touching zero.
-/// A parabola of height `ZERO` has this width.
+/// A parabola of unit curvature and height `ZERO` has about this width.
 const APART: f64 = 1e-7;
 
 /// Real zeros in [0, 2 pi), in ascending order, of the trigonometric polynomial that equals `f`.
@@ -144,7 +144,8 @@ fn between(coefficients: &[Complex<f64>], from: f64, to: f64) -> f64 {
 fn roots(polynomial: &[Complex<f64>]) -> Option<Vec<Complex<f64>>> {
     let n = polynomial.len() - 1;
     let value = |a: Complex<f64>| polynomial.iter().rev().fold(Complex::new(0.0, 0.0), |sum, c| sum * a + c).norm();
-    // The candidates outnumber the roots inside the circle by one, so at least one candidate is far from all roots.
+    // There is one more candidate for a than there are roots inside the circle, so at least one candidate is far from
+    // all roots.
     let candidates = (0..n + 1).map(|k| Complex::from_polar(0.5, TAU * k as f64 / (n + 1) as f64));
     let a = candidates.max_by(|&a, &b| value(a).total_cmp(&value(b)))?;
     let mut mapped = vec![Complex::new(0.0, 0.0); n + 1];

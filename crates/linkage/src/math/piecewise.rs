@@ -32,7 +32,8 @@ impl Piecewise {
         Piecewise { knots, pieces, periodic: true }
     }
 
-    /// The same lines with all jumps moved back by `by`. The line after a jump is extended back to the jump.
+    /// This function of straight lines, with all jumps moved back by `by`. The line after a jump is extended back to
+    /// the moved jump.
     pub fn with_jumps_before(mut self, by: f64) -> Self {
         let last = self.pieces.len();
         let period = self.knots[last] - self.knots[0];
@@ -89,7 +90,7 @@ impl Piecewise {
         [a + d * (b + d * (c + d * e)), b + d * (2.0 * c + d * 3.0 * e), 2.0 * c + d * 6.0 * e]
     }
 
-    /// The same function multiplied by `factor`.
+    /// This function multiplied by `factor`.
     pub fn times(&self, factor: f64) -> Self {
         let pieces = self.pieces.iter().map(|piece| piece.map(|coefficient| factor * coefficient)).collect();
         Piecewise { pieces, knots: self.knots.clone(), periodic: self.periodic }

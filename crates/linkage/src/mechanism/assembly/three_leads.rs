@@ -10,7 +10,8 @@
 //!
 //! For a given beta all conditions are circles and lines for O.
 //! Let X = O - c, measured from the centre c of one circle of radius l.
-//! The remaining two conditions are then linear, p1 + q1 . X = p2 + q2 . X = 0 (two circles by their radical line).
+//! The remaining two conditions are then linear in X: p1 + q1 . X = 0 and p2 + q2 . X = 0.
+//! A second or third circle is replaced by its radical line with the first circle.
 //! With |X| = l this leaves |q2 p1 - q1 p2|^2 = l^2 (q1 x q2)^2.
 //! As a polynomial in e^(i beta), p has the powers -1 to 1.
 //! The powers of q are 0 to 1 for a circle, 0 for a line of the frame and 1 for a line of the base.
