@@ -128,7 +128,7 @@ impl FormulaTree {
         }
     }
 
-    /// The same, mutable.
+    /// The arguments of the outermost operation, mutable.
     pub fn parts_mut(&mut self) -> &mut [FormulaTree] {
         match &mut self.shape {
             NodeShape::Number(_) | NodeShape::Name(_) => &mut [],

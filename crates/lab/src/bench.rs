@@ -2,7 +2,7 @@
 //!
 //! Each method of solving a scenario is a [`BenchPoint`].
 //! Methods that fail are kept, with the reason.
-//! The command line passes the clock in.
+//! The command line supplies the clock.
 //! See docs/numerics/laboratory.md.
 
 mod front;
@@ -54,8 +54,8 @@ pub struct Bench {
 /// Measures all methods of solving a scenario. `progress` receives the completed fraction.
 ///
 /// # Errors
-/// Any error of the two sides, because the reference comes from them.
-/// If an engine or a peer fails, its point has the reason.
+/// Any error of the two analytic sides, because they compute the reference.
+/// If an engine or a peer fails, its [`BenchPoint`] contains the reason instead.
 pub fn bench(
     scenario: &Scenario,
     options: &BenchOptions,

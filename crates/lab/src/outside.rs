@@ -1,4 +1,5 @@
-//! External parties: other programs that solve a case or show it, and the machine that everything runs on.
+//! External parties: other programs that solve a case or show it, and a description of the machine on which all
+//! programs run.
 
 mod answer;
 mod machine;

@@ -30,7 +30,7 @@ impl CostAxis {
 
 /// Indices of the points on the front of a stage, the cheapest first.
 /// Of points with equal cost and error only one is kept.
-/// An error below the floor is replaced by the floor, because errors below it cannot be ranked.
+/// An error below the floor is replaced by the floor, because errors below the floor cannot be ranked.
 pub fn front(
     points: &[BenchPoint],
     stage: Stage,

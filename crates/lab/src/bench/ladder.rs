@@ -1,5 +1,6 @@
 //! The methods that are measured.
-//! The methods cover steps, sweeps, routes and extrapolations of every engine, and accuracies of the sides.
+//! The methods differ in steps, sweeps, methods for reactions and extrapolations of every engine, and in accuracies of
+//! the analytic sides.
 
 use super::options::BenchOptions;
 use super::peer::Way;
@@ -29,7 +30,7 @@ const TIMES: [usize; 4] = [0, 1, 2, 3];
 
 /// The party that runs a method.
 pub(super) enum Runner {
-    /// A side.
+    /// An analytic side.
     Side(Box<dyn Solver>),
     /// An engine.
     Engine(Box<dyn Engine>),
@@ -75,7 +76,7 @@ pub(super) struct Plan {
 }
 
 /// The methods of sides and engines.
-/// A curve is one engine with settings that differ only in the resolution.
+/// A curve contains the methods of one engine whose settings differ only in the resolution.
 /// The budget is divided equally between the curves.
 /// Each curve gets ever finer resolutions until its part of the budget is used.
 pub(super) fn plan(case: &Case, options: &BenchOptions) -> Plan {
@@ -148,8 +149,8 @@ fn curves(engine: &dyn Engine, case: &Case, options: &BenchOptions) -> Vec<Setti
     let mut curves = Vec::new();
     for &route in &routes {
         for &sweeps in &sweeps {
-            // Readings by probes or impulses are extrapolated at most once, because a second extrapolation gives
-            // nothing new.
+            // Reactions from probes or impulses are extrapolated at most once, because a second extrapolation of them
+            // gives nothing new.
             let worth = times.iter().filter(|&&times| route == Route::Differences || times < 2);
             curves.extend(worth.map(|&extrapolated| Settings { sweeps, route, extrapolated, ..own }));
         }

@@ -1,5 +1,5 @@
-//! Runs all methods and measures their times, in rounds: every method once, then every method again.
-//! The load of other programs on the machine then affects all methods alike.
+//! Runs all methods and measures their times in rounds. Each round runs every method once.
+//! Because of the rounds, the load of other programs on the machine affects all methods alike.
 
 use super::ladder::{Planned, Runner};
 use super::options::Clock;
@@ -22,7 +22,7 @@ const MOST: f64 = 1000.0;
 const LONG: f64 = 0.2;
 /// A long run of a side or an engine takes part in at most this number of rounds, and so does a short run of a peer.
 const FEW: usize = 2;
-/// Largest length of a reason, in characters.
+/// Largest length of the text that states the reason of a failure, in characters.
 const REASON: usize = 300;
 /// Instants count as equal if their difference divided by the largest instant is at most this.
 const SAME: f64 = 1e-9;

@@ -44,7 +44,7 @@ pub struct Spoiled {
 pub struct Mutant {
     /// The kind of fault.
     pub kind: &'static FaultKind,
-    /// Where it is planted.
+    /// The party in which the fault is planted.
     pub party: FaultyParty,
     /// The formula and its text, if the fault is a mistake in a formula.
     pub formula: Option<Spoiled>,

@@ -1,4 +1,5 @@
-//! Chooses faults, and parties (analytic sides, engine, formulas), and plants every fault in every party.
+//! Chooses faults and the parties that get them (analytic sides, engine, shared code or formulas), and plants every
+//! fault in each of these parties.
 //! For a fault with a size, a search finds the smallest size at which a proof still finds the fault.
 
 use super::effect::Effect;

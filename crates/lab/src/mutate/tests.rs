@@ -129,7 +129,7 @@ fn a_one_sided_moment_that_always_acts_is_found_in_every_party() {
     }
 }
 
-/// A proof cannot find a fault that all parties share; external reference numbers can.
+/// A proof cannot find a fault in code that all parties share. External reference numbers reveal such a fault.
 #[test]
 fn a_shared_gravity_fault_is_found_only_by_external_numbers() {
     let asked =

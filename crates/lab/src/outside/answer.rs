@@ -19,7 +19,7 @@ const COLUMNS: usize = 100_000;
 /// this range.
 const TIMES: RangeInclusive<f64> = 1e-12..=1e9;
 
-/// The last line of a program's output, as JSON. Libraries may print other lines before it.
+/// The last line of a program's output, as JSON. The program's libraries may print other lines before the last line.
 fn last(output: &str) -> Result<Value, String> {
     let line =
         output.lines().rev().find(|line| !line.trim().is_empty()).ok_or(sentences::IT_WROTE_NOTHING_TO_STANDARD)?;

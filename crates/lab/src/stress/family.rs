@@ -9,7 +9,7 @@ use linkage::error::Result;
 pub enum EngineUse {
     /// Only the analytic sides run, not the engines.
     None,
-    /// A search finds the engines' settings. The number is the work allowed for it, in steps without sweeps.
+    /// A search finds the engines' settings. The number is the work allowed for the search, in steps without sweeps.
     Found(f64),
     /// Engines run at this step (s) and number of sweeps.
     Given {

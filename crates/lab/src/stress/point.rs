@@ -58,7 +58,7 @@ fn built() -> impl Iterator<Item = EngineName> {
     EngineName::ALL.into_iter().filter(|name| engines::is_built(*name))
 }
 
-/// An error as one line, with its input value.
+/// An error as one line, with the value of the input at which the error occurred.
 fn told(error: &Error) -> String {
     // The input value is omitted if the message names the input already.
     let at = error.input().filter(|at| !error.message().contains(at.input.noun()));

@@ -1,4 +1,4 @@
-//! The same mechanism, driven at another joint.
+//! Moves the first drive of a mechanism to another joint.
 
 use super::{Case, Grid};
 use crate::drive::{Drive, DriveMotion, Drives, MotionLaw};

@@ -1,4 +1,4 @@
-//! Faults that only one comparison can find. Without this comparison, the fault escapes.
+//! Faults of which each is found by a single comparison and escapes without this comparison.
 
 use super::kind::kinds;
 use super::touch::turner;

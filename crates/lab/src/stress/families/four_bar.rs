@@ -6,7 +6,7 @@ use linkage::mechanism::AssemblyMode;
 
 use crate::stress::{Setup, StressFamily};
 
-/// Instants of a turn.
+/// Number of instants in one turn of the crank.
 const INSTANTS: usize = 36;
 /// Mass per length of a rod (kg/m).
 const DENSITY: f64 = 10.0;

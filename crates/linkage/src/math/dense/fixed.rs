@@ -11,7 +11,7 @@ fn first<T, const N: usize>(of: &[T]) -> &[T; N] {
     of.first_chunk().expect("as many numbers as the order says")
 }
 
-/// The same, mutable.
+/// The first `N` numbers of a mutable slice with at least `N` numbers.
 #[inline(always)]
 fn first_mut<T, const N: usize>(of: &mut [T]) -> &mut [T; N] {
     of.first_chunk_mut().expect("as many numbers as the order says")
