@@ -39,7 +39,7 @@ pub struct Bench {
     pub stages: Vec<Stage>,
     /// The reference, and its error.
     pub floor: Floor,
-    /// Shortest time (s) of side 1 at its usual accuracy: the unit of relative times.
+    /// Shortest time (s) of analytic side 1 at its usual accuracy: the unit of relative times.
     pub unit: f64,
     /// Versions of engines and peers, by name.
     pub versions: Vec<(String, String)>,

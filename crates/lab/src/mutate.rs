@@ -10,7 +10,7 @@
 //! with.
 //!
 //! The formulas of a scenario are a party too.
-//! A mistake in a formula is judged by both sides, whose motion is correct.
+//! A mistake in a formula is judged by both analytic sides, whose motion is correct.
 
 mod effect;
 mod formulas;

@@ -1,5 +1,5 @@
 //! Searches for the cheapest settings with which an engine meets a requested error.
-//! Errors are measured.
+//! Errors are measured against a reference solution.
 //!
 //! The error falls with a power of the step, so a few runs against the reference find the largest step of each method.
 //! Three runs of the engine also predict the error without the reference.

@@ -36,7 +36,7 @@ const STANDSTILL: f64 = 1e-12;
 /// A complete, checked problem that any solver accepts.
 ///
 /// The parts are accessible as fields, for example `case.mechanism`.
-/// A case is immutable: [`Case::with`] and similar methods return a changed and checked case.
+/// A case is immutable: a method such as [`Case::with`] returns a new case, changed and checked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Case {
     parts: CaseParts,
@@ -263,7 +263,8 @@ impl Case {
     /// Actions of the moment (N m) or force (N) of a drive: first on the link that carries the drive, then on the
     /// driving link.
     /// The frame carries the drive of a crank.
-    /// At a joint between moving links, and for a slide, the joint's first link exerts the effort on the second link.
+    /// At a joint between moving links, and for a slide, the joint's first link exerts the moment or force on the
+    /// second link.
     #[must_use]
     pub fn effort(&self, drive: &Drive, effort: f64, motions: &[Motion]) -> [Action; 2] {
         match drive.input {
@@ -295,8 +296,8 @@ impl Case {
     }
 
     /// Whether forces determine the motion of a driving link (a free motion).
-    /// Crank angles are then known only from a solved trajectory. The crank angles of the grid belong to the nominal
-    /// motion.
+    /// In a free motion, crank angles are known only from a solved trajectory.
+    /// The crank angles of the grid belong to the nominal motion.
     #[must_use]
     pub fn is_free(&self) -> bool {
         self.drives.iter().any(Drive::is_free)

@@ -1,5 +1,5 @@
 //! The only error type. An error contains the request, the finding, the location and the remedy.
-//! These parts are stored as data and become text only in the output.
+//! The parts of an error are stored as data and become text only in the output.
 
 mod advice;
 mod several;

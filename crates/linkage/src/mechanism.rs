@@ -139,15 +139,16 @@ impl Mechanism {
         self.transmissions.iter().map(|own| own.design.clone()).collect()
     }
 
-    /// Index of a transmission's equation in the list of all equations. It comes after the equations of the joints.
+    /// Index of a transmission's equation in the list of all equations.
+    /// The equations of the transmissions come after the equations of the joints.
     #[inline]
     #[must_use]
     pub fn row_of_transmission(&self, transmission: TransmissionId) -> usize {
         self.equations() + transmission.index()
     }
 
-    /// Index of the equation of the drive with this number. It comes after the equations of the joints and
-    /// transmissions.
+    /// Index of the equation of the drive with this number.
+    /// The equations of the drives come after the equations of the joints and transmissions.
     #[inline]
     #[must_use]
     pub fn row_of_drive(&self, drive: usize) -> usize {

@@ -21,7 +21,7 @@ const QUICK_STEPS: [f64; 3] = [8.0, 2.0, 0.5];
 /// Accuracies of engines that control their error.
 const ACCURACIES: [f64; 6] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
 const QUICK_ACCURACIES: [f64; 2] = [1e-4, 1e-10];
-/// Accuracies of the sides' integration, in addition to the usual accuracy.
+/// Accuracies of the analytic sides' integration, in addition to the usual accuracy.
 const SIDES: [f64; 5] = [1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
 /// Numbers of sweeps, as multiples of the smallest number that an engine considers useful.
 const SWEEPS: [usize; 3] = [1, 4, 16];
@@ -68,14 +68,14 @@ impl Planned {
     }
 }
 
-/// All sides and engines to be measured.
+/// All analytic sides and engines to be measured.
 pub(super) struct Plan {
     pub(super) points: Vec<Planned>,
     pub(super) left_out: usize,
     pub(super) versions: Vec<(String, String)>,
 }
 
-/// The methods of sides and engines.
+/// The methods of analytic sides and engines.
 /// A curve contains the methods of one engine whose settings differ only in the resolution.
 /// The budget is divided equally between the curves.
 /// Each curve gets ever finer resolutions until its part of the budget is used.

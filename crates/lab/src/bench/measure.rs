@@ -18,9 +18,9 @@ use linkage::work::{Count, Work, counted};
 /// If a run is shorter than `SHORT` (s), it is repeated at most `MOST` times, and the repetitions are timed together.
 const SHORT: f64 = 5e-3;
 const MOST: f64 = 1000.0;
-/// If a run is longer than this (s), a side or an engine is timed at most twice, and a peer once.
+/// If a run is longer than this (s), an analytic side or an engine is timed at most twice, and a peer once.
 const LONG: f64 = 0.2;
-/// A long run of a side or an engine takes part in at most this number of rounds, and so does a short run of a peer.
+/// Largest number of rounds in which a long run of an analytic side or an engine, or a short run of a peer, takes part.
 const FEW: usize = 2;
 /// Largest length of the text that states the reason of a failure, in characters.
 const REASON: usize = 300;

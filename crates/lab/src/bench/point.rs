@@ -33,7 +33,7 @@ pub struct Errors {
 #[derive(Clone, Debug, PartialEq)]
 pub struct AnsweredRun {
     /// Errors by stage, in the order of [`Stage::ALL`].
-    /// `None` where the stage was not requested or has failed, or where a peer has no such channel.
+    /// `None` for a stage that was not requested, has failed, or has no channel in the answer of a peer.
     pub errors: [Option<Errors>; Stage::ALL.len()],
     /// Stages in which a peer's numbers are wrong, and the fault in each. These stages count as failures.
     pub failed: Vec<(Stage, String)>,

@@ -38,7 +38,7 @@ impl Floor {
 /// The reference of a case, and the reference's error.
 ///
 /// # Errors
-/// The errors of the sides.
+/// The errors of the analytic sides, which compute the reference.
 pub(super) fn of(case: &Case) -> Result<(Trajectory, Floor)> {
     let solved = |solver: &dyn Solver| solver.solve(case).map_err(|error| explained(case, error));
     if case.is_free() {

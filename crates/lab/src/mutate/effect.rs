@@ -15,7 +15,7 @@ use prover::bounds::magnitudes;
 /// If an exact answer changes by at most this fraction of the quantity's largest number, the change counts as rounding
 /// error.
 /// Such changes also arise if a case is solved again from recomputed, mathematically equivalent input numbers.
-/// The limit is at most a tenth of the difference allowed between the two sides.
+/// The limit is at most a tenth of the difference allowed between the two analytic sides.
 pub(super) fn rounding(stage: Of) -> f64 {
     match stage {
         Of::Positions => 1e-13,
@@ -57,7 +57,7 @@ fn has_part(case: &Case, fault: Fault) -> Result<bool> {
 }
 
 impl Stage<'_> {
-    /// Effect of a fault on the exact answers of side 1.
+    /// Effect of a fault on the exact answers of analytic side 1.
     pub(super) fn effect(&self, fault: Fault) -> Result<Effect> {
         if !has_part(&self.case, fault)? {
             return Ok(Effect::None);

@@ -26,7 +26,7 @@ pub(super) struct Planting {
 }
 
 impl Stage<'_> {
-    /// Names of the formulas that both sides judge.
+    /// Names of the formulas that both analytic sides judge.
     fn judged_formulas(&self) -> BTreeSet<&str> {
         let judged = self.sides.judgement.iter().flat_map(|own| &own.sides[Reference::Assur]);
         judged.filter_map(|all| Some(all.first()?.name.as_str())).collect()
@@ -50,7 +50,8 @@ impl Stage<'_> {
         found
     }
 
-    /// Work of judging all formulas once, on both sides. The unit is the work of an engine's step on a four-bar.
+    /// Work of judging all formulas once, on both analytic sides. The unit is the work of an engine's step on a
+    /// four-bar.
     pub(super) fn work_of_formulas(&self) -> f64 {
         let formulas = &self.scenario.formulas;
         let nodes: Vec<NodeId> = formulas.claims().map(|(formula, _)| formula.id).collect();
@@ -155,7 +156,7 @@ impl Stage<'_> {
         })
     }
 
-    /// Result of both sides' judgement of the mistake.
+    /// Result of the judgement of the mistake by both analytic sides.
     pub(super) fn formula_outcome(&self, own: &Planting) -> FaultyProof {
         let judged = self.sides.claimed(&self.case, &own.formulas).map(|sides| {
             let judgement = Judgement::of(sides);

@@ -68,7 +68,8 @@ const SHAKING: &str = "shaking force and moment from reactions and from momentum
 const POWERS: &str = "balancing moment from equilibrium and from powers (assur)";
 const BETWEEN: &str = "assur against newton";
 
-/// Faults of side 1: scenario, fault, number of channels in which the sides differ, families of checks that find it.
+/// Faults of analytic side 1. The fields are scenario, fault, number of channels in which the sides differ, and
+/// families of checks that find the fault.
 /// The number 0 means "not counted", because other channels depend on the wrong quantity.
 /// The dependent channels are those of the link, its mass centre and its points, and the power.
 /// Orders of magnitude: lengths are tenths of a metre, speeds some rad/s, forces hundreds of newtons.

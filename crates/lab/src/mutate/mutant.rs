@@ -8,9 +8,9 @@ linkage::words! {
     /// Who gets a fault.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
     pub enum FaultyParty: name {
-        /// Side 1.
+        /// Analytic side 1.
         Assur = "assur",
-        /// Side 2.
+        /// Analytic side 2.
         Newton = "newton",
         /// The engine.
         Engine = "engine",

@@ -33,13 +33,14 @@ pub(super) struct Stage<'a> {
     options: &'a Options,
     /// The analytic sides without a fault.
     pub(super) sides: ObservedSides,
-    /// Exact answers of side 1, and the integration errors if forces determine the motion.
+    /// Exact answers of analytic side 1, and the integration errors if forces determine the motion.
     /// The errors are given channel by channel, in the channels' units.
     pub(super) right: Trajectory,
     pub(super) integration: Vec<f64>,
     /// The engine's runs without a fault.
     runs: OnceLock<CachedEngine>,
-    /// Work of both sides, and of the engine, without a fault (in units of the work of an engine's step on a four-bar).
+    /// Work of both analytic sides, and of the engine, without a fault. The unit is the work of an engine's step on a
+    /// four-bar.
     pub(super) work: [f64; 2],
     /// Verdict of the proof without a fault, and name of the engine.
     pub(super) verdict: &'static str,
@@ -74,7 +75,7 @@ impl<'a> Stage<'a> {
         Ok(stage)
     }
 
-    /// The proof of the engine with these sides as reference.
+    /// The proof of the engine with `sides` as reference.
     fn engine(&self, sides: &ObservedSides, around: Around, own_forces: bool) -> Result<EngineProof> {
         let how = EngineRole { case: &self.case, around, own_forces };
         let engines = self.options.chosen(&self.scenario.engine, &self.case)?;
@@ -124,7 +125,7 @@ impl<'a> Stage<'a> {
         self.engine(&self.sides, &|own| Box::new(Planted { hook: fault, inner: kept_in(&self.runs, own) }), false)
     }
 
-    /// Outcome of the engine's proof with these sides as reference.
+    /// Outcome of the engine's proof with `sides` as reference.
     /// The engine's own forces (`own_forces`) are requested only if the proof without them finds nothing.
     /// A verdict on these forces cannot undo a disagreement.
     fn judged(&self, sides: &ObservedSides, around: Around) -> Result<FaultyProof> {
@@ -142,7 +143,7 @@ impl<'a> Stage<'a> {
         Ok(last)
     }
 
-    /// The sides, with a fault in each of the `faulty` sides.
+    /// The analytic sides, with a fault in each of the `faulty` sides.
     fn planted(&self, fault: Fault, faulty: &[Reference]) -> Result<ObservedSides> {
         let planted = |inner: Box<dyn Solver>| Planted { hook: fault, inner };
         let wrong = EachSide::new(

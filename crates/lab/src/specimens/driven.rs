@@ -52,7 +52,8 @@ mod tests {
         one.iter().map(off).fold(0.0, f64::larger)
     }
 
-    /// About a third of the mechanisms cannot be assembled at some instant. Both sides must refuse these mechanisms.
+    /// About a third of the mechanisms cannot be assembled at some instant. Both analytic sides must refuse these
+    /// mechanisms.
     #[test]
     fn both_sides_agree_wherever_the_drive_is() {
         let (mut agreed, mut refused, mut worst) = (0, 0, 0.0);

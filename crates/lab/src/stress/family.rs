@@ -27,7 +27,7 @@ pub struct Setup {
     pub case: Case,
     /// Use of the engines.
     pub engines: EngineUse,
-    /// Whether the sides are compared with a double-double reference.
+    /// Whether the analytic sides are compared with a double-double reference.
     pub precise: bool,
 }
 

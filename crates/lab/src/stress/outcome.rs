@@ -118,7 +118,7 @@ pub struct StressOutcome {
     /// Reason why the case does not exist; empty if it exists.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub refused: String,
-    /// The sides and engines.
+    /// The analytic sides and the engines.
     pub parties: Vec<PartyAtPoint>,
 }
 

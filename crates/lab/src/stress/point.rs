@@ -1,4 +1,4 @@
-//! One point: both sides and all engines on one case.
+//! One point of a family: both analytic sides and all engines on one case.
 
 use crate::sentences;
 use std::panic::{AssertUnwindSafe, catch_unwind};

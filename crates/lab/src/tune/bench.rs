@@ -1,5 +1,5 @@
 //! Runs of one engine against the reference, and its cheapest settings.
-//! The settings that are tried, except the step, are listed here.
+//! This file lists the settings that are tried, except the step.
 
 use linkage::math::KeepNan;
 use std::f64::consts::PI;
@@ -138,8 +138,8 @@ impl Bench<'_> {
         let unlimited = search.limit().is_infinite();
         self.refused = false;
         let floor = if unlimited { Floor(Vec::new()) } else { self.floor(search.engine, way, sweeps, search.limit()) };
-        // Without a cost limit, the search with few sweeps would continue down to the finest steps. So it begins with
-        // many sweeps.
+        // Without a cost limit, a search that begins with few sweeps would continue down to the finest steps.
+        // The search therefore begins with many sweeps.
         let first = sweeps.iter().copied().find(|&sweeps| sweeps >= ENOUGH && unlimited);
         let start = if search.engine.controls_error() { way.resolution } else { COARSE_START * way.resolution };
         let mut row = Row { start, last: f64::INFINITY, rising: 0 };

@@ -1,4 +1,4 @@
-//! The largest step that meets an error.
+//! Searches for the largest step whose error is within a limit.
 
 use super::candidate::Measured;
 use linkage::math::KeepNan;
@@ -25,7 +25,7 @@ const AT_THE_LIMIT: f64 = 0.9;
 /// Outcome of a search.
 #[derive(Clone, Debug)]
 pub(super) enum Found {
-    /// The largest step (or accuracy) found that meets the error.
+    /// The largest step (or accuracy) found whose error is within the limit.
     Step {
         /// The step.
         resolution: f64,
@@ -40,7 +40,7 @@ pub(super) enum Found {
         /// Measured or expected error at this step.
         error: f64,
     },
-    /// No step meets the error; the number is the smallest error found.
+    /// No step has an error within the limit; the number is the smallest error found.
     TooCoarse(f64),
 }
 

@@ -83,7 +83,7 @@ impl<'a> Needs<'a> {
         let none = || case.mechanism.links().iter().map(|_| false).collect();
         let upstream = case.structure.upstream(&case.mechanism);
         let mut needs = Needs { case, upstream, moves: none(), carries: none() };
-        // The crank's angle identifies the instant, so its motion is always needed.
+        // The crank's angle identifies the instant, so the crank's motion is always needed.
         (needs.moves[GROUND], needs.moves[case.crank().link]) = (true, true);
         needs
     }
@@ -140,7 +140,7 @@ impl<'a> Needs<'a> {
             let trains = group.trains.iter().flat_map(|&id| case.mechanism.transmissions()[id].links());
             group.outer.iter().flat_map(|&joint| ends(joint)).chain(trains).collect::<Vec<LinkId>>()
         };
-        // Forces on a link come from every link that depends on it, directly or through further links.
+        // Forces on a link come from every link that depends on this link, directly or through further links.
         let carries = &mut self.carries;
         for (_, &DrivingLink { link, joint, .. }) in structure.leading() {
             carries[link] |= ends(joint).into_iter().any(|base| base != GROUND && carries[base]);

@@ -11,7 +11,7 @@ pub enum DriveMotion {
     Prescribed {
         /// The motion law.
         law: MotionLaw,
-        /// Motor for which the speed under load is to be computed.
+        /// Motor whose speed under load is to be computed.
         /// The motor does not affect the motion: the link follows the law even if the motor is too weak for it.
         motor: Option<Motor>,
     },

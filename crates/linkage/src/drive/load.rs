@@ -394,7 +394,8 @@ impl Load {
     /// Size of the load's jump at the crank angle `crank` (rad), if the motion that determines the load's sense
     /// reverses there.
     /// The jump is in N m, or in N for a force. For friction it is the jump per newton of the normal force.
-    /// The jump is zero for a load that depends on no sense of motion, or vanishes at that crank angle.
+    /// The jump is zero for a load that depends on no sense of motion, and for a load that vanishes at this crank
+    /// angle.
     /// A load without a jump has at most a kink.
     #[must_use]
     pub fn jump(&self, crank: f64) -> f64 {
@@ -421,7 +422,7 @@ impl Load {
     }
 
     /// For a [resistance](Load::Resistance): the loaded link and the size of the moment (N m).
-    /// Some engines and formats directly support only this kind of load.
+    /// A resistance is the only load that some engines and formats support directly.
     #[inline]
     #[must_use]
     pub fn resistance(&self) -> Option<(LinkId, f64)> {

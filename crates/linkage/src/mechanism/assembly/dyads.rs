@@ -1,9 +1,9 @@
 //! All configurations of the five dyads, and their transmission angles.
 //!
 //! A dyad has one outer joint on each link and the inner joint between the links. One scalar equation closes the dyad.
-//! RRR: the equation is the intersection of two circles.
-//! RRP, and RPR seen from the guide: the equation is the intersection of a circle and a line.
-//! RPP and PRP: the equation is the intersection of two lines.
+//! An RRR dyad closes at the intersections of two circles.
+//! An RRP dyad, and an RPR dyad seen from its guide, closes at the intersections of a circle and a line.
+//! RPP and PRP dyads close at the intersection of two lines.
 //! A prismatic pair fixes the angle between its two links.
 //! A prismatic pair also keeps the joint's point on the second link on a line parallel to the axis.
 //! This line goes through the joint's point on the first link.

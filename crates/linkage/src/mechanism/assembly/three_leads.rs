@@ -1,4 +1,4 @@
-//! All poses of a base link on three leads.
+//! All poses of a base link that three leads (links between frame and base) connect with the frame.
 //!
 //! Each lead has one pair with the frame (near) and one pair with the base (far). The lead imposes one condition on the
 //! base.
@@ -211,7 +211,8 @@ impl Conditions {
 
     /// Whether the base can move from a pose while all conditions remain satisfied.
     /// The test makes one step along the free direction of the Jacobian, and one step in the opposite direction.
-    /// After each step, damped steps return to the conditions. If both results differ from the pose, the base can move.
+    /// After each of the two steps, damped steps lead back to a pose that satisfies the conditions.
+    /// If both resulting poses differ from the original pose, the base can move.
     /// At a double root the base cannot move.
     fn is_loose(&self, at: Found) -> bool {
         let rows = self.rows(at).map(|(row, _)| row);

@@ -77,7 +77,8 @@ impl Case {
                 (a + b - c).smaller(a + c - b).smaller(b + c - a)
             }
             GroupKind::Rrp => {
-                // The function is the squared distance of the inner joint from the outer pin, against the slide.
+                // The function is the squared distance of the inner joint from the outer pin, as a function of the
+                // slide.
                 // This function is a parabola, which three values determine.
                 let (slider, outer, rod, pin) =
                     if self.joint(JointId(0)).slides() { (3, 0, 4, 2) } else { (4, 2, 3, 0) };
@@ -99,7 +100,8 @@ impl Case {
                 rod.norm() - least.larger(0.0).sqrt()
             }
             GroupKind::Rpr => {
-                // The function is the distance from the line, against the angle that both links have in common.
+                // The function is the distance from the line, as a function of the angle that both links have in
+                // common.
                 // This function is a sinusoid plus a constant, which three values determine.
                 let off = |angle: f64| {
                     let mut pose = self.pose.clone();
