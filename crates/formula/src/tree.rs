@@ -106,7 +106,7 @@ impl FormulaTree {
         FormulaTree { shape, at: 0..0 }
     }
 
-    /// The same tree with every occurrence of a name replaced by `other`.
+    /// This tree with every occurrence of a name replaced by `other`.
     pub fn with_name(&self, name: &str, other: &FormulaTree) -> FormulaTree {
         if matches!(&self.shape, NodeShape::Name(own) if own == name) {
             return other.clone();

@@ -55,7 +55,7 @@ pub struct Bench {
 ///
 /// # Errors
 /// Any error of the two analytic sides, because they compute the reference.
-/// If an engine or a peer fails, its [`BenchPoint`] contains the reason instead.
+/// A failure of an engine or a peer is not returned as an error: its [`BenchPoint`] contains the reason.
 pub fn bench(
     scenario: &Scenario,
     options: &BenchOptions,

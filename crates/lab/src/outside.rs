@@ -1,4 +1,5 @@
-//! External parties: other programs that solve a case or show it, and a description of the machine on which all
+//! External parties:
+//! programs other than linkproof that solve or show a case, and a description of the machine on which all
 //! programs run.
 
 mod answer;

@@ -30,7 +30,7 @@ use prover::run::{Options, memory};
 use scenario::Scenario;
 
 /// Work allowed by default, in steps without sweeps.
-/// This work is many times the work that the shipped mechanisms need for an allowed error of 1e-7 of the scale.
+/// At an allowed error of 1e-7 of the scale, the shipped mechanisms need only a small fraction of this work.
 const BUDGET: f64 = 5e6;
 
 /// The wanted accuracy.
@@ -64,7 +64,8 @@ pub struct Tuning {
     pub too_dear: Vec<&'static str>,
     /// Number of runs in the search.
     pub runs: usize,
-    /// Whether the search ended because the allowed work was used up. Cheaper settings may then exist.
+    /// Whether the search ended because the allowed work was used up.
+    /// If it was used up, cheaper settings may exist.
     pub is_spent: bool,
 }
 

@@ -274,7 +274,8 @@ impl Case {
     }
 
     /// Whether the pose is given as a function of the time instead of the first drive's input.
-    /// This is so if there are several drives and the speed of at least one of them varies.
+    /// The pose is given as a function of the time if there are several drives and the speed of at least one drive
+    /// varies.
     #[must_use]
     pub fn goes_by_time(&self) -> bool {
         self.drives.len() > 1 && self.drives.iter().any(|drive| drive.constant_speed().is_none())
@@ -445,8 +446,8 @@ impl Case {
 
     /// The rate on whose sign a load depends: the angular velocity of a link (rad/s) or the rate of a joint (rad/s or
     /// m/s).
-    /// The result is zero for a load that depends on neither rate. It is also zero if the rate may be only a rounding
-    /// error.
+    /// The result is zero for a load that depends on neither rate.
+    /// The result is also zero if the rate may be only a rounding error.
     #[must_use]
     pub fn load_rate(&self, load: &Load, motions: &[Motion]) -> f64 {
         match load.nature().senses {

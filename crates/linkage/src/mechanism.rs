@@ -45,8 +45,9 @@ pub struct Mechanism {
     /// number of equations.
     rows: Vec<usize>,
     /// Size of the mechanism (m), used in the computation of every pose.
-    /// The size is computed only once, because the computation compares all distances between the points of a link.
-    /// A link with many points has many more such distances than points.
+    /// The size is computed only once, because the computation compares the distances between all pairs of points of a
+    /// link.
+    /// On a link with many points, the number of pairs is large.
     size: f64,
 }
 
@@ -163,8 +164,8 @@ impl Mechanism {
     }
 
     /// Total number of equations of all joints.
-    /// A list of equations begins with the equations of the joints. The equations of the transmissions, then of the
-    /// drives, follow.
+    /// A list of equations begins with the equations of the joints.
+    /// The equations of the transmissions follow, then the equations of the drives.
     #[inline]
     #[must_use]
     pub fn equations(&self) -> usize {

@@ -38,7 +38,8 @@ pub(super) enum Runner {
     Peer(usize, Way),
 }
 
-/// A method to be measured. Its point counts as failed until the method has run.
+/// A method to be measured.
+/// The method's [`BenchPoint`] counts as failed until the method has run.
 pub(super) struct Planned {
     pub(super) point: BenchPoint,
     pub(super) runner: Runner,

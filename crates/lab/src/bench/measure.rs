@@ -87,8 +87,8 @@ impl Desk<'_> {
             Runner::Side(_) | Runner::Engine(_) | Runner::Peer(..) if is_long && round >= FEW => {}
             Runner::Side(solver) => run.seconds.extend(self.timed(solver.as_ref()).map(|(seconds, ..)| seconds)),
             Runner::Engine(engine) => run.seconds.extend(self.timed(engine.as_ref()).map(|(seconds, ..)| seconds)),
-            // A peer restarts for every answer, and repeats short runs by itself. It therefore gets at most `FEW`
-            // rounds.
+            // A peer restarts for every answer, and repeats short runs by itself.
+            // A peer therefore gets at most `FEW` rounds.
             Runner::Peer(index, way) if round < FEW && !is_long => {
                 if let Ok(answer) = self.peers[*index].run(way) {
                     run.seconds.extend(answer.seconds.into_iter().filter(|seconds| *seconds > 0.0));

@@ -29,7 +29,7 @@ pub struct Floor {
 }
 
 impl Floor {
-    /// The errors of a point, with a mark if they are too close to the reference's error.
+    /// The errors of a point. Errors that are too close to the reference's error are marked.
     pub fn judged(&self, stage: Stage, [max, rms]: [f64; 2]) -> Errors {
         Errors { max, rms, is_limited: !(max >= CLEAR * self.errors[stage as usize]) }
     }

@@ -1,4 +1,4 @@
-//! Mistakes in formulas, judged in the same way as formulas in `run`.
+//! Mistakes in formulas. The wrong formulas are judged in the same way as the formulas in the command `run`.
 
 use std::collections::BTreeSet;
 

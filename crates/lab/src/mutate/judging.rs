@@ -60,7 +60,7 @@ fn fault(name: &str) -> Fault {
 }
 
 fn scenario(name: &str) -> Scenario {
-    // Other tests cover external reference numbers, so this test removes these numbers.
+    // The scenario's external reference numbers are removed, because other tests cover them.
     Scenario { oracles: Vec::new(), ..of_repository(&format!("scenarios/{name}.toml")) }
 }
 

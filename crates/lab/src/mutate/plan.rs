@@ -239,7 +239,8 @@ pub(super) fn smallest(whole: f64, margin: f64, is_found: &dyn Fn(f64) -> bool) 
         }
     }
     let Some(mut lost) = lost else { return found };
-    // If the guess was too small, the search increases the size in steps, and then bisects the interval.
+    // If the first guess was too small, the search increases the size in steps. It then bisects the interval between
+    // the last undetected and the first detected size.
     while found > STEP * lost {
         let size = lost * STEP;
         if is_found(size) {

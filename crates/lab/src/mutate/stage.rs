@@ -59,8 +59,8 @@ impl<'a> Stage<'a> {
         let of_sides = || ObservedSides::of(problem, whole, TRUE_SIDES, options.reference, &mut Ledger::default());
         let (sides, done) = counted(|| limited(allowed, of_sides).0);
         let sides = sides?;
-        // Side 2 does not count the groups that it places. It places as many links as side 1, so the groups of side 1
-        // are counted twice.
+        // Side 2 does not count the groups that it places.
+        // Side 2 places as many links as side 1, so the groups of side 1 are counted twice.
         let placed = PLACED * 2.0 * done.of(Count::Groups) as f64 + done.of(Count::Intervals) as f64;
         let right = AssurSolver.solve(&case)?;
         let integration = sides.integration();

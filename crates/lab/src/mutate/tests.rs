@@ -30,7 +30,7 @@ fn kinds_of_faults_have_unique_names_and_descriptions() {
     assert!(all().all(|kind| !names.contains(kind.family.name())));
 }
 
-/// Outcomes and margins from reused runs are the same to the bit as those from new runs.
+/// Outcomes and margins from reused runs equal those from new runs, bit for bit.
 #[test]
 fn reused_runs_give_the_same_outcome_as_new_ones() {
     let options = Options::default();

@@ -76,7 +76,7 @@ pub(super) fn answer(output: &str, table: impl FnOnce() -> Result<String, String
 
 /// Reads a measured time (s); an implausible time is an error.
 fn seconds(value: &Value) -> Result<f64, String> {
-    // A coarse clock may give zero. Such a time is ignored later.
+    // A coarse clock may give zero. The caller ignores a time of zero.
     let found = value.as_f64().filter(|seconds| TIMES.contains(seconds) || *seconds == 0.0);
     found.ok_or_else(|| {
         let [least, most] = [TIMES.start(), TIMES.end()];

@@ -78,7 +78,8 @@ fn wait(child: &mut Child, files: &[&Path], limit: f64, clock: Clock) -> Result<
     }
 }
 
-/// Ends the processes that a program has started. These processes belong to the program's process group.
+/// Ends the processes that a program has started.
+/// Processes started by the program belong to the program's process group.
 fn end_group(child: &Child) {
     if cfg!(unix) {
         let group = format!("-{}", child.id());

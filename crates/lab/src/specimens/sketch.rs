@@ -18,7 +18,7 @@ impl RandomSource {
         RandomSource(ChaCha20Rng::from_seed([seed; 32]))
     }
 
-    /// The random numbers of one of many samples with the same seed.
+    /// The random numbers of the sample `index`, one of many samples that follow from one seed.
     pub fn of_sample(seed: u64, index: u64) -> Self {
         let mut bytes = [0; 32];
         bytes[..8].copy_from_slice(&seed.to_le_bytes());

@@ -1,4 +1,5 @@
-//! A mechanism as data. A test can turn, mirror or load it before writing it as scenario text.
+//! A mechanism as data.
+//! A test can turn, mirror or load the mechanism before it writes the mechanism as scenario text.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -61,7 +62,8 @@ pub enum Ask {
 }
 
 impl Ask {
-    /// For RRP and RPR: selects the configuration on the other side along the axis.
+    /// For RRP and RPR:
+    /// selects the configuration that lies in the opposite direction along the axis.
     pub fn reverse(&mut self) {
         match self {
             Ask::Ahead => *self = Ask::Behind,

@@ -25,11 +25,11 @@ const ENOUGH: usize = 64;
 const COARSE_START: f64 = 4.0;
 /// When the number of sweeps is increased, the first step tried is this multiple of the step found before.
 const COARSER: f64 = 1.4;
-/// Settings are of interest only if they cost less than this fraction of the cheapest known settings.
+/// Settings are of interest only if their cost is less than this fraction of the cost of the cheapest known settings.
 const GAIN: f64 = 0.95;
 /// Coarse steps, as rotations of the fastest driving link (rad), from which the lower limit of a run's cost is
 /// measured.
-/// With such a step, reading the results is most of a run's cost.
+/// With a step this coarse, reading the results is most of a run's cost.
 /// The first step at which the engine runs is used.
 const ROUGH: [f64; 3] = [PI / 6.0, PI / 18.0, PI / 54.0];
 
@@ -50,8 +50,8 @@ pub(super) struct Bench<'a> {
     pub(super) wanted: &'a [Channel],
     pub(super) price: Price<'a>,
     pub(super) runs: usize,
-    /// Whether the engine has refused the last method. With other steps or numbers of sweeps it would refuse the method
-    /// again.
+    /// Whether the engine has refused the last method.
+    /// The engine would refuse the method again with any step and any number of sweeps.
     pub(super) refused: bool,
     /// Work done so far, and total work allowed, in steps without sweeps.
     pub(super) effort: f64,
@@ -96,7 +96,7 @@ struct Search<'e> {
     best: Option<Candidate>,
     /// Smallest error among methods that do not meet the request at any step.
     least: f64,
-    /// Whether some settings meet, or might meet, the request, but at too high a cost.
+    /// Whether there are settings that meet, or might meet, the request at too high a cost.
     dear: bool,
 }
 

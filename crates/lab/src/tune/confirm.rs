@@ -1,7 +1,7 @@
 //! Settings confirmed by a proof.
 //! The error measured against the reference may be small by chance, or although the engine's runs show no order of
 //! convergence.
-//! In both cases, a proof at the same settings may not agree.
+//! In both cases, a proof at the settings found may fail to agree.
 
 use linkage::engine::Engine;
 use linkage::error::{Advice, Result};

@@ -10,7 +10,8 @@ use linkage::work::{Count, counted};
 use prover::engines::EngineName;
 
 /// Additional steps of a run outside the interval from the first to the last instant.
-/// These are a few steps backwards, the same number of steps forwards, and some steps beyond the end.
+/// The additional steps are a few steps backwards, the same number of steps forwards again, and some steps beyond the
+/// end.
 const EXTRA_STEPS: f64 = 16.0;
 /// Number of tiny steps of a probe in every world.
 const TINY_STEPS: f64 = 5.0;
@@ -25,7 +26,8 @@ struct Costs {
     sweep: f64,
     /// Reading all channels at an instant.
     instant: f64,
-    /// Cost of a step in a world whose reactions are read, divided by the cost of a step in any other world.
+    /// Cost of a step in a world whose reactions are read, divided by the cost of a step in a world without this
+    /// reading.
     native: f64,
     /// Cost of a tiny step of a probe, divided by the cost of an ordinary step with one substep.
     tiny: f64,

@@ -62,8 +62,8 @@ pub(super) fn largest_step(
         let measured = run(step);
         let (error, price) = (measured.error, measured.price);
         // The cost is a constant and a part proportional to the number of steps.
-        // After one run the constant is taken as zero.
-        // The cost of a failed run is unknown, so the finest affordable step is then taken as 0.
+        // After a single run the constant is taken as zero.
+        // The cost of a failed run is unknown. After a failed run, the finest affordable step is therefore taken as 0.
         let mut affordable = if price.is_finite() { step * price / limit } else { 0.0 };
         if let Some([before, _, its_price]) = last {
             let per_step = (price - its_price) / (1.0 / step - 1.0 / before);

@@ -22,7 +22,8 @@ struct Wish {
     axes: Option<[f64; 2]>,
 }
 
-/// A transmission. Its members, its carrier and the joint that sets its start are given by name.
+/// A transmission.
+/// The members, the carrier and the joint with a given start coordinate are referred to by name.
 #[derive(Clone, Debug)]
 struct Coupling {
     name: String,
@@ -239,7 +240,8 @@ impl CaseBuilder {
         self
     }
 
-    /// Sets the requested instants (s). They replace the instants set by [`CaseBuilder::instants`].
+    /// Sets the requested instants (s).
+    /// Instants set by [`CaseBuilder::instants`] are replaced.
     pub fn times(mut self, times: &[f64]) -> Self {
         self.times = Some(times.to_vec());
         self
@@ -457,7 +459,8 @@ mod tests {
     }
 
     /// Regression: the builder chose the instants of a free motion by crank angle.
-    /// Such a choice is impossible, because the time at which a free crank reaches an angle depends on the forces.
+    /// A choice by crank angle is impossible, because the time at which a free crank reaches an angle depends on the
+    /// forces.
     #[test]
     fn the_instants_of_a_free_motion_are_times() {
         let left = |builder: CaseBuilder| builder.mode(&["coupler", "rocker"], AssemblyMode::Left);

@@ -8,7 +8,8 @@ use crate::mechanism::assembly::transmission_sine;
 use crate::mechanism::{AssemblyMode, DrivenJoint, Group, JointId, Mechanism, Structure};
 
 impl Case {
-    /// Structure of the mechanism if the first drive moves `joint` instead of its present joint. Further drives stay.
+    /// Structure of the mechanism if the first drive moves `joint` instead of its present joint.
+    /// All other drives stay.
     ///
     /// # Errors
     /// The errors of [`Structure::of_driven`].

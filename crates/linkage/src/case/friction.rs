@@ -1,7 +1,8 @@
 //! Dry friction in the joints, and losses of transmissions.
 //!
 //! Friction acts against the sliding of a joint.
-//! Its size is the coefficient of friction mu times the sum of the normal forces of the joint's contacts.
+//! The size of the friction is the coefficient of friction mu times the sum of the normal forces of the joint's
+//! contacts.
 //! A journal of the radius r has one contact, with the force R of the joint: the moment is mu r |R|.
 //! A guide of the length l carries the force N and the moment M by contacts at its two ends.
 //! The contact forces are N/2 + M/l and N/2 - M/l; the sum of the absolute values is the larger of |N| and 2 |M| / l.
@@ -197,7 +198,8 @@ impl Friction<'_> {
         }
     }
 
-    /// Length of the guide (m). It is zero for a revolute joint, and if the moment of the guide causes no friction.
+    /// Length of the guide (m).
+    /// The length is zero for a revolute joint, and for a guide whose moment causes no friction.
     #[must_use]
     pub fn guide(&self) -> f64 {
         match self.seat {

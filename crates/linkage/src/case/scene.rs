@@ -70,7 +70,8 @@ impl Case {
 /// Marks the parts of a case that the requested channels need.
 struct Needs<'a> {
     case: &'a Case,
-    /// For every link, the groups on which its motion depends. The last of them is the group of the link itself.
+    /// For every link, the groups on which its motion depends.
+    /// The last group of the list is the group of the link itself.
     upstream: PerLink<Vec<GroupId>>,
     /// For every link: whether its motion is needed.
     moves: PerLink<bool>,

@@ -35,7 +35,7 @@ impl Course {
     /// There must be at least one point. The crank angles ascend and lie within `turns` revolutions.
     /// After `turns` revolutions the table repeats.
     /// If `smooth` is true, the function is a periodic cubic spline with continuous second derivatives.
-    /// Otherwise straight lines join the points.
+    /// If `smooth` is false, straight lines join the points.
     /// Two points with the same crank angle make a jump, and so does a last point one period after the first point.
     /// At the crank angle of a jump, the table has the value after the jump.
     #[must_use]

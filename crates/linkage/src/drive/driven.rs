@@ -202,8 +202,8 @@ impl Drive {
     }
 
     /// The motor of the link. The motor of a free link drives the link.
-    /// The motor of a link under a law does not drive the link. Only the speed of this motor under load is to be
-    /// computed.
+    /// The motor of a link under a law does not drive the link.
+    /// For a link under a law, only the motor's speed under load is computed.
     #[must_use]
     pub fn motor(&self) -> Option<&Motor> {
         match &self.motion {
@@ -211,7 +211,8 @@ impl Drive {
         }
     }
 
-    /// Motor that drives the link. Only a free link can have such a motor.
+    /// Motor that drives the link.
+    /// Only a free link can have a motor that drives it.
     #[must_use]
     pub fn moving_motor(&self) -> Option<&Motor> {
         match &self.motion {

@@ -148,7 +148,7 @@ pub enum Load {
 
 impl Load {
     /// Calls `put` with the action of the load on each of its links, the ground included.
-    /// Friction has no action here: see [`Friction::act`](crate::case::Friction::act).
+    /// For friction, `put` is not called: see [`Friction::act`](crate::case::Friction::act).
     #[inline]
     pub fn act(&self, setting: &LoadState, put: &mut impl FnMut(Action)) {
         let motions = setting.motions;

@@ -11,8 +11,8 @@ pub enum MotorLaw {
         torque: f64,
     },
     /// M = `at_rest` + `slope` omega.
-    /// This line is the characteristic of a direct-current motor. It is also the stable branch of an induction motor's
-    /// characteristic.
+    /// The straight line is the characteristic of a direct-current motor.
+    /// It also approximates the stable branch of an induction motor's characteristic.
     Linear {
         /// Torque of the straight line at standstill (N m).
         at_rest: f64,
@@ -66,8 +66,8 @@ impl MotorLaw {
         curves.iter().find(holds).or(curves.last()).map_or(0.0, |(_, curve)| curve.torque(omega))
     }
 
-    /// Smooth pieces of the law, each with the speeds (rad/s) between which it is valid. Together they cover all
-    /// speeds.
+    /// Smooth pieces of the law, each with the speeds (rad/s) between which it is valid.
+    /// Together the pieces cover all speeds.
     pub(super) fn curves(&self) -> Vec<([f64; 2], Curve)> {
         let all = [f64::NEG_INFINITY, f64::INFINITY];
         match self {

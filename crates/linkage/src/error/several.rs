@@ -13,7 +13,8 @@ const MOST_PLACES: usize = 200;
 impl Error {
     /// Combines errors into one: the first error carries all further errors. `None` if the list is empty.
     ///
-    /// At most 200 errors of at most twenty causes are kept. Further errors are only counted.
+    /// At most 200 errors of at most twenty causes are kept.
+    /// Errors beyond these limits are only counted.
     #[must_use]
     pub fn all(errors: impl IntoIterator<Item = Error>) -> Option<Error> {
         let mut kept: Vec<Error> = Vec::new();

@@ -64,7 +64,8 @@ impl Lu {
         self.determinant
     }
 
-    /// Pivots of the factored matrix in the order of elimination. Their product is the determinant up to its sign.
+    /// Pivots of the factored matrix in the order of elimination.
+    /// The product of the pivots is the determinant up to its sign.
     pub fn pivots(&self) -> impl Iterator<Item = f64> + '_ {
         (0..self.n).map(|k| self.a[k * self.n + k])
     }

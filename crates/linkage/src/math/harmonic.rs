@@ -140,7 +140,7 @@ fn between(coefficients: &[Complex<f64>], from: f64, to: f64) -> f64 {
 /// The map z = (w + a) / (1 + conj(a) w), |a| < 1, preserves the unit circle.
 /// The map moves roots at infinity, which correspond to zero leading coefficients, to -1 / conj(a).
 /// The leading coefficient of the mapped polynomial has the size of the original polynomial's value at a.
-/// So a is chosen to make this value large, which scales the companion matrix well.
+/// So a is chosen to make the polynomial's value at a large. The companion matrix is then well scaled.
 fn roots(polynomial: &[Complex<f64>]) -> Option<Vec<Complex<f64>>> {
     let n = polynomial.len() - 1;
     let value = |a: Complex<f64>| polynomial.iter().rev().fold(Complex::new(0.0, 0.0), |sum, c| sum * a + c).norm();
@@ -212,7 +212,7 @@ mod tests {
     }
 
     /// If four zeros coincide, the three zeros of the derivative are accurate to a third of the digits.
-    /// This accuracy is enough, because f is flat near the four zeros.
+    /// A third of the digits is enough, because f is flat near the four zeros.
     #[test]
     fn a_fourfold_zero_is_found_once() {
         for k in 0..20 {

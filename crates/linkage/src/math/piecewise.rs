@@ -10,7 +10,8 @@ const EQUAL: f64 = 1e-12;
 #[derive(Clone, Debug, PartialEq)]
 #[must_use]
 pub struct Piecewise {
-    /// Knots. There is one more knot than there are pieces.
+    /// Knots.
+    /// The number of knots is the number of pieces plus one.
     knots: Vec<f64>,
     /// For each piece: coefficients of the powers 0 to 3 of (x - first knot of the piece).
     pieces: Vec<[f64; 4]>,

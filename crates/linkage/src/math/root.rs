@@ -190,7 +190,8 @@ pub fn polished<E>(
 /// The search ends if the next change would be at most four rounding errors of the length.
 /// The search also ends if the next change would be as large as the length itself.
 /// Returns the length whose value was nearest to zero.
-/// This length need not be the last one, because a secant between values at the level of rounding errors is arbitrary.
+/// The returned length need not be that of the last step, because a secant between values at the level of rounding
+/// errors is arbitrary.
 ///
 /// # Errors
 /// The first error of `value`.

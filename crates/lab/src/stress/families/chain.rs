@@ -19,7 +19,7 @@ const MOST_ENGINES: usize = 10;
 
 /// A chain of `count` four-bars that are nearly parallelograms.
 /// The lengths of the bars differ by some thousandths of `BAR`.
-/// So no two bars are equal, and no four-bar comes near a dead point.
+/// Because of the different lengths, no four-bar comes near a dead point.
 pub(in crate::stress) fn chain(count: usize, speed: f64) -> Result<Case> {
     let length = |k: usize| BAR * (1.0 + 2e-3 * (k as f64).sin());
     let rod = |length: f64| (10.0 * length, [0.5 * length, 0.05 * length], 10.0 * length.powi(3) / 12.0);

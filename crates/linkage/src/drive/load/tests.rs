@@ -65,7 +65,8 @@ fn a_force_keeps_its_direction_or_follows_its_link() {
 
 #[test]
 fn a_resisting_force_opposes_the_velocity_of_its_point() {
-    // The loaded point lies on the link's x axis, 1 m from the link's origin. This axis points along world +y.
+    // The loaded point lies on the link's x axis, 1 m from the link's origin.
+    // The link's x axis points along world +y.
     // The point moves with (-1, 2) m/s when the link turns with 1 rad/s.
     let load = Load::ResistingForce { at: side(LinkId(1), 1.0, 0.0), force: 10.0 };
     let found = act(&load, &motions(1.0), &[], 0.0)[0];

@@ -9,7 +9,7 @@ use crate::sentences;
 /// A group whose configuration makes it impossible to place a later group.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Blame {
-    /// Index of the group in the structure.
+    /// Index, in the structure, of the group to blame.
     pub group: GroupId,
     /// Number of the group's configuration with which the later group can be placed, counted from 1.
     pub rank: usize,

@@ -1,4 +1,5 @@
-//! Assembly modes: names for the real configurations of a group, and requests for one of them.
+//! Assembly modes:
+//! names for the real configurations of a group, and requests for one configuration.
 
 use crate::math::Vec2;
 use crate::mechanism::LinkPose;

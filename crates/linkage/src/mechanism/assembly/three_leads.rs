@@ -15,7 +15,7 @@
 //! With |X| = l this leaves |q2 p1 - q1 p2|^2 = l^2 (q1 x q2)^2.
 //! As a polynomial in e^(i beta), p has the powers -1 to 1.
 //! The powers of q are 0 to 1 for a circle, 0 for a line of the frame and 1 for a line of the base.
-//! So the vector q2 p1 - q1 p2 has the powers -1 to 2, and its square has the powers -3 to 3.
+//! The vector q2 p1 - q1 p2 therefore has the powers -1 to 2, and its square has the powers -3 to 3.
 //! The square is a trigonometric polynomial of degree 3. The polynomial has at most six zeros, and all zeros can be
 //! found.
 //! If all conditions are lines, a determinant of degree 2 must be zero, so that the three lines meet in one point.
@@ -109,7 +109,7 @@ impl Conditions {
             let ([(p1, q1), (p2, q2)], centre, radius) = self.reduced(unit(beta));
             let met = turned(q2 * p1 - q1 * p2) / cross(q1, q2);
             // If the two lines coincide, the solutions are the intersections of that line with the circle.
-            // These intersections are always computed, because they cost little.
+            // The intersections with the circle are computed in every case, because they cost little.
             // A candidate counts only if it satisfies all conditions.
             let (p, q) = if q1.norm() > q2.norm() { (p1, q1) } else { (p2, q2) };
             let foot = -q * (p / q.norm_squared());
@@ -262,8 +262,8 @@ impl Conditions {
     fn polish(&self, start: Found) -> Option<Found> {
         let (mut at, mut best, mut least) = (start, start, f64::INFINITY);
         let mut worse = 0;
-        // Near a double root the first steps may increase the residual, so the search does not stop at the first such
-        // step.
+        // Near a double root the first steps may increase the residual, so the search does not stop at the first step
+        // that increases it.
         // At the level of rounding errors, further steps give no improvement.
         while worse < 4 {
             let rows = self.rows(at);
@@ -283,8 +283,9 @@ impl Conditions {
             system.solve(&mut step);
             at = (at.0 - Vec2::new(step[0], step[1]) * self.size, at.1 - step[2]);
         }
-        // Lines may intersect far away. Rounding errors are then proportional to the distance of the intersection, so
-        // the limits are also proportional to this distance.
+        // Lines may intersect far away.
+        // Rounding errors grow in proportion to the distance of the intersection, so the limits also grow in proportion
+        // to this distance.
         let reach = self.size + best.0.norm();
         let near = (best.0 - start.0).norm() <= 0.1 * reach && (best.1 - start.1).abs() <= 0.1;
         (least <= CLOSED * reach && near).then_some(best)

@@ -42,7 +42,8 @@ impl Case {
         rotated(unit(pose.0[joint.first.link].angle), joint.axis_on(joint.first.link).unwrap())
     }
 
-    /// Rotates `link` until the axis of its prismatic `joint` agrees with the axis on the other link.
+    /// Rotates `link` until the axis of the prismatic `joint` on `link` agrees with the axis of this joint on the
+    /// second link.
     fn with_turned(&self, mut pose: Pose, joint: JointId, link: LinkId) -> Pose {
         let other = self.joint(joint).other(link).link;
         let angle = |axis: Vec2| axis.y.atan2(axis.x);
