@@ -62,8 +62,7 @@ pub enum Ask {
 }
 
 impl Ask {
-    /// For RRP and RPR:
-    /// selects the configuration that lies in the opposite direction along the axis.
+    /// For RRP and RPR: selects the configuration that lies in the opposite direction along the axis.
     pub fn reverse(&mut self) {
         match self {
             Ask::Ahead => *self = Ask::Behind,

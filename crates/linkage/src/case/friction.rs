@@ -6,7 +6,8 @@
 //! A journal of the radius r has one contact, with the force R of the joint: the moment is mu r |R|.
 //! A guide of the length l carries the force N and the moment M by contacts at its two ends.
 //! The contact forces are N/2 + M/l and N/2 - M/l; the sum of the absolute values is the larger of |N| and 2 |M| / l.
-//! A transmission with an efficiency loses a fraction of its power, which depends on the sense of the power.
+//! A transmission with an efficiency loses a fraction of its power. The fraction depends on the sense of the power
+//! flow.
 //! The loss acts like friction: a moment between carrier and first member, in proportion to the transmission's force F.
 //! See docs/numerics/friction.md.
 //! J. L. Meriam, L. G. Kraige, Engineering Mechanics: Statics, 7th ed., Wiley 2012, sections 6/3 and 6/6.

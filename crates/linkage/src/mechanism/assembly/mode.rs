@@ -1,5 +1,4 @@
-//! Assembly modes:
-//! names for the real configurations of a group, and requests for one configuration.
+//! Assembly modes: names for the real configurations of a group, and requests for one configuration.
 
 use crate::math::Vec2;
 use crate::mechanism::LinkPose;
