@@ -1,4 +1,4 @@
-//! A formula as written, the only table of functions, and the faults in a formula's text with their positions.
+//! The syntax tree of a formula, the only table of functions, and the faults in a formula's text with their positions.
 
 use std::fmt;
 use std::ops::Range;
@@ -41,7 +41,7 @@ impl Operator {
     }
 }
 
-/// Precedence of a minus before a part: -x^2 is -(x^2), -x*y is (-x)*y.
+/// Precedence of a minus sign before a part: -x^2 is -(x^2), -x*y is (-x)*y.
 const NEGATION: u8 = 3;
 /// Precedence of a number, a name or a call.
 const WHOLE: u8 = 5;

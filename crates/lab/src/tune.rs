@@ -55,7 +55,8 @@ pub struct Tuning {
     /// The prediction uses the engine's runs at three steps, and a run with twice the sweeps.
     pub predicted: f64,
     /// The cheapest settings of every engine that meets the request, refined if necessary until a proof confirms them.
-    /// Engines with confirmed settings come first; within both sets, the cheapest engine is first.
+    /// Engines with confirmed settings come first; both among the confirmed and among the unconfirmed engines, the
+    /// cheapest engine is first.
     pub by_engine: Vec<Candidate>,
     /// Engines that do not meet the request, with the smallest error found.
     /// The error is infinite if no run of the engine finished.

@@ -40,7 +40,8 @@ const STANDSTILL: f64 = 1e-12;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Case {
     parts: CaseParts,
-    /// For every link: the representative of its class. A class contains the links whose angles differ only by
+    /// For every link: the representative of the link's class.
+    /// A class contains the links whose angles differ only by
     /// constants.
     classes: Vec<LinkId>,
     /// Speed below which a joint counts as standing still (rad/s): the rounding error of the drives' top speeds.
@@ -446,7 +447,7 @@ impl Case {
 
     /// The rate on whose sign a load depends: the angular velocity of a link (rad/s) or the rate of a joint (rad/s or
     /// m/s).
-    /// The result is zero for a load that depends on neither rate.
+    /// The result is zero for a load that depends neither on the angular velocity of a link nor on the rate of a joint.
     /// The result is also zero if the rate may be only a rounding error.
     #[must_use]
     pub fn load_rate(&self, load: &Load, motions: &[Motion]) -> f64 {

@@ -41,7 +41,8 @@ pub struct Mechanism {
     transmissions: PerTransmission<Transmission>,
     /// Joints on every link, in order.
     on: PerLink<Vec<JointId>>,
-    /// For every joint: index of its first equation in the list of all joints' equations. The last entry is the total
+    /// For every joint: index of the joint's first equation in the list of all joints' equations.
+    /// The last entry is the total
     /// number of equations.
     rows: Vec<usize>,
     /// Size of the mechanism (m), used in the computation of every pose.

@@ -163,7 +163,7 @@ impl Desk<'_> {
                 Err(error) => failed.push((stage, error.to_string())),
             }
         }
-        // If the answer contains no requested channel, it counts as a failure.
+        // An answer without any requested channel counts as a failure.
         match (errors.iter().any(Option::is_some), failed.first()) {
             (true, _) => Ok(AnsweredRun { errors, failed, without, seconds, effort: answer.effort }),
             (false, Some((_, reason))) => Err(reason.clone()),

@@ -1,5 +1,5 @@
 //! One method of solving a scenario, and its outcome.
-//! The effort of a run is exact: its numbers do not depend on a clock.
+//! The effort of a run is exact: it is measured by counts that do not depend on a clock.
 
 use linkage::engine::Settings;
 use linkage::math::KeepNan;
@@ -35,7 +35,7 @@ pub struct AnsweredRun {
     /// Errors by stage, in the order of [`Stage::ALL`].
     /// `None` for a stage that was not requested, has failed, or has no channel in the answer of a peer.
     pub errors: [Option<Errors>; Stage::ALL.len()],
-    /// Stages in which a peer's numbers are wrong, and the fault in each.
+    /// Stages in which a peer's numbers are wrong, and the fault in each of these stages.
     /// Stages with wrong numbers count as failures.
     pub failed: Vec<(Stage, String)>,
     /// Stages that are judged without some of their channels, and the channels that are missing in the peer's answer.

@@ -12,8 +12,10 @@ use linkage::solver::Solver;
 use linkage::trajectory::{Stage, Trajectory};
 use prover::bounds::residuals;
 
-/// Estimated error of the tighter reference, divided by its difference from a run at the usual accuracy.
-/// The tighter reference allows, in every step, a hundredth of the error at the usual accuracy.
+/// Estimated error of the reference with tighter accuracy, divided by the difference between this reference and a run
+/// at the usual accuracy.
+/// In every step, the reference with tighter accuracy allows a hundredth of the error that a run at the usual accuracy
+/// allows.
 /// The constant is this hundredth times a factor of four, the margin `SAFETY` of `prover::run::known`.
 const LEFT: f64 = 0.04;
 

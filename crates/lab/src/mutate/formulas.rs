@@ -33,7 +33,7 @@ impl Stage<'_> {
     }
 
     /// Indices of the formulas that claim an exact value, and of the steps of derivation that they use.
-    /// A claim with a stated error is left out: despite a mistake, it may be correct within this error.
+    /// A claim with a stated error is left out: a claim with a mistake may still be correct within its stated error.
     pub(super) fn formulas(&self) -> Vec<usize> {
         let all = &self.scenario.formulas.list;
         let judged = self.judged_formulas();

@@ -53,7 +53,7 @@ kinds! { Judgement, Answer:
     };
 }
 
-/// A fault of its default size.
+/// A fault of the default size of its kind.
 fn fault(name: &str) -> Fault {
     let kind = KINDS.iter().find(|kind| kind.name == name).unwrap_or_else(|| panic!("{name}"));
     Fault { kind, size: kind.size.expect("these faults have sizes") }
@@ -188,7 +188,8 @@ fn the_balance_of_powers_finds_a_wrong_unrequested_speed() {
     assert_eq!(powers.verdict.word(), "disagree");
 }
 
-/// A wrong position changes no velocity, but it opens the loop. The closure check alone decides the verdict.
+/// A wrong position changes no velocity, but opens a joint of the loop.
+/// The closure check alone decides the verdict.
 #[test]
 fn an_open_loop_decides_the_verdict_without_any_channel() {
     let whole = scenario("crank_rocker");

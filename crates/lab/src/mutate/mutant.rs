@@ -50,7 +50,8 @@ pub struct Mutant {
     pub formula: Option<Spoiled>,
     /// Outcome of the proof with the fault.
     pub outcome: FaultyProof,
-    /// Largest change of exact answers, relative to the largest number of a quantity; `None` without an exact answer.
+    /// Largest change of the exact answers by the fault, relative to the largest number of the changed quantity. `None`
+    /// if there is no exact answer.
     pub effect: Option<f64>,
     /// For a detected fault with a size: the smallest size that is still found, to a factor of two.
     pub smallest: Option<f64>,

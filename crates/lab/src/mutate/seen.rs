@@ -41,7 +41,7 @@ pub enum FaultyProof {
     /// Everything agrees.
     Escaped,
     /// Exact answers are the same with and without the fault, up to rounding error.
-    /// The number is the largest change, relative to the largest number of a quantity.
+    /// The number is the largest change, relative to the largest number of the changed quantity.
     Equivalent(f64),
 }
 

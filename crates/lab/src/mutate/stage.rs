@@ -169,12 +169,14 @@ impl<'a> Stage<'a> {
     }
 
     /// The proof with a fault in the code that all parties share.
-    /// The parties then agree with each other, so only external reference values can contradict the wrong answers.
+    /// With a fault in shared code, the parties agree with each other, so only external reference values can contradict
+    /// the wrong answers.
     fn in_all(&self, fault: Fault) -> Result<FaultyProof> {
         let case = match fault.kind.plant {
             Plant::Case(change) => match change(&self.case, fault.size) {
                 None => return Ok(FaultyProof::Refused(sentences::THE_CASE_CANNOT_BE_PUT_TOGETHER.into())),
-                // The requested instants stay correct. Only the instants at which the sides solve are wrong.
+                // The requested instants stay correct.
+                // Only the instants at which the analytic sides solve are wrong.
                 Some(case) if self.is_late(&case) => None,
                 Some(case) => Some(case),
             },

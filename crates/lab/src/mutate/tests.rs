@@ -76,7 +76,7 @@ fn regress_a_change_of_integration_steps_only_is_no_effect() {
     assert!(matches!(found.mutants[0].outcome, FaultyProof::Equivalent(_)), "{:?}", found.mutants[0].outcome);
 }
 
-/// The smallest size is found to a factor of two: that size is detected, and half of it is not.
+/// The smallest size is found to a factor of two: the returned size is detected, and half of the returned size is not.
 #[test]
 fn half_the_smallest_detected_size_is_not_detected() {
     let (scenario, options) = (scenario("crank_rocker"), Options::default());

@@ -41,7 +41,7 @@ mod tests {
     use linkage::trajectory::{Channel, Trajectory};
     use std::collections::BTreeSet;
 
-    /// Largest difference of two trajectories, as a fraction of the largest value of the same unit.
+    /// Largest difference of two trajectories, as a fraction of the largest value among the channels of the same unit.
     fn apart(one: &Trajectory, other: &Trajectory) -> f64 {
         let off = |(channel, values): (&Channel, &[f64])| {
             let alike = one.iter().filter(|(own, _)| own.kind.unit == channel.kind.unit);

@@ -83,7 +83,8 @@ pub fn sort(random: &mut RandomSource, allowed: &[[bool; 3]]) -> [bool; 3] {
     slides
 }
 
-/// A crank and `dyads` dyads, each joined to one of the last links and to any other link or the ground.
+/// A crank and `dyads` dyads. One end of each dyad is joined to one of the last two links, the second end to a random
+/// link or the ground.
 pub fn chain(random: &mut RandomSource, allowed: &[[bool; 3]], dyads: usize) -> (Spec, Vec<LinkPose>) {
     let mut sketch = SpecimenSketch::new(random, [0.1, 1.0]);
     for _ in 0..dyads {
@@ -100,7 +101,8 @@ pub fn chain(random: &mut RandomSource, allowed: &[[bool; 3]], dyads: usize) -> 
     sketch.finish()
 }
 
-/// Reads a chain. `None` if it leaves `REACH` or comes near a dead point at an instant of its grid.
+/// Reads a chain.
+/// `None` if, at an instant of the grid, the mechanism leaves `REACH` or comes near a dead point.
 /// The poses come from [`first_pose`]. A solver would also compute the range of the mechanism, which takes longer than
 /// all other work of this function.
 pub fn sample(spec: Spec) -> Option<DyadSpecimen> {
@@ -130,8 +132,8 @@ pub fn sample(spec: Spec) -> Option<DyadSpecimen> {
             return None;
         }
         let sine = |pose: &Pose| transmission_sine(mechanism, group, pose).expect("a dyad");
-        // The sign of the sine must not change. Where axes become parallel, a slider goes to infinity and returns from
-        // the other side.
+        // The sign of the sine must not change.
+        // Where axes become parallel, a slider goes to infinity and returns from the opposite direction.
         let sign = sine(&poses[0]).signum();
         let least = poses.iter().map(|pose| sign * sine(pose)).fold(1.0, f64::smaller);
         if !(least >= DEAD) {

@@ -129,7 +129,7 @@ pub struct Spec {
 /// Parts that only some mechanisms have.
 #[derive(Clone, Debug, Default)]
 pub struct Other {
-    /// Name of the scenario; "test" if it is empty.
+    /// Name of the scenario. If the field is empty, the scenario is called "test".
     pub name: String,
     /// Keys of the drive that replace the speed: a motion law, or a free motion.
     pub drive: String,

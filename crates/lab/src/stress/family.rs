@@ -32,7 +32,8 @@ pub struct Setup {
 }
 
 impl Setup {
-    /// A case whose engine settings are found by search, with a double-double reference.
+    /// A setup in which a search finds the engines' settings, and the analytic sides are compared with a double-double
+    /// reference.
     pub(super) fn usual(case: Case) -> Setup {
         Setup { case, engines: EngineUse::Found(WORK), precise: true }
     }
@@ -55,7 +56,7 @@ pub struct StressFamily {
     pub points: &'static [f64],
     /// The values of a quick run.
     pub quick: &'static [f64],
-    /// Number of mechanisms at each value; more than one only for random mechanisms.
+    /// Number of mechanisms at each value; the number is above one only for random mechanisms.
     pub samples: u64,
     /// The case and settings at a value of the varied parameter. Sample number and seed affect only random mechanisms.
     pub setup: fn(dial: f64, sample: u64, seed: u64) -> Result<Setup>,

@@ -40,7 +40,8 @@ pub(super) fn key_of(family: &StressFamily, dial: f64, sample: u64, seed: u64) -
 }
 
 /// FNV-1a hash of everything that the result depends on.
-/// The hash covers the program's version, its engines, and the case with its solvers and engines.
+/// The hash covers the version and the engines of the program, and the case with the solvers and engines that run on
+/// it.
 fn key(family: &StressFamily, setup: Option<&Setup>, seed: u64) -> String {
     let engines: Vec<String> =
         built().map(|name| engines::with_step(name, 1.0).map_or_else(|_| String::new(), |own| own.version())).collect();

@@ -30,7 +30,7 @@ const GAIN: f64 = 0.95;
 /// Coarse steps, as rotations of the fastest driving link (rad), from which the lower limit of a run's cost is
 /// measured.
 /// With a step this coarse, reading the results is most of a run's cost.
-/// The first step at which the engine runs is used.
+/// Of these steps, the first at which the engine runs is used.
 const ROUGH: [f64; 3] = [PI / 6.0, PI / 18.0, PI / 54.0];
 
 /// Result of the search with one engine.
@@ -101,7 +101,7 @@ struct Search<'e> {
 }
 
 impl Search<'_> {
-    /// Highest cost at which a run is still of interest.
+    /// Highest cost at which a run can still improve the result.
     fn limit(&self) -> f64 {
         self.best.as_ref().map_or(self.others, |best| best.price.smaller(self.others)) * GAIN
     }
@@ -256,7 +256,7 @@ impl Bench<'_> {
                 (error, worst) = (own, residual.channel.to_string());
             }
         }
-        // If an engine lacks a requested channel, it does not meet the request.
+        // An engine that lacks a requested channel does not meet the request.
         if seen < self.wanted.len() { failed(price) } else { Measured { error, worst, price } }
     }
 

@@ -1,7 +1,7 @@
 //! Settings confirmed by a proof.
 //! The error measured against the reference may be small by chance, or although the engine's runs show no order of
 //! convergence.
-//! In both cases, a proof at the settings found may fail to agree.
+//! A proof at settings with a small measured error may therefore fail to agree.
 
 use linkage::engine::Engine;
 use linkage::error::{Advice, Result};

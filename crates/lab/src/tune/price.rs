@@ -34,7 +34,8 @@ struct Costs {
 }
 
 /// The costs were measured once on `crank_rocker` by `cargo bench --bench tune -- prices`.
-/// The costs with one and with two substeps show which part of a step happens once and which happens in every substep.
+/// From the costs with one and with two substeps follow the part of a step that is done once and the part that is done
+/// in every substep.
 /// Simbody's costs are those of its steps and readings, from runs of `bench` on `crank_rocker` at the accuracies 1e-4
 /// and 1e-10.
 fn costs(engine: EngineName) -> Costs {
@@ -54,7 +55,7 @@ fn costs(engine: EngineName) -> Costs {
 }
 
 /// Runs an engine on a case and returns the cost, in steps of `rapier` without sweeps.
-/// The steps are counted in the run only for an engine that chooses its steps itself.
+/// Only for an engine that chooses its steps itself are the steps counted during the run.
 ///
 /// # Errors
 /// The errors of the run.

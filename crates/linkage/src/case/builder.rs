@@ -133,8 +133,9 @@ impl CaseBuilder {
         self.joint(name, [(first, name), (second, name)], None)
     }
 
-    /// Adds a prismatic joint: link and point on both sides, and the angles (rad) of its axis in the frames of both
-    /// links. The two points must have different names.
+    /// Adds a prismatic joint: link and point on both sides, and the angles (rad) of the joint's axis in the frames of
+    /// the two links.
+    /// The two points must have different names.
     pub fn slider(self, name: &str, first: (&str, &str), second: (&str, &str), axes: [f64; 2]) -> Self {
         self.joint(name, [first, second], Some(axes))
     }

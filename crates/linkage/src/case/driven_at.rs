@@ -52,7 +52,7 @@ impl Case {
         })
     }
 
-    /// The mechanism with another start joint for every transmission whose start joint is `joint`.
+    /// The mechanism with a different start joint for every transmission whose start joint is `joint`.
     fn with_start_beside(&self, joint: JointId) -> Result<Mechanism> {
         let (mut designs, joints) = (self.mechanism.transmission_designs(), self.mechanism.joints());
         for design in designs.iter_mut().filter(|design| design.joint == joint) {

@@ -72,7 +72,7 @@ impl Course {
         }
     }
 
-    /// Whether all numbers are finite and, for a table, the period is above zero.
+    /// Whether all numbers are finite. For a table, also whether the period is above zero.
     #[must_use]
     pub fn is_sound(&self) -> bool {
         match self {

@@ -74,7 +74,7 @@ pub enum Load {
     },
     /// Torsion spring between two links.
     /// The moment on the first link is stiffness times (twist - free twist). The moment on the second link is opposite.
-    /// The twist is the angle of the second link's frame minus that of the first.
+    /// The twist is the angle of the second link's frame minus the angle of the first link's frame.
     /// At t = 0 the twist is in (-pi, pi]. Later the twist counts whole turns.
     /// If `acts` names one side of the free twist, the spring acts only on this side, as a stop does.
     TorsionSpring {
@@ -138,7 +138,8 @@ pub enum Load {
         joint: JointId,
         /// First and second link of the joint.
         links: [LinkId; 2],
-        /// Coefficient of friction. A negative coefficient would drive the joint; the scenario reader rejects it.
+        /// Coefficient of friction.
+        /// A negative coefficient would drive the joint; the scenario reader rejects negative coefficients.
         coefficient: f64,
         /// Radius of the journal of a revolute joint, or length of the guide of a prismatic joint (m), not negative.
         /// The length 0 means that the moment of the guide causes no friction.
@@ -393,7 +394,8 @@ impl Load {
 
     /// Size of the load's jump at the crank angle `crank` (rad), if the motion that determines the load's sense
     /// reverses there.
-    /// The jump is in N m, or in N for a force. For friction it is the jump per newton of the normal force.
+    /// The jump is in N m, or in N for a force.
+    /// For friction, the result is the jump per newton of the normal force.
     /// The jump is zero for a load that depends on no sense of motion, and for a load that vanishes at this crank
     /// angle.
     /// A load without a jump has at most a kink.

@@ -139,7 +139,8 @@ impl Motor {
     }
 
     /// Moment of inertia of rotor and reducer, reduced to the crank (kg m^2).
-    /// The moment of inertia of each part is multiplied by the square of its speed ratio to the crank.
+    /// The moment of inertia of each part is multiplied by the square of the ratio of the part's speed to the crank's
+    /// speed.
     #[must_use]
     pub fn inertia_on_crank(&self) -> f64 {
         let own = &self.inertia;
@@ -147,7 +148,7 @@ impl Motor {
     }
 
     /// The smooth piece of the moment on the crank that is valid at the crank's speed `omega` (rad/s).
-    /// If two pieces meet at `omega`, `towards` selects one of them.
+    /// If two pieces meet at `omega`, `towards` selects one of these two pieces.
     /// The piece at higher speeds is returned if `towards` is positive, otherwise the piece at lower speeds.
     #[must_use]
     pub fn branch(&self, omega: f64, towards: f64) -> MotorBranch {

@@ -116,7 +116,7 @@ mod tests {
         let pair = Error::all([one(1), one(2)]).unwrap();
         assert_eq!(pair.to_string(), "mistake 1\nmistake 2");
         let many = Error::all((0..30).map(one)).unwrap();
-        // Errors that were only counted before are added to the count.
+        // Errors that an earlier combination only counted are added to the count.
         let more = Error::all([pair, many]).unwrap();
         let told = more.to_string();
         assert!(

@@ -2,7 +2,8 @@
 //!
 //! If a function has different signs at two neighbouring extrema, it has one zero between them.
 //! If the function has the same sign at both extrema, it has no zero between them.
-//! The extrema are the zeros of the derivative, which are computed from eigenvalues.
+//! The extrema are the zeros of the derivative.
+//! The zeros of the derivative are computed from eigenvalues of a matrix.
 //! If two zeros nearly coincide, rounding errors move both zeros by the square root of the rounding error.
 //! The extremum between two such zeros is still a simple zero of the derivative and therefore accurate.
 //! The function's sign at this extremum distinguishes a close pair of zeros from a near miss.
@@ -30,7 +31,7 @@ const APART: f64 = 1e-7;
 
 /// Real zeros in [0, 2 pi), in ascending order, of the trigonometric polynomial that equals `f`.
 /// The degree of the polynomial is at most `degree` (1 or more).
-/// `scale` is the size of the terms whose sum is `f`; it sets the limit for rounding errors.
+/// `scale` is the size of the terms whose sum is `f`; the size of the terms sets the limit for rounding errors.
 /// A touching zero counts once. Leading coefficients may be zero.
 ///
 /// Returns `None` if `f` is not finite, or zero everywhere up to rounding error.

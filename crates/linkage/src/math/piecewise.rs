@@ -21,7 +21,8 @@ pub struct Piecewise {
 impl Piecewise {
     /// Straight lines through `(x, y)`, repeated with `period`.
     /// The x ascend within one period. At least one point is needed.
-    /// At two points with the same x the function jumps. At this x it has the value of the second point.
+    /// At two points with the same x the function jumps.
+    /// At this x the function has the value of the second point.
     pub fn periodic_lines(points: &[(f64, f64)], period: f64) -> Self {
         let (knots, values) = closed(points, period);
         let pieces = (1..knots.len())

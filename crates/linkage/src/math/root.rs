@@ -1,6 +1,6 @@
 //! Zeros of a function of one variable, with or without bounds. All searches for zeros in the project use this module.
 //!
-//! The documentation of each search says what the search requires of the function and when it stops.
+//! The documentation of each search says what the search requires of the function and when the search stops.
 //! The function may fail (`E`): the first error ends a search. NaN never counts as a zero.
 
 use super::KeepNan;

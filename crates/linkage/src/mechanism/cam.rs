@@ -106,7 +106,7 @@ impl Cam {
         self.law.at(angle)
     }
 
-    /// Distance of an angle of the cam from the nearest end of a piece of its law (rad).
+    /// Distance of an angle of the cam from the nearest end of a piece of the cam's law (rad).
     #[must_use]
     pub fn to_knot(&self, angle: f64) -> f64 {
         self.law.to_knot(angle)

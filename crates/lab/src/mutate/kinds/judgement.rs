@@ -1,4 +1,4 @@
-//! Faults of which each is found by a single comparison and escapes without this comparison.
+//! Faults that a single comparison finds. If this comparison is missing, no other comparison finds the fault.
 
 use super::kind::kinds;
 use super::touch::turner;

@@ -197,7 +197,8 @@ fn scaled_loads_act_in_proportion() {
     }
 }
 
-/// A load that vanishes when its link reverses has at most a kink. A load of size zero also has at most a kink.
+/// A load that vanishes when its link reverses has a kink at most, not a jump.
+/// A load of size zero has no jump either.
 #[test]
 fn the_jump_of_a_load_is_its_difference_between_both_senses() {
     let one_way = |moment, acts| Load::Moment { link: LinkId(1), moment, acts };

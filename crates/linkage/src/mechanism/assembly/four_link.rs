@@ -3,7 +3,7 @@
 //! Assur groups of four links are of two kinds.
 //! The class III group of order 3 is a base link on three leads.
 //! The class IV group of order 2 is a movable quadrilateral of two ternary and two binary links.
-//! Seen from one of its ternary links, the class IV group also is a base on three leads.
+//! A class IV group, seen from one of its ternary links, is also a base on three leads.
 //! In class IV, one ternary link is taken as the frame and the second ternary link as the base.
 //! The three leads are the two binary links and the world (all links before the group, taken as one body).
 

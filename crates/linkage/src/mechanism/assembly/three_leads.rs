@@ -154,7 +154,7 @@ impl Conditions {
             let along_squared = (radius - distance) * (radius + distance);
             let (normal, along) = (q / q.norm(), along_squared.sqrt());
             let foot = centre - normal * distance;
-            // The square root of a negative number is NaN, and `keep` drops it.
+            // The square root of a negative number is NaN, and `keep` drops solutions that are NaN.
             [foot + turned(normal) * along, foot - turned(normal) * along]
         };
         let candidates: Vec<Vec2> = match (first, second) {
@@ -262,8 +262,8 @@ impl Conditions {
     fn polish(&self, start: Found) -> Option<Found> {
         let (mut at, mut best, mut least) = (start, start, f64::INFINITY);
         let mut worse = 0;
-        // Near a double root the first steps may increase the residual, so the search does not stop at the first step
-        // that increases it.
+        // Near a double root, the first steps may increase the residual. The search therefore does not stop at the
+        // first increase.
         // At the level of rounding errors, further steps give no improvement.
         while worse < 4 {
             let rows = self.rows(at);

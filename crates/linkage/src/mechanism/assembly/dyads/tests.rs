@@ -145,8 +145,8 @@ impl Case {
 }
 
 /// Checks 100 000 dyads of every kind, in all orders of links and sides.
-/// Every configuration closes and has the mode that it reports. The sign of its transmission sine agrees with that
-/// mode.
+/// Every configuration closes and has the mode that it reports.
+/// The sign of a configuration's transmission sine agrees with its mode.
 /// The two configurations of a dyad differ from each other.
 /// An independent criterion agrees on whether a configuration exists.
 #[test]
