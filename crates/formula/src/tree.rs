@@ -150,8 +150,8 @@ impl FormulaTree {
         names
     }
 
-    /// The tree, its left argument, the left argument of its left argument, and so on. Long sums are deep only in the
-    /// direction of left arguments.
+    /// The tree, its left argument, the left argument of its left argument, and so on.
+    /// The tree of a long sum is deep only along its left arguments.
     pub(crate) fn left_parts(&self) -> Vec<&FormulaTree> {
         std::iter::successors(Some(self), |tree| match &tree.shape {
             NodeShape::Pair(_, parts) => Some(&parts[0]),
@@ -224,11 +224,11 @@ pub enum Function {
     Cos,
     /// Tangent of an angle (rad).
     Tan,
-    /// Angle (rad) from -pi/2 to pi/2 with this sine.
+    /// Angle (rad) from -pi/2 to pi/2 whose sine is the argument.
     Asin,
-    /// Angle (rad) from 0 to pi with this cosine.
+    /// Angle (rad) from 0 to pi whose cosine is the argument.
     Acos,
-    /// Angle (rad) from -pi/2 to pi/2 with this tangent.
+    /// Angle (rad) from -pi/2 to pi/2 whose tangent is the argument.
     Atan,
     /// Angle (rad) from -pi to pi of a vector. The first argument is y, the second is x.
     Atan2,

@@ -1,6 +1,6 @@
 //! The methods that are measured.
-//! The methods differ in steps, sweeps, methods for reactions and extrapolations of every engine, and in accuracies of
-//! the analytic sides.
+//! For engines, the methods differ in step, sweeps, extrapolations and the way to compute reactions; for analytic
+//! sides, in accuracy.
 
 use super::options::BenchOptions;
 use super::peer::Way;

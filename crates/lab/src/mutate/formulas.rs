@@ -56,7 +56,8 @@ impl Stage<'_> {
         let formulas = &self.scenario.formulas;
         let nodes: Vec<NodeId> = formulas.claims().map(|(formula, _)| formula.id).collect();
         let operations = Program::of(&formulas.graph, &nodes).len() * self.case.grid.len();
-        // A formula is evaluated by value and by two derivatives. Together these evaluations count as six times the
+        // Of a formula, the value and two derivatives are evaluated.
+        // Together these evaluations count as six times the
         // operations of the value.
         OPERATION * 2.0 * 6.0 * operations as f64
     }

@@ -1,5 +1,5 @@
-//! Chooses faults and the parties that get them (analytic sides, engine, shared code or formulas), and plants every
-//! fault in each of these parties.
+//! Chooses faults and parties, and plants every chosen fault in every chosen party.
+//! The parties are the two analytic sides, the engine, the code that they share, and the formulas.
 //! For a fault with a size, a search finds the smallest size at which a proof still finds the fault.
 
 use super::effect::Effect;

@@ -1,6 +1,6 @@
 //! Settings confirmed by a proof.
-//! The error measured against the reference may be small by chance, or although the engine's runs show no order of
-//! convergence.
+//! The error measured against the reference may be small by chance. It may also be small although the engine's runs
+//! show no order of convergence.
 //! A proof at settings with a small measured error may therefore fail to agree.
 
 use linkage::engine::Engine;

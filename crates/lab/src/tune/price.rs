@@ -34,8 +34,8 @@ struct Costs {
 }
 
 /// The costs were measured once on `crank_rocker` by `cargo bench --bench tune -- prices`.
-/// From the costs with one and with two substeps follow the part of a step that is done once and the part that is done
-/// in every substep.
+/// The costs with one and with two substeps give the part of a step's cost that occurs once and the part that occurs in
+/// every substep.
 /// Simbody's costs are those of its steps and readings, from runs of `bench` on `crank_rocker` at the accuracies 1e-4
 /// and 1e-10.
 fn costs(engine: EngineName) -> Costs {

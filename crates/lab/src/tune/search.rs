@@ -10,7 +10,8 @@ const MOST_RUNS: usize = 9;
 const NEAR_ENOUGH: f64 = 0.8;
 /// The search aims at this fraction of the requested error.
 const AIM: f64 = 0.92;
-/// If a step that is too large exceeds the largest sufficient step by less than this factor, no further run is made.
+/// The search ends if the ratio of the smallest step known to be too large to the largest sufficient step is below this
+/// factor.
 const CLOSE: f64 = 1.06;
 /// If the observed order is below this, the error does not depend on the step: the error has a cause other than the
 /// step.

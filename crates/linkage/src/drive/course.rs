@@ -9,7 +9,7 @@ use crate::math::{Piecewise, just_below};
 /// At the stated crank angle, all solvers therefore find the value after the jump.
 const BEFORE: f64 = 4e-9;
 
-/// Beyond its last slide, a table over a slide keeps its end values over the length `FAR` (1 m + |first slide| + |last
+/// A table over a slide keeps its end values beyond both ends, over this number times (1 m + |first slide| + |last
 /// slide|).
 const FAR: f64 = 100.0;
 
