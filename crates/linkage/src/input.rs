@@ -15,8 +15,8 @@ pub enum Input {
     /// Angle of a joint between two moving links: the angle of the joint's second link minus that of its first link.
     /// The angle is counter-clockwise positive and counts whole turns.
     Turn,
-    /// Slide of a prismatic joint: the distance along its axis from its point on the first link to its point on the
-    /// second link.
+    /// Slide of a prismatic joint: the distance, along the joint's axis, from the joint's point on the first link to
+    /// its point on the second link.
     Slide,
 }
 

@@ -99,7 +99,7 @@ impl Stage<'_> {
     }
 
     /// A claim of another channel: the first channel for which `is_meant` returns true.
-    /// The search begins at the claimed channel and continues from the start of the list.
+    /// The search goes from the claimed channel to the end of the list, and then continues from the start of the list.
     fn other(&self, own: &Formula, is_meant: &dyn Fn(&Channel, &Channel) -> bool) -> Option<Claim> {
         let claim = own.claim.as_ref()?;
         let [(name, claimed)] = claim.channels.as_slice() else { return None };

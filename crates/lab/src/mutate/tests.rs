@@ -62,7 +62,8 @@ fn a_fault_without_effect_is_not_counted() {
 }
 
 /// Symptom: the rods of a parallelogram only translate, so their moments of inertia have no effect.
-/// A fault in one of these moments of inertia changed the integration steps, and was counted as escaped.
+/// A fault in one of these moments of inertia changed only the integration steps, but was counted as a fault that the
+/// proof misses.
 #[test]
 fn regress_a_change_of_integration_steps_only_is_no_effect() {
     let scenario = scenario("n_four_bar_1");

@@ -55,7 +55,8 @@ fn costs(engine: EngineName) -> Costs {
 }
 
 /// Runs an engine on a case and returns the cost, in steps of `rapier` without sweeps.
-/// Only for an engine that chooses its steps itself are the steps counted during the run.
+/// The number of steps follows from the settings. If the engine chooses its steps itself, they are counted in the run
+/// instead.
 ///
 /// # Errors
 /// The errors of the run.

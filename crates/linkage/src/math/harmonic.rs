@@ -112,7 +112,7 @@ fn extrema(coefficients: &[Complex<f64>]) -> Option<Vec<f64>> {
     let polished = near.map(|found| {
         let (mut best, mut least) = (found.arg(), f64::INFINITY);
         // Near a multiple root Newton's method may diverge.
-        // Therefore the iterate with the smallest slope of the function is kept, whichever of the five iterates it is.
+        // Of the five iterates, the one at which the function has the smallest slope is therefore kept.
         let Ok(_) = root::polished(found.arg(), 5, f64::INFINITY, |x| {
             let (value, slope) = evaluate(&derivative, x);
             if value.abs() < least && (x - found.arg()).abs() < ON_CIRCLE {

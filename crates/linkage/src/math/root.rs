@@ -40,8 +40,8 @@ pub fn halved<E>(
 pub type PlaceAndValue = (f64, f64);
 
 /// Searches for a sign change, starting at `from`.
-/// The first position is at the distance `width` from `from`; the distance is doubled for each further position, but
-/// does not exceed `most`.
+/// The first position is at the distance `width` from `from`; the distance is doubled for each further position. No
+/// position is farther from `from` than `most`.
 /// Returns the last two positions, between which the sign changes.
 /// `None` if the sign does not change, if a value or the width is NaN, or if the width is zero.
 /// A negative `width` searches backwards.

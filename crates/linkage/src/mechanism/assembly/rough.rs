@@ -100,7 +100,7 @@ fn lay(mechanism: &Mechanism, link: LinkId, near: &Near, hooks: &[&Joint], pose:
         Some(turn(joint.axis_on(link)?, axis))
     });
     // The rotation that best fits the link to its approximate positions.
-    // The rotation is the direction of the sum of conj(local) world, as complex numbers.
+    // The rotation is the direction of the sum of the products conj(local) world, with vectors as complex numbers.
     let fit: Vec2 = places
         .iter()
         .map(|place| (place.0 - local, place.1 - world))

@@ -71,7 +71,7 @@ fn off(locus: Locus, o: Vec2) -> f64 {
     }
 }
 
-/// Returns a smooth function that is positive if the circle intersects the other locus.
+/// Returns a smooth function that is positive if the circle intersects the locus `other`.
 /// Also returns the intersection on the branch `sign`.
 fn meet(centre: Vec2, radius: f64, other: Locus, sign: f64) -> (f64, Vec2) {
     match other {
