@@ -1,6 +1,5 @@
-//! External parties:
-//! programs other than linkproof that solve or show a case, and a description of the machine on which all
-//! programs run.
+//! External parties: programs other than linkproof that solve or show a case.
+//! This module also describes the machine on which all programs run.
 
 mod answer;
 mod machine;
