@@ -1,4 +1,4 @@
-//! A formula as written, the only table of functions, and the faults in a formula's text with their positions.
+//! The syntax tree of a formula, the only table of functions, and the faults in a formula's text with their positions.
 
 use std::fmt;
 use std::ops::Range;
@@ -41,7 +41,7 @@ impl Operator {
     }
 }
 
-/// Precedence of a minus before a part: -x^2 is -(x^2), -x*y is (-x)*y.
+/// Precedence of a minus sign before a part: -x^2 is -(x^2), -x*y is (-x)*y.
 const NEGATION: u8 = 3;
 /// Precedence of a number, a name or a call.
 const WHOLE: u8 = 5;
@@ -106,7 +106,7 @@ impl FormulaTree {
         FormulaTree { shape, at: 0..0 }
     }
 
-    /// The same tree with every occurrence of a name replaced by `other`.
+    /// This tree with every occurrence of a name replaced by `other`.
     pub fn with_name(&self, name: &str, other: &FormulaTree) -> FormulaTree {
         if matches!(&self.shape, NodeShape::Name(own) if own == name) {
             return other.clone();
@@ -128,7 +128,7 @@ impl FormulaTree {
         }
     }
 
-    /// The same, mutable.
+    /// The arguments of the outermost operation, mutable.
     pub fn parts_mut(&mut self) -> &mut [FormulaTree] {
         match &mut self.shape {
             NodeShape::Number(_) | NodeShape::Name(_) => &mut [],
@@ -150,8 +150,8 @@ impl FormulaTree {
         names
     }
 
-    /// The tree, its left argument, the left argument of its left argument, and so on. Long sums are deep only in the
-    /// direction of left arguments.
+    /// The tree, its left argument, the left argument of its left argument, and so on.
+    /// The tree of a long sum is deep only along its left arguments.
     pub(crate) fn left_parts(&self) -> Vec<&FormulaTree> {
         std::iter::successors(Some(self), |tree| match &tree.shape {
             NodeShape::Pair(_, parts) => Some(&parts[0]),
@@ -224,11 +224,11 @@ pub enum Function {
     Cos,
     /// Tangent of an angle (rad).
     Tan,
-    /// Angle (rad) from -pi/2 to pi/2 with this sine.
+    /// Angle (rad) from -pi/2 to pi/2 whose sine is the argument.
     Asin,
-    /// Angle (rad) from 0 to pi with this cosine.
+    /// Angle (rad) from 0 to pi whose cosine is the argument.
     Acos,
-    /// Angle (rad) from -pi/2 to pi/2 with this tangent.
+    /// Angle (rad) from -pi/2 to pi/2 whose tangent is the argument.
     Atan,
     /// Angle (rad) from -pi to pi of a vector. The first argument is y, the second is x.
     Atan2,

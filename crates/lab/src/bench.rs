@@ -2,7 +2,7 @@
 //!
 //! Each method of solving a scenario is a [`BenchPoint`].
 //! Methods that fail are kept, with the reason.
-//! The command line passes the clock in.
+//! The command line supplies the clock.
 //! See docs/numerics/laboratory.md.
 
 mod front;
@@ -39,7 +39,7 @@ pub struct Bench {
     pub stages: Vec<Stage>,
     /// The reference, and its error.
     pub floor: Floor,
-    /// Shortest time (s) of side 1 at its usual accuracy: the unit of relative times.
+    /// Shortest time (s) of analytic side 1 at its usual accuracy: the unit of relative times.
     pub unit: f64,
     /// Versions of engines and peers, by name.
     pub versions: Vec<(String, String)>,
@@ -54,8 +54,8 @@ pub struct Bench {
 /// Measures all methods of solving a scenario. `progress` receives the completed fraction.
 ///
 /// # Errors
-/// Any error of the two sides, because the reference comes from them.
-/// If an engine or a peer fails, its point has the reason.
+/// Any error of the two analytic sides, because they compute the reference.
+/// A failure of an engine or a peer is not returned as an error: its [`BenchPoint`] contains the reason.
 pub fn bench(
     scenario: &Scenario,
     options: &BenchOptions,

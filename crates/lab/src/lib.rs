@@ -4,7 +4,7 @@
 //! - [`stress`], [`specimens`]: families of hard mechanisms, and random mechanisms.
 //! - [`mutate`]: faults planted in one party, and the checks that find them.
 //! - [`tune`]: search for the cheapest settings of an engine.
-//! - [`outside`]: other programs that solve a case or show it.
+//! - [`outside`]: programs other than linkproof that solve or show a case.
 
 pub mod bench;
 pub mod mutate;

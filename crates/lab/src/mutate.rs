@@ -1,15 +1,15 @@
 //! Tests whether the cross-check finds faults.
 //! Single faults are planted in one party of a proof at default settings, or in the code that all parties share.
 //!
-//! A fault wraps a solver or an engine; otherwise the proof is the same as a user's proof.
-//! If the fault is in one analytic side and the other side contradicts the faulty side, the verdict needs no engine
+//! A fault is a wrapper around a solver or an engine. Apart from this wrapper, the proof is the one that a user would
 //! run.
+//! If one analytic side has the fault and the second analytic side contradicts it, the verdict needs no engine run.
 //! Proofs in which the engine has no fault share the same engine runs.
-//! The verdicts are the same as with new runs, because an engine's runs do not depend on the data they are compared
-//! with.
+//! New engine runs would give the same verdicts, because an engine's runs do not depend on the data with which they are
+//! compared.
 //!
-//! Formulas are a party too.
-//! A mistake in a formula is judged by both sides, whose motion is correct.
+//! The formulas of a scenario are a party too.
+//! A mistake in a formula is judged by both analytic sides, whose motion is correct.
 
 mod effect;
 mod formulas;

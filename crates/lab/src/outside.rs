@@ -1,4 +1,5 @@
-//! External parties: other programs that solve a case or show it, and the machine that everything runs on.
+//! External parties: programs other than linkproof that solve or show a case.
+//! This module also describes the machine on which all programs run.
 
 mod answer;
 mod machine;

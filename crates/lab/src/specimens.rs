@@ -2,7 +2,8 @@
 //! machine.
 //!
 //! A mechanism is drawn in its start pose ([`sketch`]), so that it can be assembled.
-//! It is stored as data ([`spec`]). It can be turned, mirrored and loaded before it becomes the text of a scenario.
+//! The mechanism is stored as data ([`spec`]), and can be turned, mirrored and loaded before it becomes the text of a
+//! scenario.
 
 pub mod driven;
 pub mod dyads;

@@ -1,5 +1,5 @@
 //! Numerical stability: families of mechanisms and settings, each with one varied parameter.
-//! Both sides run on every family. Engines run where the family's [`Setup`] allows them.
+//! Both analytic sides run on every family. Engines run where the family's [`Setup`] allows them.
 //! A family is one entry of [`FAMILIES`].
 //! See docs/numerics/laboratory.md.
 

@@ -1,5 +1,5 @@
 //! Searches for the cheapest settings with which an engine meets a requested error.
-//! Errors are measured.
+//! Errors are measured against a reference solution.
 //!
 //! The error falls with a power of the step, so a few runs against the reference find the largest step of each method.
 //! Three runs of the engine also predict the error without the reference.
@@ -30,7 +30,7 @@ use prover::run::{Options, memory};
 use scenario::Scenario;
 
 /// Work allowed by default, in steps without sweeps.
-/// This work is many times the work that the shipped mechanisms need for an allowed error of 1e-7 of the scale.
+/// At an allowed error of 1e-7 of the scale, the shipped mechanisms need only a small fraction of this work.
 const BUDGET: f64 = 5e6;
 
 /// The wanted accuracy.
@@ -55,7 +55,8 @@ pub struct Tuning {
     /// The prediction uses the engine's runs at three steps, and a run with twice the sweeps.
     pub predicted: f64,
     /// The cheapest settings of every engine that meets the request, refined if necessary until a proof confirms them.
-    /// Engines with confirmed settings come first; within both sets, the cheapest engine is first.
+    /// Engines with confirmed settings come first; both among the confirmed and among the unconfirmed engines, the
+    /// cheapest engine is first.
     pub by_engine: Vec<Candidate>,
     /// Engines that do not meet the request, with the smallest error found.
     /// The error is infinite if no run of the engine finished.
@@ -64,7 +65,8 @@ pub struct Tuning {
     pub too_dear: Vec<&'static str>,
     /// Number of runs in the search.
     pub runs: usize,
-    /// Whether the search ended because the allowed work was used up. Cheaper settings may then exist.
+    /// Whether the search ended because the allowed work was used up.
+    /// If it was used up, cheaper settings may exist.
     pub is_spent: bool,
 }
 

@@ -36,11 +36,13 @@ const STANDSTILL: f64 = 1e-12;
 /// A complete, checked problem that any solver accepts.
 ///
 /// The parts are accessible as fields, for example `case.mechanism`.
-/// A case is immutable: [`Case::with`] and similar methods return a changed and checked case.
+/// A case is immutable: a method such as [`Case::with`] returns a new case, changed and checked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Case {
     parts: CaseParts,
-    /// For every link: the representative of the links with the same angle up to a constant.
+    /// For every link: the representative of the link's class.
+    /// A class contains the links whose angles differ only by
+    /// constants.
     classes: Vec<LinkId>,
     /// Speed below which a joint counts as standing still (rad/s): the rounding error of the drives' top speeds.
     standstill: f64,
@@ -91,7 +93,8 @@ impl Case {
     }
 
     /// Returns a case made of `parts`, the changed parts of this case.
-    /// The classes of links with the same angle are copied from this case, so the change must not affect them.
+    /// The classes of links whose angles differ only by constants are copied from this case, so the changed parts must
+    /// not affect these classes.
     fn of_parts(&self, parts: CaseParts) -> Case {
         Case::made(parts, self.classes.clone())
     }
@@ -234,7 +237,8 @@ impl Case {
         InputState { value: drive.from_coordinate(value), rate, acceleration }
     }
 
-    /// Channels whose signed sum is the coordinate of the first drive, its rate and its second derivative.
+    /// Channels whose signed sums are the coordinate of the first drive and the first two time derivatives of this
+    /// coordinate.
     /// The coordinate differs from the input by the drive's zero.
     #[must_use]
     pub fn input_channels(&self) -> [Vec<(Channel, f64)>; 3] {
@@ -260,7 +264,8 @@ impl Case {
     /// Actions of the moment (N m) or force (N) of a drive: first on the link that carries the drive, then on the
     /// driving link.
     /// The frame carries the drive of a crank.
-    /// At a joint between moving links, and for a slide, the joint's first link exerts the effort on the second link.
+    /// At a joint between moving links, and for a slide, the joint's first link exerts the moment or force on the
+    /// second link.
     #[must_use]
     pub fn effort(&self, drive: &Drive, effort: f64, motions: &[Motion]) -> [Action; 2] {
         match drive.input {
@@ -269,7 +274,9 @@ impl Case {
         }
     }
 
-    /// Whether the time determines the pose, not the input of the first drive: several drives, with varying speeds.
+    /// Whether the pose is given as a function of the time instead of the first drive's input.
+    /// The pose is given as a function of the time if there are several drives and the speed of at least one drive
+    /// varies.
     #[must_use]
     pub fn goes_by_time(&self) -> bool {
         self.drives.len() > 1 && self.drives.iter().any(|drive| drive.constant_speed().is_none())
@@ -291,8 +298,8 @@ impl Case {
     }
 
     /// Whether forces determine the motion of a driving link (a free motion).
-    /// Crank angles are then known only from a solved trajectory. The crank angles of the grid belong to the nominal
-    /// motion.
+    /// In a free motion, crank angles are known only from a solved trajectory.
+    /// The crank angles of the grid belong to the nominal motion.
     #[must_use]
     pub fn is_free(&self) -> bool {
         self.drives.iter().any(Drive::is_free)
@@ -395,7 +402,8 @@ impl Case {
         self.classes[link] != self.classes[GROUND]
     }
 
-    /// Whether a joint can move. The links of some revolute joints keep their angle, as in two sliders joined by a pin.
+    /// Whether a joint can move. Some revolute joints cannot: two sliders on fixed guides, for example, cannot turn
+    /// about the pin that joins them.
     #[must_use]
     pub fn can_move(&self, joint: JointId) -> bool {
         let joint = &self.mechanism.joints()[joint];
@@ -439,8 +447,8 @@ impl Case {
 
     /// The rate on whose sign a load depends: the angular velocity of a link (rad/s) or the rate of a joint (rad/s or
     /// m/s).
-    /// The result is zero for a load that depends on neither rate. It is also zero if the rate may be only a rounding
-    /// error.
+    /// The result is zero for a load that depends neither on the angular velocity of a link nor on the rate of a joint.
+    /// The result is also zero if the rate may be only a rounding error.
     #[must_use]
     pub fn load_rate(&self, load: &Load, motions: &[Motion]) -> f64 {
         match load.nature().senses {

@@ -86,7 +86,8 @@ pub trait Engine: Solver {
     /// Bound on the rounding error of a channel on the grid of a case, in the channel's unit.
     fn noise(&self, case: &Case, channel: &ChannelKind) -> f64;
 
-    /// Whether the factors in [`Engine::noise`] are measured values. Otherwise the factors are assumed values.
+    /// Whether the factors in [`Engine::noise`] are measured values.
+    /// If the result is false, the factors are assumed values.
     fn is_noise_measured(&self) -> bool;
 
     /// Names and values of the settings that influence the result, for display.

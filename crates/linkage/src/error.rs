@@ -1,5 +1,5 @@
 //! The only error type. An error contains the request, the finding, the location and the remedy.
-//! These parts are stored as data and become text only in the output.
+//! The parts of an error are stored as data and become text only in the output.
 
 mod advice;
 mod several;
@@ -223,7 +223,7 @@ impl Error {
         self
     }
 
-    /// Marks the error as a pose out of reach on the branch of the case.
+    /// Marks the error as the failure to reach a pose on the branch of the case.
     /// A caller that knows the solvers and the range of motion can then add the reachable crank angles.
     pub fn out_of_reach(mut self) -> Self {
         self.0.out_of_reach = true;

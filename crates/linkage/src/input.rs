@@ -15,8 +15,8 @@ pub enum Input {
     /// Angle of a joint between two moving links: the angle of the joint's second link minus that of its first link.
     /// The angle is counter-clockwise positive and counts whole turns.
     Turn,
-    /// Slide of a prismatic joint: the distance along its axis from its point on the first link to its point on the
-    /// second link.
+    /// Slide of a prismatic joint: the distance, along the joint's axis, from the joint's point on the first link to
+    /// its point on the second link.
     Slide,
 }
 
@@ -115,8 +115,8 @@ impl Input {
     }
 
     /// Period of the input, and the name of the period in the plural.
-    /// After each period the driving link has the same pose again.
-    /// `None` if there is no period.
+    /// After each period the driving link returns to its pose.
+    /// `None` for an input without a period.
     #[must_use]
     pub const fn period(self) -> Option<(f64, &'static str)> {
         match self {
@@ -125,7 +125,8 @@ impl Input {
         }
     }
 
-    /// Change of the input that moves points by about the size of the mechanism (m): one radian, or a slide of this size.
+    /// Change of the input that moves points by about the size of the mechanism (m).
+    /// The change is one radian, or a slide equal to this size.
     #[inline]
     #[must_use]
     pub const fn span(self, size: f64) -> f64 {

@@ -41,12 +41,14 @@ pub struct Mechanism {
     transmissions: PerTransmission<Transmission>,
     /// Joints on every link, in order.
     on: PerLink<Vec<JointId>>,
-    /// For every joint: index of its first equation in the list of all joints' equations. The last entry is the total
+    /// For every joint: index of the joint's first equation in the list of all joints' equations.
+    /// The last entry is the total
     /// number of equations.
     rows: Vec<usize>,
     /// Size of the mechanism (m), used in the computation of every pose.
-    /// The size is computed only once, because the computation compares all distances between the points of a link.
-    /// A link with many points has many more such distances than points.
+    /// The size is computed only once, because the computation compares the distances between all pairs of points of a
+    /// link.
+    /// On a link with many points, the number of pairs is large.
     size: f64,
 }
 
@@ -54,8 +56,8 @@ impl Mechanism {
     /// A mechanism with these links (the first is the ground) and joints.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] for each of these faults, except for the first one with the key of the link or joint at
-    /// fault:
+    /// [`ErrorKind::Input`] for each of the faults below.
+    /// The error names the key of the link or joint at fault, except if a name is not allowed.
     /// - names that are not allowed;
     /// - duplicate names;
     /// - an axis that is not a unit vector;
@@ -96,7 +98,7 @@ impl Mechanism {
         Mechanism { links, joints, transmissions: PerTransmission::default(), on, rows, size }
     }
 
-    /// This mechanism with the given transmissions instead of its present ones.
+    /// This mechanism with its transmissions replaced by the given transmissions.
     ///
     /// # Errors
     /// The errors of [`Transmission::of`]; [`ErrorKind::Input`] for two transmissions of one name.
@@ -139,15 +141,16 @@ impl Mechanism {
         self.transmissions.iter().map(|own| own.design.clone()).collect()
     }
 
-    /// Index of a transmission's equation in the list of all equations. It comes after the equations of the joints.
+    /// Index of a transmission's equation in the list of all equations.
+    /// The equations of the transmissions come after the equations of the joints.
     #[inline]
     #[must_use]
     pub fn row_of_transmission(&self, transmission: TransmissionId) -> usize {
         self.equations() + transmission.index()
     }
 
-    /// Index of the equation of the drive with this number. It comes after the equations of the joints and
-    /// transmissions.
+    /// Index of the equation of the drive with this number.
+    /// The equations of the drives come after the equations of the joints and transmissions.
     #[inline]
     #[must_use]
     pub fn row_of_drive(&self, drive: usize) -> usize {
@@ -162,8 +165,8 @@ impl Mechanism {
     }
 
     /// Total number of equations of all joints.
-    /// A list of equations begins with the equations of the joints. The equations of the transmissions, then of the
-    /// drives, follow.
+    /// A list of equations begins with the equations of the joints.
+    /// The equations of the transmissions follow, then the equations of the drives.
     #[inline]
     #[must_use]
     pub fn equations(&self) -> usize {
@@ -209,8 +212,8 @@ impl Mechanism {
             .then(|| if is_cylinder || size(first) >= size(second) { [first, second] } else { [second, first] })
     }
 
-    /// Points of moving links, each name once. Each entry has the first link that carries the point and its position on
-    /// that link.
+    /// Points of moving links, each name once.
+    /// Each entry has the first link that carries the point, and the position of the point on that link.
     pub fn moving_points(&self) -> impl Iterator<Item = (&str, JointSide)> {
         let mut seen: BTreeSet<&str> = self.links[GROUND].points.iter().map(|point| point.name.as_str()).collect();
         let mut points = Vec::new();

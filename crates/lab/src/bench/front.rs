@@ -1,4 +1,5 @@
-//! Pareto fronts: points for which no other point is at least as good in cost and error and better in one of the two.
+//! Pareto fronts: points that no other point dominates. A point dominates another point if its cost and its error are
+//! not larger and one of them is smaller.
 
 use super::point::BenchPoint;
 use linkage::trajectory::Stage;
@@ -30,7 +31,7 @@ impl CostAxis {
 
 /// Indices of the points on the front of a stage, the cheapest first.
 /// Of points with equal cost and error only one is kept.
-/// An error below the floor is replaced by the floor, because errors below it cannot be ranked.
+/// An error below the floor is replaced by the floor, because errors below the floor cannot be ranked.
 pub fn front(
     points: &[BenchPoint],
     stage: Stage,
@@ -83,8 +84,8 @@ mod tests {
     }
 
     /// The test compares the front with its definition.
-    /// For a point on the front, no other point is at least as good in both quantities and better in one of these
-    /// quantities.
+    /// By definition, no point dominates a point on the front: no point has smaller or equal cost and error with one of
+    /// them smaller.
     #[test]
     fn the_front_holds_the_undominated_points() {
         let mut state = 1u64;

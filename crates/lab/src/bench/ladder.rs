@@ -1,5 +1,6 @@
 //! The methods that are measured.
-//! The methods cover steps, sweeps, routes and extrapolations of every engine, and accuracies of the sides.
+//! For engines, the methods differ in step, sweeps, extrapolations and the way to compute reactions; for analytic
+//! sides, in accuracy.
 
 use super::options::BenchOptions;
 use super::peer::Way;
@@ -20,7 +21,7 @@ const QUICK_STEPS: [f64; 3] = [8.0, 2.0, 0.5];
 /// Accuracies of engines that control their error.
 const ACCURACIES: [f64; 6] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
 const QUICK_ACCURACIES: [f64; 2] = [1e-4, 1e-10];
-/// Accuracies of the sides' integration, in addition to the usual accuracy.
+/// Accuracies of the analytic sides' integration, in addition to the usual accuracy.
 const SIDES: [f64; 5] = [1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
 /// Numbers of sweeps, as multiples of the smallest number that an engine considers useful.
 const SWEEPS: [usize; 3] = [1, 4, 16];
@@ -29,7 +30,7 @@ const TIMES: [usize; 4] = [0, 1, 2, 3];
 
 /// The party that runs a method.
 pub(super) enum Runner {
-    /// A side.
+    /// An analytic side.
     Side(Box<dyn Solver>),
     /// An engine.
     Engine(Box<dyn Engine>),
@@ -37,7 +38,8 @@ pub(super) enum Runner {
     Peer(usize, Way),
 }
 
-/// A method to be measured. Its point counts as failed until the method has run.
+/// A method to be measured.
+/// The method's [`BenchPoint`] counts as failed until the method has run.
 pub(super) struct Planned {
     pub(super) point: BenchPoint,
     pub(super) runner: Runner,
@@ -67,15 +69,15 @@ impl Planned {
     }
 }
 
-/// All sides and engines to be measured.
+/// All analytic sides and engines to be measured.
 pub(super) struct Plan {
     pub(super) points: Vec<Planned>,
     pub(super) left_out: usize,
     pub(super) versions: Vec<(String, String)>,
 }
 
-/// The methods of sides and engines.
-/// A curve is one engine with settings that differ only in the resolution.
+/// The methods of analytic sides and engines.
+/// A curve contains the methods of one engine whose settings differ only in the resolution.
 /// The budget is divided equally between the curves.
 /// Each curve gets ever finer resolutions until its part of the budget is used.
 pub(super) fn plan(case: &Case, options: &BenchOptions) -> Plan {
@@ -148,8 +150,8 @@ fn curves(engine: &dyn Engine, case: &Case, options: &BenchOptions) -> Vec<Setti
     let mut curves = Vec::new();
     for &route in &routes {
         for &sweeps in &sweeps {
-            // Readings by probes or impulses are extrapolated at most once, because a second extrapolation gives
-            // nothing new.
+            // Reactions from probes or impulses are extrapolated at most once, because a second extrapolation of them
+            // gives nothing new.
             let worth = times.iter().filter(|&&times| route == Route::Differences || times < 2);
             curves.extend(worth.map(|&extrapolated| Settings { sweeps, route, extrapolated, ..own }));
         }

@@ -1,5 +1,5 @@
-//! Runs all methods and measures their times, in rounds: every method once, then every method again.
-//! The load of other programs on the machine then affects all methods alike.
+//! Runs all methods and measures their times in rounds. Each round runs every method once.
+//! Because of the rounds, the load of other programs on the machine affects all methods alike.
 
 use super::ladder::{Planned, Runner};
 use super::options::Clock;
@@ -18,11 +18,11 @@ use linkage::work::{Count, Work, counted};
 /// If a run is shorter than `SHORT` (s), it is repeated at most `MOST` times, and the repetitions are timed together.
 const SHORT: f64 = 5e-3;
 const MOST: f64 = 1000.0;
-/// If a run is longer than this (s), a side or an engine is timed at most twice, and a peer once.
+/// If a run is longer than this (s), an analytic side or an engine is timed at most twice, and a peer once.
 const LONG: f64 = 0.2;
-/// A long run of a side or an engine takes part in at most this number of rounds, and so does a short run of a peer.
+/// Largest number of rounds in which a long run of an analytic side or an engine, or a short run of a peer, takes part.
 const FEW: usize = 2;
-/// Largest length of a reason, in characters.
+/// Largest length of the text that states the reason of a failure, in characters.
 const REASON: usize = 300;
 /// Instants count as equal if their difference divided by the largest instant is at most this.
 const SAME: f64 = 1e-9;
@@ -87,8 +87,8 @@ impl Desk<'_> {
             Runner::Side(_) | Runner::Engine(_) | Runner::Peer(..) if is_long && round >= FEW => {}
             Runner::Side(solver) => run.seconds.extend(self.timed(solver.as_ref()).map(|(seconds, ..)| seconds)),
             Runner::Engine(engine) => run.seconds.extend(self.timed(engine.as_ref()).map(|(seconds, ..)| seconds)),
-            // A peer restarts for every answer, and repeats short runs by itself. It therefore gets at most `FEW`
-            // rounds.
+            // A peer restarts for every answer, and repeats short runs by itself.
+            // A peer therefore gets at most `FEW` rounds.
             Runner::Peer(index, way) if round < FEW && !is_long => {
                 if let Ok(answer) = self.peers[*index].run(way) {
                     run.seconds.extend(answer.seconds.into_iter().filter(|seconds| *seconds > 0.0));
@@ -163,7 +163,7 @@ impl Desk<'_> {
                 Err(error) => failed.push((stage, error.to_string())),
             }
         }
-        // If the answer contains no requested channel, it counts as a failure.
+        // An answer without any requested channel counts as a failure.
         match (errors.iter().any(Option::is_some), failed.first()) {
             (true, _) => Ok(AnsweredRun { errors, failed, without, seconds, effort: answer.effort }),
             (false, Some((_, reason))) => Err(reason.clone()),

@@ -1,4 +1,4 @@
-//! Another program that solves the same scenario.
+//! A peer: a program other than linkproof that solves the measured scenario.
 
 use super::point::RunEffort;
 

@@ -1,5 +1,5 @@
 //! One method of solving a scenario, and its outcome.
-//! The effort of a run is exact: its numbers do not depend on a clock.
+//! The effort of a run is exact: it is measured by counts that do not depend on a clock.
 
 use linkage::engine::Settings;
 use linkage::math::KeepNan;
@@ -33,9 +33,10 @@ pub struct Errors {
 #[derive(Clone, Debug, PartialEq)]
 pub struct AnsweredRun {
     /// Errors by stage, in the order of [`Stage::ALL`].
-    /// `None` where the stage was not requested or has failed, or where a peer has no such channel.
+    /// `None` for a stage that was not requested, has failed, or has no channel in the answer of a peer.
     pub errors: [Option<Errors>; Stage::ALL.len()],
-    /// Stages in which a peer's numbers are wrong, and the fault in each. These stages count as failures.
+    /// Stages in which a peer's numbers are wrong, and the fault in each of these stages.
+    /// Stages with wrong numbers count as failures.
     pub failed: Vec<(Stage, String)>,
     /// Stages that are judged without some of their channels, and the channels that are missing in the peer's answer.
     /// A peer of an older version does not know the newest channels.
@@ -68,7 +69,7 @@ pub struct BenchPoint {
     pub resolution: String,
     /// Settings of an engine.
     pub settings: Option<Settings>,
-    /// Whether the settings are the program's defaults. The field is set only for sides.
+    /// Whether the settings are the program's defaults. The field is set only for analytic sides.
     pub is_usual: bool,
     /// Outcome of the method.
     pub outcome: BenchOutcome,

@@ -12,8 +12,10 @@ use linkage::solver::Solver;
 use linkage::trajectory::{Stage, Trajectory};
 use prover::bounds::residuals;
 
-/// Estimated error of the tighter reference, divided by its difference from a run at the usual accuracy.
-/// The tighter reference allows, in every step, a hundredth of the error at the usual accuracy.
+/// Estimated error of the reference with tighter accuracy, divided by the difference between this reference and a run
+/// at the usual accuracy.
+/// In every step, the reference with tighter accuracy allows a hundredth of the error that a run at the usual accuracy
+/// allows.
 /// The constant is this hundredth times a factor of four, the margin `SAFETY` of `prover::run::known`.
 const LEFT: f64 = 0.04;
 
@@ -29,7 +31,7 @@ pub struct Floor {
 }
 
 impl Floor {
-    /// The errors of a point, with a mark if they are too close to the reference's error.
+    /// The errors of a point. Errors that are too close to the reference's error are marked.
     pub fn judged(&self, stage: Stage, [max, rms]: [f64; 2]) -> Errors {
         Errors { max, rms, is_limited: !(max >= CLEAR * self.errors[stage as usize]) }
     }
@@ -38,7 +40,7 @@ impl Floor {
 /// The reference of a case, and the reference's error.
 ///
 /// # Errors
-/// The errors of the sides.
+/// The errors of the analytic sides, which compute the reference.
 pub(super) fn of(case: &Case) -> Result<(Trajectory, Floor)> {
     let solved = |solver: &dyn Solver| solver.solve(case).map_err(|error| explained(case, error));
     if case.is_free() {

@@ -14,8 +14,8 @@ use prover::bounds::magnitudes;
 
 /// If an exact answer changes by at most this fraction of the quantity's largest number, the change counts as rounding
 /// error.
-/// Such changes also arise if a case is solved again from recomputed, mathematically equivalent input numbers.
-/// The limit is at most a tenth of the difference allowed between the two sides.
+/// A change of this size also arises if a case is solved again from mathematically equivalent input numbers.
+/// The limit is at most a tenth of the difference allowed between the two analytic sides.
 pub(super) fn rounding(stage: Of) -> f64 {
     match stage {
         Of::Positions => 1e-13,
@@ -57,7 +57,7 @@ fn has_part(case: &Case, fault: Fault) -> Result<bool> {
 }
 
 impl Stage<'_> {
-    /// Effect of a fault on the exact answers of side 1.
+    /// Effect of a fault on the exact answers of analytic side 1.
     pub(super) fn effect(&self, fault: Fault) -> Result<Effect> {
         if !has_part(&self.case, fault)? {
             return Ok(Effect::None);
@@ -68,7 +68,7 @@ impl Stage<'_> {
         let (mut largest, mut beyond) = (0.0f64, false);
         let known = magnitudes(&self.right).into_iter().zip(&self.integration);
         for ((channel, ours), ((size, error), (_, theirs))) in self.right.iter().zip(known.zip(wrong.iter())) {
-            // A difference of whole turns counts as a change here.
+            // A difference of whole turns is not removed, so it counts as a change of the answer.
             let change = ours.iter().zip(theirs).fold(0.0f64, |most, (a, b)| most.larger((a - b).abs()));
             let relative = share(change, size);
             largest = largest.larger(relative);

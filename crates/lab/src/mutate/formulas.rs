@@ -1,4 +1,4 @@
-//! Mistakes in formulas, judged in the same way as formulas in `run`.
+//! Mistakes in formulas. The wrong formulas are judged in the same way as the formulas in the command `run`.
 
 use std::collections::BTreeSet;
 
@@ -26,14 +26,14 @@ pub(super) struct Planting {
 }
 
 impl Stage<'_> {
-    /// Names of the formulas that both sides judge.
+    /// Names of the formulas that both analytic sides judge.
     fn judged_formulas(&self) -> BTreeSet<&str> {
         let judged = self.sides.judgement.iter().flat_map(|own| &own.sides[Reference::Assur]);
         judged.filter_map(|all| Some(all.first()?.name.as_str())).collect()
     }
 
     /// Indices of the formulas that claim an exact value, and of the steps of derivation that they use.
-    /// A claim with a stated error is left out: despite a mistake, it may be correct within this error.
+    /// A claim with a stated error is left out: a claim with a mistake may still be correct within its stated error.
     pub(super) fn formulas(&self) -> Vec<usize> {
         let all = &self.scenario.formulas.list;
         let judged = self.judged_formulas();
@@ -50,12 +50,14 @@ impl Stage<'_> {
         found
     }
 
-    /// Work of judging all formulas once, on both sides. The unit is the work of an engine's step on a four-bar.
+    /// Work of judging all formulas once, on both analytic sides. The unit is the work of an engine's step on a
+    /// four-bar.
     pub(super) fn work_of_formulas(&self) -> f64 {
         let formulas = &self.scenario.formulas;
         let nodes: Vec<NodeId> = formulas.claims().map(|(formula, _)| formula.id).collect();
         let operations = Program::of(&formulas.graph, &nodes).len() * self.case.grid.len();
-        // A formula is evaluated by value and by two derivatives. Together these evaluations count as six times the
+        // Of a formula, the value and two derivatives are evaluated.
+        // Together these evaluations count as six times the
         // operations of the value.
         OPERATION * 2.0 * 6.0 * operations as f64
     }
@@ -97,7 +99,7 @@ impl Stage<'_> {
     }
 
     /// A claim of another channel: the first channel for which `is_meant` returns true.
-    /// The search begins at the claimed channel and continues from the start of the list.
+    /// The search goes from the claimed channel to the end of the list, and then continues from the start of the list.
     fn other(&self, own: &Formula, is_meant: &dyn Fn(&Channel, &Channel) -> bool) -> Option<Claim> {
         let claim = own.claim.as_ref()?;
         let [(name, claimed)] = claim.channels.as_slice() else { return None };
@@ -155,7 +157,7 @@ impl Stage<'_> {
         })
     }
 
-    /// Result of both sides' judgement of the mistake.
+    /// Result of the judgement of the mistake by both analytic sides.
     pub(super) fn formula_outcome(&self, own: &Planting) -> FaultyProof {
         let judged = self.sides.claimed(&self.case, &own.formulas).map(|sides| {
             let judgement = Judgement::of(sides);

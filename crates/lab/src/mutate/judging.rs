@@ -53,14 +53,14 @@ kinds! { Judgement, Answer:
     };
 }
 
-/// A fault of its default size.
+/// A fault of the default size of its kind.
 fn fault(name: &str) -> Fault {
     let kind = KINDS.iter().find(|kind| kind.name == name).unwrap_or_else(|| panic!("{name}"));
     Fault { kind, size: kind.size.expect("these faults have sizes") }
 }
 
 fn scenario(name: &str) -> Scenario {
-    // Other tests cover external reference numbers, so this test removes these numbers.
+    // The scenario's external reference numbers are removed, because other tests cover them.
     Scenario { oracles: Vec::new(), ..of_repository(&format!("scenarios/{name}.toml")) }
 }
 
@@ -68,9 +68,10 @@ const SHAKING: &str = "shaking force and moment from reactions and from momentum
 const POWERS: &str = "balancing moment from equilibrium and from powers (assur)";
 const BETWEEN: &str = "assur against newton";
 
-/// Faults of side 1: scenario, fault, number of channels in which the sides differ, families of checks that find it.
+/// Faults of analytic side 1. The fields are scenario, fault, number of channels in which the sides differ, and
+/// families of checks that find the fault.
 /// The number 0 means "not counted", because other channels depend on the wrong quantity.
-/// The dependent channels are those of the link, its mass centre and its points, and the power.
+/// The channels of the link, of its mass centre and of its points depend on the wrong quantity, and so does the power.
 /// Orders of magnitude: lengths are tenths of a metre, speeds some rad/s, forces hundreds of newtons.
 static IN_A_SIDE: [(&str, &str, usize, &[&str]); 12] = [
     ("crank_rocker", "a closed loop is open (m)", 0, &["closure of all joints (assur)"]),
@@ -128,7 +129,7 @@ static IN_THE_ENGINE: [InTheEngine; 8] = [
     ("crank_rocker", "an angle at the first instant", 1e-4, &["link.coupler.angle_rad"], &[]),
     ("crank_rocker", "an angle at the last instant", 1e-4, &["link.coupler.angle_rad"], &[]),
     ("crank_rocker", "an angular velocity", 1e-2, &["link.rocker.omega_rad_s"], &[OF_POWERS]),
-    // Forces and powers are computed from the accelerations, even from wrong accelerations, so no check has to
+    // Forces and powers are computed from the wrong accelerations and therefore agree with them, so no check has to
     // disagree.
     ("crank_rocker", "an angular acceleration", 1.0, &["link.rocker.alpha_rad_s2"], &[]),
     ("crank_rocker", "a reaction", 1.0, &["joint.B.fy_N"], &[]),
@@ -187,7 +188,8 @@ fn the_balance_of_powers_finds_a_wrong_unrequested_speed() {
     assert_eq!(powers.verdict.word(), "disagree");
 }
 
-/// A wrong position changes no velocity, but it opens the loop. The closure check alone decides the verdict.
+/// A wrong position changes no velocity, but opens a joint of the loop.
+/// The closure check alone decides the verdict.
 #[test]
 fn an_open_loop_decides_the_verdict_without_any_channel() {
     let whole = scenario("crank_rocker");

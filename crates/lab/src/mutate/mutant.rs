@@ -8,9 +8,9 @@ linkage::words! {
     /// Who gets a fault.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
     pub enum FaultyParty: name {
-        /// Side 1.
+        /// Analytic side 1.
         Assur = "assur",
-        /// Side 2.
+        /// Analytic side 2.
         Newton = "newton",
         /// The engine.
         Engine = "engine",
@@ -44,13 +44,14 @@ pub struct Spoiled {
 pub struct Mutant {
     /// The kind of fault.
     pub kind: &'static FaultKind,
-    /// Where it is planted.
+    /// The party in which the fault is planted.
     pub party: FaultyParty,
     /// The formula and its text, if the fault is a mistake in a formula.
     pub formula: Option<Spoiled>,
     /// Outcome of the proof with the fault.
     pub outcome: FaultyProof,
-    /// Largest change of exact answers, relative to the largest number of a quantity; `None` without an exact answer.
+    /// Largest change of the exact answers by the fault, relative to the largest number of the changed quantity. `None`
+    /// if there is no exact answer.
     pub effect: Option<f64>,
     /// For a detected fault with a size: the smallest size that is still found, to a factor of two.
     pub smallest: Option<f64>,

@@ -1,4 +1,5 @@
-//! Chooses faults and parties, and plants every fault in every party.
+//! Chooses faults and parties, and plants every chosen fault in every chosen party.
+//! The parties are the two analytic sides, the engine, the code that they share, and the formulas.
 //! For a fault with a size, a search finds the smallest size at which a proof still finds the fault.
 
 use super::effect::Effect;
@@ -208,8 +209,8 @@ fn of_kind(stage: &Stage, kind: &'static FaultKind, asked: &MutationPlan) -> Res
 
 /// Smallest size that is tried, divided by the first size. Effects of smaller faults are below rounding error.
 const LEAST: f64 = 1e-16;
-/// Factor from the whole size to the first guess, if there is no margin, and between successive sizes of the upward
-/// search.
+/// Factor between successive sizes of the upward search.
+/// Without a margin, the whole size divided by this factor is the first guess.
 const STEP: f64 = 10.0;
 /// The search ends if the smallest detected size is at most this multiple of an undetected size.
 const FACTOR: f64 = 2.0;
@@ -238,7 +239,8 @@ pub(super) fn smallest(whole: f64, margin: f64, is_found: &dyn Fn(f64) -> bool) 
         }
     }
     let Some(mut lost) = lost else { return found };
-    // If the guess was too small, the search increases the size in steps, and then bisects the interval.
+    // If the first guess was too small, the search increases the size in steps. It then bisects the interval between
+    // the last undetected and the first detected size.
     while found > STEP * lost {
         let size = lost * STEP;
         if is_found(size) {

@@ -22,7 +22,7 @@ pub struct Sight {
 /// Outcome of a proof with a fault in one party.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FaultyProof {
-    /// Something disagrees.
+    /// At least one channel or check disagrees.
     Detected {
         /// First detection: the detection at the earliest instant; among several at this instant, the detection with
         /// the largest margin.
@@ -38,10 +38,10 @@ pub enum FaultyProof {
     Refused(String),
     /// The proof is inconclusive, for this reason.
     Inconclusive(String),
-    /// Everything agrees.
+    /// All channels and checks agree.
     Escaped,
     /// Exact answers are the same with and without the fault, up to rounding error.
-    /// The number is the largest change, relative to the largest number of a quantity.
+    /// The number is the largest change, relative to the largest number of the changed quantity.
     Equivalent(f64),
 }
 

@@ -1,5 +1,5 @@
 //! One scenario with its correct parties, and proofs with a fault in one party.
-//! A fault is a hook of a solver or an engine.
+//! A fault is planted by a hook, which changes the case or the answers of a solver or an engine.
 
 use crate::sentences;
 use std::sync::OnceLock;
@@ -28,18 +28,19 @@ type Around<'a> = &'a dyn Fn(Box<dyn Engine>) -> Box<dyn Engine>;
 /// A scenario's proof without a fault, and its reusable parts.
 pub(super) struct Stage<'a> {
     pub(super) scenario: &'a Scenario,
-    /// The part of the mechanism that the scenario requests.
+    /// The part of the case on which the requested channels depend.
     pub(super) case: Case,
     options: &'a Options,
     /// The analytic sides without a fault.
     pub(super) sides: ObservedSides,
-    /// Exact answers of side 1, and the integration errors if forces determine the motion.
+    /// Exact answers of analytic side 1, and the integration errors if forces determine the motion.
     /// The errors are given channel by channel, in the channels' units.
     pub(super) right: Trajectory,
     pub(super) integration: Vec<f64>,
     /// The engine's runs without a fault.
     runs: OnceLock<CachedEngine>,
-    /// Work of both sides, and of the engine, without a fault (in units of the work of an engine's step on a four-bar).
+    /// Work of both analytic sides, and of the engine, without a fault. The unit is the work of an engine's step on a
+    /// four-bar.
     pub(super) work: [f64; 2],
     /// Verdict of the proof without a fault, and name of the engine.
     pub(super) verdict: &'static str,
@@ -58,7 +59,8 @@ impl<'a> Stage<'a> {
         let of_sides = || ObservedSides::of(problem, whole, TRUE_SIDES, options.reference, &mut Ledger::default());
         let (sides, done) = counted(|| limited(allowed, of_sides).0);
         let sides = sides?;
-        // Side 2 does not count groups; it places as many links as side 1, so the groups of side 1 are counted twice.
+        // Side 2 does not count the groups that it places.
+        // Side 2 places as many links as side 1, so the groups of side 1 are counted twice.
         let placed = PLACED * 2.0 * done.of(Count::Groups) as f64 + done.of(Count::Intervals) as f64;
         let right = AssurSolver.solve(&case)?;
         let integration = sides.integration();
@@ -73,7 +75,7 @@ impl<'a> Stage<'a> {
         Ok(stage)
     }
 
-    /// The proof of the engine with these sides as reference.
+    /// The proof of the engine with `sides` as reference.
     fn engine(&self, sides: &ObservedSides, around: Around, own_forces: bool) -> Result<EngineProof> {
         let how = EngineRole { case: &self.case, around, own_forces };
         let engines = self.options.chosen(&self.scenario.engine, &self.case)?;
@@ -123,7 +125,7 @@ impl<'a> Stage<'a> {
         self.engine(&self.sides, &|own| Box::new(Planted { hook: fault, inner: kept_in(&self.runs, own) }), false)
     }
 
-    /// Outcome of the engine's proof with these sides as reference.
+    /// Outcome of the engine's proof with `sides` as reference.
     /// The engine's own forces (`own_forces`) are requested only if the proof without them finds nothing.
     /// A verdict on these forces cannot undo a disagreement.
     fn judged(&self, sides: &ObservedSides, around: Around) -> Result<FaultyProof> {
@@ -141,7 +143,7 @@ impl<'a> Stage<'a> {
         Ok(last)
     }
 
-    /// The sides, with a fault in each of the `faulty` sides.
+    /// The analytic sides, with a fault in each of the `faulty` sides.
     fn planted(&self, fault: Fault, faulty: &[Reference]) -> Result<ObservedSides> {
         let planted = |inner: Box<dyn Solver>| Planted { hook: fault, inner };
         let wrong = EachSide::new(
@@ -167,12 +169,14 @@ impl<'a> Stage<'a> {
     }
 
     /// The proof with a fault in the code that all parties share.
-    /// The parties then agree with each other, so only external references can contradict.
+    /// With a fault in shared code, the parties agree with each other, so only external reference values can contradict
+    /// the wrong answers.
     fn in_all(&self, fault: Fault) -> Result<FaultyProof> {
         let case = match fault.kind.plant {
             Plant::Case(change) => match change(&self.case, fault.size) {
                 None => return Ok(FaultyProof::Refused(sentences::THE_CASE_CANNOT_BE_PUT_TOGETHER.into())),
-                // The requested instants stay correct. Only the instants at which the sides solve are wrong.
+                // The requested instants stay correct.
+                // Only the instants at which the analytic sides solve are wrong.
                 Some(case) if self.is_late(&case) => None,
                 Some(case) => Some(case),
             },

@@ -63,9 +63,9 @@ pub struct FaultCounts {
 pub enum FaultTally {
     /// Every fault with an effect is found, in the parties and in the formulas.
     AllFound,
-    /// No fault escapes, but some proofs are inconclusive.
+    /// No proof with a fault agrees, but some proofs are inconclusive.
     NoneEscapes,
-    /// Some faults escape.
+    /// Some faults are not found.
     SomeEscape,
     /// Only faults in the shared code have an effect, and some of them are not found.
     TrunkOpen,

@@ -30,7 +30,7 @@ fn kinds_of_faults_have_unique_names_and_descriptions() {
     assert!(all().all(|kind| !names.contains(kind.family.name())));
 }
 
-/// Outcomes and margins from reused runs are the same to the bit as those from new runs.
+/// Outcomes and margins from reused runs equal those from new runs, bit for bit.
 #[test]
 fn reused_runs_give_the_same_outcome_as_new_ones() {
     let options = Options::default();
@@ -62,7 +62,8 @@ fn a_fault_without_effect_is_not_counted() {
 }
 
 /// Symptom: the rods of a parallelogram only translate, so their moments of inertia have no effect.
-/// A fault in one of these moments of inertia changed the integration steps, and was counted as escaped.
+/// A fault in one of these moments of inertia changed only the integration steps, but was counted as a fault that the
+/// proof misses.
 #[test]
 fn regress_a_change_of_integration_steps_only_is_no_effect() {
     let scenario = scenario("n_four_bar_1");
@@ -76,7 +77,7 @@ fn regress_a_change_of_integration_steps_only_is_no_effect() {
     assert!(matches!(found.mutants[0].outcome, FaultyProof::Equivalent(_)), "{:?}", found.mutants[0].outcome);
 }
 
-/// The smallest size is found to a factor of two: that size is detected, and half of it is not.
+/// The smallest size is found to a factor of two: the returned size is detected, and half of the returned size is not.
 #[test]
 fn half_the_smallest_detected_size_is_not_detected() {
     let (scenario, options) = (scenario("crank_rocker"), Options::default());
@@ -129,7 +130,7 @@ fn a_one_sided_moment_that_always_acts_is_found_in_every_party() {
     }
 }
 
-/// A proof cannot find a fault that all parties share; external reference numbers can.
+/// A proof cannot find a fault in code that all parties share. External reference numbers reveal such a fault.
 #[test]
 fn a_shared_gravity_fault_is_found_only_by_external_numbers() {
     let asked =

@@ -19,7 +19,7 @@ const COLUMNS: usize = 100_000;
 /// this range.
 const TIMES: RangeInclusive<f64> = 1e-12..=1e9;
 
-/// The last line of a program's output, as JSON. Libraries may print other lines before it.
+/// The last line of a program's output, as JSON. The program's libraries may print other lines before the last line.
 fn last(output: &str) -> Result<Value, String> {
     let line =
         output.lines().rev().find(|line| !line.trim().is_empty()).ok_or(sentences::IT_WROTE_NOTHING_TO_STANDARD)?;
@@ -76,7 +76,7 @@ pub(super) fn answer(output: &str, table: impl FnOnce() -> Result<String, String
 
 /// Reads a measured time (s); an implausible time is an error.
 fn seconds(value: &Value) -> Result<f64, String> {
-    // A coarse clock may give zero. Such a time is ignored later.
+    // A coarse clock may give zero. The caller ignores a time of zero.
     let found = value.as_f64().filter(|seconds| TIMES.contains(seconds) || *seconds == 0.0);
     found.ok_or_else(|| {
         let [least, most] = [TIMES.start(), TIMES.end()];

@@ -1,4 +1,4 @@
-//! The machine, in words. Without this description, times are meaningless.
+//! Describes the machine on which times are measured. Without this description, measured times are meaningless.
 
 use crate::sentences;
 use std::collections::BTreeSet;

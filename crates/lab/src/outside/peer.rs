@@ -36,7 +36,8 @@ pub struct Command<'a> {
     /// Longest duration of a call (s).
     limit: f64,
     clock: Clock<'a>,
-    /// The peer's directory. It is created when first needed, and removed with the peer.
+    /// The peer's directory.
+    /// The directory is created when first needed, and removed when the peer is dropped.
     place: RefCell<Option<TempDir>>,
 }
 

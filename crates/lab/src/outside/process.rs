@@ -1,5 +1,5 @@
-//! Runs a program with a time limit. The program's output goes to files, so that it cannot block the program or fill
-//! the memory.
+//! Runs a program with a time limit.
+//! The program's output goes to files, so that a long output neither blocks the program nor fills the memory.
 
 use crate::sentences;
 use std::fs::{self, File};
@@ -43,7 +43,7 @@ pub(super) fn run(
     std::os::unix::process::CommandExt::process_group(&mut shell, 0);
     let mut child = shell.spawn().map_err(|error| sentences::it_cannot_be_started(&error))?;
     let status = wait(&mut child, &[&out, &err], limit, clock)?;
-    // Processes that are still running could change the answer while it is read, so these processes are ended.
+    // Processes that are still running are ended, because they could change the answer while it is read.
     end_group(&child);
     let written = text(&out)?;
     if status.success() {
@@ -78,7 +78,8 @@ fn wait(child: &mut Child, files: &[&Path], limit: f64, clock: Clock) -> Result<
     }
 }
 
-/// Ends the processes that a program has started. These processes belong to the program's process group.
+/// Ends the processes that a program has started.
+/// Processes started by the program belong to the program's process group.
 fn end_group(child: &Child) {
     if cfg!(unix) {
         let group = format!("-{}", child.id());

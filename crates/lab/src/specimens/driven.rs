@@ -41,7 +41,7 @@ mod tests {
     use linkage::trajectory::{Channel, Trajectory};
     use std::collections::BTreeSet;
 
-    /// Largest difference of two trajectories, as a fraction of the largest value of the same unit.
+    /// Largest difference of two trajectories, as a fraction of the largest value among the channels of the same unit.
     fn apart(one: &Trajectory, other: &Trajectory) -> f64 {
         let off = |(channel, values): (&Channel, &[f64])| {
             let alike = one.iter().filter(|(own, _)| own.kind.unit == channel.kind.unit);
@@ -52,7 +52,8 @@ mod tests {
         one.iter().map(off).fold(0.0, f64::larger)
     }
 
-    /// About a third of the mechanisms cannot be assembled at some instant. Both sides must refuse these mechanisms.
+    /// About a third of the mechanisms cannot be assembled at some instant. Both analytic sides must refuse these
+    /// mechanisms.
     #[test]
     fn both_sides_agree_wherever_the_drive_is() {
         let (mut agreed, mut refused, mut worst) = (0, 0, 0.0);

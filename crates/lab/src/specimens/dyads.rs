@@ -8,15 +8,16 @@ use super::sketch::{RandomSource, SpecimenSketch};
 use super::spec::{Ask, Dyad, Spec, Start};
 use scenario::Scenario;
 
-/// Upper limit of the distance of joints and mass centres from the origin (m). The constant is also the scale of link
-/// angles (rad).
+/// Upper limit of the distance of joints and mass centres from the origin (m).
+/// The constant is also used as the scale of link angles (rad).
 pub const REACH: f64 = 4.0;
 /// Smallest sine of a transmission angle: 10 degrees.
 pub const DEAD: f64 = 0.17364817766693033;
 /// Smallest distance between the outer pins of an RPR dyad (m): the length of the shortest link.
 const CLOSE: f64 = 0.1;
 
-/// The five kinds of dyads. Each has three flags: whether the first outer, the inner and the second outer joint are
+/// The five kinds of dyads.
+/// Each kind has three flags: whether the first outer, the inner and the second outer joint are
 /// prismatic.
 pub const SORTS: [[bool; 3]; 5] =
     [[false, false, false], [false, false, true], [false, true, false], [false, true, true], [true, false, true]];
@@ -73,7 +74,7 @@ pub fn dyad(sketch: &mut SpecimenSketch, slides: [bool; 3], bases: [usize; 2]) -
     [one, two]
 }
 
-/// One of the allowed kinds of dyads, chosen at random, with its joints in either order.
+/// A kind of dyad, chosen at random from the allowed kinds. The order of its joints may be reversed.
 pub fn sort(random: &mut RandomSource, allowed: &[[bool; 3]]) -> [bool; 3] {
     let mut slides = allowed[random.index(allowed.len())];
     if random.yes() {
@@ -82,15 +83,16 @@ pub fn sort(random: &mut RandomSource, allowed: &[[bool; 3]]) -> [bool; 3] {
     slides
 }
 
-/// A crank and `dyads` dyads, each joined to one of the last links and to any other link or the ground.
+/// A crank and `dyads` dyads. One end of each dyad is joined to one of the last two links, the second end to a random
+/// link or the ground.
 pub fn chain(random: &mut RandomSource, allowed: &[[bool; 3]], dyads: usize) -> (Spec, Vec<LinkPose>) {
     let mut sketch = SpecimenSketch::new(random, [0.1, 1.0]);
     for _ in 0..dyads {
         let count = sketch.poses.len();
         let moving = count - 1 - sketch.random.index(2.min(count - 1));
         let other = if sketch.random.yes() { 0 } else { sketch.random.index(count) };
-        // If both ends were on the same link, the dyad would only enlarge this link. One end is then moved to the
-        // ground.
+        // If both ends of a dyad were on the same link, the dyad would only enlarge this link. In this case one end is
+        // moved to the ground.
         let other = if other == moving { 0 } else { other };
         let bases = if sketch.random.yes() { [moving, other] } else { [other, moving] };
         let slides = sort(sketch.random, allowed);
@@ -99,7 +101,8 @@ pub fn chain(random: &mut RandomSource, allowed: &[[bool; 3]], dyads: usize) -> 
     sketch.finish()
 }
 
-/// Reads a chain. `None` if it leaves `REACH` or comes near a dead point at an instant of its grid.
+/// Reads a chain.
+/// `None` if, at an instant of the grid, the mechanism leaves `REACH` or comes near a dead point.
 /// The poses come from [`first_pose`]. A solver would also compute the range of the mechanism, which takes longer than
 /// all other work of this function.
 pub fn sample(spec: Spec) -> Option<DyadSpecimen> {
@@ -129,8 +132,8 @@ pub fn sample(spec: Spec) -> Option<DyadSpecimen> {
             return None;
         }
         let sine = |pose: &Pose| transmission_sine(mechanism, group, pose).expect("a dyad");
-        // The sign of the sine must not change. Where axes become parallel, a slider goes to infinity and returns from
-        // the other side.
+        // The sign of the sine must not change.
+        // Where axes become parallel, a slider goes to infinity and returns from the opposite direction.
         let sign = sine(&poses[0]).signum();
         let least = poses.iter().map(|pose| sign * sine(pose)).fold(1.0, f64::smaller);
         if !(least >= DEAD) {

@@ -18,7 +18,7 @@ impl RandomSource {
         RandomSource(ChaCha20Rng::from_seed([seed; 32]))
     }
 
-    /// The random numbers of one of many samples with the same seed.
+    /// The random numbers of the sample `index`, one of many samples that follow from one seed.
     pub fn of_sample(seed: u64, index: u64) -> Self {
         let mut bytes = [0; 32];
         bytes[..8].copy_from_slice(&seed.to_le_bytes());
@@ -37,7 +37,7 @@ impl RandomSource {
         from + (to - from) * (self.0.next_u64() >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    /// One of `count` indices.
+    /// A random index below `count`.
     pub fn index(&mut self, count: usize) -> usize {
         self.number(0.0, count as f64) as usize
     }
@@ -61,7 +61,8 @@ impl RandomSource {
 /// A joint of a random mechanism.
 #[derive(Clone, Copy, Debug)]
 pub struct DrawnJoint {
-    /// World positions of the joint on the two links, in the order of the arguments.
+    /// World positions of the joint on the two links: first on the link passed first to `join`, then on the second
+    /// link.
     /// The two positions coincide for a revolute joint; for a prismatic joint they are two points along the axis.
     pub places: [Vec2; 2],
     /// World direction of a prismatic joint's axis; zero for a revolute joint.

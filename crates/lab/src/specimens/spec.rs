@@ -1,4 +1,5 @@
-//! A mechanism as data. A test can turn, mirror or load it before writing it as scenario text.
+//! A mechanism as data.
+//! A test can turn, mirror or load the mechanism before it writes the mechanism as scenario text.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -61,7 +62,7 @@ pub enum Ask {
 }
 
 impl Ask {
-    /// For RRP and RPR: selects the configuration on the other side along the axis.
+    /// For RRP and RPR: selects the configuration that lies in the opposite direction along the axis.
     pub fn reverse(&mut self) {
         match self {
             Ask::Ahead => *self = Ask::Behind,
@@ -80,16 +81,17 @@ pub struct Start {
     pub ask: Ask,
 }
 
-/// A dyad's links, and whether its inner joint is on the left.
+/// An RRR dyad's links, and whether its inner joint is on the left of the line from the first to the second outer
+/// joint.
 #[derive(Clone, Debug)]
 pub struct Dyad {
     /// The links of the dyad.
     pub links: [String; 2],
-    /// Whether the dyad's inner joint is on the left.
+    /// Whether the inner joint is on the left of the line from the first to the second outer joint.
     pub left: bool,
 }
 
-/// A whole scenario, in SI.
+/// A whole scenario, in SI units.
 #[derive(Clone, Debug, Default)]
 pub struct Spec {
     /// Points of the ground (m).
@@ -127,7 +129,7 @@ pub struct Spec {
 /// Parts that only some mechanisms have.
 #[derive(Clone, Debug, Default)]
 pub struct Other {
-    /// Name of the scenario; "test" if it is empty.
+    /// Name of the scenario. If the field is empty, the scenario is called "test".
     pub name: String,
     /// Keys of the drive that replace the speed: a motion law, or a free motion.
     pub drive: String,

@@ -9,7 +9,7 @@ use linkage::error::Result;
 pub enum EngineUse {
     /// Only the analytic sides run, not the engines.
     None,
-    /// A search finds the engines' settings. The number is the work allowed for it, in steps without sweeps.
+    /// A search finds the engines' settings. The number is the work allowed for the search, in steps without sweeps.
     Found(f64),
     /// Engines run at this step (s) and number of sweeps.
     Given {
@@ -27,12 +27,13 @@ pub struct Setup {
     pub case: Case,
     /// Use of the engines.
     pub engines: EngineUse,
-    /// Whether the sides are compared with a double-double reference.
+    /// Whether the analytic sides are compared with a double-double reference.
     pub precise: bool,
 }
 
 impl Setup {
-    /// A case whose engine settings are found by search, with a double-double reference.
+    /// A setup in which a search finds the engines' settings, and the analytic sides are compared with a double-double
+    /// reference.
     pub(super) fn usual(case: Case) -> Setup {
         Setup { case, engines: EngineUse::Found(WORK), precise: true }
     }
@@ -55,7 +56,7 @@ pub struct StressFamily {
     pub points: &'static [f64],
     /// The values of a quick run.
     pub quick: &'static [f64],
-    /// Number of mechanisms at each value; more than one only for random mechanisms.
+    /// Number of mechanisms at each value; the number is above one only for random mechanisms.
     pub samples: u64,
     /// The case and settings at a value of the varied parameter. Sample number and seed affect only random mechanisms.
     pub setup: fn(dial: f64, sample: u64, seed: u64) -> Result<Setup>,

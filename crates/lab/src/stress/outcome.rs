@@ -45,7 +45,7 @@ pub struct WorstOfGroup {
     /// Bound of the channel with the largest error, divided by this channel's scale.
     #[serde(deserialize_with = "number")]
     pub bound: f64,
-    /// The channel.
+    /// The channel with the largest error.
     pub channel: String,
     /// Largest ratio of error to bound among the channels of the group.
     #[serde(deserialize_with = "number")]
@@ -79,9 +79,9 @@ pub struct PartyAtPoint {
     /// Step (s) of the run that is judged.
     #[serde(rename = "step_s")]
     pub step: Option<f64>,
-    /// Number of sweeps of this run.
+    /// Number of sweeps of the judged run.
     pub sweeps: Option<usize>,
-    /// Number of extrapolations of this run.
+    /// Number of extrapolations of the judged run.
     pub extrapolated: Option<usize>,
     /// Number of steps in the duration of the grid.
     pub steps: Option<f64>,
@@ -90,7 +90,8 @@ pub struct PartyAtPoint {
     /// Work of the engine's search for settings, in steps without sweeps.
     pub work: Option<f64>,
     /// Counted operations, in the order of [`Count::ALL`](linkage::work::Count::ALL).
-    /// For a side, they are counted in its run; for an engine, in all its runs together.
+    /// For an analytic side, the operations of its single run are counted; for an engine, the operations of all its
+    /// runs together.
     #[serde(default)]
     pub done: Vec<(String, u64)>,
     /// Number of channels that exceed their bound although the verdict is agreement: wrong numbers without a warning.
@@ -117,7 +118,7 @@ pub struct StressOutcome {
     /// Reason why the case does not exist; empty if it exists.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub refused: String,
-    /// The sides and engines.
+    /// The analytic sides and the engines.
     pub parties: Vec<PartyAtPoint>,
 }
 

@@ -1,4 +1,4 @@
-//! One point: both sides and all engines on one case.
+//! One point of a family: both analytic sides and all engines on one case.
 
 use crate::sentences;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -40,7 +40,8 @@ pub(super) fn key_of(family: &StressFamily, dial: f64, sample: u64, seed: u64) -
 }
 
 /// FNV-1a hash of everything that the result depends on.
-/// The hash covers the program's version, its engines, and the case with its solvers and engines.
+/// The hash covers the version and the engines of the program, and the case with the solvers and engines that run on
+/// it.
 fn key(family: &StressFamily, setup: Option<&Setup>, seed: u64) -> String {
     let engines: Vec<String> =
         built().map(|name| engines::with_step(name, 1.0).map_or_else(|_| String::new(), |own| own.version())).collect();
@@ -58,7 +59,7 @@ fn built() -> impl Iterator<Item = EngineName> {
     EngineName::ALL.into_iter().filter(|name| engines::is_built(*name))
 }
 
-/// An error as one line, with its input value.
+/// An error as one line, with the value of the input at which the error occurred.
 fn told(error: &Error) -> String {
     // The input value is omitted if the message names the input already.
     let at = error.input().filter(|at| !error.message().contains(at.input.noun()));

@@ -12,7 +12,7 @@ use linkage::threads::side_by_side;
 pub struct Job {
     /// The family.
     pub family: &'static StressFamily,
-    /// Value of its dial.
+    /// Value of the family's dial.
     pub dial: f64,
     /// Number of the sample.
     pub sample: u64,
@@ -21,7 +21,7 @@ pub struct Job {
 }
 
 /// The points of a family, with the stored results that are still valid.
-/// A quick run contains its few points and all points with a stored result.
+/// A quick run contains the points at the family's quick values, and all points with a stored result.
 pub fn jobs(family: &'static StressFamily, quick: bool, seed: u64, kept: &[StressOutcome]) -> Vec<Job> {
     let all = family.points.iter().flat_map(|&dial| (0..family.samples).map(move |sample| (dial, sample)));
     let job = |(dial, sample): (f64, u64)| {

@@ -1,5 +1,5 @@
 //! Runs of one engine against the reference, and its cheapest settings.
-//! The settings that are tried, except the step, are listed here.
+//! This file lists the settings that are tried, except the step.
 
 use linkage::math::KeepNan;
 use std::f64::consts::PI;
@@ -25,12 +25,12 @@ const ENOUGH: usize = 64;
 const COARSE_START: f64 = 4.0;
 /// When the number of sweeps is increased, the first step tried is this multiple of the step found before.
 const COARSER: f64 = 1.4;
-/// Settings are of interest only if they cost less than this fraction of the cheapest known settings.
+/// Settings are of interest only if their cost is less than this fraction of the cost of the cheapest known settings.
 const GAIN: f64 = 0.95;
 /// Coarse steps, as rotations of the fastest driving link (rad), from which the lower limit of a run's cost is
 /// measured.
-/// With such a step, reading the results is most of a run's cost.
-/// The first step at which the engine runs is used.
+/// With a step this coarse, reading the results is most of a run's cost.
+/// Of these steps, the first at which the engine runs is used.
 const ROUGH: [f64; 3] = [PI / 6.0, PI / 18.0, PI / 54.0];
 
 /// Result of the search with one engine.
@@ -50,8 +50,8 @@ pub(super) struct Bench<'a> {
     pub(super) wanted: &'a [Channel],
     pub(super) price: Price<'a>,
     pub(super) runs: usize,
-    /// Whether the engine has refused the last method. With other steps or numbers of sweeps it would refuse the method
-    /// again.
+    /// Whether the engine has refused the last method.
+    /// The engine would refuse the method again with any step and any number of sweeps.
     pub(super) refused: bool,
     /// Work done so far, and total work allowed, in steps without sweeps.
     pub(super) effort: f64,
@@ -61,7 +61,8 @@ pub(super) struct Bench<'a> {
 }
 
 /// Lower limit of a run's cost at any step, as pairs of number of sweeps and cost, in ascending order.
-/// A run cannot cost less, because instants are read, and some routes do all sweeps at each instant.
+/// A run cannot cost less than this limit: results are read at every instant, and some methods for reactions do all
+/// sweeps at every instant.
 struct Floor(Vec<(usize, f64)>);
 
 impl Floor {
@@ -95,19 +96,19 @@ struct Search<'e> {
     best: Option<Candidate>,
     /// Smallest error among methods that do not meet the request at any step.
     least: f64,
-    /// Whether some settings meet, or might meet, the request, but at too high a cost.
+    /// Whether there are settings that meet, or might meet, the request at too high a cost.
     dear: bool,
 }
 
 impl Search<'_> {
-    /// Highest cost at which a run is still of interest.
+    /// Highest cost at which a run can still improve the result.
     fn limit(&self) -> f64 {
         self.best.as_ref().map_or(self.others, |best| best.price.smaller(self.others)) * GAIN
     }
 }
 
 impl Bench<'_> {
-    /// Cheapest settings of one engine that cost less than `others`.
+    /// Cheapest settings of one engine that cost less than `others`, the lowest cost of the other engines.
     pub(super) fn best_of(
         &mut self,
         engine: &dyn Engine,
@@ -130,14 +131,15 @@ impl Bench<'_> {
     }
 
     /// Searches one method with increasing numbers of sweeps.
-    /// At a fixed cost, the error first falls with more sweeps. When there are more sweeps than needed, it rises again.
+    /// At a fixed cost, the error first falls with the number of sweeps. With more sweeps than needed, the error rises
+    /// again.
     /// The search ends early if the error rises twice in a row, or if more sweeps would cost too much.
     fn through_sweeps(&mut self, search: &mut Search, way: &Settings, sweeps: &[usize]) {
         let unlimited = search.limit().is_infinite();
         self.refused = false;
         let floor = if unlimited { Floor(Vec::new()) } else { self.floor(search.engine, way, sweeps, search.limit()) };
-        // Without a cost limit, the search with few sweeps would continue down to the finest steps. So it begins with
-        // many sweeps.
+        // Without a cost limit, a search that begins with few sweeps would continue down to the finest steps.
+        // The search therefore begins with many sweeps.
         let first = sweeps.iter().copied().find(|&sweeps| sweeps >= ENOUGH && unlimited);
         let start = if search.engine.controls_error() { way.resolution } else { COARSE_START * way.resolution };
         let mut row = Row { start, last: f64::INFINITY, rising: 0 };
@@ -254,7 +256,7 @@ impl Bench<'_> {
                 (error, worst) = (own, residual.channel.to_string());
             }
         }
-        // If an engine lacks a requested channel, it does not meet the request.
+        // An engine that lacks a requested channel does not meet the request.
         if seen < self.wanted.len() { failed(price) } else { Measured { error, worst, price } }
     }
 
@@ -263,11 +265,12 @@ impl Bench<'_> {
         let settings = engine.settings();
         let at = |factor: f64| Settings { resolution: settings.resolution * factor, ..settings };
         let mut rungs = vec![at(2.0), settings, at(0.5)];
-        // The comparison run has twice the sweeps.
+        // The comparison run has twice the sweeps of the run at `settings`.
         // The iteration error of the comparison run is small compared with that of the run at `settings`.
         // The difference of the two runs is therefore the iteration error at `settings`.
-        // (A proof compares with a run with half of the sweeps. That run costs a quarter of a run with twice the
-        // sweeps, but its comparison overestimates the error.)
+        // (A proof instead compares the run at `settings` with a run that has half of the sweeps.
+        // A run with half of the sweeps costs a quarter of a run with twice the sweeps, but the comparison with it
+        // overestimates the error.)
         if settings.sweeps > 0 {
             rungs.push(Settings { sweeps: settings.sweeps * 2, ..settings });
         }

@@ -1,7 +1,7 @@
 //! Settings confirmed by a proof.
-//! The error measured against the reference may be small by chance, or although the engine's runs show no order of
-//! convergence.
-//! A proof may then not agree at the same settings.
+//! The error measured against the reference may be small by chance. It may also be small although the engine's runs
+//! show no order of convergence.
+//! A proof at settings with a small measured error may therefore fail to agree.
 
 use linkage::engine::Engine;
 use linkage::error::{Advice, Result};
@@ -21,7 +21,7 @@ const FINER: f64 = 0.7;
 const TIGHTER: f64 = 0.1;
 
 /// Refines the candidate as little as necessary until a proof confirms its settings.
-/// If no proof confirms it, the original candidate is returned and stays marked as unproven.
+/// If no proof confirms any refined settings, the original candidate is returned and stays marked as unproven.
 ///
 /// # Errors
 /// The errors of [`prove`].

@@ -10,7 +10,8 @@ use linkage::work::{Count, counted};
 use prover::engines::EngineName;
 
 /// Additional steps of a run outside the interval from the first to the last instant.
-/// These are a few steps backwards, the same number of steps forwards, and some steps beyond the end.
+/// The additional steps are a few steps backwards, the same number of steps forwards again, and some steps beyond the
+/// end.
 const EXTRA_STEPS: f64 = 16.0;
 /// Number of tiny steps of a probe in every world.
 const TINY_STEPS: f64 = 5.0;
@@ -25,14 +26,16 @@ struct Costs {
     sweep: f64,
     /// Reading all channels at an instant.
     instant: f64,
-    /// Cost of a step in a world whose reactions are read, divided by the cost of a step in any other world.
+    /// Cost of a step in a world whose reactions are read, divided by the cost of a step in a world without this
+    /// reading.
     native: f64,
     /// Cost of a tiny step of a probe, divided by the cost of an ordinary step with one substep.
     tiny: f64,
 }
 
 /// The costs were measured once on `crank_rocker` by `cargo bench --bench tune -- prices`.
-/// The costs with one and with two substeps show which part of a step happens once and which happens in every substep.
+/// The costs with one and with two substeps give the part of a step's cost that occurs once and the part that occurs in
+/// every substep.
 /// Simbody's costs are those of its steps and readings, from runs of `bench` on `crank_rocker` at the accuracies 1e-4
 /// and 1e-10.
 fn costs(engine: EngineName) -> Costs {
@@ -52,7 +55,8 @@ fn costs(engine: EngineName) -> Costs {
 }
 
 /// Runs an engine on a case and returns the cost, in steps of `rapier` without sweeps.
-/// The steps are counted in the run only for an engine that chooses its steps itself.
+/// The number of steps follows from the settings. If the engine chooses its steps itself, they are counted in the run
+/// instead.
 ///
 /// # Errors
 /// The errors of the run.

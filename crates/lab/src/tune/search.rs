@@ -1,4 +1,4 @@
-//! The largest step that meets an error.
+//! Searches for the largest step whose error is within a limit.
 
 use super::candidate::Measured;
 use linkage::math::KeepNan;
@@ -10,14 +10,15 @@ const MOST_RUNS: usize = 9;
 const NEAR_ENOUGH: f64 = 0.8;
 /// The search aims at this fraction of the requested error.
 const AIM: f64 = 0.92;
-/// If a step that is too large exceeds the largest sufficient step by less than this factor, no further run is made.
+/// The search ends if the ratio of the smallest step known to be too large to the largest sufficient step is below this
+/// factor.
 const CLOSE: f64 = 1.06;
 /// If the observed order is below this, the error does not depend on the step: the error has a cause other than the
 /// step.
 const FLAT: f64 = 0.3;
 /// Largest factor from one step to the next.
 const LEAP: f64 = 16.0;
-/// Highest order that is assumed possible: extrapolated accelerations were observed to fall with order 4.
+/// Highest order that is assumed possible: the errors of extrapolated accelerations were observed to fall with order 4.
 const STEEPEST: f64 = 6.0;
 /// If a run costs at least this fraction of the limit, its step counts as the finest affordable step.
 const AT_THE_LIMIT: f64 = 0.9;
@@ -25,7 +26,7 @@ const AT_THE_LIMIT: f64 = 0.9;
 /// Outcome of a search.
 #[derive(Clone, Debug)]
 pub(super) enum Found {
-    /// The largest step (or accuracy) found that meets the error.
+    /// The largest step (or accuracy) found whose error is within the limit.
     Step {
         /// The step.
         resolution: f64,
@@ -40,7 +41,7 @@ pub(super) enum Found {
         /// Measured or expected error at this step.
         error: f64,
     },
-    /// No step meets the error; the number is the smallest error found.
+    /// No step has an error within the limit; the number is the smallest error found.
     TooCoarse(f64),
 }
 
@@ -62,8 +63,8 @@ pub(super) fn largest_step(
         let measured = run(step);
         let (error, price) = (measured.error, measured.price);
         // The cost is a constant and a part proportional to the number of steps.
-        // After one run the constant is taken as zero.
-        // The cost of a failed run is unknown, so the finest affordable step is then taken as 0.
+        // After a single run the constant is taken as zero.
+        // The cost of a failed run is unknown. After a failed run, the finest affordable step is therefore taken as 0.
         let mut affordable = if price.is_finite() { step * price / limit } else { 0.0 };
         if let Some([before, _, its_price]) = last {
             let per_step = (price - its_price) / (1.0 / step - 1.0 / before);

@@ -16,13 +16,14 @@ use crate::mechanism::{
 #[derive(Clone, Debug)]
 struct Wish {
     name: String,
-    /// Link name and point name of both sides.
+    /// Link name and point name on each side of the joint.
     sides: [[String; 2]; 2],
     /// Angles of the axis in the frames of both links (rad); prismatic joints only.
     axes: Option<[f64; 2]>,
 }
 
-/// A transmission. Its members, its carrier and the joint that sets its start are given by name.
+/// A transmission.
+/// The members, the carrier and the joint with a given start coordinate are referred to by name.
 #[derive(Clone, Debug)]
 struct Coupling {
     name: String,
@@ -34,7 +35,7 @@ struct Coupling {
 
 /// Builds a [`Case`] from names and numbers (SI units).
 ///
-/// The single steps check nothing. [`CaseBuilder::build`] checks everything and names every fault.
+/// The methods that add or set a part check nothing. [`CaseBuilder::build`] checks all parts and names every fault.
 ///
 /// ```
 /// use linkproof_linkage::case::Case;
@@ -132,8 +133,9 @@ impl CaseBuilder {
         self.joint(name, [(first, name), (second, name)], None)
     }
 
-    /// Adds a prismatic joint: link and point on both sides, and the angles (rad) of its axis in the frames of both
-    /// links. The two points must have different names.
+    /// Adds a prismatic joint: link and point on both sides, and the angles (rad) of the joint's axis in the frames of
+    /// the two links.
+    /// The two points must have different names.
     pub fn slider(self, name: &str, first: (&str, &str), second: (&str, &str), axes: [f64; 2]) -> Self {
         self.joint(name, [first, second], Some(axes))
     }
@@ -161,8 +163,8 @@ impl CaseBuilder {
         self
     }
 
-    /// Sets the efficiencies of the last transmission: for power from the first member to the second, then for power
-    /// from the second member to the first.
+    /// Sets the two efficiencies of the transmission added last: for power flow from the first member to the second,
+    /// and for power flow from the second member to the first.
     pub fn efficiency(mut self, efficiency: [f64; 2]) -> Self {
         if let Some(last) = self.transmissions.last_mut() {
             last.efficiency = efficiency;
@@ -239,7 +241,8 @@ impl CaseBuilder {
         self
     }
 
-    /// Sets the requested instants (s). They replace the instants set by [`CaseBuilder::instants`].
+    /// Sets the requested instants (s).
+    /// Instants set by [`CaseBuilder::instants`] are replaced.
     pub fn times(mut self, times: &[f64]) -> Self {
         self.times = Some(times.to_vec());
         self
@@ -457,7 +460,8 @@ mod tests {
     }
 
     /// Regression: the builder chose the instants of a free motion by crank angle.
-    /// Such a choice is impossible, because the time at which a free crank reaches an angle depends on the forces.
+    /// A choice by crank angle is impossible, because the time at which a free crank reaches an angle depends on the
+    /// forces.
     #[test]
     fn the_instants_of_a_free_motion_are_times() {
         let left = |builder: CaseBuilder| builder.mode(&["coupler", "rocker"], AssemblyMode::Left);

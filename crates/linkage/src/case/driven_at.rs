@@ -1,4 +1,4 @@
-//! The same mechanism, driven at another joint.
+//! Moves the first drive of a mechanism to another joint.
 
 use super::{Case, Grid};
 use crate::drive::{Drive, DriveMotion, Drives, MotionLaw};
@@ -8,7 +8,8 @@ use crate::mechanism::assembly::transmission_sine;
 use crate::mechanism::{AssemblyMode, DrivenJoint, Group, JointId, Mechanism, Structure};
 
 impl Case {
-    /// Structure of the mechanism if the first drive moves `joint` instead of its present joint. Further drives stay.
+    /// Structure of the mechanism if the first drive moves `joint` instead of its present joint.
+    /// All other drives stay.
     ///
     /// # Errors
     /// The errors of [`Structure::of_driven`].
@@ -51,7 +52,7 @@ impl Case {
         })
     }
 
-    /// The mechanism with another start joint for every transmission whose start joint is `joint`.
+    /// The mechanism with a different start joint for every transmission whose start joint is `joint`.
     fn with_start_beside(&self, joint: JointId) -> Result<Mechanism> {
         let (mut designs, joints) = (self.mechanism.transmission_designs(), self.mechanism.joints());
         for design in designs.iter_mut().filter(|design| design.joint == joint) {

@@ -1,15 +1,18 @@
 //! Dry friction in the joints, and losses of transmissions.
 //!
 //! Friction acts against the sliding of a joint.
-//! Its size is the coefficient of friction mu times the sum of the normal forces of the joint's contacts.
+//! The size of the friction is the coefficient of friction mu times the sum of the normal forces of the joint's
+//! contacts.
 //! A journal of the radius r has one contact, with the force R of the joint: the moment is mu r |R|.
 //! A guide of the length l carries the force N and the moment M by contacts at its two ends.
 //! The contact forces are N/2 + M/l and N/2 - M/l; the sum of the absolute values is the larger of |N| and 2 |M| / l.
-//! A transmission with an efficiency loses a fraction of its power, which depends on the sense of the power.
+//! A transmission with an efficiency loses a fraction of its power. The fraction depends on the sense of the power
+//! flow.
 //! The loss acts like friction: a moment between carrier and first member, in proportion to the transmission's force F.
 //! See docs/numerics/friction.md.
 //! J. L. Meriam, L. G. Kraige, Engineering Mechanics: Statics, 7th ed., Wiley 2012, sections 6/3 and 6/6.
-//! The radius of the friction circle is mu r here. The forces of the two contacts follow from equilibrium.
+//! In this source, mu r is the radius of a journal's friction circle. The forces of a guide's two contacts follow from
+//! equilibrium.
 
 use super::{Case, STANDSTILL, fastest};
 use crate::drive::{Action, Load, Senses, Wrench};
@@ -163,7 +166,7 @@ impl Friction<'_> {
         }
     }
 
-    /// The largest change of [`normal`](Friction::normal) for a change of the reaction.
+    /// Upper bound of the change of [`normal`](Friction::normal) if the reaction changes by `change`.
     #[must_use]
     pub fn largest(&self, change: (Vec2, f64)) -> f64 {
         match self.seat {
@@ -196,7 +199,8 @@ impl Friction<'_> {
         }
     }
 
-    /// Length of the guide (m). It is zero for a revolute joint, and if the moment of the guide causes no friction.
+    /// Length of the guide (m).
+    /// The length is zero for a revolute joint, and for a guide whose moment causes no friction.
     #[must_use]
     pub fn guide(&self) -> f64 {
         match self.seat {

@@ -31,7 +31,8 @@ impl Wanted {
         self.0[stage as usize]
     }
 
-    /// Last stage that must be computed. This stage is never earlier than the positions.
+    /// Last stage that must be computed.
+    /// The positions are the earliest stage that is returned.
     #[must_use]
     pub fn deepest(&self) -> Stage {
         Stage::ALL.into_iter().rev().find(|&stage| self.has(stage)).unwrap_or(Stage::Positions)

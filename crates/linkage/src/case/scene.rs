@@ -70,7 +70,8 @@ impl Case {
 /// Marks the parts of a case that the requested channels need.
 struct Needs<'a> {
     case: &'a Case,
-    /// For every link, the groups on which its motion depends. The last of them is the group of the link itself.
+    /// For every link, the groups on which the motion of the link depends.
+    /// The last group of the list is the group of the link itself.
     upstream: PerLink<Vec<GroupId>>,
     /// For every link: whether its motion is needed.
     moves: PerLink<bool>,
@@ -83,7 +84,7 @@ impl<'a> Needs<'a> {
         let none = || case.mechanism.links().iter().map(|_| false).collect();
         let upstream = case.structure.upstream(&case.mechanism);
         let mut needs = Needs { case, upstream, moves: none(), carries: none() };
-        // The crank's angle identifies the instant, so its motion is always needed.
+        // The crank's angle identifies the instant, so the crank's motion is always needed.
         (needs.moves[GROUND], needs.moves[case.crank().link]) = (true, true);
         needs
     }
@@ -140,7 +141,7 @@ impl<'a> Needs<'a> {
             let trains = group.trains.iter().flat_map(|&id| case.mechanism.transmissions()[id].links());
             group.outer.iter().flat_map(|&joint| ends(joint)).chain(trains).collect::<Vec<LinkId>>()
         };
-        // Forces on a link come from every link that depends on it, directly or through further links.
+        // Forces on a link come from every link that depends on this link, directly or through further links.
         let carries = &mut self.carries;
         for (_, &DrivingLink { link, joint, .. }) in structure.leading() {
             carries[link] |= ends(joint).into_iter().any(|base| base != GROUND && carries[base]);
@@ -185,7 +186,7 @@ impl<'a> Needs<'a> {
     }
 
     /// Whether the reduced case keeps a load.
-    /// The reduced case keeps the load if it needs any forces and contains all links of the load.
+    /// A load is kept if the reduced case needs any forces and contains all links of the load.
     fn has_load(&self, load: &Load) -> bool {
         // Friction needs the reaction of its joint.
         let is_known = !load.is_friction() || load.joint().is_none_or(|joint| self.carries[self.owner(joint)]);
@@ -251,7 +252,8 @@ impl<'a> Needs<'a> {
 
     /// The links of the reduced case.
     /// Two links may share a point's name although the joint that connects them at this point is left out.
-    /// The link that depends on fewer groups then keeps the name. On the other link, a number is added to the name.
+    /// Of these two links, the link that depends on fewer groups keeps the point's name. On the second link, a number
+    /// is added to the name.
     fn links(&self) -> Vec<Link> {
         let whole = &self.case.mechanism;
         let stays = |index: &LinkId| self.moves[*index];

@@ -1,10 +1,10 @@
-//! Determines which links can turn, and turn against each other, from the joints and the start pose.
+//! Determines from the joints and the start pose which links can turn, and which links can turn relative to each other.
 //!
 //! Links connected by a prismatic joint have the same angle up to a constant.
 //! Opposite links of a parallelogram also have the same angle up to a constant, and so do all links in a chain of such
 //! pairs.
 //! A link connected with the ground by such pairs only translates: its angular velocity is zero.
-//! A solver may compute a nonzero angular velocity for such a link. This value is only rounding error.
+//! A nonzero angular velocity that a solver computes for such a link is only rounding error.
 //! Loads must not infer a sense of rotation from this error.
 
 use super::CaseParts;
@@ -23,7 +23,8 @@ struct Bridge {
     link: LinkId,
 }
 
-/// For every link, the representative of its class. A class contains the links with the same angle up to a constant, on
+/// For every link, the representative of the link's class.
+/// A class contains the links with the same angle up to a constant, on
 /// the branch of the start pose.
 /// All links of a class have the same representative, so equal entries mean that there is no relative rotation.
 pub(super) fn classes(parts: &CaseParts) -> Vec<LinkId> {

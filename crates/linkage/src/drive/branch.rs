@@ -64,8 +64,8 @@ impl Curve {
 pub struct MotorBranch {
     curve: Curve,
     ratio: f64,
-    /// Effect of the reducer's losses on the moment: the efficiency if power flows to the crank, its reciprocal if
-    /// power flows back to the motor.
+    /// Effect of the reducer's losses on the moment: the efficiency if power flows to the crank, the reciprocal of the
+    /// efficiency if power flows back to the motor.
     factor: f64,
     /// Speeds of the crank (rad/s) between which the piece is valid. Outside this interval the piece continues
     /// smoothly.

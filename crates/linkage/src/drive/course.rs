@@ -9,7 +9,8 @@ use crate::math::{Piecewise, just_below};
 /// At the stated crank angle, all solvers therefore find the value after the jump.
 const BEFORE: f64 = 4e-9;
 
-/// A table over a slide keeps its end values over this multiple of 1 m plus the magnitudes of its first and last slide.
+/// A table over a slide keeps its end values beyond both ends, over this number times (1 m + |first slide| + |last
+/// slide|).
 const FAR: f64 = 100.0;
 
 /// If the values on both sides of a knot differ relatively by no more than twice this number, there is no jump.
@@ -34,7 +35,7 @@ impl Course {
     /// There must be at least one point. The crank angles ascend and lie within `turns` revolutions.
     /// After `turns` revolutions the table repeats.
     /// If `smooth` is true, the function is a periodic cubic spline with continuous second derivatives.
-    /// Otherwise straight lines join the points.
+    /// If `smooth` is false, straight lines join the points.
     /// Two points with the same crank angle make a jump, and so does a last point one period after the first point.
     /// At the crank angle of a jump, the table has the value after the jump.
     #[must_use]
@@ -71,7 +72,7 @@ impl Course {
         }
     }
 
-    /// Whether all numbers are finite and, for a table, the period is above zero.
+    /// Whether all numbers are finite. For a table, also whether the period is above zero.
     #[must_use]
     pub fn is_sound(&self) -> bool {
         match self {

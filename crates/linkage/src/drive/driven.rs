@@ -11,7 +11,7 @@ pub enum DriveMotion {
     Prescribed {
         /// The motion law.
         law: MotionLaw,
-        /// Motor for which the speed under load is to be computed.
+        /// Motor whose speed under load is to be computed.
         /// The motor does not affect the motion: the link follows the law even if the motor is too weak for it.
         motor: Option<Motor>,
     },
@@ -70,7 +70,8 @@ impl Drive {
     /// Input and driving link of a drive at `joint`.
     /// A prismatic joint has its slide as input.
     /// A revolute joint on the ground has the world angle of its moving link as input.
-    /// A revolute joint between a free link and the link of a drive in `before` has the same kind of input.
+    /// A revolute joint between a free link and the link of a drive in `before` has the world angle of the free link as
+    /// input.
     /// Any other revolute joint has the angle between its two links as input.
     #[must_use]
     pub fn of_joint(joint: &Joint, before: &[Drive], is_free: bool) -> (Input, LinkId) {
@@ -201,8 +202,8 @@ impl Drive {
     }
 
     /// The motor of the link. The motor of a free link drives the link.
-    /// The motor of a link under a law does not drive the link. Only the speed of this motor under load is to be
-    /// computed.
+    /// The motor of a link under a law does not drive the link.
+    /// For a link under a law, only the motor's speed under load is computed.
     #[must_use]
     pub fn motor(&self) -> Option<&Motor> {
         match &self.motion {
@@ -210,7 +211,8 @@ impl Drive {
         }
     }
 
-    /// Motor that drives the link. Only a free link can have such a motor.
+    /// Motor that drives the link.
+    /// Only a free link can have a motor that drives it.
     #[must_use]
     pub fn moving_motor(&self) -> Option<&Motor> {
         match &self.motion {

@@ -1,8 +1,8 @@
 //! Loads on links, apart from gravity and inertia.
 //! This file alone defines each kind of load.
-//! The definition consists of its variant, its action on the links ([`Load::act`]), its dependencies ([`Load::nature`])
-//! and its numbers ([`Load::parts`]).
-//! Code in other files calls these methods. The syntax in files is defined by the scenario reader.
+//! The definition of a kind consists of a variant, an action on the links ([`Load::act`]), dependencies
+//! ([`Load::nature`]) and numbers ([`Load::parts`]).
+//! Code in other files calls these methods. The scenario reader defines how loads are written in scenario files.
 
 mod change;
 mod parts;
@@ -74,9 +74,9 @@ pub enum Load {
     },
     /// Torsion spring between two links.
     /// The moment on the first link is stiffness times (twist - free twist). The moment on the second link is opposite.
-    /// The twist is the angle of the second link's frame minus that of the first.
+    /// The twist is the angle of the second link's frame minus the angle of the first link's frame.
     /// At t = 0 the twist is in (-pi, pi]. Later the twist counts whole turns.
-    /// If `acts` names one side of the free twist, the spring acts only there, as a stop does.
+    /// If `acts` names one side of the free twist, the spring acts only on this side, as a stop does.
     TorsionSpring {
         /// The links.
         links: [LinkId; 2],
@@ -109,7 +109,7 @@ pub enum Load {
         acts: Acts,
     },
     /// Spring along the axis of a prismatic joint: the force -stiffness (slide - free slide) on the second link.
-    /// If `acts` names one side of the free slide, the spring acts only there, as a stop does.
+    /// If `acts` names one side of the free slide, the spring acts only on this side, as a stop does.
     SlideSpring {
         /// The joint.
         joint: JointId,
@@ -132,13 +132,14 @@ pub enum Load {
         damping: f64,
     },
     /// Dry friction in a joint, against its sliding: see [`Friction`](crate::case::Friction).
-    /// The friction depends on the joint's reaction, so the solvers find both together.
+    /// The friction depends on the joint's reaction, so the solvers compute friction and reaction together.
     Friction {
         /// The joint.
         joint: JointId,
         /// First and second link of the joint.
         links: [LinkId; 2],
-        /// Coefficient of friction. A negative coefficient would drive the joint; the scenario reader rejects it.
+        /// Coefficient of friction.
+        /// A negative coefficient would drive the joint; the scenario reader rejects negative coefficients.
         coefficient: f64,
         /// Radius of the journal of a revolute joint, or length of the guide of a prismatic joint (m), not negative.
         /// The length 0 means that the moment of the guide causes no friction.
@@ -148,7 +149,7 @@ pub enum Load {
 
 impl Load {
     /// Calls `put` with the action of the load on each of its links, the ground included.
-    /// Friction has no action here: see [`Friction::act`](crate::case::Friction::act).
+    /// For friction, `put` is not called: see [`Friction::act`](crate::case::Friction::act).
     #[inline]
     pub fn act(&self, setting: &LoadState, put: &mut impl FnMut(Action)) {
         let motions = setting.motions;
@@ -351,7 +352,7 @@ impl Load {
         self.nature().senses != Senses::Nothing
     }
 
-    /// The joint of a load of a joint.
+    /// The joint on which the load acts; `None` for a load that acts on links or points.
     #[must_use]
     pub fn joint(&self) -> Option<JointId> {
         if let On::Joint(joint, _) = self.nature().on { Some(joint) } else { None }
@@ -391,10 +392,12 @@ impl Load {
         if let Load::ResistingForce { force, .. } = self { way * -force } else { Vec2::zeros() }
     }
 
-    /// Size of the jump of the load at the crank angle `crank` (rad), when the motion that determines its sense
-    /// reverses.
-    /// The jump is in N m, or in N for a force. For friction it is the jump per newton of the normal force.
-    /// The jump is zero for a load that depends on no sense of motion, or vanishes at that crank angle.
+    /// Size of the load's jump at the crank angle `crank` (rad), if the motion that determines the load's sense
+    /// reverses there.
+    /// The jump is in N m, or in N for a force.
+    /// For friction, the result is the jump per newton of the normal force.
+    /// The jump is zero for a load that depends on no sense of motion, and for a load that vanishes at this crank
+    /// angle.
     /// A load without a jump has at most a kink.
     #[must_use]
     pub fn jump(&self, crank: f64) -> f64 {
@@ -421,7 +424,7 @@ impl Load {
     }
 
     /// For a [resistance](Load::Resistance): the loaded link and the size of the moment (N m).
-    /// Some engines and formats directly support only this kind of load.
+    /// A resistance is the only load that some engines and formats support directly.
     #[inline]
     #[must_use]
     pub fn resistance(&self) -> Option<(LinkId, f64)> {

@@ -22,11 +22,12 @@ pub struct InputState {
 }
 
 /// An input as a function of time, from t = 0.
-/// The units in this type are those of an angle. For a length, read m for rad and m/s for rad/s.
+/// The units stated in this type are the units for an angle.
+/// For a length, read m for rad and m/s for rad/s.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MotionLaw {
     /// Constant angular velocity (rad/s), counter-clockwise positive.
-    /// Only a further drive may have the speed 0: it then holds its joint.
+    /// Only a drive other than the first may have the speed 0: such a drive holds its joint.
     ConstantSpeed(f64),
     /// Constant acceleration from rest to a final speed. After the acceleration the speed is constant.
     Ramp {
@@ -126,8 +127,8 @@ impl MotionLaw {
         }
     }
 
-    /// The speed with the largest absolute value that the law reaches (rad/s), counter-clockwise positive. This speed
-    /// is not zero, except for a drive that holds its joint.
+    /// The speed with the largest absolute value that the law reaches (rad/s), counter-clockwise positive.
+    /// The result is zero only for a drive that holds its joint.
     #[must_use]
     pub fn top_speed(&self) -> f64 {
         match self {
@@ -170,7 +171,8 @@ impl MotionLaw {
 /// Number of parts into which each interval of a table is divided, to find where the table reaches a value.
 const PARTS: usize = 32;
 
-/// The only time (s) at which a curve reaches `gone`, by sign changes and bisection.
+/// The time (s) at which a curve reaches `gone`, found by sign changes and bisection, if there is exactly one such
+/// time.
 /// NaN if there is no such time, or if there are several.
 fn only_time(curve: &Curve, gone: f64) -> f64 {
     if gone == 0.0 {

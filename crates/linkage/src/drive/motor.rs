@@ -11,8 +11,8 @@ pub enum MotorLaw {
         torque: f64,
     },
     /// M = `at_rest` + `slope` omega.
-    /// This line is the characteristic of a direct-current motor. It is also the stable branch of an induction motor's
-    /// characteristic.
+    /// The straight line is the characteristic of a direct-current motor.
+    /// It also approximates the stable branch of an induction motor's characteristic.
     Linear {
         /// Torque of the straight line at standstill (N m).
         at_rest: f64,
@@ -66,8 +66,8 @@ impl MotorLaw {
         curves.iter().find(holds).or(curves.last()).map_or(0.0, |(_, curve)| curve.torque(omega))
     }
 
-    /// Smooth pieces of the law, each with the speeds (rad/s) between which it is valid. Together they cover all
-    /// speeds.
+    /// Smooth pieces of the law, each with the speeds (rad/s) between which it is valid.
+    /// Together the pieces cover all speeds.
     pub(super) fn curves(&self) -> Vec<([f64; 2], Curve)> {
         let all = [f64::NEG_INFINITY, f64::INFINITY];
         match self {
@@ -139,7 +139,8 @@ impl Motor {
     }
 
     /// Moment of inertia of rotor and reducer, reduced to the crank (kg m^2).
-    /// The moment of inertia of each part is multiplied by the square of its speed ratio to the crank.
+    /// The moment of inertia of each part is multiplied by the square of the ratio of the part's speed to the crank's
+    /// speed.
     #[must_use]
     pub fn inertia_on_crank(&self) -> f64 {
         let own = &self.inertia;
@@ -147,7 +148,7 @@ impl Motor {
     }
 
     /// The smooth piece of the moment on the crank that is valid at the crank's speed `omega` (rad/s).
-    /// If two pieces meet at `omega`, `towards` selects one of them.
+    /// If two pieces meet at `omega`, `towards` selects one of these two pieces.
     /// The piece at higher speeds is returned if `towards` is positive, otherwise the piece at lower speeds.
     #[must_use]
     pub fn branch(&self, omega: f64, towards: f64) -> MotorBranch {

@@ -21,7 +21,8 @@ pub fn stand_in(case: &Case, link: LinkId) -> [f64; 2] {
 }
 
 /// Checks that every link has a mass and a moment of inertia.
-/// A free motion requires both, because substitutes would change the motion.
+/// A free motion requires that every link has both, because a substitute mass or moment of inertia would change the
+/// motion.
 /// `software` is the engine's name as users know it.
 ///
 /// # Errors

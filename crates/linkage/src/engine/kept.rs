@@ -12,8 +12,8 @@ use crate::threads::{cores, side_by_side};
 use crate::trajectory::Channel;
 
 /// An engine that stores its runs. If a stored run is requested again, the stored states are returned.
-/// Engines that [`Engine::with`] makes from this engine share the stored runs. Extrapolated engines share these runs
-/// too.
+/// Engines that [`Engine::with`] makes from this engine share the stored runs.
+/// Engines with Richardson extrapolation also use the shared runs.
 /// The store contains the runs of one case. A run of a different case empties the store.
 pub struct CachedEngine {
     inner: Box<dyn Engine>,

@@ -18,9 +18,9 @@ use crate::trajectory::Stage;
 pub struct Rows {
     layout: Layout,
     values: Vec<f64>,
-    /// For every row: whether the run has reached it.
+    /// For every row: whether the run has reached the row.
     reached: Vec<bool>,
-    /// [`State::passing`] of the few rows where it is not `None`.
+    /// [`State::passing`] of the few rows whose `passing` is not `None`.
     passing: BTreeMap<usize, f64>,
 }
 

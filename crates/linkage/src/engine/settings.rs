@@ -13,7 +13,8 @@ crate::words! {
         Differences = "differences",
         /// Values that the engine reports during the run, such as impulses or multipliers.
         Native = "native",
-        /// Values that the engine reports for one tiny step from a state of its trajectory.
+        /// Values that the engine reports for one tiny additional step, started from a state of the engine's
+        /// trajectory.
         Probe = "probe",
     }
 }

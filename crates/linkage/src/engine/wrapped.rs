@@ -20,7 +20,7 @@ pub trait Hook: Clone + Send + Sync + 'static {
     /// Changes a state before it is returned. `case` is the requested case, `row` the row of its grid.
     fn answer(&self, case: &Case, row: usize, state: &mut State);
 
-    /// The hook for the same engine with changed settings.
+    /// The hook for the wrapped engine after a change of its settings from `from` to `to`.
     #[must_use]
     fn with(&self, from: Settings, to: Settings) -> Self {
         let _ = (from, to);

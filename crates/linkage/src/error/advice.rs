@@ -6,7 +6,8 @@ use std::fmt;
 
 /// One remedy. Several remedies of one error are alternatives.
 ///
-/// A program can act on the variants; advice about the text of a description is [`Advice::Text`].
+/// [`Advice::Text`] is advice about the text of a description, for a person to read. A program can act on every other
+/// variant.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Advice {
     /// Text that is the same for every reader, such as the name of a scenario key.

@@ -13,7 +13,8 @@ const MOST_PLACES: usize = 200;
 impl Error {
     /// Combines errors into one: the first error carries all further errors. `None` if the list is empty.
     ///
-    /// At most 200 errors of at most twenty causes are kept. Further errors are only counted.
+    /// At most 200 errors of at most twenty causes are kept.
+    /// Errors beyond these limits are only counted.
     #[must_use]
     pub fn all(errors: impl IntoIterator<Item = Error>) -> Option<Error> {
         let mut kept: Vec<Error> = Vec::new();
@@ -115,7 +116,7 @@ mod tests {
         let pair = Error::all([one(1), one(2)]).unwrap();
         assert_eq!(pair.to_string(), "mistake 1\nmistake 2");
         let many = Error::all((0..30).map(one)).unwrap();
-        // Errors that were only counted before are added to the count.
+        // Errors that an earlier combination only counted are added to the count.
         let more = Error::all([pair, many]).unwrap();
         let told = more.to_string();
         assert!(

@@ -21,7 +21,8 @@ pub trait Smooth: Debug + Send + Sync {
 pub enum Curve {
     /// A spline through points.
     Table(Piecewise),
-    /// amplitude (sin(2 pi x / period + phase) - sin(phase)), for all x. It is 0 at x = 0.
+    /// amplitude (sin(2 pi x / period + phase) - sin(phase)), for all x.
+    /// The function is 0 at x = 0.
     Harmonic {
         /// Amplitude, not zero.
         amplitude: f64,
@@ -45,7 +46,8 @@ pub struct FormulaCurve {
     /// The first derivative with the largest absolute value, and its sign.
     /// The value is stored, because the search for it takes many evaluations.
     steepest: f64,
-    /// The second derivative with the largest absolute value, and its sign; stored for the same reason.
+    /// The second derivative with the largest absolute value, and its sign.
+    /// The value is stored, because the search for it takes many evaluations.
     sharpest: f64,
 }
 
@@ -74,7 +76,7 @@ impl FormulaCurve {
     }
 }
 
-/// The places of a search from 0 to `end`.
+/// Equally spaced x from 0 to `end`, at which a search evaluates the formula.
 fn parts(end: f64) -> Vec<f64> {
     (0..=PARTS).map(|part| end * f64::from(part) / f64::from(PARTS)).collect()
 }
@@ -131,7 +133,7 @@ impl Curve {
         }
     }
 
-    /// The same function multiplied by `factor`.
+    /// This curve multiplied by `factor`.
     #[must_use]
     pub fn times(&self, factor: f64) -> Self {
         match self {

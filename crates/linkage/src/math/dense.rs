@@ -10,7 +10,7 @@ mod fixed;
 pub struct Lu {
     n: usize,
     a: Vec<f64>,
-    /// For the general elimination: the row with which each row was exchanged.
+    /// For the general elimination: for each row, the row with which it was exchanged.
     /// For matrices of order 4 and 6: for each row of the factored matrix, its original index.
     pivot: Vec<usize>,
     /// Reciprocals of the diagonal entries of the factored matrix.
@@ -64,7 +64,8 @@ impl Lu {
         self.determinant
     }
 
-    /// Pivots of the factored matrix in the order of elimination. Their product is the determinant up to its sign.
+    /// Pivots of the factored matrix in the order of elimination.
+    /// The product of the pivots is the determinant up to its sign.
     pub fn pivots(&self) -> impl Iterator<Item = f64> + '_ {
         (0..self.n).map(|k| self.a[k * self.n + k])
     }

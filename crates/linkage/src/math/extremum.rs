@@ -107,7 +107,7 @@ mod tests {
     }
 
     proptest! {
-        /// The remaining interval contains the largest value, even at an end of the original interval.
+        /// The remaining interval contains the largest value, even if this value is at an end of the original interval.
         #[test]
         fn golden_section_keeps_the_peak(low in -5.0f64..5.0, width in 0.1f64..10.0, share in 0.0f64..=1.0, sharp in 0.1f64..4.0) {
             let (high, peak) = (low + width, low + share * width);

@@ -2,10 +2,11 @@
 //!
 //! If a function has different signs at two neighbouring extrema, it has one zero between them.
 //! If the function has the same sign at both extrema, it has no zero between them.
-//! The extrema are the zeros of the derivative, which are computed from eigenvalues.
-//! If two zeros nearly coincide, rounding errors move them by the square root of the rounding error.
-//! The extremum between them is still a simple zero of the derivative and therefore accurate.
-//! The sign at this extremum distinguishes a close pair of zeros from a near miss.
+//! The extrema are the zeros of the derivative.
+//! The zeros of the derivative are computed from eigenvalues of a matrix.
+//! If two zeros nearly coincide, rounding errors move both zeros by the square root of the rounding error.
+//! The extremum between two such zeros is still a simple zero of the derivative and therefore accurate.
+//! The function's sign at this extremum distinguishes a close pair of zeros from a near miss.
 
 use crate::math::KeepNan;
 use nalgebra::{Complex, DMatrix, linalg::Schur};
@@ -25,12 +26,12 @@ const ON_CIRCLE: f64 = 1e-3;
 /// The limit is the rounding error of the coefficients, multiplied by a margin of two digits.
 const ZERO: f64 = 1e-14;
 /// If two zeros are closer together than this distance (rad), they count as a single touching zero.
-/// A parabola of height `ZERO` has this width.
+/// A parabola of unit curvature and height `ZERO` has about this width.
 const APART: f64 = 1e-7;
 
 /// Real zeros in [0, 2 pi), in ascending order, of the trigonometric polynomial that equals `f`.
 /// The degree of the polynomial is at most `degree` (1 or more).
-/// `scale` is the size of the terms whose sum is `f`; it sets the limit for rounding errors.
+/// `scale` is the size of the terms whose sum is `f`; the size of the terms sets the limit for rounding errors.
 /// A touching zero counts once. Leading coefficients may be zero.
 ///
 /// Returns `None` if `f` is not finite, or zero everywhere up to rounding error.
@@ -111,7 +112,7 @@ fn extrema(coefficients: &[Complex<f64>]) -> Option<Vec<f64>> {
     let polished = near.map(|found| {
         let (mut best, mut least) = (found.arg(), f64::INFINITY);
         // Near a multiple root Newton's method may diverge.
-        // Therefore the iterate with the smallest slope of the function is kept, whichever of the five iterates it is.
+        // Of the five iterates, the one at which the function has the smallest slope is therefore kept.
         let Ok(_) = root::polished(found.arg(), 5, f64::INFINITY, |x| {
             let (value, slope) = evaluate(&derivative, x);
             if value.abs() < least && (x - found.arg()).abs() < ON_CIRCLE {
@@ -140,11 +141,12 @@ fn between(coefficients: &[Complex<f64>], from: f64, to: f64) -> f64 {
 /// The map z = (w + a) / (1 + conj(a) w), |a| < 1, preserves the unit circle.
 /// The map moves roots at infinity, which correspond to zero leading coefficients, to -1 / conj(a).
 /// The leading coefficient of the mapped polynomial has the size of the original polynomial's value at a.
-/// So a is chosen to make this value large, which scales the companion matrix well.
+/// So a is chosen to make the polynomial's value at a large. The companion matrix is then well scaled.
 fn roots(polynomial: &[Complex<f64>]) -> Option<Vec<Complex<f64>>> {
     let n = polynomial.len() - 1;
     let value = |a: Complex<f64>| polynomial.iter().rev().fold(Complex::new(0.0, 0.0), |sum, c| sum * a + c).norm();
-    // The candidates outnumber the roots inside the circle by one, so at least one candidate is far from all roots.
+    // There is one more candidate for a than there are roots inside the circle, so at least one candidate is far from
+    // all roots.
     let candidates = (0..n + 1).map(|k| Complex::from_polar(0.5, TAU * k as f64 / (n + 1) as f64));
     let a = candidates.max_by(|&a, &b| value(a).total_cmp(&value(b)))?;
     let mut mapped = vec![Complex::new(0.0, 0.0); n + 1];
@@ -211,7 +213,7 @@ mod tests {
     }
 
     /// If four zeros coincide, the three zeros of the derivative are accurate to a third of the digits.
-    /// This accuracy is enough, because f is flat near the four zeros.
+    /// A third of the digits is enough, because f is flat near the four zeros.
     #[test]
     fn a_fourfold_zero_is_found_once() {
         for k in 0..20 {

@@ -5,11 +5,11 @@
 
 /// The larger and the smaller of two numbers.
 pub trait KeepNan: Copy {
-    /// The larger of the two numbers; NaN if one of them is NaN.
+    /// The larger of the two numbers; NaN if either number is NaN.
     #[must_use]
     fn larger(self, other: Self) -> Self;
 
-    /// The smaller of the two numbers; NaN if one of them is NaN.
+    /// The smaller of the two numbers; NaN if either number is NaN.
     #[must_use]
     fn smaller(self, other: Self) -> Self;
 

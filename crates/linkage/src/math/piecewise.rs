@@ -10,7 +10,8 @@ const EQUAL: f64 = 1e-12;
 #[derive(Clone, Debug, PartialEq)]
 #[must_use]
 pub struct Piecewise {
-    /// Knots. There is one more knot than there are pieces.
+    /// Knots.
+    /// The number of knots is the number of pieces plus one.
     knots: Vec<f64>,
     /// For each piece: coefficients of the powers 0 to 3 of (x - first knot of the piece).
     pieces: Vec<[f64; 4]>,
@@ -20,7 +21,8 @@ pub struct Piecewise {
 impl Piecewise {
     /// Straight lines through `(x, y)`, repeated with `period`.
     /// The x ascend within one period. At least one point is needed.
-    /// At two points with the same x the function jumps. At this x it has the value of the second point.
+    /// At two points with the same x the function jumps.
+    /// At this x the function has the value of the second point.
     pub fn periodic_lines(points: &[(f64, f64)], period: f64) -> Self {
         let (knots, values) = closed(points, period);
         let pieces = (1..knots.len())
@@ -32,7 +34,8 @@ impl Piecewise {
         Piecewise { knots, pieces, periodic: true }
     }
 
-    /// The same lines with all jumps moved back by `by`. The line after a jump is extended back to the jump.
+    /// This function of straight lines, with all jumps moved back by `by`. The line after a jump is extended back to
+    /// the moved jump.
     pub fn with_jumps_before(mut self, by: f64) -> Self {
         let last = self.pieces.len();
         let period = self.knots[last] - self.knots[0];
@@ -89,7 +92,7 @@ impl Piecewise {
         [a + d * (b + d * (c + d * e)), b + d * (2.0 * c + d * 3.0 * e), 2.0 * c + d * 6.0 * e]
     }
 
-    /// The same function multiplied by `factor`.
+    /// This function multiplied by `factor`.
     pub fn times(&self, factor: f64) -> Self {
         let pieces = self.pieces.iter().map(|piece| piece.map(|coefficient| factor * coefficient)).collect();
         Piecewise { pieces, knots: self.knots.clone(), periodic: self.periodic }

@@ -1,6 +1,6 @@
 //! Zeros of a function of one variable, with or without bounds. All searches for zeros in the project use this module.
 //!
-//! The documentation of each search says what the search requires of the function and when it stops.
+//! The documentation of each search says what the search requires of the function and when the search stops.
 //! The function may fail (`E`): the first error ends a search. NaN never counts as a zero.
 
 use super::KeepNan;
@@ -40,7 +40,8 @@ pub fn halved<E>(
 pub type PlaceAndValue = (f64, f64);
 
 /// Searches for a sign change, starting at `from`.
-/// The first position is at the distance `width` from `from`; each further position is twice as far away, up to `most`.
+/// The first position is at the distance `width` from `from`; the distance is doubled for each further position. No
+/// position is farther from `from` than `most`.
 /// Returns the last two positions, between which the sign changes.
 /// `None` if the sign does not change, if a value or the width is NaN, or if the width is zero.
 /// A negative `width` searches backwards.
@@ -190,7 +191,8 @@ pub fn polished<E>(
 /// The search ends if the next change would be at most four rounding errors of the length.
 /// The search also ends if the next change would be as large as the length itself.
 /// Returns the length whose value was nearest to zero.
-/// This length need not be the last one, because a secant between values at the level of rounding errors is arbitrary.
+/// The returned length need not be that of the last step, because a secant between values at the level of rounding
+/// errors is arbitrary.
 ///
 /// # Errors
 /// The first error of `value`.

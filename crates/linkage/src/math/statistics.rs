@@ -33,8 +33,10 @@ pub fn rms(values: &[f64]) -> f64 {
 }
 
 /// Differences `theirs` minus `ours`.
-/// A `periodic` quantity is an angle (rad). Whole turns are subtracted from its first difference until the first
-/// difference is within half a turn. The same whole turns are subtracted from all differences.
+/// A `periodic` quantity is an angle (rad).
+/// Whole turns are subtracted from the first difference of a periodic quantity until this difference is within half a
+/// turn.
+/// The same whole turns are subtracted from all differences.
 #[must_use]
 pub fn differences(ours: &[f64], theirs: &[f64], periodic: bool) -> Vec<f64> {
     let turns = turns(ours, theirs, periodic);

@@ -1,10 +1,11 @@
 //! The pose at t = 0: first the crank at its angle, then each group in its assembly mode, in order of solution.
 //!
 //! Dyads are placed in closed form.
-//! Groups of four links are placed by the zeros of a trigonometric polynomial, which finds all their configurations.
+//! Groups of four links are placed by the zeros of a trigonometric polynomial, which give all configurations of the
+//! group.
 //! Groups of any other kind are placed by Newton's method from a rough drawing.
 //! The formulas of this module are independent of the formulas of the two analytic solvers.
-//! A difference between this module and a solver therefore shows an error in one of the two.
+//! A difference between the results of this module and of a solver therefore shows an error in one of the two codes.
 
 mod blame;
 mod choice;

@@ -106,7 +106,7 @@ impl Cam {
         self.law.at(angle)
     }
 
-    /// Distance of an angle of the cam from the nearest end of a piece of its law (rad).
+    /// Distance of an angle of the cam from the nearest end of a piece of the cam's law (rad).
     #[must_use]
     pub fn to_knot(&self, angle: f64) -> f64 {
         self.law.to_knot(angle)
@@ -135,7 +135,8 @@ impl Cam {
         Contact { lines: [line(direction), line(-direction)], factor: direction.dot(&along), turn, drift }
     }
 
-    /// Coordinates of cam and follower at `count` angles of one turn. `[q1, q2]` are their coordinates in any pose.
+    /// Coordinates of cam and follower at `count` angles of one turn. `[q1, q2]` are the coordinates of cam and
+    /// follower in one arbitrary pose.
     fn turn(&self, [q1, q2]: [f64; 2], count: usize) -> impl Iterator<Item = [f64; 2]> {
         let phase = q2 - self.law.at(q1)[0];
         (0..count).map(move |index| {
@@ -145,7 +146,7 @@ impl Cam {
     }
 
     /// The profile in the frame of the cam (m): `count` points at which it touches the follower in one turn.
-    /// `at` contains the coordinates of cam and follower in any pose.
+    /// `at` contains the coordinates of cam and follower in one arbitrary pose.
     #[must_use]
     pub fn profile(&self, at: [f64; 2], count: usize) -> Vec<Vec2> {
         let point = |q: [f64; 2]| {
@@ -156,7 +157,7 @@ impl Cam {
         self.turn(at, count).map(point).collect()
     }
 
-    /// Figures over one turn. `at` contains the coordinates of cam and follower in any pose.
+    /// Figures over one turn. `at` contains the coordinates of cam and follower in one arbitrary pose.
     #[must_use]
     pub fn figures(&self, at: [f64; 2]) -> CamFigures {
         let (lift, width) = (self.law.range(), self.contact.radius());
@@ -213,8 +214,8 @@ mod tests {
         }
     }
 
-    /// The profile is the envelope: the roller's centre has the distance `radius` from it, the face has the distance
-    /// zero.
+    /// The profile is the envelope of the follower's positions: the roller's centre is at the distance `radius` from
+    /// the profile, the flat face at the distance zero.
     /// The radius of curvature agrees with the curvature of the line through the profile's points.
     #[test]
     fn the_profile_touches_the_follower_in_all_positions() {

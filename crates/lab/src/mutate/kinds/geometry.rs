@@ -64,7 +64,7 @@ fn coupled(case: &Case, change: impl Fn(&TransmissionDesign) -> Option<Transmiss
     })
 }
 
-/// Multiplies the distances of a link's points and joints from its first joint by a factor.
+/// Multiplies the distances of a link's points and joints from the link's first joint by a factor.
 fn stretched(case: &Case, link: LinkId, factor: f64) -> Option<Case> {
     let [first, _] = ends(case, link)?;
     placed(case, |links, joints| move_places(links, joints, link, |place| first + (place - first) * factor))

@@ -1,4 +1,4 @@
-//! Faults that only one comparison can find. Without this comparison, the fault escapes.
+//! Faults that a single comparison finds. If this comparison is missing, no other comparison finds the fault.
 
 use super::kind::kinds;
 use super::touch::turner;

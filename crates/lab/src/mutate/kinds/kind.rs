@@ -43,7 +43,7 @@ pub struct FaultInstant<'a> {
 }
 
 /// Method of planting a fault.
-/// A size is a fraction of the affected quantity, such as a length or a mass, or an angle in rad.
+/// The size of a fault is an angle in rad, or a fraction of the affected quantity (a length or a mass, for example).
 #[derive(Clone, Copy)]
 pub enum Plant {
     /// The fault is in the case given to a party. `None` if the case has no part that the fault affects.
@@ -57,7 +57,7 @@ pub enum Plant {
 /// A mistake in a formula that claims an exact value, or in a step of its derivation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mistake {
-    /// One slip in writing.
+    /// One slip in writing the formula, such as a wrong sign.
     Slip(Slip),
     /// The value of the whole formula is too large by a relative amount.
     Larger,
@@ -78,7 +78,7 @@ pub struct FaultKind {
     pub family: FaultFamily,
     /// Initial size of the fault; `None` if the fault cannot be made smaller.
     pub size: Option<f64>,
-    /// How it is planted.
+    /// How the fault is planted.
     pub plant: Plant,
 }
 

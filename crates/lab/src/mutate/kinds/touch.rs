@@ -7,7 +7,7 @@ use linkage::mechanism::{GROUND, Joint, JointId, Link, LinkId};
 use linkage::solver::State;
 use prover::diagnosis::{changed, reassembled, remade};
 
-/// The case with changed links and joints, in the same pose.
+/// The case with changed links and joints, in the start pose of the unchanged case.
 pub(super) fn with(case: &Case, change: impl FnOnce(&mut [Link], &mut [Joint])) -> Option<Case> {
     remade(case, |parts| changed(parts, change))
 }
@@ -46,7 +46,7 @@ pub(super) fn crank(case: &Case) -> LinkId {
     case.crank().link
 }
 
-/// The heaviest moving link; if several are equal, the last of them.
+/// The heaviest moving link. If several links are equally heavy, the last of these links is returned.
 pub(super) fn heaviest(case: &Case) -> Option<LinkId> {
     let moving = case.mechanism.links().entries().skip(1).filter(|(_, link)| link.mass > 0.0);
     moving.max_by(|a, b| a.1.mass.total_cmp(&b.1.mass)).map(|(index, _)| index)

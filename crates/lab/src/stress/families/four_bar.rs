@@ -6,11 +6,12 @@ use linkage::mechanism::AssemblyMode;
 
 use crate::stress::{Setup, StressFamily};
 
-/// Instants of a turn.
+/// Number of instants in one turn of the crank.
 const INSTANTS: usize = 36;
 /// Mass per length of a rod (kg/m).
 const DENSITY: f64 = 10.0;
-/// Lengths of a crank-rocker (m): base, crank, coupler, rocker. Its transmission angle stays above 57 deg.
+/// Lengths of a crank-rocker (m): base, crank, coupler, rocker.
+/// The transmission angle of this crank-rocker stays above 57 deg.
 pub(super) const LENGTHS: [f64; 4] = [0.4, 0.1, 0.35, 0.25];
 /// Speed (rad/s).
 pub(super) const SPEED_OF_ALL: f64 = 10.0;

@@ -10,8 +10,9 @@ use crate::stress::{Setup, StressFamily};
 /// Coefficient of friction in all contacts.
 const COEFFICIENT: f64 = 0.1;
 
-/// A wedge on a floor. A follower in a vertical guide drives it by a shoe on the wedge's face.
-/// The angle of the face exceeds the angle at which friction locks the wedge by the fraction 1 / `gain`.
+/// A wedge on a floor. A follower in a vertical guide drives the wedge by a shoe on the wedge's face.
+/// Friction locks the wedge at a certain angle of the face. The angle of the face exceeds this angle by the fraction 1
+/// / `gain`.
 /// The driving force is about `gain` times the force that moves the wedge.
 fn wedge(gain: f64) -> Result<Setup> {
     let angle = 2.0 * COEFFICIENT.atan() * (1.0 + 1.0 / gain);

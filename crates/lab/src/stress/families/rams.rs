@@ -10,7 +10,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use super::four_bar::{LENGTHS, SPEED_OF_ALL, builder, rods};
 use crate::stress::{Setup, StressFamily};
 
-/// Distances of the boom's pivot from the foot of the cylinder and from its eye (m).
+/// Distances of the boom's pivot from the foot and from the eye of the cylinder (m).
 const FOOT: f64 = 0.6;
 const EYE: f64 = 0.4;
 

@@ -28,8 +28,9 @@ fn drawn(dyads: usize, number: u64, seed: u64) -> Result<Setup> {
     let mut random = RandomSource::of_sample(seed, 1000 * dyads as u64 + number);
     for _ in 0..MOST_DRAWN {
         let (mut spec, _) = chain(&mut random, &SORTS, dyads);
-        // Moments that jump where a link reverses are excluded: another family of tests covers them.
-        // The double-double reference does not support them.
+        // Moments that jump where a link reverses are excluded, because the double-double reference does not support
+        // them.
+        // A separate set of tests covers such moments.
         spec.loads.clear();
         spec.dt = None;
         // The grid begins at the start pose and follows the crank's direction.

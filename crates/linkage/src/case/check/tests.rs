@@ -98,7 +98,8 @@ fn invalid_numbers_of_a_motor_are_refused() {
     }
 }
 
-/// Regression test with a double pendulum. With two driving links it has two degrees of freedom.
+/// Regression test with a double pendulum.
+/// The double pendulum has two driving links and two degrees of freedom.
 #[test]
 fn unsupported_combinations_of_drives_are_refused() {
     let links = vec![

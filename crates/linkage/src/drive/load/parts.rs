@@ -86,7 +86,7 @@ pub enum LoadRole {
     Extent,
     /// The number is the free length (m) or free angle (rad), at which the load vanishes.
     Rest {
-        /// `m` or `rad`.
+        /// Unit of the number: `m` or `rad`.
         unit: &'static str,
     },
 }

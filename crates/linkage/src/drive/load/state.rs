@@ -10,7 +10,8 @@ pub struct LoadState<'a> {
     pub motions: &'a [Motion],
     /// Angles of all links (rad), unwrapped. Only torsion springs use the angles.
     pub angles: &'a [f64],
-    /// All joints. Only loads of joints use them.
+    /// All joints.
+    /// Only loads that act on joints use this list.
     pub joints: &'a PerJoint<Joint>,
     /// Poses at t = 0.
     pub start: &'a [LinkPose],

@@ -65,7 +65,8 @@ fn a_force_keeps_its_direction_or_follows_its_link() {
 
 #[test]
 fn a_resisting_force_opposes_the_velocity_of_its_point() {
-    // The loaded point lies on the link's x axis, 1 m from the link's origin. This axis points along world +y.
+    // The loaded point lies on the link's x axis, 1 m from the link's origin.
+    // The link's x axis points along world +y.
     // The point moves with (-1, 2) m/s when the link turns with 1 rad/s.
     let load = Load::ResistingForce { at: side(LinkId(1), 1.0, 0.0), force: 10.0 };
     let found = act(&load, &motions(1.0), &[], 0.0)[0];
@@ -196,7 +197,8 @@ fn scaled_loads_act_in_proportion() {
     }
 }
 
-/// A load that vanishes when its link reverses has at most a kink. A load of size zero also has at most a kink.
+/// A load that vanishes when its link reverses has a kink at most, not a jump.
+/// A load of size zero has no jump either.
 #[test]
 fn the_jump_of_a_load_is_its_difference_between_both_senses() {
     let one_way = |moment, acts| Load::Moment { link: LinkId(1), moment, acts };

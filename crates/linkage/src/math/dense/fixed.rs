@@ -3,7 +3,7 @@
 //! The operations and their order are those of the general elimination, so the results agree bit for bit.
 //! In contrast to the general elimination, this elimination rejects NaN in any position.
 //! For a group of four links, this elimination takes a third of the time of the general elimination.
-//! This elimination stores the resulting order of rows. The general elimination stores each exchange of rows.
+//! This elimination stores the resulting order of rows, while the general elimination stores each exchange of rows.
 
 /// The first `N` numbers of a slice with at least `N` numbers.
 #[inline(always)]
@@ -11,7 +11,7 @@ fn first<T, const N: usize>(of: &[T]) -> &[T; N] {
     of.first_chunk().expect("as many numbers as the order says")
 }
 
-/// The same, mutable.
+/// The first `N` numbers of a mutable slice with at least `N` numbers.
 #[inline(always)]
 fn first_mut<T, const N: usize>(of: &mut [T]) -> &mut [T; N] {
     of.first_chunk_mut().expect("as many numbers as the order says")

@@ -55,7 +55,8 @@ fn regula_falsi_needs_a_sign_change() {
     assert_eq!(regula_falsi([(0.0, -0.3), (2.0, 1.7)], EXACT, 60, |_| Err("fails")), Err("fails"));
 }
 
-/// This example checks the halving. Plain regula falsi would never move one bound and would need 1000 steps or more.
+/// This example checks that the value at an unmoved bound is halved.
+/// Plain regula falsi would never move one bound and would need 1000 steps or more.
 #[test]
 fn regula_falsi_moves_both_ends_of_the_bracket() {
     let mut steps = 0;
@@ -127,7 +128,7 @@ fn cubic(zero: f64, a: f64, b: f64) -> impl Fn(f64) -> (f64, f64) {
 }
 
 proptest! {
-    /// All methods find the same zero up to rounding error, for both signs.
+    /// All methods find the same zero up to rounding error, for a rising and for a falling function.
     #[test]
     fn every_method_finds_the_zero(zero in -5.0f64..5.0, below in 0.01f64..10.0, above in 0.01f64..10.0, a in 0.0f64..10.0, b in 0.1f64..10.0,
         falls in any::<bool>()) {

@@ -9,7 +9,7 @@ use crate::sentences;
 /// A group whose configuration makes it impossible to place a later group.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Blame {
-    /// Index of the group in the structure.
+    /// Index, in the structure, of the group to blame.
     pub group: GroupId,
     /// Number of the group's configuration with which the later group can be placed, counted from 1.
     pub rank: usize,
@@ -44,9 +44,9 @@ pub fn blame(
     let part = before(failed.index() + 1);
     let mut own = wanted.to_vec();
     own[failed].near.clear();
-    // Without its approximate positions the failed group may fit the present pose.
-    // In that case an earlier group is blamed only if its change clearly brings the failed group nearer to these
-    // positions.
+    // If the approximate positions of the failed group are ignored, the failed group may fit the present pose.
+    // In that case an earlier group is blamed only if its change brings the failed group clearly nearer to its
+    // approximate positions.
     let stands = first_choices(mechanism, &part, drive_angles, &own).is_ok();
     let earlier = part.groups.entries().rev().filter(|(index, _)| *index < failed && wanted[*index].near.is_empty());
     for (index, group) in earlier {

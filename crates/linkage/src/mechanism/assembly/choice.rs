@@ -1,4 +1,5 @@
-//! Chooses the configuration of a group at the start. The input specifies it by mode, number or approximate positions.
+//! Chooses the configuration of a group at the start.
+//! The input specifies the configuration by mode, number or approximate positions.
 
 use super::configurations::configurations;
 use super::fused::Fused;

@@ -8,8 +8,9 @@ use crate::mechanism::{Group, GroupKind, Mechanism, Pose};
 use crate::sentences;
 
 /// All real configurations of a group. `pose` contains the poses of the links of earlier groups.
-/// If the group has given joints, the links of every body have the right pose relative to each other in `pose`, as in
-/// [`Structure::driving_pose`](crate::mechanism::Structure::driving_pose); a driven link is already placed.
+/// A group may have given joints, whose coordinates are known. `pose` must then contain the links of every body in the
+/// right pose relative to each other, as in [`Structure::driving_pose`](crate::mechanism::Structure::driving_pose).
+/// A driven link must already be placed in `pose`.
 /// A dyad has up to two configurations, a group of four links up to six.
 ///
 /// # Errors

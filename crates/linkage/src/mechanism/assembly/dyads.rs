@@ -1,9 +1,9 @@
 //! All configurations of the five dyads, and their transmission angles.
 //!
 //! A dyad has one outer joint on each link and the inner joint between the links. One scalar equation closes the dyad.
-//! RRR: the equation is the intersection of two circles.
-//! RRP, and RPR seen from the guide: the equation is the intersection of a circle and a line.
-//! RPP and PRP: the equation is the intersection of two lines.
+//! An RRR dyad closes at the intersections of two circles.
+//! An RRP dyad, and an RPR dyad seen from its guide, closes at the intersections of a circle and a line.
+//! RPP and PRP dyads close at the intersection of two lines.
 //! A prismatic pair fixes the angle between its two links.
 //! A prismatic pair also keeps the joint's point on the second link on a line parallel to the axis.
 //! This line goes through the joint's point on the first link.
@@ -76,7 +76,7 @@ impl<'a> Member<'a> {
         joint.axis_on(self.link).expect("the pair is prismatic")
     }
 
-    /// The link's angle (rad) at which its axis of the prismatic `joint` has the world direction `axis`.
+    /// The link's angle (rad) at which the axis of the prismatic `joint` on this link has the world direction `axis`.
     fn angle(&self, joint: &Joint, axis: Vec2) -> f64 {
         turn(self.axis_of(joint), axis)
     }
@@ -180,8 +180,7 @@ fn rrr(members: &[Member; 2]) -> Result<Vec<Configuration>> {
     Ok(vec![one(AssemblyMode::Left, across), one(AssemblyMode::Right, -across)])
 }
 
-/// The inner joint lies on a line parallel to the guide, at its intersections with the rod's circle about the outer
-/// pin.
+/// The inner joint lies at an intersection of a line parallel to the guide and the rod's circle about the outer pin.
 fn rrp(members: &[Member; 2]) -> Result<Vec<Configuration>> {
     let [rod, slider] = prismatic_last(members);
     let (axis, pin, length) = (slider.guide(), rod.hook(), rod.span().norm());

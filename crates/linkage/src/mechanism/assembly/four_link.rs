@@ -1,9 +1,10 @@
 //! All real configurations of an Assur group of four links, with any revolute and prismatic pairs.
 //!
-//! Such groups are of two kinds. The class III group of order 3 is a base link on three leads.
+//! Assur groups of four links are of two kinds.
+//! The class III group of order 3 is a base link on three leads.
 //! The class IV group of order 2 is a movable quadrilateral of two ternary and two binary links.
-//! Seen from one of its ternary links, the class IV group also is a base on three leads.
-//! That ternary link is then the frame, and the second ternary link is the base.
+//! A class IV group, seen from one of its ternary links, is also a base on three leads.
+//! In class IV, one ternary link is taken as the frame and the second ternary link as the base.
 //! The three leads are the two binary links and the world (all links before the group, taken as one body).
 
 use super::mode::{AssemblyMode, Configuration};

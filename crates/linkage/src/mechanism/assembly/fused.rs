@@ -1,4 +1,5 @@
-//! A group with given joints as a group of rigid bodies, in the shape that the bodies have in a pose.
+//! Converts a group that has given joints to a group of rigid bodies, in the shape that the bodies have in a pose.
+//! A given joint has a known coordinate, so its two links belong to one body.
 
 use crate::math::{rotated, unit};
 use crate::mechanism::assembly::{Configuration, StartGroup};

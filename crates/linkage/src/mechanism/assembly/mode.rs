@@ -1,4 +1,4 @@
-//! Assembly modes: names for the real configurations of a group, and requests for one of them.
+//! Assembly modes: names for the real configurations of a group, and requests for one configuration.
 
 use crate::math::Vec2;
 use crate::mechanism::LinkPose;
@@ -30,7 +30,7 @@ crate::words! {
 }
 
 impl AssemblyMode {
-    /// The same configuration, described for a dyad with its two links in reverse order.
+    /// The mode of this configuration if the two links of the dyad are listed in reverse order.
     #[must_use]
     pub fn swapped(self) -> Self {
         match self {
@@ -62,8 +62,9 @@ pub struct StartGroup {
     pub near: Vec<(SidePoint, Vec2)>,
 }
 
-/// The configuration chosen for a group at the start. Distances show how clearly it is nearer to the approximate
-/// positions than the second nearest configuration.
+/// The configuration chosen for a group at the start.
+/// Two distances show how clearly the chosen configuration is nearer to the approximate positions than the second
+/// nearest configuration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ConfigurationChoice {
     /// Assembly mode of the configuration.

@@ -60,7 +60,8 @@ fn half_link(mechanism: &Mechanism, group: &Group, point: &str) -> f64 {
     0.5 * if least.is_finite() { least } else { mechanism.size() }
 }
 
-/// Gives every link of the group an approximate pose, from its approximate positions and the links already placed.
+/// Gives every link of the group an approximate pose, from the approximate positions of the link's points and the links
+/// already placed.
 fn lay_out(mechanism: &Mechanism, group: &Group, near: &Near, pose: &mut Pose) -> Result<()> {
     let mut left = group.links.clone();
     while !left.is_empty() {
@@ -80,7 +81,7 @@ fn lay_out(mechanism: &Mechanism, group: &Group, near: &Near, pose: &mut Pose) -
     Ok(())
 }
 
-/// The pose of a link from its approximate positions and its joints with links already placed.
+/// The pose of a link, from the approximate positions of its points and its joints with links already placed.
 /// `None` if this information is not enough.
 fn lay(mechanism: &Mechanism, link: LinkId, near: &Near, hooks: &[&Joint], pose: &Pose) -> Option<LinkPose> {
     let own = |name: &str| mechanism.links()[link].points.iter().find(|point| point.name == name);
@@ -99,7 +100,7 @@ fn lay(mechanism: &Mechanism, link: LinkId, near: &Near, hooks: &[&Joint], pose:
         Some(turn(joint.axis_on(link)?, axis))
     });
     // The rotation that best fits the link to its approximate positions.
-    // The rotation is the direction of the sum of conj(local) world, as complex numbers.
+    // The rotation is the direction of the sum of the products conj(local) world, with vectors as complex numbers.
     let fit: Vec2 = places
         .iter()
         .map(|place| (place.0 - local, place.1 - world))

@@ -1,4 +1,4 @@
-//! All poses of a base link on three leads.
+//! All poses of a base link that three leads (links between frame and base) connect with the frame.
 //!
 //! Each lead has one pair with the frame (near) and one pair with the base (far). The lead imposes one condition on the
 //! base.
@@ -10,11 +10,12 @@
 //!
 //! For a given beta all conditions are circles and lines for O.
 //! Let X = O - c, measured from the centre c of one circle of radius l.
-//! The remaining two conditions are then linear, p1 + q1 . X = p2 + q2 . X = 0 (two circles by their radical line).
+//! The remaining two conditions are then linear in X: p1 + q1 . X = 0 and p2 + q2 . X = 0.
+//! A second or third circle is replaced by its radical line with the first circle.
 //! With |X| = l this leaves |q2 p1 - q1 p2|^2 = l^2 (q1 x q2)^2.
 //! As a polynomial in e^(i beta), p has the powers -1 to 1.
 //! The powers of q are 0 to 1 for a circle, 0 for a line of the frame and 1 for a line of the base.
-//! So the vector q2 p1 - q1 p2 has the powers -1 to 2, and its square has the powers -3 to 3.
+//! The vector q2 p1 - q1 p2 therefore has the powers -1 to 2, and its square has the powers -3 to 3.
 //! The square is a trigonometric polynomial of degree 3. The polynomial has at most six zeros, and all zeros can be
 //! found.
 //! If all conditions are lines, a determinant of degree 2 must be zero, so that the three lines meet in one point.
@@ -108,7 +109,7 @@ impl Conditions {
             let ([(p1, q1), (p2, q2)], centre, radius) = self.reduced(unit(beta));
             let met = turned(q2 * p1 - q1 * p2) / cross(q1, q2);
             // If the two lines coincide, the solutions are the intersections of that line with the circle.
-            // These intersections are always computed, because they cost little.
+            // The intersections with the circle are computed in every case, because they cost little.
             // A candidate counts only if it satisfies all conditions.
             let (p, q) = if q1.norm() > q2.norm() { (p1, q1) } else { (p2, q2) };
             let foot = -q * (p / q.norm_squared());
@@ -153,7 +154,7 @@ impl Conditions {
             let along_squared = (radius - distance) * (radius + distance);
             let (normal, along) = (q / q.norm(), along_squared.sqrt());
             let foot = centre - normal * distance;
-            // The square root of a negative number is NaN, and `keep` drops it.
+            // The square root of a negative number is NaN, and `keep` drops solutions that are NaN.
             [foot + turned(normal) * along, foot - turned(normal) * along]
         };
         let candidates: Vec<Vec2> = match (first, second) {
@@ -210,7 +211,8 @@ impl Conditions {
 
     /// Whether the base can move from a pose while all conditions remain satisfied.
     /// The test makes one step along the free direction of the Jacobian, and one step in the opposite direction.
-    /// After each step, damped steps return to the conditions. If both results differ from the pose, the base can move.
+    /// After each of the two steps, damped steps lead back to a pose that satisfies the conditions.
+    /// If both resulting poses differ from the original pose, the base can move.
     /// At a double root the base cannot move.
     fn is_loose(&self, at: Found) -> bool {
         let rows = self.rows(at).map(|(row, _)| row);
@@ -260,8 +262,8 @@ impl Conditions {
     fn polish(&self, start: Found) -> Option<Found> {
         let (mut at, mut best, mut least) = (start, start, f64::INFINITY);
         let mut worse = 0;
-        // Near a double root the first steps may increase the residual, so the search does not stop at the first such
-        // step.
+        // Near a double root, the first steps may increase the residual. The search therefore does not stop at the
+        // first increase.
         // At the level of rounding errors, further steps give no improvement.
         while worse < 4 {
             let rows = self.rows(at);
@@ -281,8 +283,9 @@ impl Conditions {
             system.solve(&mut step);
             at = (at.0 - Vec2::new(step[0], step[1]) * self.size, at.1 - step[2]);
         }
-        // Lines may intersect far away. Rounding errors are then proportional to the distance of the intersection, so
-        // the limits are also proportional to this distance.
+        // Lines may intersect far away.
+        // Rounding errors grow in proportion to the distance of the intersection, so the limits also grow in proportion
+        // to this distance.
         let reach = self.size + best.0.norm();
         let near = (best.0 - start.0).norm() <= 0.1 * reach && (best.1 - start.1).abs() <= 0.1;
         (least <= CLOSED * reach && near).then_some(best)

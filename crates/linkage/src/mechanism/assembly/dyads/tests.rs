@@ -42,7 +42,8 @@ impl Case {
         rotated(unit(pose.0[joint.first.link].angle), joint.axis_on(joint.first.link).unwrap())
     }
 
-    /// Rotates `link` until the axis of its prismatic `joint` agrees with the axis on the other link.
+    /// Rotates `link` until the axis of the prismatic `joint` on `link` agrees with the axis of this joint on the
+    /// second link.
     fn with_turned(&self, mut pose: Pose, joint: JointId, link: LinkId) -> Pose {
         let other = self.joint(joint).other(link).link;
         let angle = |axis: Vec2| axis.y.atan2(axis.x);
@@ -77,7 +78,8 @@ impl Case {
                 (a + b - c).smaller(a + c - b).smaller(b + c - a)
             }
             GroupKind::Rrp => {
-                // The function is the squared distance of the inner joint from the outer pin, against the slide.
+                // The function is the squared distance of the inner joint from the outer pin, as a function of the
+                // slide.
                 // This function is a parabola, which three values determine.
                 let (slider, outer, rod, pin) =
                     if self.joint(JointId(0)).slides() { (3, 0, 4, 2) } else { (4, 2, 3, 0) };
@@ -99,7 +101,8 @@ impl Case {
                 rod.norm() - least.larger(0.0).sqrt()
             }
             GroupKind::Rpr => {
-                // The function is the distance from the line, against the angle that both links have in common.
+                // The function is the distance from the line, as a function of the angle that both links have in
+                // common.
                 // This function is a sinusoid plus a constant, which three values determine.
                 let off = |angle: f64| {
                     let mut pose = self.pose.clone();
@@ -142,8 +145,8 @@ impl Case {
 }
 
 /// Checks 100 000 dyads of every kind, in all orders of links and sides.
-/// Every configuration closes and has the mode that it reports. The sign of its transmission sine agrees with that
-/// mode.
+/// Every configuration closes and has the mode that it reports.
+/// The sign of a configuration's transmission sine agrees with its mode.
 /// The two configurations of a dyad differ from each other.
 /// An independent criterion agrees on whether a configuration exists.
 #[test]

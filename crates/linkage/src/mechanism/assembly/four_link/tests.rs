@@ -150,7 +150,8 @@ fn as_many_configurations_as_a_scan_finds_with_prismatic_pairs() {
     assert_eq!(patterns, 2 * 53);
 }
 
-/// Three parallel leads of equal length let the base move on circles, so every angle of the leads is a configuration.
+/// Three parallel leads of equal length let the base move on circles, so every angle of the leads gives a
+/// configuration.
 #[test]
 fn a_group_that_can_move_is_refused() {
     let mut random = Lcg(3);

@@ -110,8 +110,8 @@ fn too_few_positions_are_refused_with_the_link() {
     let near = drawing(&mut random, &mechanism, &group, &pose, 0.0);
     let error = place(&mechanism, &group, &near[..1], &mut pose.clone()).unwrap_err();
     assert!(error.to_string().contains("do not determine where link \"link1\" of the group lies"), "{error}");
-    // One point is given for each of four links. Links 1 and 2 are placed by their joints with the ground, then they
-    // determine link 5, and so on.
+    // One point is given for each of four links.
+    // Links 1 and 2 are placed first, by their joints with the ground. Links 1 and 2 then determine link 5, and so on.
     let few: Vec<(SidePoint, Vec2)> = ["E1", "F2", "G3", "H4"]
         .iter()
         .map(|name| near.iter().find(|(point, _)| point.name == *name).expect("a point of that name").clone())

@@ -1,13 +1,14 @@
 //! Counts the configurations of a base on three leads by a scan.
 //! The method uses no polynomial, so it is an independent check for the tests of this module.
 //!
-//! For every angle of the base, two leads allow one or two positions of its reference point.
+//! For every angle of the base, two leads allow at most two positions of the base's reference point.
 //! The third lead's condition is a function of the angle. The condition is satisfied where the function changes sign.
 //! The scan follows the position through all angles at which the position exists: forwards on one branch, backwards on
 //! the second branch.
 //! Along this path the function is smooth and periodic.
 //! Samples are closer together where the position changes fast.
-//! Between samples of the same sign the extremum is computed, which distinguishes pairs of zeros from near misses.
+//! Between neighbouring samples of equal sign, the extremum is computed. The sign at the extremum distinguishes a pair
+//! of zeros from a near miss.
 
 use crate::math::KeepNan;
 use std::convert::Infallible;
@@ -70,7 +71,7 @@ fn off(locus: Locus, o: Vec2) -> f64 {
     }
 }
 
-/// Returns a smooth function that is positive if the circle intersects the other locus.
+/// Returns a smooth function that is positive if the circle intersects the locus `other`.
 /// Also returns the intersection on the branch `sign`.
 fn meet(centre: Vec2, radius: f64, other: Locus, sign: f64) -> (f64, Vec2) {
     match other {
