@@ -18,7 +18,7 @@ use super::readings::trajectory;
 use super::task::{Task, at_start, stuck};
 use super::vector::Vector;
 
-/// Largest crank angle of one step between requested instants (rad).
+/// Largest rotation of the crank in one step between requested instants (rad).
 const STEP: f64 = std::f64::consts::PI / 180.0;
 /// Upper limit of the number of iterations at one pose. Convergence is quadratic.
 const MOST: usize = 30;
@@ -30,7 +30,8 @@ const ROUNDING: f64 = 1e-20;
 /// At steps between requested instants, this larger limit replaces `SETTLED`.
 const NEAR: f64 = 1e-10;
 
-/// The same as [`solve`](super::solve), for mechanisms with revolute and prismatic pairs and up to some tens of links.
+/// Does the same as [`solve`](super::solve), for mechanisms with revolute and prismatic pairs and up to some tens of
+/// links.
 ///
 /// # Errors
 /// The errors of [`solve`](super::solve).

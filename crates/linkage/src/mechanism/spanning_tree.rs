@@ -1,6 +1,7 @@
 //! Spanning tree of a linkage: which joint carries which link, and which joints are cut.
 //! In the tree used for runs, prismatic joints are never cut, so their constraints are satisfied exactly.
-//! All prismatic joints fit into the tree, because structural analysis rejects loops of prismatic joints alone.
+//! All prismatic joints fit into the tree, because structural analysis rejects loops that consist only of prismatic
+//! joints.
 //! An engine also works if prismatic joints are cut. The engine's order of convergence is then 2.
 //! Two trees were compared by the largest error of any channel, relative to half the channel's range, at a step of 1e-3
 //! s.
@@ -114,9 +115,10 @@ impl SpanningTree {
     /// Returns the tree for runs, changed so that it contains the given joints.
     /// If a given joint is neither on the ground nor on a link that the earlier given joints reach, the order changes:
     /// the tree first takes all given joints, then all prismatic joints, then the rest (Kruskal's algorithm).
-    /// The given joints stay in the tree even if the tree could reach their links through joints that are not given.
+    /// The given joints stay in the tree even if the tree could reach the links of these joints through joints that are
+    /// not given.
     /// In an Oldham coupling, for example, sliding joints alone reach the driven disc.
-    /// Without this rule the driven joint would be cut, although it must be a coordinate of the tree.
+    /// Without this exception the driven joint would be cut, although it must be a coordinate of the tree.
     pub fn with(mechanism: &Mechanism, joints: &[JointId]) -> Self {
         let mut tree = SpanningTree { branches: Vec::new(), cut: Vec::new() };
         let mut reached = Vec::new();

@@ -52,7 +52,7 @@ impl Structure {
     /// # Errors
     /// [`ErrorKind::Input`] if links have no connection to the ground, or if the mobility differs from the number of
     /// drives.
-    /// [`ErrorKind::Input`] also if one part is over-constrained while a second part is free to move.
+    /// [`ErrorKind::Input`] also if one part of the mechanism is over-constrained while a second part is free to move.
     pub fn of<T: Copy + Into<DrivenJoint>>(mechanism: &Mechanism, drives: &[T]) -> Result<Self> {
         let drives: Vec<DrivenJoint> = drives.iter().map(|&drive| drive.into()).collect();
         let structure = Structure::of_driven(mechanism, &drives)?;
@@ -128,7 +128,7 @@ impl Structure {
         Ok(self)
     }
 
-    /// The structure of the motion alone, without that of the start pose ([`Structure::at_start`]).
+    /// The structure of the motion alone, without the structure of the start pose ([`Structure::at_start`]).
     ///
     /// # Errors
     /// The errors of [`Structure::of`] that do not concern the start of transmissions.
@@ -200,8 +200,9 @@ impl Structure {
 
     /// A pose in which the driving links are placed at these coordinates, one for each drive, as in
     /// [`Drive::coordinate`](crate::drive::Drive::coordinate).
-    /// In a body with given joints, the lead has the pose of the ground, and the other links have their poses relative
-    /// to the lead. All other links have the pose of the ground.
+    /// In a body with given joints, the body's first link (its lead) has the pose of the ground. The other links of the
+    /// body have their poses relative to the lead.
+    /// All links outside such bodies, except the driving links, have the pose of the ground.
     #[must_use]
     pub fn driving_pose(&self, mechanism: &Mechanism, coordinates: &[f64]) -> Pose {
         let mut pose = Pose(vec![LinkPose::GROUND; mechanism.links().len()].into());
@@ -245,7 +246,7 @@ impl Structure {
         pose.0[driver.link] = joint.driven(driver.link, &base, driver.input, coordinates[index]);
     }
 
-    /// For every link: the groups on which its motion depends if all drives are prescribed.
+    /// For every link: the groups on which the link's motion depends if all drives are prescribed.
     /// These are the group of the link and all earlier groups on which this group depends, as indices in ascending
     /// order.
     /// The list is empty for the ground and for driving links.

@@ -62,7 +62,8 @@ impl Mask {
     }
 }
 
-/// The requested rows of the table, for every subject that has any. The key is kind and name of the subject.
+/// The requested rows of the table, for every subject with at least one requested row. The key is kind and name of the
+/// subject.
 fn masks(channels: &[Channel]) -> BTreeMap<(ChannelSubject, &str), Mask> {
     let mut masks: BTreeMap<(ChannelSubject, &str), Mask> = BTreeMap::new();
     for channel in channels {

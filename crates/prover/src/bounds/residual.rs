@@ -116,8 +116,8 @@ pub(crate) struct Built {
     pub(crate) length: f64,
     /// Speed of the fastest drive (rad/s); for a free link, its nominal speed.
     pub(crate) speed: f64,
-    /// The larger of two forces (N): the weight of all links, and the force that accelerates the links at the speed and
-    /// length of this structure.
+    /// The larger of two forces (N): the weight of all links, and the force that accelerates the links at the rates
+    /// that follow from `speed` and `length`.
     pub(crate) force: f64,
 }
 
@@ -160,7 +160,7 @@ pub fn magnitudes(trajectory: &Trajectory) -> Vec<f64> {
     trajectory.channels().iter().map(|channel| all.rounded_with(channel)).collect()
 }
 
-/// As `magnitudes`, but by sets of channels.
+/// As `magnitudes`, but each set of channels has its own sizes.
 /// `sets[channel]` is the set of a channel. `feeds(from, to)` tells whether numbers of the set `to` are computed from
 /// channels of the set `from`.
 pub(crate) fn magnitudes_by(trajectory: &Trajectory, sets: &[usize], feeds: &dyn Fn(usize, usize) -> bool) -> Vec<f64> {
@@ -211,7 +211,7 @@ impl Sizes {
         sizes
     }
 
-    /// For each kind of size, the larger of the two values.
+    /// For each kind of size, the larger of the values in `self` and `other`.
     fn with(mut self, other: &Sizes) -> Self {
         for (quantity, size) in &other.of_quantity {
             let own = self.of_quantity.entry(quantity).or_insert(0.0);
@@ -244,7 +244,7 @@ impl Sizes {
     }
 }
 
-/// `other` minus `reference`, channel by channel, for the channels that both have.
+/// `other` minus `reference`, channel by channel, for the channels that both trajectories have.
 /// Angles that differ by a constant number of whole revolutions describe the same motion.
 /// So the whole revolutions between the first samples are subtracted.
 ///

@@ -1,7 +1,7 @@
 //! Missing terms and factors: finds from the numbers what one position of a formula lacks.
 //!
-//! At every position the missing summand or factor is calculated instant by instant.
-//! If it is proportional to an expression of the derivation, this expression is missing.
+//! At every position of the formula, the missing summand or factor is calculated instant by instant.
+//! If the calculated summand or factor is proportional to an expression of the derivation, this expression is missing.
 
 mod dictionary;
 mod monomials;
@@ -120,7 +120,7 @@ pub(super) fn missing(trial: &mut Trial, dimensions: &Dimensions) -> Vec<Missing
 const MOST: usize = 3;
 
 /// Entries of a dictionary, sorted by the ratio of their values at two instants.
-/// So entries proportional to an amount are found without testing all of them.
+/// So entries proportional to an amount are found without a test of every entry.
 #[derive(Default)]
 struct Ratios {
     sorted: BTreeMap<[usize; 2], Vec<(f64, usize)>>,
@@ -170,7 +170,7 @@ impl Candidate {
         of(self) == of(other)
     }
 
-    /// Returns `None` if the formula would then use a later formula.
+    /// Returns `None` if the formula with the missing expression would use a later formula.
     fn of(trial: &Trial, [index, number]: [usize; 2], operator: Operator, what: &FormulaTree) -> Option<Self> {
         let later = &trial.formulas.list[index..];
         if what.names().iter().any(|(name, _)| later.iter().any(|own| own.name == *name)) {

@@ -2,7 +2,7 @@
 //!
 //! Every slip is tried at every position of the formula and of the steps that the formula uses.
 //! A correction that makes the formula right at every instant explains the error.
-//! The shape of the error is not used to guess a slip.
+//! The curve of the error over the instants is not used to guess a slip.
 
 mod edits;
 mod everywhere;

@@ -68,7 +68,7 @@ impl Which {
         if self == Which::First { Which::Second } else { Which::First }
     }
 
-    /// Both values in the order of the parties; `own` belongs to this party.
+    /// The values of both parties in the order in which the parties were named; `own` belongs to the party `self`.
     pub(super) fn beside<T>(self, own: T, other: T) -> [T; 2] {
         if self == Which::First { [own, other] } else { [other, own] }
     }

@@ -88,7 +88,7 @@ pub enum DataSlip {
     },
     /// The acceleration without the Coriolis term of a block on a moving guide. The text names the joint.
     NoCoriolis(String),
-    /// The moment about another point. The force has this additional arm.
+    /// The moment about a wrong point of reference. The text contains the vector to this point.
     About(Arm),
     /// A single row is wrong, at this time (s).
     Outlier(f64),

@@ -83,7 +83,7 @@ pub(super) fn found(question: &DiagnosisInput) -> (Vec<Found>, usize) {
     (all, solved)
 }
 
-/// A rotated drive as an alternative to late values: at constant speed both have the same effect.
+/// A rotated drive as an alternative to late values: at constant speed, rotation and delay have the same effect.
 fn turned(tries: &Tries, known: &[Candidate], late: &[Candidate]) -> Option<Candidate> {
     let case = &tries.thin.case;
     let by = late.iter().find_map(|one| match one.found.cause {

@@ -128,7 +128,8 @@ pub struct Since {
 
 /// For every channel that exceeds its bound, the first such instant; the earliest channel first.
 /// If several channels exceed their bounds at the same instant, positions come before rates and forces.
-/// Then the channel with the larger ratio of difference to bound comes first.
+/// Among the positions, and among the rates and forces, the channel with the larger ratio of difference to bound comes
+/// first.
 #[must_use]
 pub fn since(reference: &Trajectory, suspect: &Trajectory, judged: &[SuspectChannel]) -> Vec<Since> {
     let rows = ascending(reference.times());

@@ -11,7 +11,7 @@ use linkage::math::KeepNan;
 
 /// Number of knobs whose guessed value is tried once: those that explain most in a first approximation.
 const GUESSED: usize = 12;
-/// Number of knobs whose value is then searched: those that explain most after this trial.
+/// Number of knobs whose value is then searched: those that explain most after their guessed value is tried.
 const SEARCHED: usize = 5;
 /// Largest number of steps of the search for a value.
 const STEPS: usize = 6;

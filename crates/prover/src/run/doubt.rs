@@ -233,7 +233,7 @@ mod tests {
             let reverses = |row: &usize| omega[*row] * omega[*row + 1] < 0.0;
             let reversals: Vec<f64> = (1..times.len() - 1).filter(reverses).map(|row| times[row]).collect();
             assert_eq!(reversals.len(), 2, "{reversals:?}");
-            // It starts at rest.
+            // The pendulum starts at rest. Rows near the start are skipped.
             for (row, kept) in doubt.keeps(Stage::Reactions).into_iter().enumerate().skip(30) {
                 let away = reversals.iter().map(|t| (times[row] - t - 5e-4).abs()).fold(f64::INFINITY, f64::smaller);
                 assert!(away > reach - 1e-3 || !kept, "{route:?}: {} s", times[row]);

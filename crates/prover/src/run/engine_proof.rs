@@ -87,8 +87,8 @@ pub struct SettingsSearch {
 /// Why a search of settings ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SearchEnd {
-    /// Every channel has the target accuracy. Alternatively, every channel is conclusive and the work allowed for
-    /// further refinement is spent.
+    /// Every channel has the target accuracy, or every channel is conclusive and the work allowed for further
+    /// refinement is spent.
     Decided,
     /// A finer step would add more rounding error than the truncation error that it removes.
     Rounding,
@@ -177,9 +177,10 @@ impl EngineProof {
     }
 
     /// The part of the verdict that comes from the forces that the engine itself exerts.
-    /// If they are inconclusive, they are reported but do not change the verdict, because the motion and its forces are
-    /// judged without them.
-    /// Impulses converge with a lower order than the motion. Impulses need the true masses and many sweeps.
+    /// An inconclusive verdict on these forces is reported but does not change the whole verdict, because the motion
+    /// and the forces that follow from it are judged without them.
+    /// The engine computes these forces as impulses. Impulses converge with a lower order than the motion, and need the
+    /// true masses and many sweeps.
     #[must_use]
     pub fn added(&self) -> Option<&Verdict> {
         let own = self.own_forces.as_ref().map(|own| &own.verdict);

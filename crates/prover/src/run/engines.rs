@@ -47,8 +47,8 @@ pub(super) fn prove(
     let Judged { mut proof, run, .. } = match found {
         Ok(found) => found,
         Err(Stopped { error, kept, spent }) => {
-            // If no work remains for finer steps, perhaps only the coarse steps failed. So the verdict is inconclusive
-            // with the advice to allow more work.
+            // If no work remains for finer steps, possibly only the coarse steps have failed. So the verdict is
+            // inconclusive with the advice to allow more work.
             let (verdict, failure) = match spent {
                 None => (Verdict::open(error.message()), Some(error)),
                 Some(work) => {

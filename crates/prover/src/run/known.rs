@@ -71,7 +71,7 @@ fn lever(case: &Case, groups: &[GroupId]) -> f64 {
 
 /// Rounding error of the positions from which a group is assembled. The unit is one unit in the last place of the
 /// positions' distance from the origin.
-/// On each side four positions contribute: two outer joints, the inner joint and an origin.
+/// On each analytic side, four positions contribute: two outer joints, the inner joint and an origin.
 /// Each coordinate has a root mean square rounding error of 0.3 units. The sixteen independent coordinates of both
 /// sides give 1.2 units.
 /// The constant is more than three times this value.
@@ -338,7 +338,7 @@ mod tests {
 
     /// At a change point the condition number of the pose is unbounded, but the condition number of the passage through
     /// the pose is finite.
-    /// An error of a millionth is found at the change point.
+    /// A relative error of a millionth at the change point exceeds the allowed difference and is found.
     #[test]
     fn numbers_at_a_change_point_are_known_to_a_millionth() {
         let case = of_repository("tests/outside/scenarios/parallel_cranks_passing.toml").case;
@@ -392,8 +392,8 @@ mod tests {
         case.on(Grid::of_inputs(case.crank(), cranks.to_vec())).unwrap()
     }
 
-    /// Symptom: the sides disagreed at 90 deg, where the condition number is 1. This happened for four-bars in a row
-    /// and for a single four-bar far from the origin.
+    /// This test repeats a former fault: the sides disagreed at 90 deg, where the condition number is 1. The fault
+    /// occurred for four-bars in a row and for a single four-bar far from the origin.
     /// Positions are known to the last digit of their distance from the origin, and each four-bar adds its rounding
     /// error.
     #[test]
