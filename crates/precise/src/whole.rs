@@ -2,8 +2,8 @@
 //! equations of equilibrium.
 //!
 //! The unknowns are the frames of all moving links.
-//! The start pose is followed in steps of at most one degree of the crank.
-//! At the requested instants Newton's method continues until the change of the pose is at the level of rounding errors.
+//! From the start pose, the motion is followed in steps of at most one degree of the crank.
+//! At each requested instant, Newton's method is repeated until the pose changes only by rounding errors.
 //! The elimination is dense, which is suitable for some tens of links.
 
 use crate::sentences;

@@ -43,7 +43,7 @@ impl SpanningTree {
         SpanningTree { branches: Vec::new(), cut: mechanism.joints().ids().collect() }
     }
 
-    /// Trees such that each of the given joints is cut in at least one tree.
+    /// Several trees. Each of the given joints is cut in at least one of them.
     /// The first tree is that of [`SpanningTree::of`].
     /// Each further tree cuts as many as possible of the joints that no earlier tree cuts.
     #[must_use]
@@ -59,8 +59,8 @@ impl SpanningTree {
             let mut tree = SpanningTree::along(mechanism, kept.into_iter().chain(wanted.iter().copied()));
             // If the tree cuts none of the requested joints, each of these joints is the only connection of some links
             // to the ground.
-            // An example is a crank on its pin without any second joint. The joint is then cut, which removes these
-            // links from the tree.
+            // An example is a crank on its pin without any second joint. Such joints are then cut, and the links beyond
+            // them leave the tree.
             if !tree.cut.iter().any(|joint| wanted.contains(joint)) {
                 let mut held = vec![GROUND];
                 let (kept, lost): (Vec<TreeBranch>, Vec<TreeBranch>) = tree.branches.into_iter().partition(|branch| {
@@ -113,8 +113,9 @@ impl SpanningTree {
     }
 
     /// Returns the tree for runs, changed so that it contains the given joints.
-    /// If a given joint is neither on the ground nor on a link that the earlier given joints reach, the order changes:
-    /// the tree first takes all given joints, then all prismatic joints, then the rest (Kruskal's algorithm).
+    /// If a given joint is neither on the ground nor on a link that the earlier given joints reach, the tree is built
+    /// in another order:
+    /// first all given joints, then all prismatic joints, then the remaining joints (Kruskal's algorithm).
     /// The given joints stay in the tree even if the tree could reach the links of these joints through joints that are
     /// not given.
     /// In an Oldham coupling, for example, sliding joints alone reach the driven disc.

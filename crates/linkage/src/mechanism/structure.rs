@@ -1,16 +1,17 @@
 //! Structural analysis: mobility, and the decomposition into driving links and Assur groups.
 //!
-//! Every link has three degrees of freedom. Every revolute or prismatic pair removes two, every given coordinate and
-//! every transmission one.
-//! Each equation concerns two or three links, and one of these links becomes its owner. A link owns three equations (a
-//! matching).
+//! Every link has three degrees of freedom. Every revolute or prismatic pair removes two of them. Every given
+//! coordinate and every transmission removes one.
+//! Each equation concerns two or three links, and one of these links becomes its owner. Each link owns three equations.
+//! This assignment of equations to links is a matching.
 //! For every equation that a link owns, the link depends on the other links of the equation.
 //! These dependences form a graph. Its strongly connected components are the driving links and the Assur groups.
 //! The components are listed in the order in which they can be solved.
 //! The components do not depend on the choice of matching (Dulmage and Mendelsohn 1958).
 //!
 //! A driving link stands on the ground or on an earlier driving link. Any other given joint belongs to a group.
-//! Two links on a given joint are one rigid body at every instant, so the group is classified by its bodies.
+//! Two links connected by a given joint form one rigid body at every instant, so a group is classified by its bodies
+//! instead of its links.
 
 mod driven;
 mod group;
@@ -315,7 +316,8 @@ fn carried(from: &Structure, modes: &[AssemblyMode], to: &Structure) -> Vec<Asse
     to.groups.iter().map(mode).collect()
 }
 
-/// The transmissions, ordered so that their start joints lead from the ground and the driven joints outwards.
+/// The transmissions in an order in which each start joint touches, if possible, the ground, a link on a driven joint,
+/// or a link on an earlier start joint.
 fn phases(mechanism: &Mechanism, drives: &[DrivenJoint]) -> Vec<TransmissionId> {
     let ends = |joint: JointId| {
         let joint = &mechanism.joints()[joint];

@@ -126,7 +126,7 @@ pub struct Transmission {
 
 /// The losses of a transmission. The losses act as a moment between the carrier and the first member, against their
 /// relative rotation.
-/// With losses, the force of the transmission means the force on the second member.
+/// If a transmission has losses, its force is the force on the second member.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Losses {
     /// A joint between the carrier and a member. The rate of the joint's coordinate gives the sense of the motion.

@@ -204,7 +204,7 @@ impl Sampler {
         debug_assert!(out.values.is_empty(), "as many values as channels");
     }
 
-    /// Moves the rows of the block into their columns.
+    /// Moves the buffered rows into the columns.
     fn keep(&mut self) {
         let width = self.channels.len();
         let rows = &self.rows[self.kept..];

@@ -32,7 +32,7 @@ const BEARS_OUT: f64 = 0.1;
 pub struct Ladder<'a> {
     /// Runs at double, single and half the step (or accuracy).
     pub resolutions: [&'a Trajectory; 3],
-    /// Runs at the step of the middle run, with other numbers of sweeps.
+    /// Runs at the step of the middle run, with fewer sweeps than the middle run.
     pub other_sweeps: OtherSweeps<&'a Trajectory>,
 }
 

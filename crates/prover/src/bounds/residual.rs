@@ -12,8 +12,8 @@ use linkage::math::statistics::{differences, half_range, quantile, rms, share, s
 use linkage::trajectory::{Channel, Trajectory, Unit};
 
 /// A channel's scale is at least this fraction of the natural size of its quantity.
-/// If a coordinate is nearly constant, its errors come from neighbouring coordinates.
-/// The small motion of the coordinate is then no measure of these errors.
+/// The errors of a nearly constant coordinate come from neighbouring coordinates.
+/// The small motion of a nearly constant coordinate is therefore no measure of its errors.
 const SMALLEST_SHARE: f64 = 1e-3;
 
 /// The scale of a rate, a force or a moment is at least this fraction of its largest value.
@@ -58,7 +58,7 @@ const VANISHING: f64 = 1e-9;
 /// Scale of every channel: half the range of its values over the run.
 /// The scale is at least a thousandth of the natural size of the quantity.
 /// For a rate, a force or a moment the scale is also at least a tenth of the largest value.
-/// So a constant channel of these quantities has a scale that depends on its value.
+/// So the scale of a constant rate, force or moment depends on its value.
 /// The largest value does not limit the scale of a coordinate, because the origin of a coordinate is arbitrary.
 ///
 /// The natural size of coordinates is the largest half range among the quantity's channels.
@@ -66,8 +66,8 @@ const VANISHING: f64 = 1e-9;
 /// The natural size is at least the value that follows from the crank's motion and the sizes of coordinates and forces.
 /// So a quantity that vanishes in the whole mechanism has a scale too.
 ///
-/// On a grid of one instant every range is zero.
-/// The scale is then the natural size: one radian for angles, half the extent of all coordinates for lengths.
+/// On a grid of one instant the range of every channel is zero.
+/// On such a grid the scale is the natural size: one radian for angles, half the extent of all coordinates for lengths.
 #[must_use]
 pub fn scales(trajectory: &Trajectory) -> Vec<f64> {
     scales_beyond(&vec![0.0; trajectory.channels().len()], trajectory, &Built::default())
@@ -109,7 +109,7 @@ pub(crate) fn scales_beyond(errors: &[f64], trajectory: &Trajectory, built: &Bui
     trajectory.channels().iter().enumerate().map(of).collect()
 }
 
-/// Sizes that follow from the data of a case. They do not depend on which parts of the case move.
+/// Sizes that follow from the data of a case. These sizes do not depend on which parts of the case move.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Built {
     /// Size of the mechanism (m).

@@ -197,7 +197,8 @@ mod tests {
     use scenario::{Formulas, of_repository};
 
     /// Errors of a formula and of the mechanism as fractions of the scale.
-    /// A formula decides nothing if it is known to less than six digits and much less accurately than the mechanism.
+    /// A formula's value decides nothing if it is known to less than six digits and much less accurately than the
+    /// mechanism's value.
     #[test]
     fn lost_digits_count_only_if_the_mechanism_has_them() {
         let case = of_repository("scenarios/crank_rocker.toml").case;

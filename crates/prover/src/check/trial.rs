@@ -157,8 +157,8 @@ impl<'a> Trial<'a> {
         self.inputs[place]
     }
 
-    /// Whether a change of the sheet is worth examining at all instants.
-    /// At each instant of `few`, the change must make the formula right or leave only a small part of the difference.
+    /// Whether `changes` of parts of the derivation are worth examining at all instants.
+    /// At each instant of `few`, the changes must make the formula right or leave only a small part of the difference.
     /// `depending` lists the positions that depend on the changed positions.
     pub(super) fn is_promising(&mut self, changes: &[(usize, FormulaTree)], depending: &[usize]) -> bool {
         let claimed = self.formula.error.unwrap_or(0.0);

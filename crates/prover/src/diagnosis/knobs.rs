@@ -59,7 +59,7 @@ impl Knob {
         significant_in(self.unit == "rad", value, digits)
     }
 
-    /// A knob for an amount: it is `given` in the case and may be multiplied.
+    /// A knob for an amount that has the value `given` in the case and may be multiplied.
     fn amount(
         part: CasePart,
         given: f64,
@@ -364,7 +364,7 @@ pub fn driven(parts: &mut CaseParts, index: usize, change: impl FnOnce(&mut Driv
     parts.grid = Grid::of_times(parts.drives.crank(), parts.grid.times.clone());
 }
 
-/// The law with another top speed (rad/s).
+/// The law, changed so that its top speed is `speed` (rad/s).
 pub fn at_speed(law: &MotionLaw, speed: f64) -> MotionLaw {
     let factor = speed / law.top_speed();
     match law {

@@ -221,7 +221,7 @@ mod tests {
     /// A pendulum with friction, released from rest, reverses twice in three seconds.
     /// Impulses are computed from six steps, one step late.
     /// So five of the longest steps (11 ms) are doubtful on either side of each reversal.
-    /// For second differences, 17.6 ms are doubtful on either side of each reversal.
+    /// If forces come from second differences, 17.6 ms are doubtful on either side of each reversal.
     #[test]
     fn only_forces_beside_a_reversal_of_free_motion_are_left_out() {
         let text = text("scenarios/pendulum.toml").replace("step_s = 0.01", "step_s = 0.001");

@@ -18,7 +18,7 @@ use linkage::mechanism::GroupId;
 use linkage::solver::{Solver, State};
 use linkage::trajectory::{Channel, Stage, Trajectory, Unit};
 
-/// Relative error assumed for an analytic side in well-conditioned poses. The error is chosen.
+/// Relative error assumed for an analytic side in well-conditioned poses. The value is chosen, not measured.
 /// Each derivative multiplies the rounding error of its input by the condition number of the pose, and so does each
 /// linear solve for forces. In well-conditioned poses the condition number is at most some tens.
 pub(super) fn usual(stage: Stage) -> f64 {
@@ -53,8 +53,8 @@ pub(super) fn of_condition(stage: Stage, condition: f64) -> f64 {
 }
 
 /// Factor on rounding errors due to distant mass centres, at least 1.
-/// This is the largest distance between points of a link, mass centre included, divided by the largest distance without
-/// the mass centre.
+/// For one link, the factor is the largest distance between its points, mass centre included, divided by the largest
+/// distance without the mass centre.
 /// Side 2 calculates with the positions of mass centres.
 /// The position of a joint is therefore as uncertain as the last digit of the joint's distance from the mass centre.
 /// For angles, this uncertainty is divided by the distance between the joints.
@@ -168,11 +168,12 @@ impl Known {
         let integration = EachSide::tried(|side| integration(sides[side]))?;
         let dependence = Dependence::of(case, own.channels());
         let magnitudes = magnitudes_by(own, &dependence.of, &|from, to| dependence.feeds(from, to));
-        // These sizes serve for quantities that vanish, for example a velocity if no coordinate is among the channels.
+        // The sizes from the case's data serve for quantities that vanish, for example a velocity if no coordinate is
+        // among the channels.
         let sizes = built(case);
         let sized = magnitudes.into_iter().zip(own.channels());
-        // The angular acceleration of a wheel is a sum of terms of the size omega^2. At a constant ratio these terms
-        // cancel.
+        // The angular acceleration of a wheel is a sum of terms of the size omega^2, which cancel if the ratio of the
+        // speeds is constant.
         let turning = |channel: &Channel| -> f64 {
             let is_geared =
                 !case.mechanism.transmissions().is_empty() && channel.kind.unit == Unit::RadianPerSecondSquared;
@@ -277,7 +278,8 @@ mod tests {
     use linkage::case::{Grid, Wanted};
     use scenario::{Scenario, of_repository};
 
-    /// A motion under forces does not regain lost accuracy. A prescribed motion is as accurate as its pose.
+    /// A motion under forces does not regain lost accuracy. In a prescribed motion, the accuracy at an instant depends
+    /// only on the pose at this instant.
     #[test]
     fn in_free_motion_the_worst_condition_so_far_counts() {
         let falls = |name: &str| {
