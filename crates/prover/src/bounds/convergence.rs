@@ -32,7 +32,7 @@ const BEARS_OUT: f64 = 0.1;
 pub struct Ladder<'a> {
     /// Runs at double, single and half the step (or accuracy).
     pub resolutions: [&'a Trajectory; 3],
-    /// Runs at the step of the middle run, with fewer sweeps than the middle run.
+    /// Runs at the step of the middle run, with numbers of sweeps that differ from that of the middle run.
     pub other_sweeps: OtherSweeps<&'a Trajectory>,
 }
 
@@ -76,7 +76,7 @@ impl Convergence {
         } else {
             (observed.clamp(0.5, formal), 3.0)
         };
-        // If the observed order is too low, the error may be as large as the coarser difference.
+        // If the observed order is below half of the formal order, the error may be as large as the coarser difference.
         // If only the finer difference is rounding, the coarser difference gives the estimate.
         // If the observed order exceeds the formal order by more than one, the estimate is at least the one from the
         // coarser difference.

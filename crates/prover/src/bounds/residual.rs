@@ -62,7 +62,7 @@ const VANISHING: f64 = 1e-9;
 /// The largest value does not limit the scale of a coordinate, because the origin of a coordinate is arbitrary.
 ///
 /// The natural size of coordinates is the largest half range among the quantity's channels.
-/// The natural size of any other quantity is the largest value of its channels.
+/// The natural size of a quantity that is not a coordinate is the largest value of its channels.
 /// The natural size is at least the value that follows from the crank's motion and the sizes of coordinates and forces.
 /// So a quantity that vanishes in the whole mechanism has a scale too.
 ///

@@ -30,7 +30,7 @@ pub enum FormulaCause {
     Missing(Missing),
     /// Terms of the mechanism are missing from the formula.
     Terms(Vec<Term>),
-    /// The formula is right up to a value of the input. Beyond this value it follows another branch.
+    /// The formula is right up to a value of the input. Beyond this value the formula follows a wrong branch.
     Leaves {
         /// Last value of the input at which the formula is right.
         after: InputValue,
@@ -144,7 +144,7 @@ pub struct CauseSearch {
     pub cause: Option<FormulaCause>,
     /// Whether the search reached its work limit without finding a cause of the whole error.
     pub is_cut: bool,
-    /// Number of operations used. One operation evaluates one part of a formula at one instant, or has the same cost.
+    /// Number of operations used. One operation is the cost of evaluating one part of a formula at one instant.
     pub work: u64,
 }
 

@@ -40,7 +40,7 @@ type Needed = Vec<Option<[f64; 2]>>;
 /// If a number is the only evidence, the parameters must be unlikely to produce the same number by chance.
 const CHANCE: f64 = 0.5;
 /// Assumed number of ways in which a product of several quantities may be missing. This number is used if the formula
-/// is wrong by a constant factor or offset, or is constant.
+/// is wrong by a constant factor or offset, or if the mechanism's value is constant.
 const LONG: f64 = 100.0;
 
 /// Returns the missing term or factor that makes the formula right, at one position and with consistent units.
@@ -192,8 +192,8 @@ impl Candidate {
 
 /// Whether a number alone proves that a product is missing.
 /// The number must have more digits than chance explains, given the number of products with the same unit.
-/// If the formula is wrong by a constant factor or offset, or is constant, `places` is the number of positions at which
-/// the product may be missing.
+/// If the formula is wrong by a constant factor or offset, or if the mechanism's value is constant, `places` is the
+/// number of positions at which the product may be missing.
 /// The product then fits at all these positions. In all other cases `places` is `None`.
 fn is_believed(
     monomials: &Monomials,

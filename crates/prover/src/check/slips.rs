@@ -115,7 +115,8 @@ fn filled(tree: &FormulaTree, formula: &FormulaTree, places: &[usize]) -> Formul
     own
 }
 
-/// Returns a formula with one slip of a kind. The slips are the same replacements that serve as corrections.
+/// Returns a formula with one slip of a kind. The possible slips are the replacements that the search uses as
+/// corrections.
 /// `number`, modulo the number of possible slips, selects the position and the replacement.
 /// `None` if the slip cannot be made.
 #[must_use]

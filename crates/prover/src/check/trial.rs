@@ -11,8 +11,7 @@ use scenario::{Claim, Formula, Formulas, INPUTS, Parameter};
 
 /// Number of instants at which every change is tried first, besides the instant with the largest error.
 const FIRST: usize = 9;
-/// Up to this number of preceding steps are kept although the formula does not use them. The same limit applies to
-/// parameters.
+/// Up to this number of preceding steps, and of parameters, are kept although the formula does not use them.
 /// The author may have omitted these steps or parameters by mistake.
 const BESIDE: usize = 20;
 /// Cost of making a change as a tree and judging it, without its evaluations, in operations.

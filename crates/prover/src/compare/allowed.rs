@@ -131,7 +131,7 @@ fn called(own: &PrintedChannel) -> BTreeSet<String> {
 /// Allowed differences, found by the names of channels.
 pub struct Allowances<'a> {
     allowed: &'a [Allowed],
-    /// For each kind of allowance, the index of the last one for all channels.
+    /// For each kind of allowance, the index of the last allowance that applies to all channels.
     all: [Option<usize>; 3],
     words: Words,
 }

@@ -120,8 +120,8 @@ pub(super) fn all(case: &Case) -> Vec<Knob> {
     knobs.extend((0..case.loads.len()).filter_map(|index| free(case, index)));
     knobs.extend(motor(case));
     let moving = || case.mechanism.links().entries().skip(1);
-    // A knob for all links together is added only if several links have the quantity. Otherwise the link's own knob has
-    // the same effect.
+    // A knob for all links together is added only if several links have the quantity. If only one link has the
+    // quantity, the link's own knob has the same effect.
     if moving().filter(|(_, link)| link.mass > 0.0).count() > 1 {
         knobs.push(share(CasePart::Masses, |link, factor| link.mass *= factor));
     }
@@ -176,7 +176,7 @@ fn of_transmission(index: TransmissionId, transmission: &Transmission) -> Vec<Kn
     knobs
 }
 
-/// Replaces a transmission. Start pose and structure stay the same.
+/// Replaces a transmission. Start pose and structure remain unchanged.
 pub fn recoupled(parts: &mut CaseParts, index: TransmissionId, other: Option<TransmissionDesign>) -> Option<()> {
     let mut designs = parts.mechanism.transmission_designs();
     *designs.get_mut(index.index())? = other?;
@@ -191,7 +191,7 @@ pub fn remade(case: &Case, change: impl FnOnce(&mut CaseParts) -> Option<()>) ->
     Case::new(parts).ok()
 }
 
-/// Changes links and joints. The structure stays the same.
+/// Changes links and joints. The structure remains unchanged.
 pub fn changed(parts: &mut CaseParts, change: impl FnOnce(&mut [Link], &mut [Joint])) -> Option<()> {
     let (mut links, mut joints) = (parts.mechanism.links().to_vec(), parts.mechanism.joints().to_vec());
     change(&mut links, &mut joints);

@@ -110,7 +110,7 @@ pub(super) fn beyond(sides: EachSide<&Observed>, known: &Known) -> Vec<Beyond> {
     let errors = difference(reference, other).expect("both sides stand on one grid");
     let of = |(index, worst): (usize, Worst)| {
         let values = errors.column_near(worst.channel, index)?;
-        // This form of the comparison counts NaN as beyond.
+        // This form of the comparison counts NaN as beyond the allowed difference.
         let is_beyond = |row: &&usize| {
             let relative = share(values[**row].abs(), known.magnitudes[index]);
             !(relative <= known.apart(worst.channel.kind.stage, index, **row))

@@ -20,7 +20,8 @@ impl Proof {
         }
         let analytic = overall(self.checks.iter().map(|check| &check.verdict));
         self.verdict = overall([&analytic].into_iter().chain(self.engines.iter().map(|engine| &engine.verdict)));
-        // The diagnosis is dropped if the bounds change. It is valid only for the bounds with which it was made.
+        // The diagnosis is dropped if the bounds change. A diagnosis is valid only for the bounds with which it was
+        // made.
         self.diagnosis = self.diagnosis.filter(|_| dial == 1.0);
         self.diagnosis_is_cut &= dial == 1.0;
         self

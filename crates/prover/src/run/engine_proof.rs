@@ -74,7 +74,7 @@ pub struct ChannelProof {
 /// How the settings of an engine were found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SettingsSearch {
-    /// Number of runs made. Each has another step or another number of sweeps.
+    /// Number of runs made. Any two runs differ in step or number of sweeps.
     pub runs: usize,
     /// Work done, in steps without sweeps. Twenty sweeps count as one additional step.
     pub effort: f64,
@@ -188,7 +188,7 @@ impl EngineProof {
     }
 
     /// Which of the two judgements of the forces disagrees.
-    /// `None` if both agree or if only one exists.
+    /// `None` if both judgements agree or if only one judgement exists.
     /// Also `None` if the other judgement is inconclusive or the motion itself disagrees, because the cause is then
     /// unknown.
     #[must_use]

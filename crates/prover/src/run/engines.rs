@@ -137,7 +137,7 @@ fn at_given(judge: &Judge, bank: &mut Bank, engine: &dyn Engine, budget: f64, pr
     Ok(judged)
 }
 
-/// Advice for an inconclusive run at a given step. It comes from a run with free settings.
+/// Advice for an inconclusive run at a given step. The advice comes from a run with free settings.
 fn tried(judge: &Judge, bank: &mut Bank, chosen: &Chosen) -> Advice {
     let case = bank.case;
     let engine = chosen.engine.at(coarse_step(case));

@@ -41,8 +41,8 @@ fn power(stage: Stage) -> i32 {
 /// Rounding error of a position in a pose of condition number 1, in units in the last place.
 const ULPS: f64 = 16.0;
 
-/// Assumed ratio of a side's integration error to the side's difference from its run with a tighter tolerance. The
-/// tighter run has an error too.
+/// Assumed ratio of a side's integration error to the side's difference from its run with a tighter tolerance. The run
+/// with a tighter tolerance has an error of its own.
 /// A ratio of 3.2 was measured with steps that crossed knots of a load's table. In the present program steps end at
 /// knots.
 const SAFETY: f64 = 4.0;
@@ -202,7 +202,7 @@ impl Known {
     }
 
     /// Measures the condition number of every pose.
-    /// This is needed if the errors of the sides exceed the rounding error of well-conditioned poses.
+    /// The condition numbers are needed if the errors of the sides exceed the rounding error of well-conditioned poses.
     ///
     /// # Errors
     /// The errors of the solver.

@@ -69,7 +69,8 @@ pub struct Group {
     /// Joints between a link of the group and a link whose pose is known before the group is solved.
     pub outer: Vec<JointId>,
     /// The joints of `inner` and `outer` whose coordinate is given.
-    /// Two links on a given joint are one rigid body at every instant, a body of changing shape.
+    /// Two links connected by a given joint count as one body, which is rigid at every instant although its shape
+    /// changes with time.
     /// Class and kind of the group are those of its bodies.
     pub given: Vec<JointId>,
     /// The transmissions that the group contains. Each of them couples a coordinate of the group to coordinates of the

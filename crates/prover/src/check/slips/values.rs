@@ -117,7 +117,7 @@ fn short(value: f64, error: f64) -> Option<f64> {
 }
 
 /// Whether the digits of the right number were confused: two exchanged, one lost, added or doubled.
-/// Another usual value of gravity counts as confused too.
+/// A usual value of gravity in place of another usual value also counts as confused digits.
 /// A shifted decimal point or a simple factor does not count.
 fn is_confused(wrong: f64, right: f64) -> bool {
     if edits::GRAVITY.contains(&wrong) && edits::GRAVITY.contains(&right) {
