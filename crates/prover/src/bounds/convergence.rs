@@ -63,7 +63,8 @@ impl Convergence {
         let (before, after) = (rms(&coarse), rms(&fine));
         let quotient = (before / after).log2();
         // `observed` is NaN if the difference between single and half step is only rounding.
-        // If the quotient is NaN for any other reason, the runs count as not convergent.
+        // If the quotient is NaN although the difference between single and half step exceeds rounding, the runs count
+        // as not convergent.
         let observed = match quotient.is_nan() {
             _ if after <= noise => f64::NAN,
             true => f64::NEG_INFINITY,

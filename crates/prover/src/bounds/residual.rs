@@ -186,7 +186,7 @@ fn largest_sizes(trajectory: &Trajectory) -> Vec<f64> {
     trajectory.iter().map(|(_, values)| largest_size(values)).collect()
 }
 
-/// Largest sizes among some channels.
+/// Largest sizes among a selection of channels.
 struct Sizes {
     of_quantity: BTreeMap<&'static str, f64>,
     /// Largest sizes of coordinates and forces, and the mean speed of the crank.

@@ -238,10 +238,10 @@ impl Check {
         self
     }
 
-    /// Combines this check against the correct number with the check against the `printed` number, which a finding
-    /// calls wrong.
-    /// The printed number must disagree, and the correct number must agree.
-    /// The verdict is disagree for NaN and for a number that differs from both the printed and the correct number.
+    /// Combines this check against the correct number with the check against the published number, `printed`, which the
+    /// entry `finding` of `docs/findings.md` calls wrong.
+    /// The check against the published number must disagree, and the check against the correct number must agree.
+    /// The verdict is disagree for NaN and for a number that differs from both the published and the correct number.
     pub fn expected(mut self, finding: &str, printed: &Check) -> Self {
         self.verdict = match (self.verdict, &printed.verdict) {
             (_, Verdict::Agree { .. }) => {

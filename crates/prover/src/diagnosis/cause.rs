@@ -16,7 +16,7 @@ pub enum DisagreementCause {
     Case(Change),
 }
 
-/// Slips without a number, and the list of all of them. Every slip of the list is tried.
+/// Declares the slips without a number, and a list of all these slips. Every slip of the list is tried.
 macro_rules! plain {
     ($($(#[$doc:meta])+ $name:ident,)+) => {
         /// Slips in right values that need no number, the simplest first.

@@ -13,7 +13,7 @@ use super::tries::{Candidate, Tries};
 use super::whole::whole_changes;
 
 /// Largest number of changed cases that are solved on thinned grids to find changes without a number.
-/// The same number of cases may be solved to find numbers and other instants.
+/// A second limit of the same size applies to the cases solved to find changed numbers and shifted instants.
 /// For a prescribed motion of at most `LINKS` links, which costs little, both limits are `CHEAP` times as high.
 const MOST: usize = 120;
 const CHEAP: usize = 3;

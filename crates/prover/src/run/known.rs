@@ -263,7 +263,7 @@ impl Known {
         self.error(stage, channel) + self.integration[self.reference.other()][channel]
     }
 
-    /// Largest error allowed to the reference in a channel over the run, in the channel's unit.
+    /// Largest error allowed for the reference in a channel over the run, in the channel's unit.
     pub(super) fn error(&self, stage: Stage, channel: usize) -> f64 {
         let rows = 0..self.conditions.len().max(self.turned.len()).max(1);
         let rounding = rows.map(|row| self.rounding(stage, channel, row)).fold(0.0, f64::larger);
