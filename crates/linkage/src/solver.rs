@@ -78,7 +78,7 @@ pub trait Solver: Send + Sync {
 /// A prescribed motion allows any instant.
 ///
 /// # Errors
-/// [`ErrorKind::Input`] with an instant before t = 0.
+/// [`ErrorKind::Input`] if an instant lies before t = 0. The error contains this instant.
 pub fn check_instants(case: &Case) -> Result<()> {
     match case.grid.times.iter().find(|&&t| t < 0.0) {
         Some(t) if case.is_free() => {

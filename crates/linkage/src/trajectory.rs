@@ -51,7 +51,7 @@ impl Trajectory {
         Ok(Trajectory { times, input: Input::Angle, inputs, channels, columns })
     }
 
-    /// The same trajectory, with `input` as the meaning of its input values.
+    /// This trajectory, with `input` as the meaning of its input values.
     #[must_use]
     pub fn of_input(self, input: Input) -> Self {
         Trajectory { input, ..self }

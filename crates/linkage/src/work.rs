@@ -35,7 +35,8 @@ crate::words! {
         Steps = "steps",
         /// Sweeps over the constraints of an engine's simulation, summed over all steps.
         Sweeps = "sweeps",
-        /// Tiny steps from a given pose. Such a step shows the forces that the engine exerts in the pose.
+        /// Tiny time steps of an engine from a given pose. Such a step shows the forces that the engine exerts in the
+        /// pose.
         Probes = "probes",
     }
 }
@@ -59,7 +60,7 @@ impl Work {
         Count::ALL.into_iter().map(|what| (what, self.of(what))).filter(|(_, times)| *times > 0)
     }
 
-    /// The sum of both, count by count.
+    /// The sum of `self` and `other`, count by count.
     #[must_use]
     pub fn and(mut self, other: &Work) -> Work {
         self.0.iter_mut().zip(other.0).for_each(|(own, other)| *own += other);
@@ -98,7 +99,7 @@ thread_local! {
 }
 
 /// Runs `run` with a limit on its work (in the unit of budgets). Beyond the limit, [`spend`] fails on this thread.
-/// Returns the result of `run` and whether the limit was exceeded. If limits are nested, the smallest applies.
+/// Returns the result of `run` and whether the limit was exceeded. If limits are nested, the smallest limit applies.
 pub fn limited<T>(limit: f64, run: impl FnOnce() -> T) -> (T, bool) {
     let [left, allowed] = ALLOWED.get();
     let own = if limit < left { [limit, limit] } else { [left, allowed] };

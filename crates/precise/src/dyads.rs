@@ -30,10 +30,10 @@ struct Dyad {
     is_left: bool,
 }
 
-/// The same as [`solve`](super::solve), for a mechanism of dyads with three revolute pairs.
+/// Does the same as [`solve`](super::solve), for a mechanism of dyads with three revolute pairs.
 ///
 /// # Errors
-/// The errors of [`solve`](super::solve), and [`ErrorKind::Unsupported`] for other groups.
+/// The errors of [`solve`](super::solve), and [`ErrorKind::Unsupported`] if the mechanism has a group of another kind.
 pub fn solve(case: &Case) -> Result<Trajectory> {
     let task = Task::of(case)?;
     let start = at_start(case);

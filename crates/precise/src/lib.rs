@@ -2,7 +2,7 @@
 //!
 //! [`solve`] solves dyads of revolute pairs in closed form ([`dyads`]). It solves every other mechanism from all
 //! equations of the mechanism at once ([`whole`]).
-//! Neither of the two methods shares an equation or code with the analytic sides; only the case is common.
+//! Neither of the two methods shares an equation or code with the analytic sides. The case is the only common input.
 //! The crank angle is computed from the time of the instant in full precision: start + speed t.
 
 pub mod dyads;

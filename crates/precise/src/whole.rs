@@ -2,8 +2,8 @@
 //! equations of equilibrium.
 //!
 //! The unknowns are the frames of all moving links.
-//! The start pose is followed in steps of at most one degree of the crank.
-//! At the requested instants Newton's method continues until the change of the pose is at the level of rounding errors.
+//! From the start pose, the motion is followed in steps of at most one degree of the crank.
+//! At each requested instant, Newton's method is repeated until the pose changes only by rounding errors.
 //! The elimination is dense, which is suitable for some tens of links.
 
 use crate::sentences;
@@ -18,7 +18,7 @@ use super::readings::trajectory;
 use super::task::{Task, at_start, stuck};
 use super::vector::Vector;
 
-/// Largest crank angle of one step between requested instants (rad).
+/// Largest rotation of the crank in one step between requested instants (rad).
 const STEP: f64 = std::f64::consts::PI / 180.0;
 /// Upper limit of the number of iterations at one pose. Convergence is quadratic.
 const MOST: usize = 30;
@@ -30,7 +30,8 @@ const ROUNDING: f64 = 1e-20;
 /// At steps between requested instants, this larger limit replaces `SETTLED`.
 const NEAR: f64 = 1e-10;
 
-/// The same as [`solve`](super::solve), for mechanisms with revolute and prismatic pairs and up to some tens of links.
+/// Does the same as [`solve`](super::solve), for mechanisms with revolute and prismatic pairs and up to some tens of
+/// links.
 ///
 /// # Errors
 /// The errors of [`solve`](super::solve).

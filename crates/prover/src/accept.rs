@@ -20,13 +20,13 @@ const WRITTEN: f64 = 0.05;
 
 /// If one of the two bounds, accepted or found, is more than this multiple of the other bound, agreement proves
 /// nothing.
-/// Either the channel is known much worse than before, or its accepted bound was much too wide.
+/// Such a ratio means that the channel is now known much less accurately, or that its accepted bound was much too wide.
 const WIDER: f64 = 100.0;
 
 /// Two times count as the same instant if they differ by at most this fraction of the larger time.
 const SAME_TIME: f64 = 1e-9;
 
-/// Returns the values of a proof that are accepted. A channel whose bound is not finite is left out.
+/// Returns the values of a proof that are stored as accepted values. A channel whose bound is not finite is left out.
 #[must_use]
 pub fn figures(proof: &Proof) -> Accepted {
     let trajectory = &proof.reference_trajectory;
@@ -123,7 +123,7 @@ pub struct FigureComparison {
     /// Channels whose bound is now much wider than the accepted bound.
     pub wider: Vec<Wider>,
     /// Channels whose accepted bound is much wider than the bound found now.
-    /// With so wide a bound, any similar value would have been accepted.
+    /// With so wide an accepted bound, almost any similar value would have been accepted.
     pub looser: Vec<Wider>,
     /// Channels without accepted values.
     pub new: Vec<String>,
@@ -258,7 +258,8 @@ fn pairs(kept: &AcceptedChannel, found: &AcceptedChannel, times: &[f64]) -> Vec<
 
 /// Returns the values to store after a run with the values `found`.
 /// A channel keeps its accepted values unless a value has moved or its bound has become much wider or narrower.
-/// So the file changes only where the comparison reports a change. On another grid all values are new.
+/// So the file changes only where the comparison reports a change.
+/// If the run and the accepted values have different grids, the found values replace all accepted values.
 #[must_use]
 pub fn renewed(accepted: &Accepted, found: Accepted, comparison: &FigureComparison) -> Accepted {
     if comparison.is_other_grid {

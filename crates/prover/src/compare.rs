@@ -166,7 +166,8 @@ fn asked(all: Vec<(String, Trajectory)>, how: &ComparisonRule) -> Result<Vec<Sid
 }
 
 /// Pairs the sides of two parties.
-/// A single side is paired with each side of the other party. Otherwise sides of the same name are paired.
+/// A single side is paired with each side of the other party. If both parties have several sides, sides of the same
+/// name are paired.
 fn paired<'a>(ones: &'a [Side], others: &'a [Side], names: &[String; 2]) -> Result<Vec<[&'a Side; 2]>> {
     let pairs: Vec<[&Side; 2]> = match (ones, others) {
         ([one], others) => others.iter().map(|other| [one, other]).collect(),

@@ -1,4 +1,4 @@
-//! The proof: a case is solved twice, compared within justified bounds, and judged.
+//! The proof: a case is solved twice, and the two results are compared within justified bounds and judged.
 //!
 //! - [`run`]: one scenario from the two sides to the verdict.
 //! - [`bounds`], [`tolerance`]: residuals, orders of convergence, verdicts.

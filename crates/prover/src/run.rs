@@ -142,7 +142,8 @@ impl Proof {
 /// If the only engine cannot start.
 /// If the run would need more memory than is allowed.
 ///
-/// An engine that fails later, or beside other engines, stays part of the proof, with its trajectory up to the failure.
+/// An engine that fails after its start, or that is one of several engines, stays part of the proof, with its
+/// trajectory up to the failure.
 pub fn prove(scenario: &Scenario, options: &Options) -> Result<Proof> {
     prove_with(scenario, options, &mut |_| {})
 }

@@ -5,7 +5,7 @@ use crate::math::Vec2;
 /// A line along which a transmission exerts its force, in the frame of the carrier.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LineOfAction {
-    /// Unit vector of a positive force on the second member.
+    /// Direction of a positive force on the second member, as a unit vector.
     pub direction: Vec2,
     /// Points of the line at which the force acts on the first and on the second member.
     pub feet: [Vec2; 2],
@@ -17,10 +17,11 @@ pub struct LineOfAction {
 pub struct Contact {
     /// The lines of action. The first one acts for positive forces, the second one for negative forces.
     pub lines: [LineOfAction; 2],
-    /// Speed of the second member's foot along the first line for a unit rate of its coordinate (m, or 1 for a slide).
+    /// Speed of the second member's foot along the first line for a unit rate of the second member's coordinate (m, or
+    /// 1 for a slide).
     pub factor: f64,
-    /// Angular velocity of the lines in the carrier for a unit rate of the first member's coordinate.
+    /// Angular velocity of the lines relative to the carrier for a unit rate of the first member's coordinate.
     pub turn: f64,
-    /// Velocity of the feet in the carrier for a unit rate of the first member's coordinate (m).
+    /// Velocity of the feet relative to the carrier for a unit rate of the first member's coordinate (m).
     pub drift: Vec2,
 }

@@ -100,8 +100,8 @@ ids! {
 }
 
 /// One value for each link, joint or group, in the order of their numbers.
-/// A list of this type can be indexed only with the numbers of these items. In all other respects it behaves like a
-/// slice.
+/// A list of this type can be indexed only with the numbers of these items. In all other respects the list behaves like
+/// a slice.
 ///
 /// ```
 /// use linkproof_linkage::mechanism::{LinkId, PerLink};

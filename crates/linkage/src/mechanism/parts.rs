@@ -286,8 +286,8 @@ impl Joint {
             JointKind::Revolute => (gap.norm(), 0.0),
             JointKind::Prismatic { axes } => {
                 let [first, second] = [0, 1].map(|k| rotated(directions[k], axes[k]));
-                // If the axes point in opposite directions, the sine is small although the joint is open. The largest
-                // possible opening is therefore returned.
+                // If the axes point in opposite directions, the sine is small although the joint is open. In this case
+                // the largest possible opening is returned.
                 let turn = if first.dot(&second) > 0.0 { cross(first, second).abs() } else { 1.0 };
                 (cross(first, gap).abs(), turn)
             }

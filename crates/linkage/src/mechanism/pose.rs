@@ -39,7 +39,7 @@ impl LinkPose {
 }
 
 impl Joint {
-    /// Pose of `link` that follows from the drive at this joint.
+    /// Pose of the driven `link` for a given coordinate of the drive at this joint.
     /// `link` is one of the joint's two links. `base` is the pose of the joint's link other than `link`.
     /// `coordinate` is the coordinate of `input`, as in [`Drive::coordinate`](crate::drive::Drive::coordinate).
     pub fn driven(&self, link: LinkId, base: &LinkPose, input: Input, coordinate: f64) -> LinkPose {
@@ -59,7 +59,7 @@ impl Joint {
     }
 
     /// Coordinate of `input` in a pose, as in [`Drive::coordinate`](crate::drive::Drive::coordinate).
-    /// `link` is the driven link. Angles count the whole turns of the pose's angles.
+    /// `link` is the driven link. A coordinate that is an angle includes the whole turns of the angles in `pose`.
     #[must_use]
     pub fn coordinate(&self, link: LinkId, input: Input, pose: &Pose) -> f64 {
         let [first, second] = [self.first, self.second].map(|side| pose.0[side.link]);
@@ -81,7 +81,7 @@ impl Joint {
 pub struct Pose(pub PerLink<LinkPose>);
 
 impl Pose {
-    /// The frames of all links, at rest.
+    /// Motions of all links, with the frames of this pose and all rates zero.
     #[must_use]
     pub fn motions(&self) -> Vec<Motion> {
         let motion = |pose: &LinkPose| Motion { origin: pose.origin, direction: unit(pose.angle), ..Motion::REST };

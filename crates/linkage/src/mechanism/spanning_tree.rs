@@ -1,6 +1,7 @@
 //! Spanning tree of a linkage: which joint carries which link, and which joints are cut.
 //! In the tree used for runs, prismatic joints are never cut, so their constraints are satisfied exactly.
-//! All prismatic joints fit into the tree, because structural analysis rejects loops of prismatic joints alone.
+//! All prismatic joints fit into the tree, because structural analysis rejects loops that consist only of prismatic
+//! joints.
 //! An engine also works if prismatic joints are cut. The engine's order of convergence is then 2.
 //! Two trees were compared by the largest error of any channel, relative to half the channel's range, at a step of 1e-3
 //! s.
@@ -42,7 +43,7 @@ impl SpanningTree {
         SpanningTree { branches: Vec::new(), cut: mechanism.joints().ids().collect() }
     }
 
-    /// Trees such that each of the given joints is cut in at least one tree.
+    /// Several trees. Each of the given joints is cut in at least one of them.
     /// The first tree is that of [`SpanningTree::of`].
     /// Each further tree cuts as many as possible of the joints that no earlier tree cuts.
     #[must_use]
@@ -58,8 +59,8 @@ impl SpanningTree {
             let mut tree = SpanningTree::along(mechanism, kept.into_iter().chain(wanted.iter().copied()));
             // If the tree cuts none of the requested joints, each of these joints is the only connection of some links
             // to the ground.
-            // An example is a crank on its pin without any second joint. The joint is then cut, which removes these
-            // links from the tree.
+            // An example is a crank on its pin without any second joint. Such joints are then cut, and the links beyond
+            // them leave the tree.
             if !tree.cut.iter().any(|joint| wanted.contains(joint)) {
                 let mut held = vec![GROUND];
                 let (kept, lost): (Vec<TreeBranch>, Vec<TreeBranch>) = tree.branches.into_iter().partition(|branch| {
@@ -112,11 +113,13 @@ impl SpanningTree {
     }
 
     /// Returns the tree for runs, changed so that it contains the given joints.
-    /// If a given joint is neither on the ground nor on a link that the earlier given joints reach, the order changes:
-    /// the tree first takes all given joints, then all prismatic joints, then the rest (Kruskal's algorithm).
-    /// The given joints stay in the tree even if the tree could reach their links through joints that are not given.
+    /// If a given joint is neither on the ground nor on a link that the earlier given joints reach, the tree is built
+    /// in another order:
+    /// first all given joints, then all prismatic joints, then the remaining joints (Kruskal's algorithm).
+    /// The given joints stay in the tree even if the tree could reach the links of these joints through joints that are
+    /// not given.
     /// In an Oldham coupling, for example, sliding joints alone reach the driven disc.
-    /// Without this rule the driven joint would be cut, although it must be a coordinate of the tree.
+    /// Without this exception the driven joint would be cut, although it must be a coordinate of the tree.
     pub fn with(mechanism: &Mechanism, joints: &[JointId]) -> Self {
         let mut tree = SpanningTree { branches: Vec::new(), cut: Vec::new() };
         let mut reached = Vec::new();

@@ -1,16 +1,17 @@
 //! Structural analysis: mobility, and the decomposition into driving links and Assur groups.
 //!
-//! Every link has three degrees of freedom. Every revolute or prismatic pair removes two, every given coordinate and
-//! every transmission one.
-//! Each equation concerns two or three links, and one of these links becomes its owner. A link owns three equations (a
-//! matching).
+//! Every link has three degrees of freedom. Every revolute or prismatic pair removes two of them. Every given
+//! coordinate and every transmission removes one.
+//! Each equation concerns two or three links, and one of these links becomes its owner. Each link owns three equations.
+//! This assignment of equations to links is a matching.
 //! For every equation that a link owns, the link depends on the other links of the equation.
 //! These dependences form a graph. Its strongly connected components are the driving links and the Assur groups.
 //! The components are listed in the order in which they can be solved.
 //! The components do not depend on the choice of matching (Dulmage and Mendelsohn 1958).
 //!
 //! A driving link stands on the ground or on an earlier driving link. Any other given joint belongs to a group.
-//! Two links on a given joint are one rigid body at every instant, so the group is classified by its bodies.
+//! Two links connected by a given joint form one rigid body at every instant, so a group is classified by its bodies
+//! instead of its links.
 
 mod driven;
 mod group;
@@ -52,7 +53,7 @@ impl Structure {
     /// # Errors
     /// [`ErrorKind::Input`] if links have no connection to the ground, or if the mobility differs from the number of
     /// drives.
-    /// [`ErrorKind::Input`] also if one part is over-constrained while a second part is free to move.
+    /// [`ErrorKind::Input`] also if one part of the mechanism is over-constrained while a second part is free to move.
     pub fn of<T: Copy + Into<DrivenJoint>>(mechanism: &Mechanism, drives: &[T]) -> Result<Self> {
         let drives: Vec<DrivenJoint> = drives.iter().map(|&drive| drive.into()).collect();
         let structure = Structure::of_driven(mechanism, &drives)?;
@@ -128,7 +129,7 @@ impl Structure {
         Ok(self)
     }
 
-    /// The structure of the motion alone, without that of the start pose ([`Structure::at_start`]).
+    /// The structure of the motion alone, without the structure of the start pose ([`Structure::at_start`]).
     ///
     /// # Errors
     /// The errors of [`Structure::of`] that do not concern the start of transmissions.
@@ -200,8 +201,9 @@ impl Structure {
 
     /// A pose in which the driving links are placed at these coordinates, one for each drive, as in
     /// [`Drive::coordinate`](crate::drive::Drive::coordinate).
-    /// In a body with given joints, the lead has the pose of the ground, and the other links have their poses relative
-    /// to the lead. All other links have the pose of the ground.
+    /// In a body with given joints, the body's first link (its lead) has the pose of the ground. The other links of the
+    /// body have their poses relative to the lead.
+    /// All links outside such bodies, except the driving links, have the pose of the ground.
     #[must_use]
     pub fn driving_pose(&self, mechanism: &Mechanism, coordinates: &[f64]) -> Pose {
         let mut pose = Pose(vec![LinkPose::GROUND; mechanism.links().len()].into());
@@ -245,7 +247,7 @@ impl Structure {
         pose.0[driver.link] = joint.driven(driver.link, &base, driver.input, coordinates[index]);
     }
 
-    /// For every link: the groups on which its motion depends if all drives are prescribed.
+    /// For every link: the groups on which the link's motion depends if all drives are prescribed.
     /// These are the group of the link and all earlier groups on which this group depends, as indices in ascending
     /// order.
     /// The list is empty for the ground and for driving links.
@@ -314,7 +316,8 @@ fn carried(from: &Structure, modes: &[AssemblyMode], to: &Structure) -> Vec<Asse
     to.groups.iter().map(mode).collect()
 }
 
-/// The transmissions, ordered so that their start joints lead from the ground and the driven joints outwards.
+/// The transmissions in an order in which each start joint touches, if possible, the ground, a link on a driven joint,
+/// or a link on an earlier start joint.
 fn phases(mechanism: &Mechanism, drives: &[DrivenJoint]) -> Vec<TransmissionId> {
     let ends = |joint: JointId| {
         let joint = &mechanism.joints()[joint];

@@ -45,7 +45,7 @@ pub enum TransmissionKind {
     },
     /// A screw, the first member, and a nut that slides in the carrier.
     /// In the plane it is a rack without pressure angle and a pinion of the radius lead / (2 pi).
-    /// The axial force acts at this distance from the axle of the screw.
+    /// The axial force acts at the radius lead / (2 pi) from the axle of the screw.
     Screw {
         /// Slide of the nut along the axis for one counter-clockwise turn of the screw (m), not zero.
         lead: f64,
@@ -126,17 +126,17 @@ pub struct Transmission {
 
 /// The losses of a transmission. The losses act as a moment between the carrier and the first member, against their
 /// relative rotation.
-/// With losses, the force of the transmission means the force on the second member.
+/// If a transmission has losses, its force is the force on the second member.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Losses {
-    /// A joint of the carrier with a member. The rate of the joint's coordinate gives the sense of the motion.
+    /// A joint between the carrier and a member. The rate of the joint's coordinate gives the sense of the motion.
     pub joint: JointId,
     /// Rate of the first member relative to the carrier, divided by the rate of this joint's coordinate (1, or 1/m).
     pub per: f64,
     /// Moment of the losses for a force of 1 N in the first line of action, divided by the lost fraction (m).
     /// It is positive if this force takes power from the first member while the joint's coordinate increases.
     pub lever: f64,
-    /// Lost fraction of the power of the second member if power flows to it, and if power comes from it.
+    /// Lost fraction of the second member's power: if power flows to the second member, then if power comes from it.
     pub lost: [f64; 2],
 }
 
@@ -330,8 +330,9 @@ impl Transmission {
         [against(self.members[0].link), q2]
     }
 
-    /// Time (s) from a pose to the nearest end of a piece of a cam's law, before or after it, at the present speed.
-    /// The time is infinite for other transmissions, and if the cam stands still.
+    /// Time (s) from a pose to the nearest end of a piece of a cam's law at the present speed. This end may lie before
+    /// or after the pose.
+    /// The time is infinite for a transmission without a cam, and if the cam stands still.
     #[must_use]
     pub fn time_to_knot(&self, joints: &PerJoint<Joint>, motions: &[Motion]) -> f64 {
         let Some(cam) = &self.cam else { return f64::INFINITY };
@@ -339,7 +340,8 @@ impl Transmission {
         if spin == 0.0 { f64::INFINITY } else { cam.to_knot(self.coordinates_in(joints, motions)[0]) / spin.abs() }
     }
 
-    /// The actions of a unit force in the first line of action, in a pose: link, force (1), place (m).
+    /// For a force of 1 N in the first line of action, in a pose: the two members' links, the force on each link, and
+    /// the point at which the force acts (m).
     #[must_use]
     pub fn unit_actions(&self, joints: &PerJoint<Joint>, motions: &[Motion]) -> [(LinkId, Vec2, Vec2); 2] {
         let (carrier, line) = (&motions[self.design.carrier], self.contact_in(joints, motions).lines[0]);
@@ -390,7 +392,7 @@ impl TransmissionDesign {
         TransmissionDesign { links, carrier, joint: joint(self.joint), ..self.clone() }
     }
 
-    /// The same transmission with its ratio, or the lift of a cam, multiplied by `factor`.
+    /// This transmission with its ratio, or the lift of its cam, multiplied by `factor`.
     /// `None` for a rack, whose ratio follows from the distance of the pinion's axle from the guide.
     #[must_use]
     pub fn times_ratio(&self, factor: f64) -> Option<Self> {
@@ -408,7 +410,7 @@ impl TransmissionDesign {
         Some(TransmissionDesign { kind, ..self.clone() })
     }
 
-    /// The same transmission with another pressure angle (rad); `None` for a screw, belt or cam.
+    /// This transmission with its pressure angle replaced by `pressure_angle` (rad); `None` for a screw, belt or cam.
     #[must_use]
     pub fn with_pressure_angle(&self, pressure_angle: f64) -> Option<Self> {
         let kind = match self.kind {

@@ -62,7 +62,8 @@ impl Mask {
     }
 }
 
-/// The requested rows of the table, for every subject that has any. The key is kind and name of the subject.
+/// The requested rows of the table, for every subject with at least one requested row. The key is kind and name of the
+/// subject.
 fn masks(channels: &[Channel]) -> BTreeMap<(ChannelSubject, &str), Mask> {
     let mut masks: BTreeMap<(ChannelSubject, &str), Mask> = BTreeMap::new();
     for channel in channels {
@@ -203,7 +204,7 @@ impl Sampler {
         debug_assert!(out.values.is_empty(), "as many values as channels");
     }
 
-    /// Moves the rows of the block into their columns.
+    /// Moves the buffered rows into the columns.
     fn keep(&mut self) {
         let width = self.channels.len();
         let rows = &self.rows[self.kept..];

@@ -25,7 +25,8 @@ pub struct State {
     pub torques: Vec<f64>,
     /// Condition number for the bound on rounding errors while the mechanism passes a change point; `None` elsewhere.
     /// The condition number of the pose itself grows without bound near a change point.
-    /// The solver does not compute at the change point itself, so this number is used instead.
+    /// The solver does not compute at the change point itself, so this number replaces the condition number of the
+    /// pose.
     pub passing: Option<f64>,
 }
 

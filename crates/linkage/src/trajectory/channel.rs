@@ -149,7 +149,7 @@ const fn count(subject: ChannelSubject) -> usize {
 }
 
 /// The readings of one subject with their stages, in the order of columns.
-/// `$any` is any reading; it only fills the array before the readings are written.
+/// `$any` is an arbitrary reading. It only initialises the array and is then overwritten.
 macro_rules! rows_of {
     ($subject:ident, $of:ty, $any:expr) => {{
         let mut rows: [($of, Stage); count(ChannelSubject::$subject)] =

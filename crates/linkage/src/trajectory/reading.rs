@@ -209,7 +209,7 @@ pub enum OfLink {
 pub enum OfJoint {
     /// Force of the first link on the second along x.
     ForceX,
-    /// The same along y.
+    /// Force of the first link on the second along y.
     ForceY,
 }
 

@@ -8,7 +8,8 @@
 //! scientific computing", 2010, section 8.7; grid convergence index of Roache and ASME V&V 20).
 //! Oberkampf and Roy use the factor 1.25 if the observed order differs from the formal order by up to a tenth of the
 //! formal order.
-//! In this module the limit is a fiftieth, because errors of two orders can cancel in the differences.
+//! In this module the observed order may deviate by only a fiftieth, because errors of two orders can cancel in the
+//! differences.
 
 use super::other_sweeps::{self, OtherSweeps};
 use crate::tolerance::{BoundBasis, BoundOrigin, Parts, Tolerance};
@@ -31,7 +32,7 @@ const BEARS_OUT: f64 = 0.1;
 pub struct Ladder<'a> {
     /// Runs at double, single and half the step (or accuracy).
     pub resolutions: [&'a Trajectory; 3],
-    /// Runs at the step of the middle run, with other numbers of sweeps.
+    /// Runs at the step of the middle run, with numbers of sweeps that differ from that of the middle run.
     pub other_sweeps: OtherSweeps<&'a Trajectory>,
 }
 
@@ -62,7 +63,8 @@ impl Convergence {
         let (before, after) = (rms(&coarse), rms(&fine));
         let quotient = (before / after).log2();
         // `observed` is NaN if the difference between single and half step is only rounding.
-        // If the quotient is NaN for any other reason, the runs count as not convergent.
+        // If the quotient is NaN although the difference between single and half step exceeds rounding, the runs count
+        // as not convergent.
         let observed = match quotient.is_nan() {
             _ if after <= noise => f64::NAN,
             true => f64::NEG_INFINITY,
@@ -75,11 +77,12 @@ impl Convergence {
         } else {
             (observed.clamp(0.5, formal), 3.0)
         };
-        // If the observed order is too low, the error may be as large as the coarser difference.
+        // If the observed order is below half of the formal order, the error may be as large as the coarser difference.
         // If only the finer difference is rounding, the coarser difference gives the estimate.
-        // The coarser difference also counts if the observed order exceeds the formal order by more than one.
-        // In that case errors of several orders cancel in the finer difference. Such a cancellation may occur if there
-        // are few instants.
+        // If the observed order exceeds the formal order by more than one, the estimate is at least the one from the
+        // coarser difference.
+        // Errors of several orders then cancel in the finer difference. Such a cancellation may occur if there are few
+        // instants.
         let before = largest_size(&coarse);
         let largest = match observed {
             _ if observed.is_nan() => largest.larger(before * 0.5f64.powf(order)),
@@ -94,7 +97,8 @@ impl Convergence {
     /// Adapts the safety factor of this estimate to runs that are extrapolated `times` times.
     /// Extrapolation cancels only errors that are a power series in the step.
     /// Errors near a jump of a load, or near a knot of the load's table, are not such a series.
-    /// They were measured to be up to ten times the difference of neighbouring runs (`benches/peers`).
+    /// Errors near such a jump or knot were up to ten times the difference of neighbouring runs (measured in
+    /// `benches/peers`).
     pub fn extrapolated(self, times: usize) -> Self {
         let safety = match times {
             0 => self.safety,
@@ -282,7 +286,7 @@ mod tests {
             let mut runs = [2.0f64, 1.0, 0.5].map(|h| vec![h * h, 2.0 * h * h]);
             runs[place][0] = f64::NAN;
             let found = Convergence::of(&runs[0], &runs[1], &runs[2], false, 2.0, 0.0);
-            // A NaN of the double step does not enter the estimate, but the estimate is then not trusted.
+            // A NaN in the run at double step does not enter the estimate, but the estimate is then not trusted.
             let bound = found.parts(0.0).sum();
             assert!(bound.is_nan() || !found.is_trusted(), "{place}: {found:?}");
             assert!(found.limit(&runs[1], &runs[2], false).is_none(), "{place}: {found:?}");

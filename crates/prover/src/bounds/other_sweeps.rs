@@ -4,7 +4,7 @@
 //! If half of the sweeps leave a fraction q of the initial error, all of them leave q^2.
 //! The two runs differ by q - q^2, so the remaining error is q / (1 - q) of their difference.
 //! The safety factor 3 covers q up to 3/4 (ASME V&V 20 also counts the iteration error separately).
-//! A run with a quarter of the sweeps leaves q, and all sweeps leave q^4. The factor then covers q^3 up to 3/4.
+//! If a run with a quarter of the sweeps leaves q, all sweeps leave q^4. The safety factor then covers q^3 up to 3/4.
 //!
 //! A third run shows how the differences develop.
 //! Let each number of sweeps be r times the previous one, and each difference s times the previous one.
@@ -13,7 +13,8 @@
 //!   is the worst case: differences of a geometric convergence shrink faster and faster.
 //! - Differences may grow at first: an iteration that has hardly begun changes little from run to run, and s is close
 //!   to r. If one mode dominates the iteration, at most (r - 1) s / (r - s) of the last difference then remains.
-//! - The position with the slowest convergence decides for all channels. If its differences grow, the error is unknown.
+//! - The position channel with the slowest convergence decides for all channels. If the differences of this channel
+//!   grow, the error is unknown.
 //!
 //! See docs/numerics/bounds.md.
 
@@ -34,7 +35,8 @@ pub struct OtherSweeps<T> {
     pub runs: [Option<T>; 2],
     /// Ratio of the numbers of sweeps of successive runs.
     pub factor: f64,
-    /// Largest [growth](OtherSweeps::growth) of the positions; 0 if it is not known.
+    /// Largest [growth](OtherSweeps::growth) over the position channels; 0 if no growth is known.
+    /// If the engine's own forces are judged, the largest growth over these forces.
     pub growth: f64,
 }
 
@@ -77,8 +79,8 @@ impl OtherSweeps<&[f64]> {
             [Some(fewer), None] => last(fewer),
             // A channel that sweeps do not change has no iteration error.
             [Some(fewer), Some(_)] if last(fewer) == 0.0 => 0.0,
-            // If the differences of a position grow, the iteration has not reached this channel yet.
-            // Even small differences of the channel are then not rounding, and the error is infinite (unknown).
+            // If the differences of a position channel grow, the iteration may not have reached the judged channel yet.
+            // Even small differences of the judged channel are then not rounding. The error is infinite (unknown).
             [Some(_), Some(_)] if self.growth > 1.0 => f64::INFINITY,
             [Some(fewer), Some(_)] => match self.growth(single, noise, periodic) {
                 // If the last difference is only rounding, this difference is the error.
@@ -133,8 +135,8 @@ mod tests {
         assert!((left(shrinking, 4.0, 0.0, 0.0) - 3.0 * 0.1 * (1.0 / 9.0)).abs() < 1e-12);
         assert!((left(shrinking, 4.0, 0.9, 0.0) - 0.1 * 9.0).abs() < 1e-12);
         assert_eq!(left(shrinking, 4.0, 1.5, 0.0), f64::INFINITY);
-        // If the differences of a position grow, the error is unknown, even if the channel's differences could be
-        // rounding.
+        // If the differences of a position channel grow, the error is unknown, even if the judged channel's differences
+        // could be rounding.
         // A channel that sweeps do not change has no iteration error.
         assert_eq!(left(shrinking, 4.0, 1.5, 5.0), f64::INFINITY);
         assert_eq!(left([&[1.0], &[1.0], &[1.0]], 4.0, 1.5, 0.0), 0.0);

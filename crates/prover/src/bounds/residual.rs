@@ -12,8 +12,8 @@ use linkage::math::statistics::{differences, half_range, quantile, rms, share, s
 use linkage::trajectory::{Channel, Trajectory, Unit};
 
 /// A channel's scale is at least this fraction of the natural size of its quantity.
-/// If a coordinate is nearly constant, its errors come from neighbouring coordinates.
-/// The small motion of the coordinate is then no measure of these errors.
+/// The errors of a nearly constant coordinate come from neighbouring coordinates.
+/// The small motion of a nearly constant coordinate is therefore no measure of its errors.
 const SMALLEST_SHARE: f64 = 1e-3;
 
 /// The scale of a rate, a force or a moment is at least this fraction of its largest value.
@@ -58,16 +58,16 @@ const VANISHING: f64 = 1e-9;
 /// Scale of every channel: half the range of its values over the run.
 /// The scale is at least a thousandth of the natural size of the quantity.
 /// For a rate, a force or a moment the scale is also at least a tenth of the largest value.
-/// So a constant channel of these quantities has a scale that depends on its value.
+/// So the scale of a constant rate, force or moment depends on its value.
 /// The largest value does not limit the scale of a coordinate, because the origin of a coordinate is arbitrary.
 ///
 /// The natural size of coordinates is the largest half range among the quantity's channels.
-/// The natural size of any other quantity is the largest value of its channels.
+/// The natural size of a quantity that is not a coordinate is the largest value of its channels.
 /// The natural size is at least the value that follows from the crank's motion and the sizes of coordinates and forces.
 /// So a quantity that vanishes in the whole mechanism has a scale too.
 ///
-/// On a grid of one instant every range is zero.
-/// The scale is then the natural size: one radian for angles, half the extent of all coordinates for lengths.
+/// On a grid of one instant the range of every channel is zero.
+/// On such a grid the scale is the natural size: one radian for angles, half the extent of all coordinates for lengths.
 #[must_use]
 pub fn scales(trajectory: &Trajectory) -> Vec<f64> {
     scales_beyond(&vec![0.0; trajectory.channels().len()], trajectory, &Built::default())
@@ -109,15 +109,15 @@ pub(crate) fn scales_beyond(errors: &[f64], trajectory: &Trajectory, built: &Bui
     trajectory.channels().iter().enumerate().map(of).collect()
 }
 
-/// Sizes that follow from the data of a case. They do not depend on which parts of the case move.
+/// Sizes that follow from the data of a case. These sizes do not depend on which parts of the case move.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Built {
     /// Size of the mechanism (m).
     pub(crate) length: f64,
     /// Speed of the fastest drive (rad/s); for a free link, its nominal speed.
     pub(crate) speed: f64,
-    /// The larger of two forces (N): the weight of all links, and the force that accelerates the links at the speed and
-    /// length of this structure.
+    /// The larger of two forces (N): the weight of all links, and the force that accelerates the links at the rates
+    /// that follow from `speed` and `length`.
     pub(crate) force: f64,
 }
 
@@ -160,7 +160,7 @@ pub fn magnitudes(trajectory: &Trajectory) -> Vec<f64> {
     trajectory.channels().iter().map(|channel| all.rounded_with(channel)).collect()
 }
 
-/// As `magnitudes`, but by sets of channels.
+/// As `magnitudes`, but each set of channels has its own sizes.
 /// `sets[channel]` is the set of a channel. `feeds(from, to)` tells whether numbers of the set `to` are computed from
 /// channels of the set `from`.
 pub(crate) fn magnitudes_by(trajectory: &Trajectory, sets: &[usize], feeds: &dyn Fn(usize, usize) -> bool) -> Vec<f64> {
@@ -186,7 +186,7 @@ fn largest_sizes(trajectory: &Trajectory) -> Vec<f64> {
     trajectory.iter().map(|(_, values)| largest_size(values)).collect()
 }
 
-/// Largest sizes among some channels.
+/// Largest sizes among a selection of channels.
 struct Sizes {
     of_quantity: BTreeMap<&'static str, f64>,
     /// Largest sizes of coordinates and forces, and the mean speed of the crank.
@@ -211,7 +211,7 @@ impl Sizes {
         sizes
     }
 
-    /// For each kind of size, the larger of the two values.
+    /// For each kind of size, the larger of the values in `self` and `other`.
     fn with(mut self, other: &Sizes) -> Self {
         for (quantity, size) in &other.of_quantity {
             let own = self.of_quantity.entry(quantity).or_insert(0.0);
@@ -244,7 +244,7 @@ impl Sizes {
     }
 }
 
-/// `other` minus `reference`, channel by channel, for the channels that both have.
+/// `other` minus `reference`, channel by channel, for the channels that both trajectories have.
 /// Angles that differ by a constant number of whole revolutions describe the same motion.
 /// So the whole revolutions between the first samples are subtracted.
 ///

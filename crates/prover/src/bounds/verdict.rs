@@ -25,16 +25,17 @@ pub enum Verdict {
         /// Location of the largest residual, in words.
         place: String,
     },
-    /// A printed number disagrees as a finding predicts, and the corrected number agrees.
+    /// A published number disagrees with the solution as an entry of `docs/findings.md` predicts, and the corrected
+    /// number agrees.
     Expected {
-        /// Anchor of the finding in `docs/findings.md`.
+        /// Anchor of this entry in `docs/findings.md`.
         finding: String,
-        /// Difference between the printed number and the solution, in the unit of the check.
+        /// Difference between the published number and the solution, in the unit of the check.
         off: f64,
     },
     /// Neither agreement nor disagreement is proven.
     Inconclusive {
-        /// Why it is inconclusive.
+        /// Why the verdict is inconclusive.
         reason: String,
         /// Alternative actions that would decide the verdict; empty if none is known.
         advice: Vec<Advice>,
@@ -104,7 +105,8 @@ impl Verdict {
 
     /// Verdict on an engine's channel.
     /// A small residual proves nothing if the engine does not converge.
-    /// It also proves nothing if the engine's error may exceed the fraction `wanted` of the channel's scale.
+    /// A small residual also proves nothing if the engine's error may exceed the fraction `wanted` of the channel's
+    /// scale.
     pub fn of_engine(residual: &Residual, convergence: &Convergence, parts: Parts, wanted: f64) -> Self {
         let place = || {
             let unit = residual.channel.kind.unit.symbol();
@@ -156,7 +158,7 @@ impl Verdict {
 
 /// If a bound is below this fraction of the widest conclusive bound, no order of convergence is required.
 /// Runs at three steps then differ so little that rounding or the last iterations determine the order.
-/// The discretisation part of the bound is then six to ten times the larger difference.
+/// The discretisation part of the bound is then six to ten times the larger difference between two of these runs.
 const NEGLIGIBLE: f64 = 0.1;
 /// If a bound is too wide to prove agreement, a number disagrees only if it exceeds this multiple of the bound.
 /// The factor is the larger safety factor of the estimate, applied once more.
@@ -236,10 +238,10 @@ impl Check {
         self
     }
 
-    /// Combines this check against the correct number with the check against the `printed` number, which a finding
-    /// calls wrong.
-    /// The printed number must disagree, and the correct number must agree.
-    /// The verdict is disagree for NaN and for a number that differs from both the printed and the correct number.
+    /// Combines this check against the correct number with the check against the published number, `printed`, which the
+    /// entry `finding` of `docs/findings.md` calls wrong.
+    /// The check against the published number must disagree, and the check against the correct number must agree.
+    /// The verdict is disagree for NaN and for a number that differs from both the published and the correct number.
     pub fn expected(mut self, finding: &str, printed: &Check) -> Self {
         self.verdict = match (self.verdict, &printed.verdict) {
             (_, Verdict::Agree { .. }) => {
@@ -275,7 +277,7 @@ fn beyond(value: f64, bound: f64, unit: &str) -> String {
     sentences::is_beyond_the_bound(&error_in(value, unit), &error_in(bound, unit))
 }
 
-/// Overall verdict. One disagreement makes it disagree. Otherwise one inconclusive verdict makes it inconclusive.
+/// Overall verdict: disagree if one verdict is disagree. Otherwise inconclusive if one verdict is inconclusive.
 pub fn overall<'a>(verdicts: impl IntoIterator<Item = &'a Verdict>) -> Verdict {
     let mut margin = f64::INFINITY;
     let mut open = None;

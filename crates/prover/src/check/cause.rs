@@ -30,7 +30,7 @@ pub enum FormulaCause {
     Missing(Missing),
     /// Terms of the mechanism are missing from the formula.
     Terms(Vec<Term>),
-    /// The formula is right up to a value of the input. Beyond this value it follows another branch.
+    /// The formula is right up to a value of the input. Beyond this value the formula follows a wrong branch.
     Leaves {
         /// Last value of the input at which the formula is right.
         after: InputValue,
@@ -144,7 +144,7 @@ pub struct CauseSearch {
     pub cause: Option<FormulaCause>,
     /// Whether the search reached its work limit without finding a cause of the whole error.
     pub is_cut: bool,
-    /// Number of operations used. One operation evaluates one part of a formula at one instant, or has the same cost.
+    /// Number of operations used. One operation is the cost of evaluating one part of a formula at one instant.
     pub work: u64,
 }
 
@@ -189,7 +189,7 @@ fn sought(trial: &mut Trial, claim: &Claim, course: &KnownTrajectory) -> Option<
     let is_simple = |own: &&Mended| own.slip.kind != SlipKind::Value || !own.rank.1;
     let mut sound: Vec<&Mended> = tried.right.iter().filter(is_sound).filter(is_simple).collect();
     // If the mechanism's value is constant, a slip has to match only one number, so a match is weak evidence.
-    // The same is true if the formula is wrong by a factor or an offset.
+    // If the formula is wrong by a factor or an offset, a matching number is weak evidence too.
     let is_weak = trial.is_constant() || trial.is_number;
     if let Some(first) = sound.first().copied() {
         // Some evidence is stronger than a matching number: a sign, a unit, or units that only the correction makes
@@ -250,8 +250,8 @@ fn sought(trial: &mut Trial, claim: &Claim, course: &KnownTrajectory) -> Option<
     if trial.gives_one_number() && !trial.is_constant() {
         return Some(FormulaCause::Constant);
     }
-    // An approximation is not examined for a change of branch: at the instants at which it crosses the exact curve, it
-    // is right by chance.
+    // An approximation crosses the exact curve at some instants and is right there by chance.
+    // An approximation is therefore not examined for a change of branch.
     let is_exact = trial.formula.error.is_none();
     if let Some(found) = leaves(&rows, course.trajectory.input()).filter(|_| is_exact) {
         return Some(found);
@@ -339,8 +339,8 @@ fn leaves(rows: &[Row], input: Input) -> Option<FormulaCause> {
 mod tests {
     use super::*;
 
-    /// Ten numbers known to 1e-12. After an offset or a factor is removed, the remainder of each number must be as
-    /// small as that error.
+    /// Ten numbers known to 1e-12. After an offset or a factor is removed, the remainder of each number must be at most
+    /// about 1e-12.
     #[test]
     fn an_offset_or_factor_must_explain_every_row() {
         let found = |of: &dyn Fn(f64) -> f64, off: f64| {

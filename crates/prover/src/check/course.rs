@@ -265,7 +265,8 @@ mod tests {
         }
     }
 
-    /// The magnitude is the root of the sum of squares of both components. The errors of both are propagated.
+    /// The magnitude is the root of the sum of squares of both components. The error follows from the errors of both
+    /// components.
     #[test]
     fn a_magnitude_has_the_errors_of_its_components() {
         let case = of_repository("scenarios/crank_rocker.toml").case;

@@ -9,7 +9,8 @@ use linkage::error::Result;
 use scenario::{Claim, Formula, Formulas};
 
 /// A claim and its derivatives along a trajectory.
-/// All are functions of the claim's values, its channels, and the first and second derivatives of these channels.
+/// The claim and its derivatives are functions of the claim's values, its channels, and the first and second
+/// derivatives of these channels.
 pub(super) struct Claimed<'a> {
     program: Program,
     columns: Vec<Column<'a>>,
@@ -92,7 +93,7 @@ struct One<'a> {
 /// Number of derivatives by which a formula is judged.
 fn orders(formula: &Formula, claim: &Claim, course: &KnownTrajectory) -> Result<usize> {
     // An approximation is claimed for the value only, not for its derivatives.
-    // The same holds for a formula that is claimed at a single crank angle.
+    // A formula that is claimed at a single crank angle is judged by its value only, too.
     let is_instant = formula.valid[0].is_some() && formula.valid[0] == formula.valid[1];
     let known = course.orders(claim)?;
     Ok(if formula.error.is_some() || is_instant { 0 } else { known })

@@ -77,7 +77,7 @@ pub struct JudgedFormula {
     pub judged: usize,
     /// Number of instants at which the formula has lost too many digits to be judged.
     pub lost: usize,
-    /// Number of instants at which the claimed quantity is undefined, like a value reduced to a crank at rest.
+    /// Number of instants at which the claimed quantity is undefined, such as a value reduced to a crank at rest.
     pub undefined: usize,
     /// Number of instants at which the claimed quantity is defined but the formula is not.
     pub without: usize,
@@ -148,12 +148,11 @@ impl JudgedFormula {
         let (value, right) = (found.value, mechanism.value);
         let at = FormulaAtInstant { time, crank, input, formula: value, mechanism: right, difference, bound };
         // If the mechanism's value is hardly more accurate than the formula's value, the formula is not the cause of
-        // the lost digits.
-        // So the digits do not count as lost.
+        // the lost digits, and the digits do not count as lost.
         let has_lost = !(found.error <= TELLING * self.scale) && !(found.error <= NO_WORSE * mechanism.error);
         // At the end of a function's domain, such as acos at 1, the derivative is not finite although the value is
         // right.
-        // The digits at such an instant therefore count as lost.
+        // The digits of a derivative that is not finite therefore count as lost.
         let is_end = self.order > 0 && !found.value.is_finite();
         if is_end || has_lost && at.used() <= 1.0 {
             self.lost += 1;
@@ -198,7 +197,8 @@ mod tests {
     use scenario::{Formulas, of_repository};
 
     /// Errors of a formula and of the mechanism as fractions of the scale.
-    /// A formula decides nothing if it is known to less than six digits and much less accurately than the mechanism.
+    /// A formula's value decides nothing if it is known to less than six digits and much less accurately than the
+    /// mechanism's value.
     #[test]
     fn lost_digits_count_only_if_the_mechanism_has_them() {
         let case = of_repository("scenarios/crank_rocker.toml").case;

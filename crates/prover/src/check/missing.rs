@@ -1,7 +1,7 @@
 //! Missing terms and factors: finds from the numbers what one position of a formula lacks.
 //!
-//! At every position the missing summand or factor is calculated instant by instant.
-//! If it is proportional to an expression of the derivation, this expression is missing.
+//! At every position of the formula, the missing summand or factor is calculated instant by instant.
+//! If the calculated summand or factor is proportional to an expression of the derivation, this expression is missing.
 
 mod dictionary;
 mod monomials;
@@ -39,17 +39,17 @@ type Needed = Vec<Option<[f64; 2]>>;
 /// Upper limit of the expected number of products that match by chance.
 /// If a number is the only evidence, the parameters must be unlikely to produce the same number by chance.
 const CHANCE: f64 = 0.5;
-/// Assumed number of ways in which a product of several quantities may be missing. It is used if the formula is wrong
-/// only by a number.
+/// Assumed number of ways in which a product of several quantities may be missing. This number is used if the formula
+/// is wrong by a constant factor or offset, or if the mechanism's value is constant.
 const LONG: f64 = 100.0;
 
 /// Returns the missing term or factor that makes the formula right, at one position and with consistent units.
-/// Returns several if the parameters produce the same number in several ways.
+/// Returns several explanations if the parameters produce the missing number in several ways.
 pub(super) fn missing(trial: &mut Trial, dimensions: &Dimensions) -> Vec<Missing> {
     let dictionary = Dictionary::of(trial);
     let monomials = Monomials::of(&trial.formulas, trial.index, &dictionary.constants, dimensions);
     trial.sheet.operations += (30 * dictionary.entries.len() * trial.few.len() + monomials.len()) as u64;
-    // Units are evidence too if only the missing expression makes them consistent.
+    // The units are evidence too if they are consistent only with the missing expression.
     let own = trial.formulas.list[trial.index].tree.clone();
     let units = if dimensions.are_sound(&[(trial.index, own)]) { 1.0 } else { 0.05 };
     let is_weak = trial.is_number || trial.is_constant();
@@ -68,7 +68,7 @@ pub(super) fn missing(trial: &mut Trial, dimensions: &Dimensions) -> Vec<Missing
                         if trial.is_spent() {
                             break;
                         }
-                        // If a formula is wrong only by a number, no varying expression is missing.
+                        // If a formula is wrong by a constant factor or offset, no varying expression is missing.
                         if entry.after > index || trial.is_number && !entry.is_one() {
                             continue;
                         }
@@ -107,7 +107,7 @@ pub(super) fn missing(trial: &mut Trial, dimensions: &Dimensions) -> Vec<Missing
     found.dedup_by(|one, other| one.1.changed == other.1.changed);
     let mut right: Vec<(usize, Candidate)> = Vec::new();
     for (weight, own) in found {
-        // Keeps only explanations that are equally simple and at the same position.
+        // Keeps only explanations about as simple as the simplest one and at the position of this one.
         let is_equal = right.first().is_none_or(|(least, first)| weight <= least + 1 && own.is_beside(first));
         if is_equal && right.len() < MOST && trial.fits(&own.changed, 0.0) {
             right.push((weight, own));
@@ -120,7 +120,7 @@ pub(super) fn missing(trial: &mut Trial, dimensions: &Dimensions) -> Vec<Missing
 const MOST: usize = 3;
 
 /// Entries of a dictionary, sorted by the ratio of their values at two instants.
-/// So entries proportional to an amount are found without testing all of them.
+/// So entries proportional to an amount are found without a test of every entry.
 #[derive(Default)]
 struct Ratios {
     sorted: BTreeMap<[usize; 2], Vec<(f64, usize)>>,
@@ -170,7 +170,7 @@ impl Candidate {
         of(self) == of(other)
     }
 
-    /// Returns `None` if the formula would then use a later formula.
+    /// Returns `None` if the formula with the missing expression would use a later formula.
     fn of(trial: &Trial, [index, number]: [usize; 2], operator: Operator, what: &FormulaTree) -> Option<Self> {
         let later = &trial.formulas.list[index..];
         if what.names().iter().any(|(name, _)| later.iter().any(|own| own.name == *name)) {
@@ -192,7 +192,8 @@ impl Candidate {
 
 /// Whether a number alone proves that a product is missing.
 /// The number must have more digits than chance explains, given the number of products with the same unit.
-/// If the formula is wrong only by a number, `places` is the number of positions at which the product may be missing.
+/// If the formula is wrong by a constant factor or offset, or if the mechanism's value is constant, `places` is the
+/// number of positions at which the product may be missing.
 /// The product then fits at all these positions. In all other cases `places` is `None`.
 fn is_believed(
     monomials: &Monomials,

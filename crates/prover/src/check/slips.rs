@@ -2,7 +2,7 @@
 //!
 //! Every slip is tried at every position of the formula and of the steps that the formula uses.
 //! A correction that makes the formula right at every instant explains the error.
-//! The shape of the error is not used to guess a slip.
+//! The curve of the error over the instants is not used to guess a slip.
 
 mod edits;
 mod everywhere;
@@ -115,7 +115,8 @@ fn filled(tree: &FormulaTree, formula: &FormulaTree, places: &[usize]) -> Formul
     own
 }
 
-/// Returns a formula with one slip of a kind. The slips are the same replacements that serve as corrections.
+/// Returns a formula with one slip of a kind. The possible slips are the replacements that the search uses as
+/// corrections.
 /// `number`, modulo the number of possible slips, selects the position and the replacement.
 /// `None` if the slip cannot be made.
 #[must_use]

@@ -11,8 +11,7 @@ use scenario::{Claim, Formula, Formulas, INPUTS, Parameter};
 
 /// Number of instants at which every change is tried first, besides the instant with the largest error.
 const FIRST: usize = 9;
-/// Up to this number of preceding steps are kept although the formula does not use them. The same limit applies to
-/// parameters.
+/// Up to this number of preceding steps, and of parameters, are kept although the formula does not use them.
 /// The author may have omitted these steps or parameters by mistake.
 const BESIDE: usize = 20;
 /// Cost of making a change as a tree and judging it, without its evaluations, in operations.
@@ -157,8 +156,8 @@ impl<'a> Trial<'a> {
         self.inputs[place]
     }
 
-    /// Whether a change of the sheet is worth examining at all instants.
-    /// At each instant of `few`, the change must make the formula right or leave only a small part of the difference.
+    /// Whether `changes` of parts of the derivation are worth examining at all instants.
+    /// At each instant of `few`, the changes must make the formula right or leave only a small part of the difference.
     /// `depending` lists the positions that depend on the changed positions.
     pub(super) fn is_promising(&mut self, changes: &[(usize, FormulaTree)], depending: &[usize]) -> bool {
         let claimed = self.formula.error.unwrap_or(0.0);

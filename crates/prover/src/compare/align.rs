@@ -47,8 +47,8 @@ pub(super) fn beside(one: &Side, other: &Side, how: &ComparisonRule) -> Result<S
     let places = places(&from, &to, how);
     let unshared = places.iter().filter(|place| matches!(place, Place::Nowhere)).count();
     let shared = to.values.len() - unshared;
-    // A single shared instant is refused if other instants are not shared, because zero is the same in every unit of
-    // time.
+    // If the parties share only one of several instants, the comparison is refused: the instant 0 is the same in every
+    // unit of time.
     if shared == 0 || shared == 1 && unshared > 0 {
         let what = if from.is_crank { one.at.input.noun() } else { "time" };
         let which = if shared == 0 { "no" } else { "only one" };

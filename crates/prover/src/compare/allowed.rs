@@ -16,7 +16,7 @@ use columns::Allowance;
 #[derive(Clone, Debug, Default)]
 pub struct ComparisonRule {
     /// Allowed differences, of three kinds: absolute, relative to the scale, and relative to the value. If a channel
-    /// has several of one kind, the last one counts.
+    /// has several allowed differences of one kind, the last one counts.
     pub allowed: Vec<Allowed>,
     /// Quantity by which rows are matched. `None`: times if both parties have times, otherwise crank angles.
     pub by: Option<By>,
@@ -88,7 +88,7 @@ impl ComparisonRule {
     }
 }
 
-/// The word for the crank angle of rows.
+/// The word that selects the crank angle of the compared rows.
 const CRANK: &str = "crank";
 
 /// Words for claims, with their indices. A map keeps the search fast if there are many words and many claims.
@@ -131,7 +131,7 @@ fn called(own: &PrintedChannel) -> BTreeSet<String> {
 /// Allowed differences, found by the names of channels.
 pub struct Allowances<'a> {
     allowed: &'a [Allowed],
-    /// For each kind of allowance, the index of the last one for all channels.
+    /// For each kind of allowance, the index of the last allowance that applies to all channels.
     all: [Option<usize>; 3],
     words: Words,
 }

@@ -134,7 +134,7 @@ fn grid(scenario: &Scenario, at: &RowKey) -> Result<(Grid, Vec<usize>)> {
 }
 
 /// Adds errors to the recorded values of an analytic side.
-/// These are the known errors of the same channels, which are solved again in this run.
+/// The errors are those of `own`, in which this run has solved the same channels again.
 fn as_well_known(mut held: Held, own: &Held) -> Held {
     for column in &mut held.columns {
         let Some(found) = own.values_of(&column.claim) else { continue };

@@ -129,8 +129,8 @@ fn may_leave(cause: &DisagreementCause) -> bool {
         DisagreementCause::Case(Change { part, how: PartChange::Instead { .. } }) => {
             matches!(part, CasePart::StartAngle(_))
         }
-        // For these two slips, no remainder is allowed. A diverging simulation ends in rows with huge errors, beside
-        // which all other errors look small.
+        // Numerical derivatives and a single wrong row may not leave a remainder. A diverging simulation ends in rows
+        // with huge errors, beside which all other errors look small.
         DisagreementCause::Values { slip: DataSlip::Differences { .. } | DataSlip::Outlier(_), .. } => false,
         DisagreementCause::Case(_) | DisagreementCause::Values { .. } => true,
     }
@@ -264,7 +264,7 @@ impl Stage {
         (1..self.right.times().len() - 1).max_by(|&a, &b| bend(a).total_cmp(&bend(b)))
     }
 
-    /// The data of this stage without one row.
+    /// The rows of this examination except one row.
     fn without(&self, row: usize) -> Option<Stage> {
         let keep: Vec<bool> = (0..self.right.times().len()).map(|own| own != row).collect();
         let [right, found] = [&self.right, &self.found].map(|own| own.at_rows(&keep));

@@ -68,7 +68,7 @@ impl Which {
         if self == Which::First { Which::Second } else { Which::First }
     }
 
-    /// Both values in the order of the parties; `own` belongs to this party.
+    /// The values of both parties in the order in which the parties were named; `own` belongs to the party `self`.
     pub(super) fn beside<T>(self, own: T, other: T) -> [T; 2] {
         if self == Which::First { [own, other] } else { [other, own] }
     }
@@ -111,8 +111,8 @@ impl Both<'_> {
     /// The scale of a channel. The scale does not depend on the selection of compared channels.
     /// If a party has a complete trajectory, the scale comes from this trajectory.
     /// For tables and expressions of channels the scale comes from the numbers alone.
-    /// In this case the scale is half the range of the numbers, and at least a tenth of the largest value (for a
-    /// coordinate a thousandth).
+    /// A scale from the numbers alone is half their range, and at least a tenth of the largest value (a thousandth for
+    /// a coordinate).
     fn scale(&self, claim: &Claim, values: &[Rounded]) -> f64 {
         let measure = self.measure().party;
         let complete = [measure, 1 - measure].into_iter().find_map(|party| self.parties[party].scale_of(claim));

@@ -38,8 +38,8 @@ pub enum PartyStanding {
     Together,
     /// One party contradicts all others, and the others do not contradict each other.
     Alone(String),
-    /// The parties form two camps. They agree within each camp, and each party contradicts every party of the other
-    /// camp.
+    /// The parties form two camps. Parties of the same camp agree, and parties of different camps contradict each
+    /// other.
     Camps([Vec<String>; 2]),
     /// Some parties contradict each other but do not form two camps, or there are only two parties.
     /// The variant contains the contradicting pairs.

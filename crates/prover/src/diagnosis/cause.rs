@@ -16,7 +16,7 @@ pub enum DisagreementCause {
     Case(Change),
 }
 
-/// Slips without a number, and the list of all of them. Every slip of the list is tried.
+/// Declares the slips without a number, and a list of all these slips. Every slip of the list is tried.
 macro_rules! plain {
     ($($(#[$doc:meta])+ $name:ident,)+) => {
         /// Slips in right values that need no number, the simplest first.
@@ -88,7 +88,7 @@ pub enum DataSlip {
     },
     /// The acceleration without the Coriolis term of a block on a moving guide. The text names the joint.
     NoCoriolis(String),
-    /// The moment about another point. The force has this additional arm.
+    /// The moment about a wrong point of reference. The text contains the vector to this point.
     About(Arm),
     /// A single row is wrong, at this time (s).
     Outlier(f64),

@@ -13,7 +13,7 @@ use super::tries::{Candidate, Tries};
 use super::whole::whole_changes;
 
 /// Largest number of changed cases that are solved on thinned grids to find changes without a number.
-/// The same number of cases may be solved to find numbers and other instants.
+/// A second limit of the same size applies to the cases solved to find changed numbers and shifted instants.
 /// For a prescribed motion of at most `LINKS` links, which costs little, both limits are `CHEAP` times as high.
 const MOST: usize = 120;
 const CHEAP: usize = 3;
@@ -83,7 +83,7 @@ pub(super) fn found(question: &DiagnosisInput) -> (Vec<Found>, usize) {
     (all, solved)
 }
 
-/// A rotated drive as an alternative to late values: at constant speed both have the same effect.
+/// A rotated drive as an alternative to late values: at constant speed, rotation and delay have the same effect.
 fn turned(tries: &Tries, known: &[Candidate], late: &[Candidate]) -> Option<Candidate> {
     let case = &tries.thin.case;
     let by = late.iter().find_map(|one| match one.found.cause {

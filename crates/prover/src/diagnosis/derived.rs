@@ -69,7 +69,8 @@ fn differences(question: &DiagnosisInput, one: &Wrong, over: Over) -> Option<(Ch
         for (channel, values) in question.reference.iter() {
             let rate = channel.rate();
             let rate = if order == 1 { rate } else { rate.and_then(|rate| rate.rate()) };
-            // Uses the right values, and also the table's own values if these are right within their bounds.
+            // Takes differences of the reference's values, and also of the suspect's own values if these agree within
+            // their bounds.
             // Differences of wrong positions are not tried: rates that match wrong positions are not a separate slip.
             let is_right = question.judged.iter().any(|judged| judged.channel == *channel && !judged.disagrees);
             let own = question.suspicious.column(channel).filter(|_| is_right);

@@ -53,8 +53,8 @@ impl Diagnosis {
 /// Examines a disagreement. `None` if no channel exceeds its bound.
 ///
 /// Causes are tried from the simplest to the most complicated.
-/// The cause that explains the most disagreeing channels within their bounds is named. It must not make an agreeing
-/// channel disagree.
+/// The cause that explains the most disagreeing channels within their bounds is named. The named cause must not make an
+/// agreeing channel disagree.
 /// Further causes that explain the same channels are mentioned.
 #[must_use]
 pub fn diagnose(question: &DiagnosisInput, parties: &[DiagnosedParty]) -> Option<Diagnosis> {
@@ -81,7 +81,7 @@ pub fn diagnose(question: &DiagnosisInput, parties: &[DiagnosedParty]) -> Option
     let explained = first.as_ref().map_or(&[][..], |one| &one.explained[..]);
     let left_over: Vec<Channel> = wrong.iter().filter(|channel| !explained.contains(channel)).cloned().collect();
     // If the first cause is a slip, a fitted number adds nothing and is not mentioned.
-    // Several partial explanations would only confuse, unless they explain the same channels.
+    // Of several partial explanations, only those that explain the same channels as the first cause are mentioned.
     let says_more = |one: &Found| one.rank != Rank::Fitted || first.as_ref().is_some_and(|own| own.rank != Rank::Slip);
     let also = named.filter(|one| one.explained == explained && says_more(one)).map(|one| one.cause);
     let also = also.take(MENTIONED).collect();
@@ -128,7 +128,8 @@ pub struct Since {
 
 /// For every channel that exceeds its bound, the first such instant; the earliest channel first.
 /// If several channels exceed their bounds at the same instant, positions come before rates and forces.
-/// Then the channel with the larger ratio of difference to bound comes first.
+/// Among the positions, and among the rates and forces, the channel with the larger ratio of difference to bound comes
+/// first.
 #[must_use]
 pub fn since(reference: &Trajectory, suspect: &Trajectory, judged: &[SuspectChannel]) -> Vec<Since> {
     let rows = ascending(reference.times());

@@ -59,7 +59,7 @@ impl Knob {
         significant_in(self.unit == "rad", value, digits)
     }
 
-    /// A knob for an amount: it is `given` in the case and may be multiplied.
+    /// A knob for an amount that has the value `given` in the case and may be multiplied.
     fn amount(
         part: CasePart,
         given: f64,
@@ -120,8 +120,8 @@ pub(super) fn all(case: &Case) -> Vec<Knob> {
     knobs.extend((0..case.loads.len()).filter_map(|index| free(case, index)));
     knobs.extend(motor(case));
     let moving = || case.mechanism.links().entries().skip(1);
-    // A knob for all links together is added only if several links have the quantity. Otherwise the link's own knob has
-    // the same effect.
+    // A knob for all links together is added only if several links have the quantity. If only one link has the
+    // quantity, the link's own knob has the same effect.
     if moving().filter(|(_, link)| link.mass > 0.0).count() > 1 {
         knobs.push(share(CasePart::Masses, |link, factor| link.mass *= factor));
     }
@@ -176,7 +176,7 @@ fn of_transmission(index: TransmissionId, transmission: &Transmission) -> Vec<Kn
     knobs
 }
 
-/// Replaces a transmission. Start pose and structure stay the same.
+/// Replaces a transmission. Start pose and structure remain unchanged.
 pub fn recoupled(parts: &mut CaseParts, index: TransmissionId, other: Option<TransmissionDesign>) -> Option<()> {
     let mut designs = parts.mechanism.transmission_designs();
     *designs.get_mut(index.index())? = other?;
@@ -191,7 +191,7 @@ pub fn remade(case: &Case, change: impl FnOnce(&mut CaseParts) -> Option<()>) ->
     Case::new(parts).ok()
 }
 
-/// Changes links and joints. The structure stays the same.
+/// Changes links and joints. The structure remains unchanged.
 pub fn changed(parts: &mut CaseParts, change: impl FnOnce(&mut [Link], &mut [Joint])) -> Option<()> {
     let (mut links, mut joints) = (parts.mechanism.links().to_vec(), parts.mechanism.joints().to_vec());
     change(&mut links, &mut joints);
@@ -364,7 +364,7 @@ pub fn driven(parts: &mut CaseParts, index: usize, change: impl FnOnce(&mut Driv
     parts.grid = Grid::of_times(parts.drives.crank(), parts.grid.times.clone());
 }
 
-/// The law with another top speed (rad/s).
+/// The law, changed so that its top speed is `speed` (rad/s).
 pub fn at_speed(law: &MotionLaw, speed: f64) -> MotionLaw {
     let factor = speed / law.top_speed();
     match law {

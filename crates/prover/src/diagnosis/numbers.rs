@@ -11,7 +11,7 @@ use linkage::math::KeepNan;
 
 /// Number of knobs whose guessed value is tried once: those that explain most in a first approximation.
 const GUESSED: usize = 12;
-/// Number of knobs whose value is then searched: those that explain most after this trial.
+/// Number of knobs whose value is then searched: those that explain most after their guessed value is tried.
 const SEARCHED: usize = 5;
 /// Largest number of steps of the search for a value.
 const STEPS: usize = 6;
@@ -57,7 +57,7 @@ fn guesses(tries: &Tries) -> Vec<Guess> {
 }
 
 /// Whether the guess for a coordinate is close enough to the given value.
-/// With distant values the mechanism hardly moves, and much work is needed to detect this.
+/// With a value far from the given one, the mechanism hardly moves, and much work is needed to detect this.
 fn is_likely(guess: &Guess) -> bool {
     guess.knob.shows == Shows::Forces
         || guess.knob.is_far
@@ -213,7 +213,8 @@ fn within(knob: &Knob, [low, high]: [f64; 2]) -> Vec<f64> {
 /// Whether a found number may have been meant. Any smooth error resembles a tiny change of some number.
 /// So the found number must satisfy one of three criteria.
 /// The number differs noticeably from the given number, has few digits, or is known to a small fraction of its change.
-/// The third criterion is satisfied if `excess`, the ratio of the differences to their bounds, is large.
+/// The number is known to a small fraction of its change if `excess`, the ratio of the differences to their bounds, is
+/// large.
 pub(super) fn is_sure(change: &Change, excess: f64) -> bool {
     let PartChange::Instead { found, given, unit } = change.how else { return true };
     let told = if unit == "rad" { found.to_degrees() } else { found };
@@ -227,7 +228,7 @@ const FEW_DIGITS: usize = 4;
 /// A relative change below this limit counts as a mistake in the number only with further evidence: see [`is_sure`].
 const TRIFLE: f64 = 1e-3;
 /// A tiny change with many digits counts if the difference is at least this many times its bound.
-/// The change is then known to a hundredth.
+/// With such a difference, the change is known to a hundredth.
 const TELLING: f64 = 100.0;
 
 /// A value near the value found on the thinned grid, if it also explains everything on the whole grid.

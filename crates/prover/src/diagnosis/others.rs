@@ -13,8 +13,9 @@ const TELLING: f64 = 5.0;
 /// Number of rows that are compared first.
 const FEW: usize = 16;
 
-/// Every disagreeing channel that has the values of other channels: of a channel with which it is exchanged, of one
-/// channel (also with the opposite sign), of a magnitude, or of the difference of two channels.
+/// Every disagreeing channel whose values come from other channels. Four origins are possible:
+/// an exchange with a second channel, the values of one channel (also with the opposite sign), a magnitude, or the
+/// difference of two channels.
 pub(super) fn found(question: &DiagnosisInput, wrong: &[Wrong]) -> Vec<Found> {
     let mut causes = Vec::new();
     let mut put =
@@ -70,8 +71,8 @@ fn magnitude(question: &DiagnosisInput, one: &Wrong) -> Option<[Channel; 2]> {
     one.has_values_of(&sizes).then(|| [one.channel.clone(), other])
 }
 
-/// The difference of two channels of one kind: values relative to another link or point. Angles may also have another
-/// origin.
+/// The difference of two channels of one kind: values relative to another link or point. The difference of two angles
+/// may also be measured from another axis.
 fn between(one: &Wrong, all: &[(&Channel, &[f64])]) -> Option<DataSlip> {
     if !one.varies(one.found) {
         return None;

@@ -47,8 +47,8 @@ impl Candidate {
 }
 
 /// The benches at which changes are tried.
-/// A free motion is first followed for a short time. Later it may not depend on its cause in a simple way, and its
-/// solution costs more.
+/// A free motion is first followed for a short time. Later the motion may not depend on the cause in a simple way, and
+/// its solution costs more.
 pub(super) struct Tries<'a> {
     /// The first instant, whose solution costs almost nothing. A changed configuration is already visible at this
     /// instant.

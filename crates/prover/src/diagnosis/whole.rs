@@ -59,8 +59,8 @@ fn change(part: CasePart, how: PartChange, make: impl Fn(&Case) -> Option<Case> 
     (Change { part, how }, Box::new(make))
 }
 
-/// Moves the mass centre of every link: to each of its joints, to the middle between two joints, to the same distance
-/// from the other joint, or to the other side of the line through two joints.
+/// Moves the mass centre of every link to four kinds of places: to each joint of the link, to the middle between two
+/// joints, to its reflection in this middle, and to its reflection in the line through two joints.
 fn mass_centres(case: &Case) -> Vec<(Change, Make)> {
     let mut found: Vec<(Change, Make)> = Vec::new();
     for (index, link) in case.mechanism.links().entries().skip(1).filter(|(_, link)| link.mass > 0.0) {

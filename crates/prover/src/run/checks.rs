@@ -110,7 +110,7 @@ pub(super) fn beyond(sides: EachSide<&Observed>, known: &Known) -> Vec<Beyond> {
     let errors = difference(reference, other).expect("both sides stand on one grid");
     let of = |(index, worst): (usize, Worst)| {
         let values = errors.column_near(worst.channel, index)?;
-        // This form of the comparison counts NaN as beyond.
+        // This form of the comparison counts NaN as beyond the allowed difference.
         let is_beyond = |row: &&usize| {
             let relative = share(values[**row].abs(), known.magnitudes[index]);
             !(relative <= known.apart(worst.channel.kind.stage, index, **row))
@@ -181,7 +181,7 @@ fn power_balance(problem: Problem, engine: &dyn Engine, runs: &Runs) -> Check {
         of: &|run: &Observed| gaps(run).into_iter().map(|gap| share(gap, scale)).collect(),
         value: share(largest_size(&gaps(runs.single())), scale),
         kind,
-        // The factor is 2, because each of the two moments may have the rounding error of a moment.
+        // The factor is 2, because each of the two compared moments may have the rounding error of one moment.
         noise: if scale == 0.0 { 0.0 } else { 2.0 / scale },
         note: match by_differences {
             true => sentences::BOTH_FROM_THE_SAME_ACCELERATIONS,
@@ -207,7 +207,7 @@ struct Vanishing<'a> {
 }
 
 impl Vanishing<'_> {
-    /// Checks that the number does not exceed the size that the runs predict for it.
+    /// Checks that the number does not exceed the bound that its convergence over the runs gives.
     /// Let v be the part of the number that vanishes with the step, and s the safety factor. A part that does not
     /// vanish is found if it exceeds about (s - 1) v.
     fn check(self, problem: Problem, engine: &dyn Engine, runs: &Runs) -> Check {

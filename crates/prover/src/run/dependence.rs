@@ -21,7 +21,7 @@ pub(super) struct Dependence {
 impl Dependence {
     /// Determines the groups that each channel depends on.
     /// In a prescribed motion, a link depends on its own group and on the groups before it.
-    /// Forces depend on all groups, and so does a motion under forces.
+    /// Forces depend on all groups. A motion that forces determine depends on all groups too.
     pub(super) fn of(case: &Case, channels: &[Channel]) -> Self {
         let all: Vec<GroupId> = case.structure.groups.ids().collect();
         let upstream = case.structure.upstream(&case.mechanism);
@@ -30,7 +30,8 @@ impl Dependence {
         // Maps the last groups of a set to the index of the set, so that each set is determined only once.
         let mut known: BTreeMap<Vec<GroupId>, usize> = BTreeMap::new();
         for channel in channels {
-            // Of the groups that a link depends on, the link's own group is the last. So this group determines the set.
+            // Of the groups that a link depends on, the link's own group is the last. So the link's own group
+            // determines the set.
             let tops = match case.is_free() || channel.kind.stage >= Stage::Reactions {
                 true => all.clone(),
                 false => {

@@ -20,7 +20,8 @@ impl Proof {
         }
         let analytic = overall(self.checks.iter().map(|check| &check.verdict));
         self.verdict = overall([&analytic].into_iter().chain(self.engines.iter().map(|engine| &engine.verdict)));
-        // The diagnosis is dropped if the bounds change. It is valid only for the bounds with which it was made.
+        // The diagnosis is dropped if the bounds change. A diagnosis is valid only for the bounds with which it was
+        // made.
         self.diagnosis = self.diagnosis.filter(|_| dial == 1.0);
         self.diagnosis_is_cut &= dial == 1.0;
         self
@@ -43,8 +44,8 @@ fn scale(check: &mut Check, dial: f64) {
 }
 
 /// Judges again a verdict that is based on a bound.
-/// A number that a finding calls wrong may disagree although it is within its bound. The verdict on such a number does
-/// not change.
+/// A published number that `docs/findings.md` calls wrong may have the verdict `disagree` although it is within its
+/// bound. This verdict does not change.
 fn judge(verdict: &mut Verdict, value: f64, bound: &mut f64, dial: f64) {
     let beyond = !(value <= *bound);
     *bound *= dial;

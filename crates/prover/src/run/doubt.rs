@@ -221,7 +221,7 @@ mod tests {
     /// A pendulum with friction, released from rest, reverses twice in three seconds.
     /// Impulses are computed from six steps, one step late.
     /// So five of the longest steps (11 ms) are doubtful on either side of each reversal.
-    /// For second differences, 17.6 ms are doubtful on either side of each reversal.
+    /// If forces come from second differences, 17.6 ms are doubtful on either side of each reversal.
     #[test]
     fn only_forces_beside_a_reversal_of_free_motion_are_left_out() {
         let text = text("scenarios/pendulum.toml").replace("step_s = 0.01", "step_s = 0.001");
@@ -233,7 +233,7 @@ mod tests {
             let reverses = |row: &usize| omega[*row] * omega[*row + 1] < 0.0;
             let reversals: Vec<f64> = (1..times.len() - 1).filter(reverses).map(|row| times[row]).collect();
             assert_eq!(reversals.len(), 2, "{reversals:?}");
-            // It starts at rest.
+            // The pendulum starts at rest. Rows near the start are skipped.
             for (row, kept) in doubt.keeps(Stage::Reactions).into_iter().enumerate().skip(30) {
                 let away = reversals.iter().map(|t| (times[row] - t - 5e-4).abs()).fold(f64::INFINITY, f64::smaller);
                 assert!(away > reach - 1e-3 || !kept, "{route:?}: {} s", times[row]);

@@ -81,7 +81,7 @@ impl<T> EachSide<T> {
         Reference::ALL.into_iter().zip(&self.0)
     }
 
-    /// The same by reference.
+    /// References to the values of both sides.
     pub(crate) fn each_ref(&self) -> EachSide<&T> {
         EachSide(self.pair())
     }

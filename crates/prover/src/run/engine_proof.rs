@@ -74,7 +74,7 @@ pub struct ChannelProof {
 /// How the settings of an engine were found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SettingsSearch {
-    /// Number of runs made. Each has another step or another number of sweeps.
+    /// Number of runs made. Any two runs differ in step or number of sweeps.
     pub runs: usize,
     /// Work done, in steps without sweeps. Twenty sweeps count as one additional step.
     pub effort: f64,
@@ -87,8 +87,8 @@ pub struct SettingsSearch {
 /// Why a search of settings ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SearchEnd {
-    /// Every channel has the target accuracy. Alternatively, every channel is conclusive and the work allowed for
-    /// further refinement is spent.
+    /// Every channel has the target accuracy, or every channel is conclusive and the work allowed for further
+    /// refinement is spent.
     Decided,
     /// A finer step would add more rounding error than the truncation error that it removes.
     Rounding,
@@ -177,9 +177,10 @@ impl EngineProof {
     }
 
     /// The part of the verdict that comes from the forces that the engine itself exerts.
-    /// If they are inconclusive, they are reported but do not change the verdict, because the motion and its forces are
-    /// judged without them.
-    /// Impulses converge with a lower order than the motion. Impulses need the true masses and many sweeps.
+    /// An inconclusive verdict on these forces is reported but does not change the whole verdict, because the motion
+    /// and the forces that follow from it are judged without them.
+    /// The engine computes these forces as impulses. Impulses converge with a lower order than the motion, and need the
+    /// true masses and many sweeps.
     #[must_use]
     pub fn added(&self) -> Option<&Verdict> {
         let own = self.own_forces.as_ref().map(|own| &own.verdict);
@@ -187,7 +188,7 @@ impl EngineProof {
     }
 
     /// Which of the two judgements of the forces disagrees.
-    /// `None` if both agree or if only one exists.
+    /// `None` if both judgements agree or if only one judgement exists.
     /// Also `None` if the other judgement is inconclusive or the motion itself disagrees, because the cause is then
     /// unknown.
     #[must_use]

@@ -47,8 +47,8 @@ pub(super) fn prove(
     let Judged { mut proof, run, .. } = match found {
         Ok(found) => found,
         Err(Stopped { error, kept, spent }) => {
-            // If no work remains for finer steps, perhaps only the coarse steps failed. So the verdict is inconclusive
-            // with the advice to allow more work.
+            // If no work remains for finer steps, possibly only the coarse steps have failed. So the verdict is
+            // inconclusive with the advice to allow more work.
             let (verdict, failure) = match spent {
                 None => (Verdict::open(error.message()), Some(error)),
                 Some(work) => {
@@ -137,7 +137,7 @@ fn at_given(judge: &Judge, bank: &mut Bank, engine: &dyn Engine, budget: f64, pr
     Ok(judged)
 }
 
-/// Advice for an inconclusive run at a given step. It comes from a run with free settings.
+/// Advice for an inconclusive run at a given step. The advice comes from a run with free settings.
 fn tried(judge: &Judge, bank: &mut Bank, chosen: &Chosen) -> Advice {
     let case = bank.case;
     let engine = chosen.engine.at(coarse_step(case));

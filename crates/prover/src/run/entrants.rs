@@ -50,7 +50,7 @@ pub const TRUE_SIDES: EachSide<Entrant<'static>> = EachSide::new(
 pub struct EngineRole<'a> {
     /// The case that the engines solve, on the scenario's instants.
     pub case: &'a Case,
-    /// Wraps each engine.
+    /// Function that receives each engine and returns the engine to be used in its place.
     pub around: &'a dyn Fn(Box<dyn Engine>) -> Box<dyn Engine>,
     /// Whether the forces that the engines themselves exert are judged too.
     pub own_forces: bool,
@@ -151,7 +151,8 @@ impl ObservedSides {
         Ok(own)
     }
 
-    /// Judges formulas against both sides. Judges every claim whose channels the sides have.
+    /// Judges every claim of the formulas by the results of both sides. A claim is left out if the sides do not have
+    /// its channels.
     ///
     /// # Errors
     /// The errors of [`check::judge`].
@@ -186,7 +187,8 @@ impl ObservedSides {
         Ok(Judgement { causes, undefined, unsought, work, ..Judgement::of(sides) })
     }
 
-    /// Judgements of both sides on every claim whose channels they have. Causes of wrong formulas are not sought.
+    /// Every claim, compared with the results of each side that has its channels. Causes of wrong formulas are not
+    /// sought.
     ///
     /// # Errors
     /// The errors of [`check::judge`].

@@ -16,8 +16,8 @@ use scenario::{Formulas, MechanismFigure};
 /// below this error.
 const KNOWN: f64 = 1e-11;
 
-/// The figures that formulas claim, from both sides, in SI units. Their error covers the difference of the sides and
-/// rounding.
+/// The figures that formulas claim, from both sides, in SI units. The error of a figure covers the difference of the
+/// sides and rounding.
 ///
 /// # Errors
 /// The errors of [`Measured::value`].

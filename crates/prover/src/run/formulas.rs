@@ -12,7 +12,7 @@ use crate::tolerance::{BoundBasis, Tolerance};
 /// Judgement of all formulas of a scenario.
 #[derive(Clone, Debug)]
 pub struct Judgement {
-    /// Judgements of the sides on every claim: by value, then by derivative.
+    /// For each side, every claim compared with the side's results: by value, then by derivative.
     pub sides: EachSide<Vec<Vec<JudgedFormula>>>,
     /// The wrong formulas by name, each with its cause if a simple cause was found.
     pub causes: Vec<(String, Option<FormulaCause>)>,
@@ -25,7 +25,7 @@ pub struct Judgement {
 }
 
 impl Judgement {
-    /// Judgements of both sides. Causes of wrong formulas are not sought.
+    /// The comparisons of the claims with the results of `sides`, without causes of wrong formulas.
     pub fn of(sides: EachSide<Vec<Vec<JudgedFormula>>>) -> Self {
         Judgement { sides, causes: Vec::new(), undefined: BTreeMap::new(), unsought: BTreeSet::new(), work: 0 }
     }

@@ -169,9 +169,9 @@ impl<'a> Judge<'a> {
     }
 
     /// Largest growth of the differences between runs with increasing numbers of sweeps.
-    /// The growth is the maximum over all positions with differences that are not negligible.
-    /// If the engine's own forces are judged, it is the maximum over these forces, because they come from other
-    /// simulations than the motion.
+    /// The growth is the maximum over all position channels with differences that are not negligible.
+    /// If the engine's own forces are judged, the growth is the maximum over these forces, because these forces come
+    /// from simulations of their own.
     fn growth(&self, runs: &Runs) -> f64 {
         let Ladder { resolutions: [_, single, _], other_sweeps } = runs.ladder();
         let of = |(channel, scale): (&Channel, &f64)| {

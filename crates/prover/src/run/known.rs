@@ -18,7 +18,7 @@ use linkage::mechanism::GroupId;
 use linkage::solver::{Solver, State};
 use linkage::trajectory::{Channel, Stage, Trajectory, Unit};
 
-/// Relative error assumed for an analytic side in well-conditioned poses. The error is chosen.
+/// Relative error assumed for an analytic side in well-conditioned poses. The value is chosen, not measured.
 /// Each derivative multiplies the rounding error of its input by the condition number of the pose, and so does each
 /// linear solve for forces. In well-conditioned poses the condition number is at most some tens.
 pub(super) fn usual(stage: Stage) -> f64 {
@@ -41,8 +41,8 @@ fn power(stage: Stage) -> i32 {
 /// Rounding error of a position in a pose of condition number 1, in units in the last place.
 const ULPS: f64 = 16.0;
 
-/// Assumed ratio of a side's integration error to the side's difference from its run with a tighter tolerance. The
-/// tighter run has an error too.
+/// Assumed ratio of a side's integration error to the side's difference from its run with a tighter tolerance. The run
+/// with a tighter tolerance has an error of its own.
 /// A ratio of 3.2 was measured with steps that crossed knots of a load's table. In the present program steps end at
 /// knots.
 const SAFETY: f64 = 4.0;
@@ -53,8 +53,8 @@ pub(super) fn of_condition(stage: Stage, condition: f64) -> f64 {
 }
 
 /// Factor on rounding errors due to distant mass centres, at least 1.
-/// This is the largest distance between points of a link, mass centre included, divided by the largest distance without
-/// the mass centre.
+/// For one link, the factor is the largest distance between its points, mass centre included, divided by the largest
+/// distance without the mass centre.
 /// Side 2 calculates with the positions of mass centres.
 /// The position of a joint is therefore as uncertain as the last digit of the joint's distance from the mass centre.
 /// For angles, this uncertainty is divided by the distance between the joints.
@@ -71,7 +71,7 @@ fn lever(case: &Case, groups: &[GroupId]) -> f64 {
 
 /// Rounding error of the positions from which a group is assembled. The unit is one unit in the last place of the
 /// positions' distance from the origin.
-/// On each side four positions contribute: two outer joints, the inner joint and an origin.
+/// On each analytic side, four positions contribute: two outer joints, the inner joint and an origin.
 /// Each coordinate has a root mean square rounding error of 0.3 units. The sixteen independent coordinates of both
 /// sides give 1.2 units.
 /// The constant is more than three times this value.
@@ -168,11 +168,12 @@ impl Known {
         let integration = EachSide::tried(|side| integration(sides[side]))?;
         let dependence = Dependence::of(case, own.channels());
         let magnitudes = magnitudes_by(own, &dependence.of, &|from, to| dependence.feeds(from, to));
-        // These sizes serve for quantities that vanish, for example a velocity if no coordinate is among the channels.
+        // The sizes from the case's data serve for quantities that vanish, for example a velocity if no coordinate is
+        // among the channels.
         let sizes = built(case);
         let sized = magnitudes.into_iter().zip(own.channels());
-        // The angular acceleration of a wheel is a sum of terms of the size omega^2. At a constant ratio these terms
-        // cancel.
+        // The angular acceleration of a wheel is a sum of terms of the size omega^2, which cancel if the ratio of the
+        // speeds is constant.
         let turning = |channel: &Channel| -> f64 {
             let is_geared =
                 !case.mechanism.transmissions().is_empty() && channel.kind.unit == Unit::RadianPerSecondSquared;
@@ -201,7 +202,7 @@ impl Known {
     }
 
     /// Measures the condition number of every pose.
-    /// This is needed if the errors of the sides exceed the rounding error of well-conditioned poses.
+    /// The condition numbers are needed if the errors of the sides exceed the rounding error of well-conditioned poses.
     ///
     /// # Errors
     /// The errors of the solver.
@@ -262,7 +263,7 @@ impl Known {
         self.error(stage, channel) + self.integration[self.reference.other()][channel]
     }
 
-    /// Largest error allowed to the reference in a channel over the run, in the channel's unit.
+    /// Largest error allowed for the reference in a channel over the run, in the channel's unit.
     pub(super) fn error(&self, stage: Stage, channel: usize) -> f64 {
         let rows = 0..self.conditions.len().max(self.turned.len()).max(1);
         let rounding = rows.map(|row| self.rounding(stage, channel, row)).fold(0.0, f64::larger);
@@ -277,7 +278,8 @@ mod tests {
     use linkage::case::{Grid, Wanted};
     use scenario::{Scenario, of_repository};
 
-    /// A motion under forces does not regain lost accuracy. A prescribed motion is as accurate as its pose.
+    /// A motion under forces does not regain lost accuracy. In a prescribed motion, the accuracy at an instant depends
+    /// only on the pose at this instant.
     #[test]
     fn in_free_motion_the_worst_condition_so_far_counts() {
         let falls = |name: &str| {
@@ -338,7 +340,7 @@ mod tests {
 
     /// At a change point the condition number of the pose is unbounded, but the condition number of the passage through
     /// the pose is finite.
-    /// An error of a millionth is found at the change point.
+    /// A relative error of a millionth at the change point exceeds the allowed difference and is found.
     #[test]
     fn numbers_at_a_change_point_are_known_to_a_millionth() {
         let case = of_repository("tests/outside/scenarios/parallel_cranks_passing.toml").case;
@@ -392,8 +394,8 @@ mod tests {
         case.on(Grid::of_inputs(case.crank(), cranks.to_vec())).unwrap()
     }
 
-    /// Symptom: the sides disagreed at 90 deg, where the condition number is 1. This happened for four-bars in a row
-    /// and for a single four-bar far from the origin.
+    /// This test repeats a former fault: the sides disagreed at 90 deg, where the condition number is 1. The fault
+    /// occurred for four-bars in a row and for a single four-bar far from the origin.
     /// Positions are known to the last digit of their distance from the origin, and each four-bar adds its rounding
     /// error.
     #[test]

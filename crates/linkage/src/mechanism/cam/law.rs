@@ -47,7 +47,7 @@ impl CamCurve {
                 ]
             }
             CamCurve::ModifiedSine => {
-                // The acceleration is a quarter of a sine wave at each end, and half of a slower sine wave between.
+                // The acceleration is a quarter of a sine wave at each end, and half of a slower sine wave in between.
                 let (share, turns) = ((4.0 + PI).recip(), (x * 8.0).clamp(0.0, 8.0));
                 let (sine, cosine) = (4.0 * PI * x).sin_cos();
                 let (slow, slow_cosine) = ((4.0 * PI * x + PI) / 3.0).sin_cos();
@@ -92,7 +92,8 @@ pub enum CamLaw {
 }
 
 impl CamLaw {
-    /// The law of these pieces. `None` unless their ends ascend from above 0 to a full turn and the last lift is 0.
+    /// The law with these pieces.
+    /// `None` unless the ends of the pieces ascend, from an angle above 0 to a full turn, and the last lift is 0.
     #[must_use]
     pub fn of(segments: Vec<CamSegment>) -> Option<Self> {
         let ends = std::iter::once(0.0).chain(segments.iter().map(|own| own.to));

@@ -66,10 +66,11 @@ pub struct Group {
     pub links: Vec<LinkId>,
     /// Joints between two links of the group.
     pub inner: Vec<JointId>,
-    /// Joints with links that are known before the group is solved.
+    /// Joints between a link of the group and a link whose pose is known before the group is solved.
     pub outer: Vec<JointId>,
     /// The joints of `inner` and `outer` whose coordinate is given.
-    /// Two links on a given joint are one rigid body at every instant, a body of changing shape.
+    /// Two links connected by a given joint count as one body, which is rigid at every instant although its shape
+    /// changes with time.
     /// Class and kind of the group are those of its bodies.
     pub given: Vec<JointId>,
     /// The transmissions that the group contains. Each of them couples a coordinate of the group to coordinates of the
@@ -148,7 +149,7 @@ impl Group {
         names.join(", ")
     }
 
-    /// The group's key in a description: the entry of `start.groups` with its links.
+    /// The group's key in a scenario file: the entry of `start.groups` with the group's links.
     pub fn key(&self, mechanism: &Mechanism) -> KeyPath {
         let links = self.links.iter().map(|&link| mechanism.links()[link].name.clone());
         KeyPath::of_group("start.groups", links.collect())

@@ -24,7 +24,8 @@ pub(super) const COINCIDE: f64 = 1e-9;
 
 /// Axle of a link in the frame of the carrier and in the frame of the link.
 /// The axle is a revolute joint of the link with the carrier, or with a third link.
-/// In the second case, the third link must have a revolute joint with the carrier at the same place.
+/// If the axle is a joint with a third link, the third link must have a revolute joint with the carrier at the same
+/// place.
 pub(super) fn axle(joints: &PerJoint<Joint>, size: f64, link: LinkId, carrier: LinkId) -> Option<[Vec2; 2]> {
     let pins = |on: LinkId| joints.iter().filter(move |joint| joint.is_pin() && joint.on(on).is_some());
     let near = COINCIDE * size;
@@ -70,7 +71,8 @@ pub(super) fn gears(
     angle: f64,
 ) -> ([Member; 2], [LineOfAction; 2]) {
     let between = other.place - one.place;
-    // Pitch radii: distances of the pitch point from the axles, positive towards the other axle.
+    // Pitch radii: distances of the pitch point from the axles. Each distance is positive in the direction of the other
+    // gear's axle.
     let radii = teeth.map(|own| between.norm() * own / (teeth[0] + teeth[1]));
     let (along, across) = (between.normalize(), turned(between.normalize()));
     [one.radius, other.radius] = radii.map(f64::abs);

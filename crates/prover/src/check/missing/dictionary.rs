@@ -49,7 +49,7 @@ const OF_ANGLE: &str = "cos(x)*sin(x): 2; cos(x)^2: 2; cos(x)^3: 2; 1/cos(x): 2;
                         sin(x)^2: 2; sin(x)^3: 2; 1/sin(x): 2; 1/sin(x)^2: 3; 1/sin(x)^3: 3; \
                         cos(x): 0; sin(x): 0; tan(x): 1";
 
-/// Reads expressions with letters, and their weights.
+/// Parses expressions, in which letters stand for steps and angles, and their weights.
 fn read(text: &str) -> Vec<(FormulaTree, usize)> {
     let one = |own: &str| {
         let (tree, weight) = own.split_once(':').expect("an expression has a weight");
@@ -101,8 +101,8 @@ impl Dictionary {
 }
 
 /// Angles of the derivation, each with the complexity of its sine or cosine.
-/// They are the crank angle, the steps in arguments of sines, cosines and tangents, the steps that are values of
-/// inverse functions, and differences of two such angles. Twice and three times the crank angle are added.
+/// These angles are the crank angle, the steps in arguments of sines, cosines and tangents, the steps that are values
+/// of inverse functions, and differences of two such angles. Twice and three times the crank angle are added.
 fn angles(trial: &Trial) -> Vec<(FormulaTree, usize)> {
     let mut names: Vec<FormulaTree> = vec![FormulaTree::name("phi")];
     let known = &trial.formulas.list[..trial.index];

@@ -52,7 +52,7 @@ impl Monomials {
     }
 
     /// Returns the number of products of this dimension that are no more complicated than `weight`.
-    /// Also returns how many of them are expected to match `value` by chance to this accuracy.
+    /// Also returns the expected number of these products that match `value` by chance to this accuracy.
     pub(in crate::check) fn by_chance(
         &self,
         value: f64,

@@ -95,7 +95,8 @@ impl Search<'_, '_> {
         self.trial.sheet.depending(&places.iter().map(|(place, _)| *place).collect::<Vec<usize>>())
     }
 
-    /// Tries a correction, given as `changes` of the sheet and as `change` of trees.
+    /// Tries a correction, given in two forms: as `changes` of the derivation's parts, and as a function `change` of a
+    /// formula's tree.
     fn mended(
         &mut self,
         kind: SlipKind,

@@ -60,7 +60,7 @@ linkage::words! {
 /// Order of slips. The simplest slip has the smallest rank.
 /// The rank has four parts: whether the units contradict the correction, whether the slip occurs at many positions,
 /// whether the slip is in a step, and the kind of slip.
-/// For a wrong value, the second part is false if its digits are confused, and true otherwise.
+/// For a wrong value, the second part is false if the digits of the value are confused, and true otherwise.
 type Rank = (bool, bool, bool, SlipKind);
 
 /// A slip and the effect of its correction.
@@ -69,7 +69,7 @@ pub(in crate::check) struct Mended {
     pub(in crate::check) rank: Rank,
     /// Fraction of the largest difference that remains after the correction; zero if the formula is then right.
     pub(in crate::check) left: f64,
-    /// Number of slips tried up to and including this one. All of them are at least as simple as this one.
+    /// Number of slips tried up to and including this one. All slips tried before are at least as simple as this one.
     pub(in crate::check) among: usize,
 }
 

@@ -18,8 +18,8 @@ use linkage::math::KeepNan;
 const DIGITS: usize = 6;
 /// Relative accuracy to which a number must be known before its digits are compared.
 const KNOWN: f64 = 1e-8;
-/// A factor with less information than this (bits) is simple: its effect on the digits is no evidence of confused
-/// digits.
+/// If a factor has less information than this (bits), it is simple. Digits changed by a simple factor are no evidence
+/// of confused digits.
 const SIMPLE: f64 = 2.0;
 
 /// Tries every number of the formulas `used`, and every parameter in them.
@@ -72,7 +72,8 @@ fn put(
 ) {
     let [written, right] = texts;
     let slip = FormulaSlip { formula: formula.into(), kind: SlipKind::Value, written, right, everywhere: false };
-    // A number does not change the units. A correction without confused digits ranks after missing terms.
+    // A corrected number leaves the units unchanged. A correction of a number without confused digits ranks after
+    // missing terms.
     let rank = (false, !is_confused, changed[0].0 != trial.index, SlipKind::Value);
     tried.put(trial, changed, slip, rank);
 }
@@ -116,7 +117,7 @@ fn short(value: f64, error: f64) -> Option<f64> {
 }
 
 /// Whether the digits of the right number were confused: two exchanged, one lost, added or doubled.
-/// Another usual value of gravity counts as confused too.
+/// A usual value of gravity in place of another usual value also counts as confused digits.
 /// A shifted decimal point or a simple factor does not count.
 fn is_confused(wrong: f64, right: f64) -> bool {
     if edits::GRAVITY.contains(&wrong) && edits::GRAVITY.contains(&right) {
