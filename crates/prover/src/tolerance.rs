@@ -79,7 +79,7 @@ pub enum BoundBasis {
         /// Whether the formula also states an error of its values.
         claimed: bool,
     },
-    /// Another basis, with a note on the check that uses it.
+    /// A basis of one of the kinds above, with a note on the check that uses the basis.
     Noted(Box<BoundBasis>, &'static str),
 }
 

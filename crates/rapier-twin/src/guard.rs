@@ -43,7 +43,8 @@ pub(super) struct Guard<'a> {
     /// The mechanism's size (m).
     size: f64,
     largest_gap: f64,
-    /// Frames of all links after the last step. `centres` are the mass centres of all links at the same time (m).
+    /// Frames of all links after the last step. `centres` are the mass centres of all links (m), also after the last
+    /// step.
     frames: Vec<LinkFrame>,
     centres: Vec<Vec2>,
     loads: Vec<Wrench>,

@@ -8,8 +8,8 @@ use linkage::math::KeepNan;
 use linkage::mechanism::{GROUND, Joint, Link, LinkId};
 
 /// Mass added to a massless link, divided by the mean mass of the links.
-/// A small mass is compensated quickly: in each step, the error of the first guess is multiplied by about this
-/// fraction.
+/// The smaller the added mass, the faster the compensating loads become exact: each step multiplies their error by
+/// about this fraction.
 const SHARE: f64 = 0.1;
 /// Moment of inertia of a slender rod, divided by its mass and the square of its length.
 const ROD: f64 = 1.0 / 12.0;
@@ -22,7 +22,7 @@ const OFF_JOINTS: f64 = 1e-2;
 /// Additional moment of inertia of driving links, divided by the total mass times the square of the mechanism's size.
 /// A link with prescribed speed may have any moment of inertia, because it affects neither motion nor reactions.
 /// The additional moment of inertia affects the driving moment only where the speed changes.
-/// Where the speed changes, its contribution is subtracted ([`Ghost`](super::ghost::Ghost)).
+/// This contribution to the driving moment is subtracted ([`Ghost`](super::ghost::Ghost)).
 /// With a large moment of inertia, the constraint rows of the drives hardly depend on the rows of the loops, and the
 /// sweeps converge.
 /// On a four-bar whose coupler is thirteen times as heavy as its crank, 32 sweeps with the flywheel achieve as much as
@@ -82,7 +82,7 @@ fn even_masses(case: &Case) -> Vec<[f64; 2]> {
 pub(super) enum Loading {
     /// Only the motion of the world is read. Under prescribed speeds the world has [`even_masses`].
     Moving,
-    /// The forces of the world are read, and the contribution of stand-ins is subtracted.
+    /// The forces of the world are read, and the contribution of the added masses is subtracted.
     Read,
     /// The forces of the world are read, and nothing is subtracted.
     Bare,
@@ -113,7 +113,8 @@ fn with_flywheels(case: &Case, mut masses: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
         match drive.input {
             Input::Angle => *inertia += FLYWHEEL * total * size * size,
             Input::Slide if case.mechanism.joints()[drive.joint].on(GROUND).is_some() => *mass += FLYWHEEL * total,
-            // Both links of the joint move, so a flywheel on one of them does not help the drive's row.
+            // Both links of the joint move, so a flywheel on one of them does not improve the convergence of the
+            // drive's constraint row.
             Input::Turn | Input::Slide => {}
         }
     }

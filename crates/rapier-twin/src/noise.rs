@@ -93,7 +93,7 @@ pub(super) fn bound(case: &Case, engine: &Rapier, channel: &ChannelKind) -> f64 
 /// Lever arm (m) of the forces in a moment.
 /// For a driving moment, the arm extends to the far end of the driving link.
 /// A prismatic joint may transmit its force anywhere in the mechanism, so its arm is the mechanism's size.
-/// The same arm is used for a driving moment if the driving link has a prismatic joint.
+/// The mechanism's size is also the arm of a driving moment if the driving link has a prismatic joint.
 /// For the frame, moments are those about the origin, so the arm is `reach`.
 fn lever(case: &Case, reach: f64, subject: ChannelSubject) -> f64 {
     match (subject.is_drive(), subject == ChannelSubject::Frame) {

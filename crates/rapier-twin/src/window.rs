@@ -58,7 +58,7 @@ pub(super) struct Window {
 impl Window {
     /// Number of steps that a sample needs before the step that lies at or before the sample's instant.
     pub(super) const BEHIND: i64 = 3;
-    /// Number of steps that a sample needs after that step.
+    /// Number of steps that a sample needs after the step that lies at or before the sample's instant.
     pub(super) const AHEAD: i64 = 4;
 
     /// An empty window of a run. The first state that is pushed is that of step `start`.
@@ -86,7 +86,7 @@ impl Window {
     /// An artificial step before step 0 leads to this pose without acceleration.
     pub(super) fn beginning(case: &Case, settings: &Settings, guard: &Guard) -> Self {
         // A free motion has no steps before its start, so step 2 is the earliest centre of an interpolation.
-        // To first order, the instant of the step to which the velocities belong does not matter. The window therefore
+        // To first order, it does not matter to which instant of the step the velocities belong. The window therefore
         // has one substep.
         let mut window = Window::new(case, &Settings { substeps: 1, ..*settings }, -1);
         (window.lowest, window.settled) = (2, 2 + first_steps(case, guard.world().tree().branches.is_empty()));
@@ -253,8 +253,8 @@ impl Window {
         let part = 0..positions.len();
         self.ring.weigh(place.first(), &weights, part.clone(), positions);
         if self.deepest >= Stage::Velocities && self.steady {
-            // With several substeps, the velocities of a row belong to an instant after the row's step, so this delay
-            // is included.
+            // With several substeps, the velocities of a row belong to an instant later than the row's step. The
+            // interpolation includes this delay.
             let late = 1.0 - 1.0 / self.substeps as f64;
             let weights = if self.substeps == 1 { weights } else { place.weights(late) };
             self.ring.weigh(place.first(), &weights, part.end..2 * part.end, rates);

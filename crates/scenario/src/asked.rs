@@ -37,7 +37,7 @@ pub struct StartRequest {
     pub memory: Option<f64>,
     /// Whether drive, start and grid may be missing in the file.
     pub without_drive: bool,
-    /// Whether parameters that are missing in the file are added. If not, they are refused.
+    /// Whether the parameters in `set` that the file does not define are added. If not, these parameters are refused.
     pub adds_parameters: bool,
 }
 
@@ -85,7 +85,8 @@ impl StartRequest {
         self.modes.iter().map(|text| start::asked(text, mechanism, structure)).collect()
     }
 
-    /// The requested input at t = 0 (SI), if the first drive has this input.
+    /// The requested input at t = 0 (SI), if the first drive has the kind of input `input`. `None` if no input is
+    /// requested.
     #[must_use]
     pub fn start(&self, input: Input) -> Option<f64> {
         self.crank.map(|value| if self.is_shown { input.read(value) } else { value })
@@ -98,7 +99,7 @@ impl Start<'_> {
     ///
     /// # Errors
     /// The errors of [`first_choices`], with the group that causes the error.
-    /// [`ErrorKind::Geometry`] if the file's configuration cannot be followed to the angle.
+    /// [`ErrorKind::Geometry`] if the file's configuration cannot be followed to the crank angle `crank`.
     pub fn placed(&self, crank: f64, groups: &[(GroupId, StartGroup)]) -> Result<Placed> {
         let moved = crank != self.crank;
         if groups.is_empty() && !moved {

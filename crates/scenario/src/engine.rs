@@ -189,7 +189,7 @@ impl EngineSettings {
         }
     }
 
-    /// The settings in the form that the search for the settings of a motion uses.
+    /// These settings, prepared for the search for the settings of a motion.
     /// Extrapolation would use steps finer than a given step. If the step is given, extrapolation is therefore off by
     /// default.
     #[must_use]

@@ -173,9 +173,10 @@ impl Formulas {
         None
     }
 
-    /// Calls `then` for the formula `of` after a change: the formulas in `changed`, given by index, have other trees.
+    /// Calls `then` for the formula `of` while the formulas in `changed` have the given trees. Each changed formula is
+    /// given by its index.
     /// Formulas that use a changed formula change too. The trees may use [`OMEGA`].
-    /// Afterwards the graph is as before. Returns `None` if a name is unknown.
+    /// After the call, the graph is as it was before the call. Returns `None` if a name is unknown.
     pub fn with_trees<T>(
         &mut self,
         changed: &[(usize, FormulaTree)],

@@ -29,7 +29,7 @@ pub(super) fn checks(
     integration: &dyn Fn(Reference, &Channel) -> f64,
 ) -> Result<Vec<Check>> {
     let mut checks = of_series(problem, sides, integration)?;
-    // If forces determine the true motion, means over a revolution belong to the nominal motion.
+    // If forces determine the true motion, a published mean over a revolution refers to the nominal motion.
     checks.extend(of_figures(problem.oracles, &whole.nominal(), sides)?);
     Ok(checks)
 }
@@ -41,7 +41,7 @@ const ULPS: f64 = 16.0;
 /// Largest number of instants at which all channels of a stage are solved.
 const MOST: usize = 20_000;
 
-/// A side's trajectory, and for every channel the largest number of its quantity and the channel's scale.
+/// A side's trajectory. For every channel: the largest number of the channel's quantity, and the channel's scale.
 type Side = (Trajectory, Vec<(Channel, [f64; 2])>);
 
 /// Results of both sides.
@@ -58,7 +58,7 @@ struct Answers<'a> {
     timed: Option<Solved>,
     /// Input of the case.
     input: Input,
-    /// Integration error of a side in a channel of the motion itself.
+    /// Integration error of a side in a channel of the true motion.
     integration: &'a dyn Fn(Reference, &Channel) -> f64,
 }
 
@@ -101,7 +101,7 @@ impl<'a> Answers<'a> {
         Ok(Answers { nominal, timed: solved(case, Along::Time)?, input: case.crank().input, integration })
     }
 
-    /// A side's results for a series, in the nominal motion and in the motion itself.
+    /// A side's results for a series, in the nominal motion and in the true motion.
     fn of_series<'b>(
         &'b self,
         oracle: &Oracle,
@@ -132,7 +132,7 @@ struct Told<'a> {
     /// Scale of the channel at the instants of the numbers.
     scale: f64,
     rounded: &'a RoundedInstants,
-    /// The channel; for a magnitude, also the other component.
+    /// The channel of the series; for a magnitude, the channels of both components.
     channels: Vec<Channel>,
 }
 
@@ -258,8 +258,8 @@ fn shortly(at: When, input: Input) -> String {
 }
 
 /// The worst check of a series whose printed numbers are all known to be wrong.
-/// Checks with an unexpected result are worse than all others.
-/// Among equals, the check with the largest ratio of deviation to bound is the worst.
+/// A check with an unexpected result is worse than any check with the expected result.
+/// If two checks are equal in this respect, the check with the larger ratio of deviation to bound is worse.
 fn worst_of(checks: impl Iterator<Item = Check>) -> Option<Check> {
     let rank = |check: &Check| (!matches!(check.verdict, Verdict::Expected { .. }), check.used());
     checks.reduce(|worst, check| {

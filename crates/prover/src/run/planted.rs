@@ -127,7 +127,7 @@ fn side_checks_find_three_times_their_bound_and_pass_a_fifth() {
         (sentences::ASSUR_AGAINST_NEWTON_REACTIONS, force, 1e-10 * largest("joint.O.fx_N")),
         (sentences::ASSUR_AGAINST_NEWTON_BALANCING_MOMENT, torque, 1e-10 * largest("drive.torque_N_m")),
         (sentences::BALANCING_MOMENT_FROM_EQUILIBRIUM_AND_FROM_POWERS_ASSUR, torque, 1e-11 * truth.moment),
-        // An error in the force of the frame's joint is the same error in the shaking force.
+        // A planted error in the force of the frame's joint causes an equal error in the shaking force.
         (sentences::SHAKING_FORCE_AND_MOMENT_FROM_REACTIONS_AND_FROM_MOMENTUM, force, 1e-11 * largest("joint.O.fx_N")),
     ];
     for (name, fault, bound) in planted {
@@ -312,8 +312,8 @@ fn engine_checks_find_errors_that_do_not_vanish_with_the_step() {
     }
 }
 
-/// Velocities that are half a step late converge to the right values with order 1. So do accelerations that are a
-/// quarter of a step late.
+/// Velocities that are half a step late converge to the right values with order 1. Accelerations that are a quarter of
+/// a step late also converge with order 1.
 /// The bound from the engine's own runs always covers such an error.
 #[test]
 fn regress_late_readings_converge_with_order_one_and_disagree() {
@@ -328,7 +328,7 @@ fn regress_late_readings_converge_with_order_one_and_disagree() {
         state.motions.iter_mut().for_each(|motion| motion.alpha -= late * motion.omega.powi(3));
     };
     // Five steps up to 8e-3 s still show the order for the crank-rocker, but not for the faster machine `ov7_base`.
-    // So this machine is tested only with free settings.
+    // `ov7_base` is therefore tested only with free settings.
     for (name, free) in
         [("crank_rocker", Search::None), ("crank_rocker", Search::Everything), ("ov7_base", Search::Everything)]
     {
@@ -347,7 +347,7 @@ fn regress_late_readings_converge_with_order_one_and_disagree() {
     }
 }
 
-/// The integration error belongs to a side, whichever side is the reference.
+/// The integration error belongs to the side that integrates, whichever side is the reference.
 #[test]
 fn each_side_has_the_error_of_its_own_integration() {
     let plain = text("crank_rocker_runup");
@@ -472,8 +472,9 @@ fn integration_error_widens_the_bound_of_numbers_at_a_time() {
 /// The scale of a channel that is zero throughout is a tenth of the size of its quantity. The engine's error in this
 /// channel still comes from its runs.
 /// For the acceleration of a crank at constant speed, a fault of a millionth of the quantity is found.
-/// For a rocker that rotates with the crank through change points, only a fault of a hundredth is found. A smaller
-/// difference in the rocker's channels proves nothing.
+/// For a rocker that rotates with the crank through change points, only a fault of at least a hundredth of the quantity
+/// is found.
+/// A smaller difference in the rocker's channels proves nothing.
 #[test]
 fn a_fault_of_fixed_size_is_found_where_the_reference_is_zero() {
     let cranks = include_str!("../../../../tests/suite/exact_zeros/parallel_cranks.toml");

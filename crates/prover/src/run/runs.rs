@@ -94,7 +94,7 @@ impl<'a> Bank<'a> {
         self.work(&self.kept.missing(self.case, settings))
     }
 
-    /// Work of plain runs on the case's grid. It is counted instead of timed, so that the same input gives the same
+    /// Work of plain runs on the case's grid. The work is counted instead of timed, so that equal inputs give equal
     /// work.
     fn work(&self, runs: &[Settings]) -> f64 {
         let [first, last] = ends(self.case);
@@ -107,7 +107,7 @@ impl<'a> Bank<'a> {
         self.seen.retain(|(settings, _)| sweeps.contains(&settings.sweeps));
     }
 
-    /// If the runs are large, drops those that `settings` do not need.
+    /// If the runs are large, drops the runs that `settings` do not need.
     pub(super) fn keep_needed(&mut self, settings: &[Settings]) {
         if self.is_large() {
             let needed: Vec<Settings> = settings.iter().copied().flat_map(plain_runs).collect();
@@ -121,8 +121,8 @@ impl<'a> Bank<'a> {
         self.case.grid.len() * self.case.channels().len() > FEW
     }
 
-    /// If the observations are large, drops those that `settings` do not need. They can be computed again from the kept
-    /// runs.
+    /// If the observations are large, drops the observations that `settings` do not need. Dropped observations can be
+    /// computed again from the kept runs.
     fn keep_few(&mut self, settings: &[Settings]) {
         if self.is_large() {
             self.seen.retain(|(own, _)| settings.contains(own));
@@ -139,8 +139,8 @@ impl<'a> Bank<'a> {
         Ok(seen)
     }
 
-    /// The runs that judge the engine at `settings`: those at double, single and half the resolution, and those with
-    /// `others` sweeps, at most two.
+    /// The runs that judge the engine at `settings`: the runs at double, single and half the resolution, and the runs
+    /// with the numbers of sweeps `others` (at most two numbers).
     pub(super) fn runs(&mut self, settings: Settings, others: &[usize], progress: Progress) -> Result<Runs, Stopped> {
         let rungs = rungs(settings, others);
         self.keep_few(&rungs);

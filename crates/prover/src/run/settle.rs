@@ -91,7 +91,7 @@ pub(super) struct Settling<'a, 'b> {
     aim: f64,
     /// Whether the search ends as soon as all channels are conclusive.
     conclusive: bool,
-    /// Lower limit of the steps, if only coarser steps may be chosen.
+    /// Lower limit of the step (s); 0 if the step is not limited.
     finest: f64,
     /// Factor by which the sweeps were last multiplied.
     factor: usize,
@@ -136,8 +136,9 @@ impl<'a, 'b> Settling<'a, 'b> {
         }
     }
 
-    /// This search, changed to end as soon as every channel is conclusive.
-    /// The changed search begins with coarser steps and at least `sweeps` sweeps. No step is below `finest` (s).
+    /// Changes this search so that it ends as soon as every channel is conclusive.
+    /// The changed search begins with coarser steps than before, and with at least `sweeps` sweeps.
+    /// The changed search chooses no step below `finest` (s).
     pub(super) fn conclusive(mut self, finest: f64, sweeps: usize) -> Self {
         (self.aim, self.conclusive, self.finest, self.factor) = (1.0, true, finest, MORE_SWEEPS[1]);
         if self.given.sweeps.is_free() {
@@ -188,8 +189,8 @@ impl<'a, 'b> Settling<'a, 'b> {
                     against = now;
                     let disagrees = !against.is_empty();
                     let (decided, sharp) = (trial.need.is_within(1.0), trial.need.is_within(self.aim));
-                    // If the sweeps cause only a part of the bound, they are multiplied by the smaller factor. Half the
-                    // step reduces the remaining part.
+                    // If the sweeps cause only a part of the bound, the number of sweeps is multiplied by the smaller
+                    // factor. Halving the step reduces the remaining part.
                     let is_careful = round > QUICK && !trial.need.is_vague && trial.blame.is_shared;
                     self.near = trial.need.is_within(NEAR) || is_careful;
                     let is_slow = self.conclusive && pace.is_too_slow(self.bank.effort, trial.need, self.budget);
@@ -209,8 +210,9 @@ impl<'a, 'b> Settling<'a, 'b> {
                     if trial.need.is_of_instants() && self.given.step.is_free() {
                         self.leave_out_less(&trial.judged);
                     }
-                    // A later round replaces the best round if the later round disagrees, or if its need is less.
-                    // A later round also replaces a disagreeing best round if the later round is decided.
+                    // A later round replaces the best round in three cases: a channel or check of the later round
+                    // disagrees, the later round has a smaller need, or the later round is decided and the best round
+                    // has a disagreement.
                     let better = best.as_ref().is_none_or(|best| {
                         let refuted = decided && !best.judged.proof.against().is_empty();
                         disagrees || refuted || trial.need < best.need
@@ -243,7 +245,8 @@ impl<'a, 'b> Settling<'a, 'b> {
         let search = SettingsSearch { runs: self.bank.count, effort: self.bank.effort, budget: self.budget, end };
         match (best, failure) {
             (Some(mut best), _) => {
-                // If the step is given, no finer run exists, so the error estimate of the run itself counts.
+                // If the step is given, there is no finer run to confirm a disagreement. The error estimate of the run
+                // itself then counts.
                 let is_over = matches!(end, SearchEnd::Budget | SearchEnd::Pace);
                 let is_cut = self.given.sweeps.is_free() && is_over;
                 if (!self.is_finest() || is_cut) && borne_out.is_empty() {
@@ -266,9 +269,8 @@ impl<'a, 'b> Settling<'a, 'b> {
         }
     }
 
-    /// Continues with steps small enough to leave out an acceptable number of instants. This number is proportional to
-    /// the step.
-    /// Larger steps decide nothing.
+    /// Chooses smaller steps for the next rounds, so that a run leaves out an acceptable number of instants.
+    /// The number of instants that a run leaves out is proportional to its step.
     fn leave_out_less(&mut self, judged: &Judged) {
         let most = judged.proof.info.settings.resolution * MOST_LEFT_OUT / judged.too_coarse;
         // The next round halves the step again, so a step of `most` is small enough.
@@ -412,8 +414,8 @@ impl<'a, 'b> Settling<'a, 'b> {
             found => found?,
         };
         // Before the sweeps are multiplied, a third run shows how fast they converge.
-        // Before a channel is reported as disagreeing, the third run shows whether the sweeps converge at all. If they
-        // have hardly begun to converge, two runs differ little.
+        // Before a channel is reported as disagreeing, the third run shows whether the sweeps converge at all. If the
+        // sweeps have hardly begun to converge, two runs with different numbers of sweeps differ little.
         let is_asked =
             found.blame.part == BoundPart::Iteration && !found.need.is_within(self.aim) && self.given.sweeps.is_free();
         if others.len() < 2 || (!is_asked && found.judged.proof.against().is_empty()) {

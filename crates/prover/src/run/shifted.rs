@@ -100,7 +100,8 @@ pub fn shifted(
     Ok(())
 }
 
-/// Enlarges `drift` to the size of `changes`. Values of an angle that differ by a `turn` are equal.
+/// Raises every entry of `drift` to at least the magnitude of its entry in `changes`. Values of an angle that differ by
+/// a `turn` are equal.
 pub fn grow(drift: &mut [f64], changes: impl Iterator<Item = f64>, turn: Option<f64>) {
     for (drift, change) in drift.iter_mut().zip(changes) {
         let change = turn.map_or(change, |turn| change - turn * (change / turn).round()).abs();
@@ -119,7 +120,7 @@ pub(super) struct RoundedInstants {
 }
 
 impl RoundedInstants {
-    /// Rounded instants of some points of a case.
+    /// Rounded instants of the given points of a case.
     /// If the case cannot be solved at both ends of an instant's rounding interval, changes are estimated from
     /// neighbouring rows.
     ///

@@ -16,7 +16,7 @@ use scenario::words::{choice, nearest};
 use scenario::{Claim, PrintedChannel};
 use std::ops::Range;
 
-/// Instants of the rows of a party: times, crank angles, or both.
+/// Instants of the rows of a party (a solver or a table of numbers): times, crank angles, or both.
 #[derive(Clone, Debug, Default)]
 pub struct Instants {
     /// Times (s).
@@ -93,7 +93,8 @@ pub struct Held {
 }
 
 /// Indices of a party's columns, by the text of the column and by its channel. If several columns match, the first one
-/// counts. An expression is not found by its channel. A magnitude is a separate channel.
+/// counts.
+/// An expression is found only by its text. The magnitude of a vector counts as a channel of its own.
 /// The maps are needed for speed: a party has as many columns as a mapping has lines, and each column is looked up.
 #[derive(Clone, Debug, Default)]
 struct Places {
@@ -135,7 +136,7 @@ impl Held {
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for an unknown column or channel, with its location.
-    /// The same error if nothing states the instants of the rows or the meaning of a column.
+    /// [`ErrorKind::Input`] also if nothing states the instants of the rows or the meaning of a column.
     pub fn of_table(raw: &Raw, mapping: &Mapping) -> Result<Held> {
         let mut reader = Reader::of(raw);
         let mut at = Instants::default();
@@ -201,7 +202,7 @@ impl Held {
     }
 
     /// The instants of the party's rows, as crank angles or times.
-    /// If no quantity is requested, times are preferred.
+    /// If `by` is `None`, times are preferred.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] if the requested instants are missing.

@@ -144,7 +144,7 @@ impl Outline {
         if inside { (-least - self.radius, -away) } else { (least - self.radius, away) }
     }
 
-    /// Largest distance of a corner from the origin, with the rounding (m).
+    /// Largest distance of a corner from the origin, plus the radius of the rounding (m).
     #[must_use]
     pub fn extent(&self) -> f64 {
         self.corners.iter().map(|corner| corner.norm()).fold(0.0, f64::larger) + self.radius
