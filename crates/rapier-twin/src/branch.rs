@@ -14,7 +14,8 @@ use linkage::solver::State;
 
 /// Threshold, as a fraction of a group's largest determinant.
 /// If a determinant of the opposite sign exceeds this threshold, the group is on another branch than its start branch.
-/// If the determinant is smaller, the small opening of the engine's loops at a dead point explains its sign.
+/// If the determinant of the opposite sign is smaller than this threshold, the small opening of the engine's loops at a
+/// dead point explains the sign.
 /// The group then counts as being on its start branch.
 const BEYOND: f64 = 0.02;
 
@@ -101,7 +102,7 @@ fn turned_back(case: &Case, group: GroupId, t: f64) -> Error {
 impl Watched {
     /// Whether the determinant has turned back before it reaches zero.
     /// At a change point that is passed smoothly, the determinant passes through zero.
-    /// If its slope reverses shortly before zero, the engine has changed branch.
+    /// If the slope of the determinant reverses shortly before zero, the engine has changed branch.
     fn turns_back(&mut self, t: f64, determinant: f64) -> bool {
         let [older, newer] = self.last;
         self.last = [newer, Some((t, determinant))];

@@ -52,7 +52,7 @@ impl Native {
         // In a free motion, the first reported step is step 1.
         // If bodies move at the start, the impulses of the first steps are incomplete, so these steps are left out.
         // The first steps use velocities along the constraints of the present pose.
-        // Later steps use velocities along the constraints of the pose before.
+        // Later steps use velocities along the constraints of the previous pose.
         let lowest = if case.is_free() { 3 + first_steps(case, plain) } else { i64::MIN / 2 };
         let (step, late) = (settings.resolution, LATE / settings.substeps as f64);
         let (ring, ghost, row) = (Ring::new(width, start), Ghost::of(case, !case.is_free()), vec![0.0; width]);

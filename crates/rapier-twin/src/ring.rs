@@ -33,7 +33,7 @@ impl Place {
         self.before - 2
     }
 
-    /// The same instant, counted from step `lowest` or a later step. The fraction since that step may be negative.
+    /// This instant, counted from step `lowest` or a later step. The fraction since that step may be negative.
     pub(super) fn from(self, lowest: i64) -> Self {
         let before = self.before.max(lowest);
         Place { before, share: self.share + (self.before - before) as f64 }

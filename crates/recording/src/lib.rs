@@ -17,7 +17,7 @@
 //! If a message lacks fields, its name contains the numbers of the fields that it has, such as `linkproof.Point_1_2`.
 //!
 //! Log times are nanoseconds from the first instant of the recording.
-//! A simulated second takes [`Show::slow`] seconds of log time; the grid has the simulated times themselves.
+//! A simulated second takes [`Show::slow`] seconds of log time. The messages of the grid contain the simulated times.
 //! Nothing depends on a clock, so equal runs give equal files.
 //! The sequence number of a message is the number of its sample in ascending order of time.
 //! Messages of one sample have the same sequence number in all topics of a side.

@@ -139,8 +139,8 @@ impl RecordingOutput {
             // uses no additional threads.
             .compression_threads(0)
             // A seeking writer corrects the chunk's length after the chunk is written.
-            // If such a writer were killed before the correction, no program could open the file. Seeking is therefore
-            // disabled.
+            // If a seeking writer were killed before this correction, no program could open the file. Seeking is
+            // therefore disabled.
             .disable_seeking(true)
             .create(NoSeek::new(BufWriter::new(file)))?;
         Ok(RecordingOutput { writer, flushed: 0, pending: 0 })
@@ -183,7 +183,7 @@ impl Sink for RecordingOutput {
 
     fn put(&mut self, topic: u16, sequence: u32, time: u64, data: &[u8]) -> McapResult<()> {
         // One chunk per second limits the loss if a run is killed. A chunk of only a few samples would compress badly,
-        // so it is continued.
+        // so such a chunk stays open after the second ends.
         if time / SECOND > self.flushed && self.pending > CHUNK as usize / 8 {
             self.writer.flush()?;
             (self.flushed, self.pending) = (time / SECOND, 0);

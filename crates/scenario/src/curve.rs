@@ -23,7 +23,7 @@ pub enum CurveVariable {
 struct Stated {
     text: String,
     variable: CurveVariable,
-    /// Computes the value and the first two derivatives. It is locked because it stores intermediate values.
+    /// Computes the value and the first two derivatives. The program is locked because it stores intermediate values.
     program: Mutex<Program>,
 }
 

@@ -85,7 +85,7 @@ impl Parameters {
         self.list.push(parameter);
     }
 
-    /// Gives the parameter of a key another number; `false` if there is no such parameter.
+    /// Replaces the number of the parameter whose key is `key`; `false` if there is no such parameter.
     pub(super) fn set(&mut self, key: &str, given: f64) -> bool {
         let place = self.places.get(key).copied().filter(|&place| self.list[place].key == key);
         place.map(|place| self.list[place].given = given).is_some()

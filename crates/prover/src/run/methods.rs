@@ -15,7 +15,8 @@ use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
 
 /// A difference of at most this fraction of the quantity's largest value counts as rounding.
-/// The bound on forces between the two analytic sides is the same fraction: their linear systems are equally large.
+/// The bound on the difference between the forces of the two analytic sides is also this fraction, because the linear
+/// systems of the sides and of the methods are equally large.
 const BOUND: f64 = 1e-10;
 
 /// The compared quantities: directions, angular velocities, angular accelerations, forces.
@@ -27,7 +28,8 @@ enum Quantity {
     Force,
 }
 
-/// Largest difference of one method in every quantity, with the value of the input (SI).
+/// For every quantity: the largest difference of one method from the reference, and the value of the input (SI) at this
+/// difference.
 #[derive(Default)]
 struct Worst {
     differences: [(f64, f64); 4],

@@ -120,7 +120,8 @@ fn steady(rungs: [Convergence; 3], finest: Parts) -> Option<f64> {
 mod tests {
     use super::*;
 
-    /// Halved steps halve an error of 8, so the order is 1, while the method has order 2.
+    /// Each halving of the step halves the error, which begins at 8. The observed order is therefore 1, while the
+    /// method has order 2.
     /// If sweeps, rounding or the reference contribute a fourth of the finest error, they may have caused this order.
     #[test]
     fn an_order_counts_only_if_other_errors_are_much_smaller() {

@@ -9,7 +9,7 @@ use linkage::math::dense::Lu;
 #[derive(Clone, Debug)]
 pub(super) struct Limb {
     pub(super) seam: Seam,
-    /// Index of the drive of the joint.
+    /// Index of the drive that drives the joint; `None` if the joint is not driven.
     pub(super) drive: Option<usize>,
     /// Whether the drive acts on both links of the joint, so that the joint transmits any force and moment.
     pub(super) is_rigid: bool,
