@@ -46,7 +46,7 @@ pub enum BoundBasis {
     Wanted(&'static str),
     /// Error of the engine, estimated from runs at three resolutions and from runs with fewer sweeps.
     Truncation {
-        /// Order of convergence observed between the runs. NaN if the difference between single and half step is only
+        /// Order of convergence observed between the runs. NaN if the runs at single and half step differ only by
         /// rounding.
         observed: f64,
         /// Order of convergence that the method has in theory.

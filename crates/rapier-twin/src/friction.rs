@@ -30,7 +30,7 @@ const PROBE: f64 = 1e-4;
 const LEAST: f64 = 1e-3;
 
 /// Computes the reactions of a known motion, with friction.
-/// The forces of transmissions act in the lines of action that carry them.
+/// The force of each transmission acts in the line of action that carries the force.
 #[derive(Debug)]
 pub(super) struct InverseDynamics {
     equations: NewtonEuler,

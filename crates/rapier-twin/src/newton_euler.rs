@@ -215,7 +215,7 @@ impl NewtonEuler {
         true
     }
 
-    /// Adds to `needs` of every link the needs of the links that it carries. The leaves are treated first.
+    /// Adds the needs of every link to the needs of the link that carries it. The leaves are treated first.
     fn pass_on(&mut self) {
         let width = self.components.len() + 1;
         for (number, limb) in self.tree.iter().enumerate().rev() {

@@ -15,7 +15,8 @@ use linkage::trajectory::Stage;
 /// A row has the positions and angles of all links, then the rates of all links.
 const WIDTH: usize = 3;
 
-/// Number of steps at the beginning of a free motion whose accelerations are not those of the motion. Causes:
+/// Number of steps at the beginning of a free motion in which the engine's accelerations are not those of the motion.
+/// The causes are:
 /// - Separate bodies (`plain`) close the gaps of the first step in the second step.
 /// - In a multibody with loops, the first sweeps start without impulses. Later sweeps start from the impulses of the
 ///   last step.
@@ -91,7 +92,7 @@ impl Window {
         let mut window = Window::new(case, &Settings { substeps: 1, ..*settings }, -1);
         (window.lowest, window.settled) = (2, 2 + first_steps(case, guard.world().tree().branches.is_empty()));
         window.rated = true;
-        // The velocities of a push belong to the step before, so the same state is pushed twice.
+        // `push` stores the velocities at the step before the pushed pose, so the same state is pushed twice.
         window.push(guard, case);
         window.push(guard, case);
         window.rated = false;

@@ -19,7 +19,7 @@ const ACTS: Words<Acts> =
 const SLIDING: Words<Acts> =
     &[("always", Acts::Always), ("extending", Acts::CounterClockwise), ("retracting", Acts::Clockwise)];
 
-/// Words for the side of the free slide on which a spring acts.
+/// Words that say when a spring acts: always, or only beyond or below its unloaded slide or angle.
 const SIDES: Words<Acts> = &[("always", Acts::Always), ("beyond", Acts::CounterClockwise), ("below", Acts::Clockwise)];
 
 /// All words of the key `acts`.

@@ -105,7 +105,8 @@ pub(super) fn need(judged: &Judged, wanted: f64) -> (Need, Blame) {
     worst
 }
 
-/// Number of rounds needed to determine a rate of progress. The first rounds show whether the settings are meaningful.
+/// Number of rounds needed to determine a rate of progress. The first rounds of a search show only whether the settings
+/// are meaningful.
 const ROUNDS: usize = 4;
 /// Factor on the observed exponent p of the law need = constant / work^p. The exponent may still increase, because
 /// extrapolation becomes more effective as the runs become smooth.

@@ -279,7 +279,8 @@ fn engine_proven(scenario: &Scenario, hook: Everywhere, search: Search) -> Engin
     engines::prove(&judge, &scenario.case, &chosen, &mut Ledger::default(), &mut |_| {}).unwrap()
 }
 
-/// Two faults are planted: an opening that does not vanish with the step, and a moment that disagrees with its powers.
+/// Two faults are planted: an opening that does not vanish with the step, and a balancing moment that disagrees with
+/// the balance of powers.
 /// The opening is far below 1 % of the mechanism's size. The moment is far below 1 % of the largest moment.
 #[test]
 fn engine_checks_find_errors_that_do_not_vanish_with_the_step() {
@@ -347,7 +348,7 @@ fn regress_late_readings_converge_with_order_one_and_disagree() {
     }
 }
 
-/// The integration error belongs to the side that integrates, whichever side is the reference.
+/// Each analytic side has its own integration error, whichever side is the reference.
 #[test]
 fn each_side_has_the_error_of_its_own_integration() {
     let plain = text("crank_rocker_runup");
@@ -426,7 +427,7 @@ fn errors_of_an_engine_have_the_sign_of_its_fault() {
     assert!(errors.column(&torque).unwrap().iter().all(|error| (error - 100.0).abs() < 1.0));
 }
 
-/// Every figure is moved by one unit of its last digit.
+/// Every figure is changed by one unit of its last digit. The checks on both sides must then disagree.
 #[test]
 fn an_oracle_detects_one_unit_of_its_last_digit() {
     let name = "crank_rocker";

@@ -21,7 +21,8 @@ use scenario::EngineSettings;
 
 /// Work allowed by default, in steps without sweeps.
 pub const BUDGET: f64 = 2e7;
-/// Up to this fraction of the allowed work, a conclusive result is refined further, to the target accuracy.
+/// As long as the search has done less than this fraction of the allowed work, a conclusive result is refined further,
+/// to the target accuracy.
 const THRIFT: f64 = 0.0015;
 /// The search aims at bounds of this fraction of the widest conclusive bound.
 /// With extrapolation, a bound a hundred times narrower than the widest conclusive bound costs little.
@@ -37,7 +38,8 @@ const COARSEST: f64 = 16.0;
 pub(super) const FIRST: f64 = 1e4;
 /// Each time this number of runs has failed, more sweeps are tried instead of a smaller step.
 const FAILURES: usize = 6;
-/// Fraction of the angle to a dead centre that the additional steps of a run may use.
+/// A run of a prescribed motion begins and ends a few steps outside its grid. These additional steps may use this
+/// fraction of the angle to a dead centre.
 const ROOM: f64 = 0.98;
 /// Largest number of rounds of a short search.
 const QUICK: i32 = 3;
@@ -178,7 +180,7 @@ impl<'a, 'b> Settling<'a, 'b> {
                     BoundPart::Discretisation
                 }
                 Ok(mut trial) => {
-                    // If the order is wrong, neither the step nor the sweeps help, so the search ends.
+                    // If the order is wrong, neither a smaller step nor more sweeps help, so the search ends.
                     if round > QUICK && order::look(self.judge, self.bank, &mut trial.judged.proof)? {
                         borne_out = trial.judged.proof.against();
                         best = Some(trial);
@@ -371,7 +373,7 @@ impl<'a, 'b> Settling<'a, 'b> {
     }
 
     /// Makes the runs of a round, judges the combinations of the runs and returns the best combination.
-    /// A long search (`is_long`) determines the iteration error whatever the step.
+    /// In a long search (`is_long`), the iteration error is determined even if the step is to blame for the bound.
     fn round(&mut self, is_long: bool, progress: Progress) -> Result<Trial, Stopped> {
         let mut best: Option<Trial> = None;
         let mut failure = None;
@@ -396,7 +398,7 @@ impl<'a, 'b> Settling<'a, 'b> {
             }
         }
         let Some(best) = best else { return Err(failure.expect("every round has a candidate")) };
-        // At first the iteration error is determined only if the step is not to blame.
+        // In the first rounds, the iteration error is determined only if the step is not to blame for the bound.
         let settings = best.judged.proof.info.settings;
         let engine = self.bank.engine(settings);
         let share = if self.given.sweeps.is_free() { self.factor } else { FEWER };

@@ -18,8 +18,8 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::trajectory::{Channel, Trajectory};
 use scenario::{Claim, Formulas, Scenario};
 
-/// Smallest errors of an analytic side's trajectory: rounding errors in well-conditioned poses, channel by channel, in
-/// their units.
+/// Smallest errors of an analytic side's trajectory: the rounding errors in well-conditioned poses. Each error belongs
+/// to one channel and is in the channel's unit.
 #[must_use]
 pub fn known_at_least(trajectory: &Trajectory) -> Vec<f64> {
     let sizes = magnitudes(trajectory).into_iter().zip(trajectory.channels());
