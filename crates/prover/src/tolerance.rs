@@ -61,9 +61,9 @@ pub enum BoundBasis {
         noise: BoundOrigin,
     },
     /// Bound of a printed number.
-    /// For a number of a series it is a sum: half a unit of the number's last digit, the known errors of the number and
-    /// of the side, and the change of the number within the rounding of its instant.
-    /// For a figure it is the larger of half a unit of the last digit and the known error of the side.
+    /// For a number of a series, the bound is a sum: half a unit of the number's last digit, the known errors of the
+    /// number and of the side, and the change of the number within the rounding of its instant.
+    /// For a figure, the bound is the larger of half a unit of the last digit and the known error of the side.
     Digits {
         /// How the number is known: published, recomputed or derived.
         origin: BoundOrigin,
@@ -135,7 +135,7 @@ impl Parts {
         self.discretisation + self.iteration + self.rounding + self.reference
     }
 
-    /// The reference if its part exceeds the sum of the other parts; otherwise the largest of the other parts.
+    /// The reference part if this part exceeds the sum of the other parts; otherwise the largest of the other parts.
     #[must_use]
     pub fn largest(&self) -> BoundPart {
         let own = self.discretisation + self.iteration + self.rounding;

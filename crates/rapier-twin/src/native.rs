@@ -16,7 +16,7 @@ use linkage::solver::State;
 /// Delay of the engine's reports, in substeps.
 /// The delay is the time from the instant that a report describes best to the end of the reported step.
 /// The impulses of step n belong to the pose of step n - 1.
-/// These impulses change the velocities of step n - 2 into those of step n - 1.
+/// The impulses of step n change the velocities of step n - 2 into the velocities of step n - 1.
 /// The error is of first order whichever instant the impulses are assigned to.
 /// At a crank rotation of 0.32 deg per step, the instants t_n, t_(n-1) and t_(n-2) gave these errors:
 /// 3.8e-2, 2.0e-2 and 2.1e-2 on `ov7_base`; 1.7e-2, 5.8e-3 and 6.6e-3 on `crank_rocker`.

@@ -2,11 +2,11 @@
 //! tree.
 //!
 //! For every link, m (a - g) = sum of joint forces + loads.
-//! Also J alpha = sum of the moments of these forces about the mass centre + moments of the loads.
+//! For every link, J alpha = sum of the moments of the joint forces about the mass centre + moments of the loads.
 //! The reaction of a joint has as many unknown components as the joint has constraint equations.
-//! For a revolute joint, these are the two components of its force.
-//! For a prismatic joint, these are the moment and the force across the joint's axis. This force acts at the joint's
-//! point on the second link.
+//! For a revolute joint, the unknowns are the two components of its force.
+//! For a prismatic joint, the unknowns are the moment and the force across the joint's axis. This force acts at the
+//! joint's point on the second link.
 //!
 //! The unknowns are the reaction components of the joints that the tree cuts.
 //! The force and moment that a tree joint must transmit to its outer link follow from the motion of all links beyond
@@ -41,7 +41,7 @@ use linkage::work::{Count, WorkTally};
 use seam::{PAIR, Seam, Stand, Term};
 use stages::{Limb, Row, Stage, stages};
 
-/// The equations of a case. Their memory is reused for every pose.
+/// The equations of a case. The memory of the equations is reused for every pose.
 #[derive(Debug)]
 pub struct NewtonEuler {
     /// The links of the tree, from the ground outwards.

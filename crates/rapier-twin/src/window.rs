@@ -124,8 +124,9 @@ impl Window {
     }
 
     /// Stores the state after a step.
-    /// The poses are those of this step.
-    /// The engine's velocities are those at the start of its last substep; without substeps, those of the step before.
+    /// The stored poses are those of this step.
+    /// The stored velocities are those at the start of the step's last substep. Without substeps, these are the
+    /// velocities of the previous step.
     pub(super) fn push(&mut self, guard: &Guard, case: &Case) {
         let (row, _) = self.ring.push().as_chunks_mut();
         for (own, (centre, frame)) in row.iter_mut().zip(guard.centres().iter().zip(guard.frames())).skip(1) {

@@ -126,7 +126,7 @@ pub trait World {
     ///
     /// If the correction is excluded, Rapier solves all constraints a second time after the step.
     /// Rapier continues with velocities along the constraints at the START of the step.
-    /// These are not the velocities that moved the bodies.
+    /// The velocities along the constraints are not the velocities that moved the bodies.
     /// In a free motion, each step therefore loses momentum across the constraints of the pose at its start.
     /// The following step regains the lost momentum across the constraints of the following pose.
     fn set_stabilised(&mut self, stabilised: bool);

@@ -24,8 +24,8 @@
 //! The scenario is attached as `scenario.toml`.
 //! The metadata record `linkproof` contains versions, settings and the scales of time and of force arrows.
 //!
-//! A recording of another program than linkproof can also be read.
-//! Such a recording needs `/<side>/grid` and the topics above in protobuf.
+//! A recording by a program other than linkproof can also be read.
+//! A recording by another program needs `/<side>/grid` and the topics above in protobuf.
 //! The names of the protobuf fields must be the suffixes of [`CHANNELS`](linkage::trajectory::CHANNELS).
 //! The field numbers are looked up in the file.
 

@@ -45,7 +45,7 @@ pub struct AcceptedChannel {
     pub rms: Option<f64>,
 }
 
-/// File name extension of the accepted figures. It replaces the extension of the scenario file.
+/// File name extension of the accepted figures. This extension replaces the extension of the scenario file.
 const ENDING: &str = "accepted";
 
 /// The file of a scenario's accepted figures.

@@ -39,7 +39,7 @@ impl Smooth for Stated {
     }
 }
 
-/// Inputs of [`Formulas`]: the angle, then the time. The formula uses only one of them: `variable`, with the value `x`.
+/// Inputs of [`Formulas`]: the angle, then the time. The formula uses only the input `variable`, whose value is `x`.
 fn inputs(variable: CurveVariable, x: f64) -> [Rounded; 2] {
     let (own, other) = (Rounded::exact(x), Rounded::UNDEFINED);
     if variable == CurveVariable::Time { [other, own] } else { [own, other] }

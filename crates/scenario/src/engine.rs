@@ -59,7 +59,7 @@ macro_rules! settings {
         }
 
         impl EngineSettings {
-            /// These settings. Each free setting is replaced by the same setting of `other`.
+            /// These settings. Each free setting is replaced by the corresponding setting of `other`.
             #[must_use]
             pub fn or(&self, other: &EngineSettings) -> Self {
                 EngineSettings { $($name: self.$name.or(&other.$name).clone(),)* }

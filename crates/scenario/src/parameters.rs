@@ -77,7 +77,7 @@ impl Parameters {
         self.places.get(name).map(|&place| &self.list[place])
     }
 
-    /// Adds a parameter. Its names must not be in use.
+    /// Adds a parameter. The names of the parameter must not be in use.
     pub(super) fn push(&mut self, parameter: Parameter) {
         for (name, _) in parameter.names() {
             self.places.insert(name.into(), self.list.len());

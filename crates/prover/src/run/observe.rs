@@ -40,8 +40,8 @@ pub(super) struct Observed {
     /// In a motion under forces, the ratio has the larger of two speeds as its divisor: the top speed, or the largest
     /// speed of a driving link.
     pub(super) power: Vec<f64>,
-    /// Balancing moments of the trajectory, reduced to the crank (N m), at every instant. They are multiplied by the
-    /// same ratio as `power`.
+    /// Balancing moments of the trajectory, reduced to the crank (N m), at every instant. These moments are multiplied
+    /// by the ratio that is described for `power`.
     pub(super) torque: Vec<f64>,
     /// The larger of two ratios over the run.
     /// The first compares the shaking forces from reactions and from momentum: their largest difference divided by the

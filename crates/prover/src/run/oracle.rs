@@ -20,8 +20,8 @@ use scenario::{ExpectedCell, FigureValue, Oracle, OracleBasis, OraclePoint, Orac
 
 /// The checks of every series and figure of an oracle, for each analytic side.
 /// Series refer to channels of the problem's case; figures refer to the `whole` mechanism.
-/// `integration` is the integration error of a side in a channel, in the channel's unit. It applies to numbers of a
-/// motion under forces.
+/// `integration` is the integration error of a side in a channel, in the channel's unit. `integration` applies to
+/// numbers of a motion under forces.
 pub(super) fn checks(
     problem: Problem,
     whole: &Case,
@@ -168,13 +168,13 @@ impl Told<'_> {
         };
         let row = instants.binary_search_by(|other| other.total_cmp(&at)).expect("solved at this instant");
         let [value, other] = [self.side, self.side.other()].map(|side| self.values[side][row]);
-        // The difference between the two sides limits how accurately any number is known. So twice this difference is
-        // added to the known error.
+        // The difference between the two sides limits how accurately any number is known. Twice the difference between
+        // the sides is therefore added to the known error.
         let known = self.known + 2.0 * (value - other).abs();
         let difference = value - point.value;
         let deviation = if series.channel.kind.periodic { wrapped(difference) } else { difference }.abs();
-        // A magnitude changes at most as much as its vector. So the changes of the components are combined like the
-        // components of a vector.
+        // A magnitude changes at most as much as its vector. The changes of the components are therefore combined like
+        // the components of a vector.
         let drift = self.channels.iter().map(|own| self.rounded.of_point(own, at, point.at_error));
         let instant = drift.fold(0.0, f64::hypot);
         // The error of a side adds to the rounding of the printed number.

@@ -1,7 +1,8 @@
 //! Finds an engine that converges with a lower order than its method has.
 //!
 //! Typical causes are a value computed half a step late, or a wrong weight.
-//! A bound from the engine's runs covers such an error at every step, so the size of the error never reveals the fault.
+//! A bound from the engine's runs covers an error of lower order at every step, so the size of the error never reveals
+//! the fault.
 //! Five runs give three estimates of the order. The order is reliable only if all three are near the same whole number.
 //! See docs/numerics/bounds.md.
 

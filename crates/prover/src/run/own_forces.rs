@@ -29,7 +29,8 @@ const SHARE: f64 = 0.05;
 
 /// Whether the engine's own forces are judged.
 /// The forces are not judged if no force is requested or if the route is given.
-/// If the engine's default route already gives its own forces, [`judged`] finds no route for them.
+/// If the engine's default route already gives the engine's own forces, [`judged`] finds no further route for these
+/// forces.
 pub(super) fn are_asked(judge: &Judge, chosen: &Chosen) -> bool {
     chosen.given.route.is_free() && judge.asking(judge.asked).of_own_forces().has_channels()
 }

@@ -315,7 +315,7 @@ fn engine_checks_find_errors_that_do_not_vanish_with_the_step() {
 
 /// Velocities that are half a step late converge to the right values with order 1. Accelerations that are a quarter of
 /// a step late also converge with order 1.
-/// The bound from the engine's own runs always covers such an error.
+/// The bound from the engine's own runs always covers the error of a late reading.
 #[test]
 fn regress_late_readings_converge_with_order_one_and_disagree() {
     let velocities: Fault = |state, late| {

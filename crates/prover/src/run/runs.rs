@@ -76,7 +76,7 @@ impl<'a> Bank<'a> {
         Bank { case, kept: CachedEngine::new(engine), seen: Vec::new(), watch, count: 0, effort: 0.0 }
     }
 
-    /// The engine at `settings`. It takes its runs from the bank.
+    /// The engine at `settings`. This engine takes its runs from the bank.
     pub(super) fn engine(&self, settings: Settings) -> Box<dyn Engine> {
         self.kept.with(settings)
     }

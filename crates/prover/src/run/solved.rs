@@ -35,7 +35,8 @@ pub fn known_of_complete(case: &Case, trajectory: &Trajectory) -> Vec<f64> {
     sizes.into_iter().zip(trajectory.channels()).map(|(size, channel)| usual(channel.kind.stage) * size).collect()
 }
 
-/// The channels that are solved for a claim: those needed to judge the claim, and the other channels of its subject.
+/// The channels that are solved for a claim: the channels needed to judge the claim, and the other channels of the
+/// claim's subject.
 /// The other channels determine the error of a component that is zero except for rounding.
 #[must_use]
 pub fn asked(claim: &Claim, case: &Case) -> Vec<Channel> {
@@ -127,7 +128,7 @@ pub struct Claimed {
     pub verdict: Verdict,
 }
 
-/// Judges the formulas of a scenario. Solves only the claimed channels and those needed for derivatives.
+/// Judges the formulas of a scenario. Solves only the claimed channels and the channels needed for their derivatives.
 ///
 /// # Errors
 /// [`ErrorKind::Input`] if no formula claims anything. The errors of the analytic solvers, each with the crank angle of

@@ -305,7 +305,7 @@ fn in_words(name: &str) -> Option<&'static str> {
     }
 }
 
-/// The claim that a text states. It may use the channels of any mechanism.
+/// The claim that a text states. The claim may use the channels of any mechanism.
 ///
 /// # Errors
 /// If the text cannot be parsed, or a name is not a channel.
@@ -400,7 +400,8 @@ impl<'a> Reader<'a> {
         (0..self.raw.len()).map(&mut row).collect()
     }
 
-    /// The error for an unknown name. Its help names the most similar column or, if there is none, the first columns.
+    /// The error for an unknown name. The help of the error names the most similar column or, if no column is similar,
+    /// the first columns.
     fn unknown(&self, name: &str, at: Range<usize>) -> FormulaFault {
         let message = sentences::the_table_has_no_column(&name);
         let help = match nearest(name, self.raw.names.iter().map(String::as_str)) {
@@ -416,7 +417,8 @@ mod tests {
     use super::*;
 
     /// If two columns have the same text, the first one counts.
-    /// A channel is also found in another unit. A magnitude is a separate channel.
+    /// A channel is also found in a column that has another unit. The magnitude of a vector counts as a separate
+    /// channel.
     #[test]
     fn a_claim_is_found_by_its_text_or_by_its_channel() {
         let names = ["point.B.x_mm", "2*point.B.x_m", "point.B.x_mm", "point.B.x_m", "joint.A.f_N", "joint.B.fx_N"];

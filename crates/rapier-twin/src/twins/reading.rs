@@ -56,7 +56,7 @@ impl Twin {
             true => {
                 if is_orthogonal {
                     // Rapier made the row across the axis orthogonal to the row that keeps the angle.
-                    // The impulse of the angle's row is corrected accordingly.
+                    // The impulse of the row that keeps the angle is corrected for this orthogonalisation.
                     rows[2] -= rows[1] * turning(lever(across), [1.0; 2]) / turning([1.0; 2], [1.0; 2]);
                 }
                 (across * rows[1], rows[2])
@@ -64,7 +64,7 @@ impl Twin {
             false => {
                 if is_orthogonal {
                     // Rapier made the second row orthogonal to the first row. The impulse of the first row is corrected
-                    // accordingly.
+                    // for this orthogonalisation.
                     let mass = inverse[0][0] + inverse[1][0] + turning(lever(axis), lever(axis));
                     rows[0] -= rows[1] * turning(lever(axis), lever(across)) / mass;
                 }
