@@ -1,7 +1,7 @@
 //! Checks whether the engine is still on the branch on which it began.
 //!
 //! Near a dead point, two assembly modes of a group are close together.
-//! The engine may then slip from one mode to the other mode while its loops hardly open.
+//! Near a dead point, the engine may slip from one mode to the other mode while its loops hardly open.
 //! The two modes differ in the sign of the determinant of the group's constraints, so this sign is watched.
 
 use crate::sentences;

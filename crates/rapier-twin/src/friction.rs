@@ -2,7 +2,7 @@
 //!
 //! A prescribed motion does not depend on friction, so friction only enters the reactions of a sample.
 //! In a free motion, friction acts as a load in every step. The friction is computed from the accelerations of the
-//! previous step. The resulting error is of first order, like the error of the step itself.
+//! previous step. The resulting error is of first order, as is the error of the engine's step.
 //! Reactions and friction are found together by Newton's method for the normal forces, with numerical derivatives.
 //! If the method does not converge, the friction is increased in steps.
 

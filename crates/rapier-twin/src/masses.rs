@@ -16,7 +16,7 @@ const ROD: f64 = 1.0 / 12.0;
 
 /// If a mass centre is farther from all joints of its link than this fraction of the link's extent, the link needs a
 /// mass but no moment of inertia.
-/// The mass matrix of a multibody is then regular even with a point mass.
+/// The mass matrix of a multibody is regular even with a point mass, if the point mass does not lie in a joint.
 const OFF_JOINTS: f64 = 1e-2;
 
 /// Additional moment of inertia of driving links, divided by the total mass times the square of the mechanism's size.
@@ -36,10 +36,12 @@ const FLYWHEEL: f64 = 1.0;
 /// If the speed is prescribed, the motion does not depend on the masses, but the convergence of the sweeps does.
 /// The sweeps hardly converge if the masses of neighbours differ much.
 /// Each link therefore has at least the mean mass, and at least the moment of inertia of a rod of that mass.
-/// The contribution of these additions to the reactions is subtracted again ([`Ghost`](super::ghost::Ghost)).
+/// The contribution of the added masses and moments of inertia to the reactions is subtracted again
+/// ([`Ghost`](super::ghost::Ghost)).
 ///
 /// In a free motion, the moment of inertia of the crank includes that of rotor and gearbox.
-/// The additions then depend on the world's tree, and loads compensate the additions ([`Added`](super::added::Added)).
+/// In a free motion, the additions depend on the world's tree, and loads compensate the additions
+/// ([`Added`](super::added::Added)).
 pub(super) fn masses(case: &Case, tree: &SpanningTree) -> Vec<[f64; 2]> {
     let mut masses = bare_masses(case, tree);
     if case.is_free() {
@@ -68,7 +70,7 @@ fn bare_masses(case: &Case, tree: &SpanningTree) -> Vec<[f64; 2]> {
 }
 
 /// Masses of a world that only provides a motion with prescribed speeds.
-/// Every link has the same mass, and the moment of inertia of a rod of the link's extent.
+/// All links have equal masses. Each link has the moment of inertia of a rod of the link's extent.
 /// The motion does not depend on the masses, but the sweeps do: the sweeps hardly converge if the masses differ much.
 fn even_masses(case: &Case) -> Vec<[f64; 2]> {
     let of = |link: &Link| [1.0, ROD * length(case, link) * length(case, link)];

@@ -20,7 +20,7 @@
 //! the inner link of the driven joint.
 //! The equations of the other tree joints determine the components in the cut joints: there are as many equations as
 //! components.
-//! A four-bar has two such equations, while all its links together have nine equations of motion.
+//! For a four-bar, two equations determine the components, while all its links together have nine equations of motion.
 //! A transmission is a cut joint with one component: the force in its first line of action.
 
 mod seam;

@@ -40,8 +40,8 @@ const PROBE_ULPS: f64 = 16000.0;
 ///
 /// An angle is a sum of rounded increments, one for each step.
 /// The error of each increment is at most half a unit in the last place of the angle so far.
-/// The sign of this error stays the same as long as speed and exponent stay the same, so the errors of successive steps
-/// add up.
+/// As long as the speed and the exponent of the angle do not change, the sign of this error does not change, so the
+/// errors of successive steps add up.
 /// The bounds of lengths, forces and moments follow from the bounds of angles, with the mechanism's size and mass.
 pub(super) fn bound(case: &Case, engine: &Rapier, channel: &ChannelKind) -> f64 {
     let (step, epsilon) = (engine.settings.resolution, engine.precision.epsilon());

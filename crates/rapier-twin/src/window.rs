@@ -269,7 +269,8 @@ impl Window {
             self.ring.weigh(place.before - Self::BEHIND, &first.map(|first| first / self.step), part.clone(), rates);
         }
         if self.deepest >= Stage::Accelerations {
-            // The first steps of a free motion close gaps, so the second differences leave these steps out.
+            // The first steps of a free motion close gaps, so the interpolation of second differences leaves the first
+            // steps out.
             let settled = place.from(self.settled);
             let weights = if settled.before == place.before { weights } else { settled.weights(0.0) };
             let mut second = [0.0; POINTS + 2];

@@ -68,7 +68,7 @@ impl LinkFrame {
         cross(before.direction, self.direction).atan2(before.direction.dot(&self.direction)).abs()
     }
 
-    /// Stores the position of a separate body after a step in which it has turned by less than half a turn.
+    /// Stores the position of a separate body after a step in which the body has turned by less than half a turn.
     #[inline]
     pub(super) fn follow(&mut self, origin: Vec2, direction: Vec2) {
         if let LinkAngle::Turns(turns) = &mut self.angle

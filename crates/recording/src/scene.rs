@@ -161,7 +161,8 @@ pub struct PlacedSide<'a> {
 }
 
 impl PlacedSide<'_> {
-    /// Row of the last sample at or before `time`. If there is no such sample, the row of the first sample is returned.
+    /// Row of the last sample at or before `time`. If all samples are later than `time`, the row of the first sample is
+    /// returned.
     pub fn row_at(&self, time: f64) -> usize {
         let times = self.trajectory.times();
         let after = self.rows.partition_point(|&row| times[row] <= time);

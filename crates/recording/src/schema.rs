@@ -46,7 +46,7 @@ fn is_of_joint(kind: &ChannelKind) -> bool {
     kind.subject.word() == ChannelSubject::Joint.word()
 }
 
-/// Name of a channel's error with its small unit, and the number of these units in the SI unit.
+/// Name of a channel's error with its small unit (such as um), and the number of small units in the SI unit.
 pub fn small_unit(kind: &ChannelKind) -> (String, f64) {
     let (prefix, factor) = match kind.unit {
         Unit::Radian | Unit::RadianPerSecond | Unit::RadianPerSecondSquared => ("u", 1e6),

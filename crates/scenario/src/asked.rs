@@ -29,7 +29,8 @@ pub struct StartRequest {
     /// what the input measures.
     pub is_shown: bool,
     /// Whether the caller defines a grid in place of the file's grid.
-    /// The case then has no instants, and the drive need not reach the instants of the file's grid.
+    /// If the caller defines a grid, the case has no instants, and the drive need not reach the instants of the file's
+    /// grid.
     pub without_grid: bool,
     /// Parameters of formulas by their keys. The parameters replace those of the file.
     pub set: Vec<(String, f64)>,
@@ -186,8 +187,8 @@ impl Start<'_> {
     }
 
     /// The pose of the file's configuration, followed until the crank is at `crank` (rad).
-    /// The direct path is tried first. If the direct path fails, the crank turns in the opposite direction to the same
-    /// angle.
+    /// The direct path is tried first. If the direct path fails, the crank turns to the requested angle in the opposite
+    /// direction.
     /// A dyad keeps its mode; a higher group is followed step by step.
     fn followed(&self, own: &(Pose, Vec<ConfigurationChoice>), crank: f64) -> Option<Pose> {
         let period = self.drives.crank().input.period();

@@ -61,7 +61,8 @@ pub fn formula(table: &mut TomlTable, variable: CurveVariable, end: f64) -> Resu
         Err(fault) => Err(fault),
     };
     let program = program.map_err(|fault| table.fault_in("formula", &fault))?;
-    // With other parameters, the same text is another function, so the parameters belong to the compared text.
+    // The text of a formula denotes another function if the parameters change, so the parameters belong to the compared
+    // text.
     let numbers: Vec<String> = parameters.iter().map(|own| format!("{} = {:e}", own.key, own.given)).collect();
     let stated = Stated { text: format!("{text} | {}", numbers.join(", ")), variable, program: Mutex::new(program) };
     let begin = stated.at(0.0)[0];

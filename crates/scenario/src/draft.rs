@@ -64,8 +64,8 @@ impl Draft {
         if draft.drives.is_empty() && draft.structure.is_ok() {
             (draft, mistakes) = read(&StartRequest { without_drive: true, ..asked.clone() })?;
         }
-        // If a parameter has a mistake, only this mistake is reported, because it may be the cause of all other
-        // mistakes.
+        // If a parameter has a mistake, only this mistake is reported, because the wrong parameter may be the cause of
+        // all other mistakes.
         Ok(Draft { mistakes: fault.or(mistakes), ..draft })
     }
 

@@ -105,7 +105,8 @@ pub struct Scenario {
     pub oracles: Vec<Oracle>,
     /// Formulas that depend on the parameters, and the claims of the formulas.
     pub formulas: Formulas,
-    /// Outlines and the question about distances between them, if the scenario asks this question.
+    /// Outlines of the bodies and the question about the distances between the bodies, if the scenario asks this
+    /// question.
     pub clearance: Option<ClearanceQuestion>,
     /// For each group, the start that the file requests. The groups have the order of the structure at the start
     /// ([`Structure::at_start`]).

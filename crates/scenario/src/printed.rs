@@ -15,7 +15,7 @@ pub struct Printed {
     pub value: f64,
     /// Number of printed decimals; negative if the last printed digit lies before the decimal point (1.5e3 has -2).
     pub digits: i32,
-    /// Largest distance of the true number from the printed one, in the printed unit.
+    /// Largest distance of the true number from the printed number, in the printed unit.
     pub half_unit: f64,
 }
 

@@ -27,7 +27,7 @@ const BESIDE: usize = 6;
 /// Estimated memory (bytes) of a proof of a case in which `engines` engines run one after the other.
 #[must_use]
 pub fn of_proof(case: &Case, engines: usize) -> f64 {
-    // The trajectory of every finished engine is kept.
+    // The trajectory of every engine whose runs are finished stays in memory.
     let trajectories = TRAJECTORIES + engines.saturating_sub(1) as f64;
     let row = trajectories * trajectory(case) + RUNS * Rows::bytes_of_row(case) as f64;
     ELSE + case.grid.len() as f64 * row

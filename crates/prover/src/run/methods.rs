@@ -181,8 +181,8 @@ pub fn checks(case: &Case, reference: &dyn Solver) -> Result<Vec<Check>> {
     let watches: Result<Vec<Watch>> = Triad::all(case).into_iter().map(|triad| Watch::of(case, triad)).collect();
     let mut watches = watches?;
     let mut visit = |row: usize, state: &State| {
-        // The equations of all these methods are singular at a change point, so the methods are not used at such a
-        // pose.
+        // The equations of all these methods are singular at a change point, so the methods are not used at a change
+        // point.
         if state.passing.is_none() {
             watches.iter_mut().for_each(|watch| watch.see(case, row, state));
         }
@@ -211,7 +211,7 @@ mod tests {
     use super::*;
 
     /// If a method fails, only the instants before the failure are judged.
-    /// The first error of the method is reported as the reason, whatever the result at these instants.
+    /// The first error of the method is reported as the reason, whatever the result before the failure.
     #[test]
     fn a_failed_method_is_inconclusive() {
         for before in [0.0, 1e-3] {

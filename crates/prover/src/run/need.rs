@@ -50,13 +50,13 @@ impl Need {
         }
     }
 
-    /// Whether the only need is a step that leaves out fewer instants.
+    /// Whether an order of convergence is observed and the largest need is a step that leaves out fewer instants.
     pub(super) fn is_of_instants(self) -> bool {
         !self.is_vague && self.of == Of::Instants
     }
 }
 
-/// If the sweeps cause at most this fraction of a bound, the step is also to blame.
+/// If the sweeps cause at most this fraction of a bound, sweeps and step are both to blame.
 const SHARED: f64 = 0.8;
 
 /// Cause of the largest bound.
@@ -145,12 +145,12 @@ impl Pace {
 const MOST_VAGUE: usize = 2;
 /// If halving the step reduces the bound to at most this fraction, the number of sweeps counts as sufficient.
 const BRINGS: f64 = 0.7;
-/// If more sweeps reduce the bound to at most this fraction, they are worth their work.
+/// If more sweeps reduce the bound to at most this fraction, the additional sweeps are worth their work.
 const HELPS: f64 = 0.5;
 /// If finer steps widen the bound in this number of consecutive rounds, rounding is to blame, however small the
 /// rounding part of the bound is.
 const MOST_WIDER: usize = 2;
-/// If more sweeps have helped little, this number of rounds passes before they are tried again.
+/// If more sweeps have helped little, this number of rounds passes before more sweeps are tried again.
 const PATIENCE: usize = 3;
 
 /// Record of steps without progress in a search.
@@ -182,7 +182,7 @@ impl Stall {
     /// blame.
     /// Too few sweeps may hide the order of the step, and the error due to the sweeps is not always visible.
     /// If a smaller step helps little, more sweeps are tried, provided that the number of sweeps is `free`.
-    /// If more sweeps help little too, the search returns to the previous number of sweeps.
+    /// If a smaller step and more sweeps both help little, the search returns to the previous number of sweeps.
     pub(super) fn look_closer(&mut self, need: Need, blame: BoundPart, sweeps: usize, free: bool) -> Next {
         self.vague = if need.is_vague { self.vague + 1 } else { 0 };
         let before = self.before.replace(need);

@@ -51,7 +51,7 @@ pub(super) struct Observed {
     pub(super) unbalance: Option<f64>,
     /// Largest moment on the driving link (N m): the balancing moment, or a joint's force times the link's length.
     pub(super) moment: f64,
-    /// Largest condition number of a passage of a side through a change point; 1 if there is no such passage.
+    /// Largest condition number of a passage of a side through a change point; 1 if no side passes a change point.
     pub(super) passing: f64,
     /// For every row, whether a side passes a change point in a singular pose; empty if the crank may not pass change
     /// points.
@@ -94,8 +94,8 @@ impl Observed {
 
     /// Largest difference between the balancing moment of the trajectory and the balancing moment of the powers,
     /// divided by the moments in the balance.
-    /// If the balancing moment vanishes, the moments in the balance cancel each other and only their rounding error
-    /// remains.
+    /// If the balancing moment vanishes, the moments in the balance cancel each other and only the rounding error of
+    /// these moments remains.
     pub(super) fn two_ways(&self) -> f64 {
         share(largest_size(&self.moment_gap().collect::<Vec<f64>>()), self.moment)
     }

@@ -34,7 +34,8 @@ pub(super) fn checks(
     Ok(checks)
 }
 
-/// Rounding error of a number from an analytic side. The unit is one ulp of the largest number of the same quantity.
+/// Rounding error of a number from an analytic side. The unit is one ulp of the largest number that the quantity has in
+/// the side's trajectory.
 /// A printed number may have more digits than the side's result has correct digits.
 const ULPS: f64 = 16.0;
 

@@ -45,7 +45,7 @@ pub(super) fn judged(
     progress: Progress,
 ) -> Option<EngineProof> {
     let effort = motion.search.as_ref().map_or(0.0, |search| search.effort);
-    // If the motion has needed more work than is allowed for the engine's own forces, they are not judged.
+    // If the motion has needed more work than is allowed for the engine's own forces, these forces are not judged.
     // Impulses are of a lower order than the motion, so the runs for impulses need at least as much work as the runs
     // for the motion.
     if effort > SHARE * chosen.budget {

@@ -45,7 +45,7 @@ fn dispute(name: &'static str, channel: &Channel, values: &[f64], engines: &[Eng
     Some(Dispute { channel: channel.to_string(), pairs, odd })
 }
 
-/// Pairs that differ by more than the sum of their bounds, and the only side that is in all these pairs.
+/// Pairs of sides that differ by more than the sum of their bounds, and the only side that is in all these pairs.
 /// `None` if no pair differs.
 fn apart(parties: &[Party], periodic: bool) -> Option<(Vec<[&'static str; 2]>, Option<&'static str>)> {
     let differ = |a: &Party, b: &Party| {

@@ -236,7 +236,7 @@ fn every_class_three_method_is_in_the_proof_and_finds_faults() {
             }
         }
     }
-    // The methods are not used at a change point, because their equations are singular at such a point.
+    // The methods are not used at a change point, because their equations are singular at a change point.
     let passing: Fault = |state, size| {
         state.passing = Some(1.0);
         state.motions.iter_mut().for_each(|motion| (motion.omega, motion.alpha) = (size, size));
@@ -471,7 +471,7 @@ fn integration_error_widens_the_bound_of_numbers_at_a_time() {
 }
 
 /// The scale of a channel that is zero throughout is a tenth of the size of its quantity. The engine's error in this
-/// channel still comes from its runs.
+/// channel still comes from the engine's runs.
 /// For the acceleration of a crank at constant speed, a fault of a millionth of the quantity is found.
 /// For a rocker that rotates with the crank through change points, only a fault of at least a hundredth of the quantity
 /// is found.

@@ -52,7 +52,8 @@ pub(super) fn other_sweeps(case: &Case, engine: &dyn Engine, sweeps: usize, shar
     }
 }
 
-/// If the sweeps are given: number of sweeps of the judged run divided by that of the run with fewer sweeps.
+/// If the sweeps are given: number of sweeps of the judged run, divided by the number of sweeps of the run with fewer
+/// sweeps.
 pub(super) const FEWER: usize = 2;
 
 /// If a trajectory has more values than this, not all trajectories of a search are kept.
@@ -190,8 +191,8 @@ fn ends(case: &Case) -> [f64; 2] {
 }
 
 /// The largest step (s) for which a run of this engine stays within the reachable crank angles.
-/// A run of a prescribed motion begins some steps before the first instant and ends some steps after the last one.
-/// Near a limit of rotation, these additional steps stay within the limit only if they are small.
+/// A run of a prescribed motion begins some steps before the first instant and ends some steps after the last instant.
+/// Near a limit of rotation, the additional steps of a run stay within the limit only if the steps are small.
 /// The result is infinite if the crank makes full revolutions or if forces determine the motion.
 pub(super) fn room(case: &Case, engine: &dyn Engine) -> f64 {
     let steps = engine.overrun();

@@ -27,8 +27,8 @@ const THRIFT: f64 = 0.0015;
 /// The search aims at bounds of this fraction of the widest conclusive bound.
 /// With extrapolation, a bound a hundred times narrower than the widest conclusive bound costs little.
 const AIM: f64 = 0.01;
-/// Limit of extrapolations. With more extrapolations, the weights add more rounding error than the truncation error
-/// that they cancel.
+/// Limit of extrapolations. With more extrapolations, the weights of the runs add more rounding error than they cancel
+/// truncation error.
 const MOST_TIMES: usize = 4;
 /// The coarsest step is at most this multiple of the first step.
 /// Steps coarser than the first step are tried if rounding dominates.
@@ -53,7 +53,7 @@ const NEAR: f64 = 8.0;
 /// Returns an error if the first runs of an engine, at the settings `rungs`, need more work than `most`.
 /// The error names the requested `budget`.
 /// A step that divides the motion into more than [`BUDGET`] steps counts as a mistake of the user.
-/// For such a step this function returns no error, because the engine itself rejects the step.
+/// If the step counts as a mistake, this function returns no error, because the engine itself rejects the step.
 pub(super) fn too_much(
     bank: &Bank,
     settings: Settings,

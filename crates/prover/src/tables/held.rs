@@ -53,7 +53,7 @@ impl RowKey {
     }
 
     /// The first row (counted from 0) at which the instants reverse the direction of the table's first step.
-    /// Returns this row, the instant of the previous row, and the instant of this row.
+    /// Returns the index of the reversing row, the instant of the row before it, and the instant of the reversing row.
     /// If a time jumps back, a new run has begun.
     #[must_use]
     pub fn turns_back(&self) -> Option<(usize, [f64; 2])> {

@@ -73,7 +73,7 @@ pub fn are_joined(mechanism: &Mechanism, [a, b]: [LinkId; 2]) -> bool {
     if mechanism.joints().iter().any(|joint| joint.on(a).is_some() && joint.on(b).is_some()) {
         return true;
     }
-    // The search follows pins that lie at the same point of a link that they share.
+    // The search goes from one pin to another if both pins lie at one point of one link.
     let pins = mechanism.joints().iter().filter(|joint| joint.is_pin());
     for start in pins.filter_map(|joint| joint.on(a)) {
         let mut pin = vec![(a, start)];

@@ -14,7 +14,7 @@ use linkage::error::{Error, ErrorKind, Result};
 type Spelled = (&'static UnitFamily, usize, &'static NamedUnit);
 
 /// Lower limit of the magnitude of a quantity in SI.
-/// Above this limit, squares and products with other quantities do not underflow.
+/// If all quantities exceed this limit, their squares and products do not underflow.
 const SMALLEST: f64 = 1e-100;
 
 impl<'a> TomlTable<'a> {
