@@ -27,8 +27,8 @@ const STANDSTILL: f64 = 1e-9;
 /// Number of tiny steps that undo a trial.
 const UNDOING: usize = 8;
 /// Largest number of trials of the first step.
-/// The trials end earlier if the relative changes of the compensating loads, and of the accelerations from which the
-/// friction is computed, are at most `GUESSED`.
+/// The trials end earlier if two relative changes are at most `GUESSED`: the change of the compensating loads, and the
+/// change of the accelerations from which the friction is computed.
 const MOST_TRIALS: usize = 200;
 const GUESSED: f64 = 1e-9;
 

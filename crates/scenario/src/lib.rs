@@ -1,6 +1,6 @@
 //! Scenario files: reads TOML and returns a [`Case`]. docs/scenario.md describes the format.
 //! Only this module converts units.
-//! Every error names file, line and key, what was found, and how to correct it.
+//! Every error names file, line and key, states what was found, and says how to correct the mistake.
 
 pub mod accepted;
 mod asked;

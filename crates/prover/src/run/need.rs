@@ -1,5 +1,5 @@
-//! How far an engine's channels are from being conclusive, which part dominates its bounds, and whether the remaining
-//! work suffices.
+//! How far an engine's channels are from being conclusive, which part dominates its bounds, and whether the work that
+//! is still allowed suffices.
 //! See docs/numerics/settings.md.
 
 use linkage::math::KeepNan;

@@ -37,17 +37,17 @@ pub(super) struct Observed {
     pub(super) reach: f64,
     /// Balancing moment from the balance of powers (N m) at every instant; empty if no balancing moment is requested.
     /// If the crank's speed changes, the moment is multiplied by the ratio of the crank's speed to its top speed.
-    /// In a motion under forces, the ratio has the larger of two speeds as its divisor: the top speed, or the largest
-    /// speed of a driving link.
+    /// In a motion under forces, the divisor of this ratio is the top speed or the largest speed of a driving link,
+    /// whichever is larger.
     pub(super) power: Vec<f64>,
     /// Balancing moments of the trajectory, reduced to the crank (N m), at every instant. These moments are multiplied
     /// by the ratio that is described for `power`.
     pub(super) torque: Vec<f64>,
     /// The larger of two ratios over the run.
-    /// The first compares the shaking forces from reactions and from momentum: their largest difference divided by the
-    /// largest force in a joint.
-    /// The second compares the shaking moments: their largest difference divided by the largest moment of a joint force
-    /// about the origin.
+    /// The first ratio compares the shaking forces from reactions and from momentum: their largest difference divided
+    /// by the largest force in a joint.
+    /// The second ratio compares the shaking moments from reactions and from momentum: their largest difference divided
+    /// by the largest moment of a joint force about the origin.
     pub(super) unbalance: Option<f64>,
     /// Largest moment on the driving link (N m): the balancing moment, or a joint's force times the link's length.
     pub(super) moment: f64,

@@ -25,7 +25,7 @@ macro_rules! setters {
 /// An option that is not given is taken from the scenario.
 /// If neither the options nor the scenario give step, sweeps or extrapolation, the proof finds them.
 /// If neither the options nor the scenario give substeps, route or accuracy, the engine's default is used.
-/// If a step is given, runs are extrapolated only on request.
+/// If a step is given, runs are extrapolated only if extrapolation is requested.
 /// The numbers in the options are checked when the proof begins.
 ///
 /// ```

@@ -49,8 +49,8 @@ impl Twin {
         let turning =
             |of: [f64; 2], other: [f64; 2]| of[0] * other[0] * inverse[0][1] + of[1] * other[1] * inverse[1][1];
         let lever = |along: Vec2| arms.map(|arm| cross(arm, along));
-        // Only between separate bodies does Rapier make a joint's rows orthogonal to each other, so only impulses
-        // between separate bodies are corrected.
+        // Rapier makes a joint's rows orthogonal to each other only if the joint connects separate bodies. The impulses
+        // of other joints are therefore not corrected.
         let is_orthogonal = self.multibodies.is_empty();
         let (force, moment) = match cut.joint.keeps_angle() {
             true => {
