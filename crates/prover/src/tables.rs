@@ -33,7 +33,7 @@ pub fn load(path: impl AsRef<Path>) -> Result<Raw> {
 /// For a Parquet file, `may` is called once, before the values are stored.
 ///
 /// # Errors
-/// The errors of [`load`], and those of `may`.
+/// The errors of [`load`], and the errors that `may` returns.
 pub fn load_within(path: &Path, may: May) -> Result<Raw> {
     let mut file = File::open(path).map_err(|error| unread(path, &error))?;
     let about = file.metadata().map_err(|error| unread(path, &error))?;

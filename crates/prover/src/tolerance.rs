@@ -46,7 +46,7 @@ pub enum BoundBasis {
     Wanted(&'static str),
     /// Error of the engine, estimated from runs at three resolutions and from runs with fewer sweeps.
     Truncation {
-        /// Order of convergence observed between the runs. NaN if the difference between single and half step is only
+        /// Order of convergence observed between the runs. NaN if the runs at single and half step differ only by
         /// rounding.
         observed: f64,
         /// Order of convergence that the method has in theory.
@@ -61,9 +61,9 @@ pub enum BoundBasis {
         noise: BoundOrigin,
     },
     /// Bound of a printed number.
-    /// For a number of a series it is a sum: half a unit of the number's last digit, the known errors of the number and
-    /// of the side, and the change of the number within the rounding of its instant.
-    /// For a figure it is the larger of half a unit of the last digit and the known error of the side.
+    /// For a number of a series, the bound is a sum: half a unit of the number's last digit, the known errors of the
+    /// number and of the side, and the change of the number within the rounding of its instant.
+    /// For a figure, the bound is the larger of half a unit of the last digit and the known error of the side.
     Digits {
         /// How the number is known: published, recomputed or derived.
         origin: BoundOrigin,
@@ -79,7 +79,7 @@ pub enum BoundBasis {
         /// Whether the formula also states an error of its values.
         claimed: bool,
     },
-    /// Another basis, with a note on the check that uses it.
+    /// A basis of one of the kinds above, with a note on the check that uses the basis.
     Noted(Box<BoundBasis>, &'static str),
 }
 
@@ -135,7 +135,7 @@ impl Parts {
         self.discretisation + self.iteration + self.rounding + self.reference
     }
 
-    /// The reference if its part exceeds the sum of the other parts; otherwise the largest of the other parts.
+    /// The reference part if this part exceeds the sum of the other parts; otherwise the largest of the other parts.
     #[must_use]
     pub fn largest(&self) -> BoundPart {
         let own = self.discretisation + self.iteration + self.rounding;

@@ -7,8 +7,9 @@
 //! The link also gets the load m a + J alpha - m g of the added part.
 //! With the true accelerations, the motion is that of the case: (M + M') a = f + M' a reduces to M a = f.
 //! The load in a step uses the accelerations of the step before.
-//! The resulting error is of first order, like that of the whole step.
-//! This error decays from step to step, because an added mass is smaller than the total: M' / (M + M') is below 1.
+//! The resulting error is of first order, as is the error of the engine's step.
+//! This error decays from step to step, because the added mass M' is smaller than the total mass: M' / (M + M') is
+//! below 1.
 //! See docs/numerics/twins.md.
 
 use super::masses::added;

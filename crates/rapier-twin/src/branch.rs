@@ -1,7 +1,7 @@
 //! Checks whether the engine is still on the branch on which it began.
 //!
 //! Near a dead point, two assembly modes of a group are close together.
-//! The engine may then slip from one mode to the other mode while its loops hardly open.
+//! Near a dead point, the engine may slip from one mode to the other mode while its loops hardly open.
 //! The two modes differ in the sign of the determinant of the group's constraints, so this sign is watched.
 
 use crate::sentences;
@@ -14,7 +14,8 @@ use linkage::solver::State;
 
 /// Threshold, as a fraction of a group's largest determinant.
 /// If a determinant of the opposite sign exceeds this threshold, the group is on another branch than its start branch.
-/// If the determinant is smaller, the small opening of the engine's loops at a dead point explains its sign.
+/// If the determinant of the opposite sign is smaller than this threshold, the small opening of the engine's loops at a
+/// dead point explains the sign.
 /// The group then counts as being on its start branch.
 const BEYOND: f64 = 0.02;
 
@@ -101,7 +102,7 @@ fn turned_back(case: &Case, group: GroupId, t: f64) -> Error {
 impl Watched {
     /// Whether the determinant has turned back before it reaches zero.
     /// At a change point that is passed smoothly, the determinant passes through zero.
-    /// If its slope reverses shortly before zero, the engine has changed branch.
+    /// If the slope of the determinant reverses shortly before zero, the engine has changed branch.
     fn turns_back(&mut self, t: f64, determinant: f64) -> bool {
         let [older, newer] = self.last;
         self.last = [newer, Some((t, determinant))];

@@ -48,7 +48,8 @@ impl Engine for Rapier {
     }
 
     fn own_routes(&self, _: &Case) -> &'static [Route] {
-        // Probes are not tried by default, because they cost more and need many more sweeps at coarse steps.
+        // Probes are not tried by default, because they cost more than the default route and need many more sweeps at
+        // coarse steps.
         // The tiny steps of a probe also cause an error that a comparison of runs does not reveal.
         &[Route::Native]
     }

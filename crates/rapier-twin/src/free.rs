@@ -27,8 +27,8 @@ const STANDSTILL: f64 = 1e-9;
 /// Number of tiny steps that undo a trial.
 const UNDOING: usize = 8;
 /// Largest number of trials of the first step.
-/// The trials end earlier if the relative changes of the compensating loads, and of the accelerations from which the
-/// friction is computed, are at most `GUESSED`.
+/// The trials end earlier if two relative changes are at most `GUESSED`: the change of the compensating loads, and the
+/// change of the accelerations from which the friction is computed.
 const MOST_TRIALS: usize = 200;
 const GUESSED: f64 = 1e-9;
 
@@ -103,8 +103,8 @@ impl Acting {
         }
         let State { motions, angles, .. } = &self.state;
         let (before, setting_off) = (&self.before, &self.setting_off);
-        // A link may reverse within the step.
-        // The load of such a link is the mean of the loads before and after the reversal, weighted by their durations.
+        // If a link reverses within the step, its load is the mean of the loads before and after the reversal, weighted
+        // by their durations.
         let sensed = |_: usize, load: &Load, crank: f64| {
             let Some(link) = load.sensed_link() else { return load.moment_in(case.load_rate(load, motions), crank) };
             let now = motions[link].omega;
@@ -119,8 +119,8 @@ impl Acting {
             }
             own
         };
-        // A point whose motion is opposed by a force may also reverse within the step. The force on such a point is the
-        // mean of the forces before and after the reversal, weighted in the same manner.
+        // If a force opposes the motion of a point and this motion reverses within the step, the force is also a mean.
+        // The forces before and after the reversal are weighted by their durations.
         let swept = &self.swept;
         let way = |index: usize, now: Vec2| {
             let next = 2.0 * now - swept[index];
@@ -212,9 +212,10 @@ impl Acting {
             }
         };
         let (mut moment, mut slope) = (branch.moment(omega), branch.slope(omega));
-        // The speed may leave the motor's branch within the step.
-        // Where the power flow reverses, the losses of a reducer make the moment jump.
-        // As for loads, the moments of the two branches are weighted by their durations.
+        // The speed may leave the present branch of the motor's law within the step.
+        // If the power flow reverses, the losses of a reducer make the motor's moment jump.
+        // In both cases, the motor's moment is the mean of the moments before and after the change, weighted by their
+        // durations.
         let next = 2.0 * omega - sense * self.before[case.crank().link];
         let [least, most] = branch.speeds;
         if next < least || next >= most {
@@ -246,7 +247,8 @@ impl Acting {
 /// - A load or the losses of a reducer depend on the sense of rotation of a link at rest.
 /// - A joint with friction is at rest.
 ///
-/// In the trial step, such loads and such friction do not act, and power flows from the motor.
+/// In the trial step, loads that depend on the sense of rotation of a link at rest do not act, nor does the friction of
+/// joints at rest. The power is assumed to flow from the motor.
 ///
 /// # Errors
 /// The errors of [`Guard::step`].

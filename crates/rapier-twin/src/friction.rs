@@ -1,8 +1,8 @@
 //! Friction in the joints of the engine's mechanism.
 //!
 //! A prescribed motion does not depend on friction, so friction only enters the reactions of a sample.
-//! In a free motion, friction acts as a load in every step. It is computed from the accelerations of the previous step,
-//! so its error is of first order, like that of the whole step.
+//! In a free motion, friction acts as a load in every step. The friction is computed from the accelerations of the
+//! previous step. The resulting error is of first order, as is the error of the engine's step.
 //! Reactions and friction are found together by Newton's method for the normal forces, with numerical derivatives.
 //! If the method does not converge, the friction is increased in steps.
 
@@ -30,7 +30,7 @@ const PROBE: f64 = 1e-4;
 const LEAST: f64 = 1e-3;
 
 /// Computes the reactions of a known motion, with friction.
-/// The forces of transmissions act in the lines of action that carry them.
+/// The force of each transmission acts in the line of action that carries the force.
 #[derive(Debug)]
 pub(super) struct InverseDynamics {
     equations: NewtonEuler,
@@ -96,7 +96,8 @@ impl InverseDynamics {
         Ok(&self.efforts)
     }
 
-    /// Newton's method for the normal forces, from the present ones. Returns whether it has converged.
+    /// Newton's method for the normal forces, starting from their present values. Returns whether the method has
+    /// converged.
     fn find(&mut self, case: &Case, state: &mut State, t: f64, sense: &dyn Fn(usize) -> f64) -> Result<bool> {
         let (n, mut last) = (self.normals.len(), f64::INFINITY);
         for _ in 0..MOST {
@@ -225,7 +226,8 @@ impl Braking {
             *motion = Motion::of_point(centre, place, motion.direction, motion.omega, *alpha);
         }
         let (before, now, setting_off) = (&self.before, &self.now, &self.setting_off);
-        // If a joint reverses within the step, its friction is the mean of both senses, weighted by their durations.
+        // If a joint reverses within the step, its friction is the mean of the frictions before and after the reversal,
+        // weighted by their durations.
         let sense = |k: usize| {
             if now[k] == 0.0 {
                 return if setting_off[k] == 0.0 { 0.0 } else { setting_off[k].signum() };

@@ -14,7 +14,8 @@ use linkage::error::Result;
 use linkage::input::Input;
 use linkage::solver::State;
 
-/// Stand-ins for missing masses, flywheels in accelerated motion, and loads that are missing in the engine.
+/// The differences between the engine's world and the case, called stand-ins: masses and moments of inertia that
+/// replace missing ones, flywheels in accelerated motion, and loads that the engine's world lacks.
 #[derive(Debug)]
 pub(super) struct Ghost {
     statics: NewtonEuler,
@@ -22,7 +23,8 @@ pub(super) struct Ghost {
 }
 
 impl Ghost {
-    /// The stand-ins of a case. If its loads are missing in the engine (`unloaded`), they are included too.
+    /// The stand-ins of a case. If the engine's world lacks the case's loads (`unloaded`), these loads are included
+    /// too.
     /// `None` if nothing has to be subtracted.
     pub(super) fn of(case: &Case, unloaded: bool) -> Option<Self> {
         // The flywheel of a crank adds a moment only while accelerated. A flywheel of a slide is a mass with weight.
@@ -43,7 +45,8 @@ impl Ghost {
         }
         let unloaded = unloaded && !case.loads.is_empty();
         let any = unloaded || extra.iter().flatten().any(|&extra| extra != 0.0);
-        // The contribution of the stand-ins is subtracted later. Loads with a negative sign are therefore added.
+        // The contribution of the stand-ins is subtracted later. Missing loads are therefore included with a negative
+        // sign.
         let load_share = if unloaded { -1.0 } else { 0.0 };
         any.then(|| Ghost { statics: NewtonEuler::of(case, extra, load_share), state: State::at_rest(case) })
     }

@@ -33,7 +33,7 @@ const LARGEST_TURN: f64 = std::f64::consts::FRAC_PI_2;
 /// If the kinetic energy grows by more than this factor in one step, the run has diverged and is stopped.
 /// The factor corresponds to a factor of ten in the speeds.
 /// In a prescribed motion, the drives enforce their speeds, so energy is not conserved.
-/// But the kinetic energy then depends only on the pose, and the pose changes little in a step.
+/// In a prescribed motion, however, the kinetic energy depends only on the pose, and the pose changes little in a step.
 const LARGEST_GROWTH: f64 = 100.0;
 
 /// A world and the quantities that are supervised.
@@ -43,7 +43,8 @@ pub(super) struct Guard<'a> {
     /// The mechanism's size (m).
     size: f64,
     largest_gap: f64,
-    /// Frames of all links after the last step. `centres` are the mass centres of all links at the same time (m).
+    /// Frames of all links after the last step. `centres` are the mass centres of all links (m), also after the last
+    /// step.
     frames: Vec<LinkFrame>,
     centres: Vec<Vec2>,
     loads: Vec<Wrench>,
@@ -223,7 +224,7 @@ impl<'a> Guard<'a> {
     ///
     /// # Errors
     /// [`ErrorKind::Numeric`] if a link deviates from the start pose by more than the largest loop opening.
-    /// Such a deviation means that the engine has passed a dead point into an assembly mode other than that of the
+    /// A larger deviation means that the engine has passed a dead point into an assembly mode other than that of the
     /// start.
     pub(super) fn check_start(&self) -> Result<()> {
         let case = self.case;

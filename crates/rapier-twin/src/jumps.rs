@@ -1,6 +1,7 @@
 //! Jumps of tables of loads within a step of a free motion.
 //!
-//! The load of such a step is the mean of the values before and after the jump, weighted by the fractions of the step.
+//! If a table jumps within a step, the load of the step is the mean of the values before and after the jump, weighted
+//! by the fractions of the step.
 //! Without the weights, the error of the motion after the jump would not fall regularly with the step.
 
 use linkage::case::Case;

@@ -1,9 +1,10 @@
 //! The lines of action that carry the forces of transmissions.
 //!
-//! Engine and Newton-Euler equations exert the force of a transmission in the first line of action, whatever the sign
-//! of the force.
-//! A negative force belongs in the second line of action, and a slack strand has a tension.
-//! The corrections do not change the motion; they change only the reactions of the axles.
+//! The engine and the Newton-Euler equations apply the force of a transmission in the first line of action, whatever
+//! the sign of the force.
+//! But a negative force belongs in the second line of action.
+//! In a drive with two strands, the slack strand also has a tension.
+//! The corrections for both effects do not change the motion; they change only the reactions of the axles.
 
 use super::newton_euler::NewtonEuler;
 use linkage::case::Case;

@@ -8,21 +8,21 @@ use linkage::math::KeepNan;
 use linkage::mechanism::{GROUND, Joint, Link, LinkId};
 
 /// Mass added to a massless link, divided by the mean mass of the links.
-/// A small mass is compensated quickly: in each step, the error of the first guess is multiplied by about this
-/// fraction.
+/// The smaller the added mass, the faster the compensating loads become exact: each step multiplies their error by
+/// about this fraction.
 const SHARE: f64 = 0.1;
 /// Moment of inertia of a slender rod, divided by its mass and the square of its length.
 const ROD: f64 = 1.0 / 12.0;
 
 /// If a mass centre is farther from all joints of its link than this fraction of the link's extent, the link needs a
 /// mass but no moment of inertia.
-/// The mass matrix of a multibody is then regular even with a point mass.
+/// The mass matrix of a multibody is regular even with a point mass, if the point mass does not lie in a joint.
 const OFF_JOINTS: f64 = 1e-2;
 
 /// Additional moment of inertia of driving links, divided by the total mass times the square of the mechanism's size.
 /// A link with prescribed speed may have any moment of inertia, because it affects neither motion nor reactions.
 /// The additional moment of inertia affects the driving moment only where the speed changes.
-/// Where the speed changes, its contribution is subtracted ([`Ghost`](super::ghost::Ghost)).
+/// This contribution to the driving moment is subtracted ([`Ghost`](super::ghost::Ghost)).
 /// With a large moment of inertia, the constraint rows of the drives hardly depend on the rows of the loops, and the
 /// sweeps converge.
 /// On a four-bar whose coupler is thirteen times as heavy as its crank, 32 sweeps with the flywheel achieve as much as
@@ -36,10 +36,12 @@ const FLYWHEEL: f64 = 1.0;
 /// If the speed is prescribed, the motion does not depend on the masses, but the convergence of the sweeps does.
 /// The sweeps hardly converge if the masses of neighbours differ much.
 /// Each link therefore has at least the mean mass, and at least the moment of inertia of a rod of that mass.
-/// The contribution of these additions to the reactions is subtracted again ([`Ghost`](super::ghost::Ghost)).
+/// The contribution of the added masses and moments of inertia to the reactions is subtracted again
+/// ([`Ghost`](super::ghost::Ghost)).
 ///
 /// In a free motion, the moment of inertia of the crank includes that of rotor and gearbox.
-/// The additions then depend on the world's tree, and loads compensate the additions ([`Added`](super::added::Added)).
+/// In a free motion, the additions depend on the world's tree, and loads compensate the additions
+/// ([`Added`](super::added::Added)).
 pub(super) fn masses(case: &Case, tree: &SpanningTree) -> Vec<[f64; 2]> {
     let mut masses = bare_masses(case, tree);
     if case.is_free() {
@@ -68,7 +70,7 @@ fn bare_masses(case: &Case, tree: &SpanningTree) -> Vec<[f64; 2]> {
 }
 
 /// Masses of a world that only provides a motion with prescribed speeds.
-/// Every link has the same mass, and the moment of inertia of a rod of the link's extent.
+/// All links have equal masses. Each link has the moment of inertia of a rod of the link's extent.
 /// The motion does not depend on the masses, but the sweeps do: the sweeps hardly converge if the masses differ much.
 fn even_masses(case: &Case) -> Vec<[f64; 2]> {
     let of = |link: &Link| [1.0, ROD * length(case, link) * length(case, link)];
@@ -82,7 +84,7 @@ fn even_masses(case: &Case) -> Vec<[f64; 2]> {
 pub(super) enum Loading {
     /// Only the motion of the world is read. Under prescribed speeds the world has [`even_masses`].
     Moving,
-    /// The forces of the world are read, and the contribution of stand-ins is subtracted.
+    /// The forces of the world are read, and the contribution of the added masses is subtracted.
     Read,
     /// The forces of the world are read, and nothing is subtracted.
     Bare,
@@ -113,7 +115,8 @@ fn with_flywheels(case: &Case, mut masses: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
         match drive.input {
             Input::Angle => *inertia += FLYWHEEL * total * size * size,
             Input::Slide if case.mechanism.joints()[drive.joint].on(GROUND).is_some() => *mass += FLYWHEEL * total,
-            // Both links of the joint move, so a flywheel on one of them does not help the drive's row.
+            // Both links of the joint move, so a flywheel on one of them does not improve the convergence of the
+            // drive's constraint row.
             Input::Turn | Input::Slide => {}
         }
     }

@@ -16,7 +16,7 @@ use linkage::solver::State;
 /// Delay of the engine's reports, in substeps.
 /// The delay is the time from the instant that a report describes best to the end of the reported step.
 /// The impulses of step n belong to the pose of step n - 1.
-/// These impulses change the velocities of step n - 2 into those of step n - 1.
+/// The impulses of step n change the velocities of step n - 2 into the velocities of step n - 1.
 /// The error is of first order whichever instant the impulses are assigned to.
 /// At a crank rotation of 0.32 deg per step, the instants t_n, t_(n-1) and t_(n-2) gave these errors:
 /// 3.8e-2, 2.0e-2 and 2.1e-2 on `ov7_base`; 1.7e-2, 5.8e-3 and 6.6e-3 on `crank_rocker`.
@@ -52,7 +52,7 @@ impl Native {
         // In a free motion, the first reported step is step 1.
         // If bodies move at the start, the impulses of the first steps are incomplete, so these steps are left out.
         // The first steps use velocities along the constraints of the present pose.
-        // Later steps use velocities along the constraints of the pose before.
+        // Later steps use velocities along the constraints of the previous pose.
         let lowest = if case.is_free() { 3 + first_steps(case, plain) } else { i64::MIN / 2 };
         let (step, late) = (settings.resolution, LATE / settings.substeps as f64);
         let (ring, ghost, row) = (Ring::new(width, start), Ghost::of(case, !case.is_free()), vec![0.0; width]);

@@ -2,12 +2,13 @@
 //! tree.
 //!
 //! For every link, m (a - g) = sum of joint forces + loads.
-//! Also J alpha = sum of the moments of these forces about the mass centre + moments of the loads.
+//! For every link, J alpha = sum of the moments of the joint forces about the mass centre + moments of the loads.
 //! The reaction of a joint has as many unknown components as the joint has constraint equations.
-//! For a revolute joint, these are the two components of its force.
-//! For a prismatic joint, these are the force across its axis, at its point on the second link, and the moment.
+//! For a revolute joint, the unknowns are the two components of its force.
+//! For a prismatic joint, the unknowns are the moment and the force across the joint's axis. This force acts at the
+//! joint's point on the second link.
 //!
-//! The unknowns are the components in the joints that the tree cuts.
+//! The unknowns are the reaction components of the joints that the tree cuts.
 //! The force and moment that a tree joint must transmit to its outer link follow from the motion of all links beyond
 //! the joint.
 //! This force and moment are a linear function of the unknowns and are computed from the leaves inwards.
@@ -15,10 +16,11 @@
 //! Each joint of the tree therefore gives one equation.
 //! The links beyond a joint form a composite body: Featherstone, "Rigid Body Dynamics Algorithms", 2008, ch. 8.
 //! Driven joints are in the tree, and the residual of a driven joint's equation is the driving moment or force.
-//! The moment of a crank acts from the frame. Any other driving moment or force also acts on the inner link.
+//! The driving moment of a crank is supported by the frame. The reaction to any other driving moment or force acts on
+//! the inner link of the driven joint.
 //! The equations of the other tree joints determine the components in the cut joints: there are as many equations as
 //! components.
-//! A four-bar has two such equations, while all its links together have nine equations of motion.
+//! For a four-bar, two equations determine the components, while all its links together have nine equations of motion.
 //! A transmission is a cut joint with one component: the force in its first line of action.
 
 mod seam;
@@ -39,7 +41,7 @@ use linkage::work::{Count, WorkTally};
 use seam::{PAIR, Seam, Stand, Term};
 use stages::{Limb, Row, Stage, stages};
 
-/// The equations of a case. Their memory is reused for every pose.
+/// The equations of a case. The memory of the equations is reused for every pose.
 #[derive(Debug)]
 pub struct NewtonEuler {
     /// The links of the tree, from the ground outwards.
@@ -72,7 +74,8 @@ impl NewtonEuler {
         NewtonEuler::of(case, masses, 1.0)
     }
 
-    /// The equations with other masses (kg) and moments of inertia (kg m^2), and with a fraction of the loads.
+    /// The equations of a case with the given masses (kg) and moments of inertia (kg m^2) and with a fraction of the
+    /// loads.
     pub fn of(case: &Case, masses: Vec<[f64; 2]>, load_share: f64) -> Self {
         let tree = SpanningTree::with(&case.mechanism, &case.drives.joint_ids());
         NewtonEuler::along(case, &tree, masses, load_share)
@@ -212,7 +215,7 @@ impl NewtonEuler {
         true
     }
 
-    /// Adds to `needs` of every link the needs of the links that it carries. The leaves are treated first.
+    /// Adds the needs of every link to the needs of the link that carries it. The leaves are treated first.
     fn pass_on(&mut self) {
         let width = self.components.len() + 1;
         for (number, limb) in self.tree.iter().enumerate().rev() {

@@ -40,8 +40,8 @@ const PROBE_ULPS: f64 = 16000.0;
 ///
 /// An angle is a sum of rounded increments, one for each step.
 /// The error of each increment is at most half a unit in the last place of the angle so far.
-/// The sign of this error stays the same as long as speed and exponent stay the same, so the errors of successive steps
-/// add up.
+/// As long as the speed and the exponent of the angle do not change, the sign of this error does not change, so the
+/// errors of successive steps add up.
 /// The bounds of lengths, forces and moments follow from the bounds of angles, with the mechanism's size and mass.
 pub(super) fn bound(case: &Case, engine: &Rapier, channel: &ChannelKind) -> f64 {
     let (step, epsilon) = (engine.settings.resolution, engine.precision.epsilon());
@@ -93,7 +93,7 @@ pub(super) fn bound(case: &Case, engine: &Rapier, channel: &ChannelKind) -> f64 
 /// Lever arm (m) of the forces in a moment.
 /// For a driving moment, the arm extends to the far end of the driving link.
 /// A prismatic joint may transmit its force anywhere in the mechanism, so its arm is the mechanism's size.
-/// The same arm is used for a driving moment if the driving link has a prismatic joint.
+/// The mechanism's size is also the arm of a driving moment if the driving link has a prismatic joint.
 /// For the frame, moments are those about the origin, so the arm is `reach`.
 fn lever(case: &Case, reach: f64, subject: ChannelSubject) -> f64 {
     match (subject.is_drive(), subject == ChannelSubject::Frame) {

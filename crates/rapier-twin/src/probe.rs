@@ -71,7 +71,7 @@ impl<'a> Probe<'a> {
         self.ghost.as_mut().map_or(Ok(()), |ghost| ghost.take_off(case, state, t))
     }
 
-    /// Adds the reports of a world, multiplied by `share`.
+    /// Adds the reports of a world, multiplied by `share`, to a state.
     fn add(&self, index: usize, share: f64, state: &mut State) {
         let world: &dyn World = self.worlds[index].world();
         for joint in self.reporters.ids().filter(|&joint| self.reporters[joint] == Some(index)) {

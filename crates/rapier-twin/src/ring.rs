@@ -4,11 +4,13 @@ use std::ops::Range;
 
 use linkage::math::interpolate::{POINTS, lagrange_weights};
 
-/// Number of stored steps. Six are for the interpolation, and one more on either side is for second differences.
+/// Number of stored steps. Six steps are for the interpolation, and one more step on either side is for second
+/// differences.
 /// The remaining steps are for readings that are dated up to two steps late, and for the first steps of a free motion.
 pub(super) const NODES: usize = POINTS + 8;
 
-/// If an instant is closer to a step than this fraction of the step, it counts as that step.
+/// If the distance of an instant from a step is below this fraction of the step size, the instant counts as lying on
+/// the step.
 /// The tolerance is needed because rounding makes instants of the grid differ slightly from instants of steps.
 const ON_A_STEP: f64 = 1e-9;
 
@@ -33,7 +35,7 @@ impl Place {
         self.before - 2
     }
 
-    /// The same instant, counted from step `lowest` or a later step. The fraction since that step may be negative.
+    /// This instant, counted from step `lowest` or a later step. The fraction since that step may be negative.
     pub(super) fn from(self, lowest: i64) -> Self {
         let before = self.before.max(lowest);
         Place { before, share: self.share + (self.before - before) as f64 }

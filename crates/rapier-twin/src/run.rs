@@ -96,7 +96,7 @@ struct Run<'a> {
     settings: Settings,
     /// Whether all drives turn with constant speeds, which need to be set only once.
     steady: bool,
-    /// The first world moves the mechanism. The others only report joints that the first world does not report.
+    /// The first world moves the mechanism. The other worlds only report joints that the first world does not report.
     worlds: Vec<Guard<'a>>,
     window: Window,
     /// First step that the window needs for the next sample.
@@ -185,7 +185,7 @@ impl<'a> Run<'a> {
     }
 }
 
-/// Adds to an error how far the run got. The rows visited so far are valid.
+/// Adds to an error the time or input up to which the run has come. The rows visited up to this point are valid.
 fn reached(error: Error, case: &Case, visited: Option<usize>) -> Error {
     let (Some(row), ErrorKind::Numeric) = (visited, error.kind()) else { return error };
     let until = match case.is_free() {

@@ -8,7 +8,7 @@
 //! Then each sweep leaves at most half of the error.
 //! With mobilities a and b >= a of the two links and an angle mu between their lines, the remaining fraction is a cos^2
 //! mu / (a cos^2 mu + b).
-//! In other directions than these, the remaining fraction may come close to 1.
+//! If the rows have other directions than along and across this line, the remaining fraction may come close to 1.
 
 use linkage::math::Vec2;
 use linkage::mechanism::{GROUND, Joint, Mechanism};

@@ -15,7 +15,8 @@ use linkage::trajectory::Stage;
 /// A row has the positions and angles of all links, then the rates of all links.
 const WIDTH: usize = 3;
 
-/// Number of steps at the beginning of a free motion whose accelerations are not those of the motion. Causes:
+/// Number of steps at the beginning of a free motion in which the engine's accelerations are not those of the motion.
+/// The causes are:
 /// - Separate bodies (`plain`) close the gaps of the first step in the second step.
 /// - In a multibody with loops, the first sweeps start without impulses. Later sweeps start from the impulses of the
 ///   last step.
@@ -58,7 +59,7 @@ pub(super) struct Window {
 impl Window {
     /// Number of steps that a sample needs before the step that lies at or before the sample's instant.
     pub(super) const BEHIND: i64 = 3;
-    /// Number of steps that a sample needs after that step.
+    /// Number of steps that a sample needs after the step that lies at or before the sample's instant.
     pub(super) const AHEAD: i64 = 4;
 
     /// An empty window of a run. The first state that is pushed is that of step `start`.
@@ -86,12 +87,12 @@ impl Window {
     /// An artificial step before step 0 leads to this pose without acceleration.
     pub(super) fn beginning(case: &Case, settings: &Settings, guard: &Guard) -> Self {
         // A free motion has no steps before its start, so step 2 is the earliest centre of an interpolation.
-        // To first order, the instant of the step to which the velocities belong does not matter. The window therefore
+        // To first order, it does not matter to which instant of the step the velocities belong. The window therefore
         // has one substep.
         let mut window = Window::new(case, &Settings { substeps: 1, ..*settings }, -1);
         (window.lowest, window.settled) = (2, 2 + first_steps(case, guard.world().tree().branches.is_empty()));
         window.rated = true;
-        // The velocities of a push belong to the step before, so the same state is pushed twice.
+        // `push` stores the velocities at the step before the pushed pose, so the same state is pushed twice.
         window.push(guard, case);
         window.push(guard, case);
         window.rated = false;
@@ -123,8 +124,9 @@ impl Window {
     }
 
     /// Stores the state after a step.
-    /// The poses are those of this step.
-    /// The engine's velocities are those at the start of its last substep; without substeps, those of the step before.
+    /// The stored poses are those of this step.
+    /// The stored velocities are those at the start of the step's last substep. Without substeps, these are the
+    /// velocities of the previous step.
     pub(super) fn push(&mut self, guard: &Guard, case: &Case) {
         let (row, _) = self.ring.push().as_chunks_mut();
         for (own, (centre, frame)) in row.iter_mut().zip(guard.centres().iter().zip(guard.frames())).skip(1) {
@@ -253,8 +255,8 @@ impl Window {
         let part = 0..positions.len();
         self.ring.weigh(place.first(), &weights, part.clone(), positions);
         if self.deepest >= Stage::Velocities && self.steady {
-            // With several substeps, the velocities of a row belong to an instant after the row's step, so this delay
-            // is included.
+            // With several substeps, the velocities of a row belong to an instant later than the row's step. The
+            // interpolation includes this delay.
             let late = 1.0 - 1.0 / self.substeps as f64;
             let weights = if self.substeps == 1 { weights } else { place.weights(late) };
             self.ring.weigh(place.first(), &weights, part.end..2 * part.end, rates);
@@ -267,7 +269,8 @@ impl Window {
             self.ring.weigh(place.before - Self::BEHIND, &first.map(|first| first / self.step), part.clone(), rates);
         }
         if self.deepest >= Stage::Accelerations {
-            // The first steps of a free motion close gaps, so the second differences leave these steps out.
+            // The first steps of a free motion close gaps, so the interpolation of second differences leaves the first
+            // steps out.
             let settled = place.from(self.settled);
             let weights = if settled.before == place.before { weights } else { settled.weights(0.0) };
             let mut second = [0.0; POINTS + 2];

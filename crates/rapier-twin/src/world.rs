@@ -68,7 +68,7 @@ impl LinkFrame {
         cross(before.direction, self.direction).atan2(before.direction.dot(&self.direction)).abs()
     }
 
-    /// Stores the position of a separate body after a step in which it has turned by less than half a turn.
+    /// Stores the position of a separate body after a step in which the body has turned by less than half a turn.
     #[inline]
     pub(super) fn follow(&mut self, origin: Vec2, direction: Vec2) {
         if let LinkAngle::Turns(turns) = &mut self.angle
@@ -103,8 +103,8 @@ fn own_angle(direction: Vec2) -> f64 {
 
 /// The Rapier world of a case.
 /// All links form one multibody: links in the tree are joined to each other, the links outside the tree float.
-/// In a free motion with a large tree, each link that is joined to the ground starts a separate multibody, which also
-/// has all links beyond this link.
+/// In a free motion with a large tree, each link that is joined to the ground starts a separate multibody. This
+/// multibody also has all links that follow this link in the tree.
 /// If the tree has no branches, every link is a separate body.
 /// Joints that the tree cuts are impulse joints.
 /// Every drive has a separate motor so that the motor's impulse can be read.
@@ -126,9 +126,9 @@ pub trait World {
     ///
     /// If the correction is excluded, Rapier solves all constraints a second time after the step.
     /// Rapier continues with velocities along the constraints at the START of the step.
-    /// These are not the velocities that moved the bodies.
-    /// In a free motion, each step loses momentum across the constraints of one pose.
-    /// The next step regains this momentum across the constraints of the next pose.
+    /// The velocities along the constraints are not the velocities that moved the bodies.
+    /// In a free motion, each step therefore loses momentum across the constraints of the pose at its start.
+    /// The following step regains the lost momentum across the constraints of the following pose.
     fn set_stabilised(&mut self, stabilised: bool);
 
     /// Sets the speed of a drive's input: rad/s, counter-clockwise positive, or m/s for a slide.
@@ -176,8 +176,8 @@ pub trait World {
     /// The world must have been built for reading reactions.
     fn reaction(&self, joint: JointId) -> Option<(Vec2, f64)>;
 
-    /// Force of a transmission in its first line of action (N), from the impulse of the last step. The force has either
-    /// sign: the row pushes and pulls.
+    /// Force of a transmission in its first line of action (N), from the impulse of the last step. The force may have
+    /// either sign, because the constraint row of the transmission can push and pull.
     fn transmitted(&self, transmission: TransmissionId) -> f64;
 
     /// Moment of a drive (N m), or its force for a slide (N), from the motor's impulse in the last step.

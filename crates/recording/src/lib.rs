@@ -17,15 +17,15 @@
 //! If a message lacks fields, its name contains the numbers of the fields that it has, such as `linkproof.Point_1_2`.
 //!
 //! Log times are nanoseconds from the first instant of the recording.
-//! A simulated second takes [`Show::slow`] seconds of log time; the grid has the simulated times themselves.
+//! A simulated second takes [`Show::slow`] seconds of log time. The messages of the grid contain the simulated times.
 //! Nothing depends on a clock, so equal runs give equal files.
 //! The sequence number of a message is the number of its sample in ascending order of time.
 //! Messages of one sample have the same sequence number in all topics of a side.
 //! The scenario is attached as `scenario.toml`.
 //! The metadata record `linkproof` contains versions, settings and the scales of time and of force arrows.
 //!
-//! A recording of another program than linkproof can also be read.
-//! Such a recording needs `/<side>/grid` and the topics above in protobuf.
+//! A recording by a program other than linkproof can also be read.
+//! A recording by another program needs `/<side>/grid` and the topics above in protobuf.
 //! The names of the protobuf fields must be the suffixes of [`CHANNELS`](linkage::trajectory::CHANNELS).
 //! The field numbers are looked up in the file.
 

@@ -1,10 +1,10 @@
 //! Reads the messages of an MCAP file from an untrusted source.
 //!
 //! The readers of the MCAP library trust the record lengths in a file.
-//! If these lengths are damaged, those readers request more memory than exists, or index beyond a record.
+//! If these lengths are damaged, the library's readers request more memory than exists, or index beyond a record.
 //! The reader in this module limits the length of a record to the length of the file.
 //! If the file is shorter than [`SMALL`], the limit is [`SMALL`].
-//! This reader parses only the kinds of records that messages need.
+//! The reader in this module parses only the kinds of records that messages need.
 
 use crate::sentences;
 use std::borrow::Cow;

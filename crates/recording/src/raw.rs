@@ -59,7 +59,7 @@ pub(super) fn metadata(content: &[u8]) -> Option<Metadata> {
     }
 }
 
-/// Reads a field of bytes. The number of these bytes precedes the field and takes `N` bytes.
+/// Reads a field of bytes. The length of the field precedes the field, as a number of `N` bytes.
 fn part<'a, const N: usize>(left: &mut &'a [u8]) -> Option<&'a [u8]> {
     let (length, rest) = left.split_first_chunk::<N>()?;
     let length = length.iter().rev().fold(0, |number: u64, &byte| number << 8 | u64::from(byte));

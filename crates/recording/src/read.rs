@@ -65,7 +65,8 @@ pub(super) fn bytes(path: &Path) -> Result<Vec<u8>> {
     })
 }
 
-/// Refuses a file before decompression if its chunks expand far more than the chunks of any recording of its size.
+/// Refuses a file before decompression if its chunks expand far more than the chunks of a recording of the same file
+/// size.
 fn bounded(bytes: &[u8], path: &Path) -> Result<()> {
     let [told, most] = raw::expanded(bytes);
     if told <= most {

@@ -30,7 +30,7 @@ pub struct Reel {
 pub struct ReelMessage<'a> {
     /// Log time (ns).
     pub time: u64,
-    /// Number of its topic.
+    /// Number of the message's topic.
     pub topic: u16,
     /// Content of the message.
     pub data: &'a [u8],

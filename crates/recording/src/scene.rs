@@ -10,8 +10,8 @@ use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{GROUND, Link, LinkId, LinkPose, Mechanism};
 use linkage::trajectory::{Channel, Trajectory};
 
-/// Usual upper limit of the number of frames. A long recording has more frames, so that it has at least
-/// [`FRAMES_PER_SECOND`].
+/// Usual upper limit of the number of frames. A long recording has more frames than this limit, so that each second of
+/// log time has at least [`FRAMES_PER_SECOND`] frames.
 const FRAMES: f64 = 400.0;
 /// Lower limit of the number of frames per second of log time, if there are enough samples.
 const FRAMES_PER_SECOND: f64 = 50.0;
@@ -29,7 +29,7 @@ pub struct ViewerScene<'a> {
 }
 
 impl<'a> ViewerScene<'a> {
-    /// The scene of all sides that have samples and all positions; `None` if there is no such side.
+    /// The scene of all sides that have samples and the positions of all links; `None` if there is no such side.
     pub fn new(mechanism: &'a Mechanism, sides: &[RecordedSide<'a>]) -> Option<Self> {
         let placed = |(number, side): (usize, &RecordedSide<'a>)| {
             let column = |link: &Link, suffix| column(side.trajectory, &format!("link.{}.{suffix}", link.name));
@@ -161,7 +161,8 @@ pub struct PlacedSide<'a> {
 }
 
 impl PlacedSide<'_> {
-    /// Row of the last sample at or before `time`. If there is no such sample, the row of the first sample is returned.
+    /// Row of the last sample at or before `time`. If all samples are later than `time`, the row of the first sample is
+    /// returned.
     pub fn row_at(&self, time: f64) -> usize {
         let times = self.trajectory.times();
         let after = self.rows.partition_point(|&row| times[row] <= time);

@@ -46,7 +46,7 @@ fn is_of_joint(kind: &ChannelKind) -> bool {
     kind.subject.word() == ChannelSubject::Joint.word()
 }
 
-/// Name of a channel's error with its small unit, and the number of these units in the SI unit.
+/// Name of a channel's error with its small unit (such as um), and the number of small units in the SI unit.
 pub fn small_unit(kind: &ChannelKind) -> (String, f64) {
     let (prefix, factor) = match kind.unit {
         Unit::Radian | Unit::RadianPerSecond | Unit::RadianPerSecondSquared => ("u", 1e6),
@@ -94,12 +94,12 @@ pub fn numbers(mut data: &[u8]) -> Result<Vec<(u32, f64)>, prost::DecodeError> {
 /// The limit is needed because the parts of a description take up to a hundred times their file size in memory.
 const LONGEST: usize = 1 << 20;
 
-/// Names of the number fields of schemas. Each schema is parsed once.
+/// Names of the numeric fields of schemas. Each schema is parsed once.
 #[derive(Default)]
 pub struct Names(HashMap<u16, BTreeMap<u32, String>>);
 
 impl Names {
-    /// Names of the number fields of a schema, by their numbers.
+    /// Names of the numeric fields of a schema, by field number.
     pub fn of(&mut self, schema: &mcap::Schema) -> Result<&BTreeMap<u32, String>, prost::DecodeError> {
         match self.0.entry(schema.id) {
             Entry::Occupied(known) => Ok(known.into_mut()),
@@ -111,7 +111,7 @@ impl Names {
     }
 }
 
-/// Names of the number fields of the message called `full_name` in a serialised descriptor set, by their numbers.
+/// Names of the numeric fields of the message called `full_name` in a serialised descriptor set, by field number.
 pub fn field_names(descriptor: &[u8], full_name: &str) -> Result<BTreeMap<u32, String>, prost::DecodeError> {
     let set = FileDescriptorSet::decode(descriptor)?;
     let full = |package: &str, name: &str| if package.is_empty() { name.into() } else { format!("{package}.{name}") };
@@ -129,7 +129,8 @@ fn kinds(subject: ChannelSubject) -> impl Iterator<Item = &'static ChannelKind> 
     CHANNELS.iter().filter(move |kind| kind.subject == subject || joint && kind.subject == ChannelSubject::Joint)
 }
 
-/// The message of a subject with these channels, named after the subject. A joint with friction has a separate message.
+/// The kind of message for a subject with the channels `own`. The kind is named after the subject. A joint with
+/// friction has a separate kind of message.
 /// If channels are missing, the name also contains the numbers of the present fields.
 /// Without these numbers, viewers would confuse messages with the same name but different fields.
 pub fn of_subject(subject: ChannelSubject, told: MessageContent, own: &[&ChannelKind]) -> MessageKind {
@@ -158,7 +159,7 @@ pub fn of_subject(subject: ChannelSubject, told: MessageContent, own: &[&Channel
     message(&name, fields.into_iter(), number)
 }
 
-/// A message with these fields, each given by its number and name.
+/// A kind of message with the given fields, each given by its number and name.
 fn message(name: &str, fields: impl Iterator<Item = (u32, String)>, kind: Type) -> MessageKind {
     let field: Vec<FieldDescriptorProto> = fields
         .enumerate()

@@ -15,7 +15,7 @@ pub trait Sink {
 /// Kind of the messages of a topic.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MessageKind {
-    /// Name of their schema.
+    /// Name of the messages' schema.
     pub schema: String,
     /// Encoding of the schema.
     pub encoding: String,

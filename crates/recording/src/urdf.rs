@@ -67,7 +67,7 @@ fn at(pose: Option<Pose>) -> String {
     format!("xyz=\"{} {} {}\" rpy=\"0 0 0\"", at.x, at.y, at.z)
 }
 
-/// Writes one part. Parts of the same colour share a material name, so a name never has two colours.
+/// Writes one part. The name of a part's material follows from the part's colour, so a name never has two colours.
 fn write_visual(text: &mut String, origin: &str, shape: &str, colour: Option<Color>) {
     let [r, g, b, a] = rgba(colour);
     let rgba = [r, g, b, a].map(|part| (f64::from(part) / 255.0).to_string()).join(" ");

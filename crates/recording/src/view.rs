@@ -47,9 +47,9 @@ pub struct Plot {
 /// A line of a plot.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
-    /// Topic of its numbers.
+    /// Topic of the line's numbers.
     pub topic: String,
-    /// Field of these numbers in the messages of the topic.
+    /// Field of the line's numbers in the messages of the topic.
     pub field: String,
     /// Name of the line.
     pub label: String,

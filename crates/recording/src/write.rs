@@ -23,8 +23,8 @@ use std::path::Path;
 /// Upper limit of the log time (s). In nanoseconds, this limit is a third of the largest signed 64-bit number.
 const LONGEST: f64 = 3e9;
 
-/// A sample that is too early by at most this fraction of the sample spacing is kept, because the times of grids are
-/// rounded.
+/// A sample is kept even if it comes earlier than the next sample is due, by at most this fraction of the sample
+/// spacing. The reason is that the times of grids are rounded.
 const EARLY: f64 = 1e-6;
 
 /// Writes a recording to `path`. An older recording is replaced only by a complete recording, through a temporary file.
@@ -139,8 +139,8 @@ impl RecordingOutput {
             // uses no additional threads.
             .compression_threads(0)
             // A seeking writer corrects the chunk's length after the chunk is written.
-            // If such a writer were killed before the correction, no program could open the file. Seeking is therefore
-            // disabled.
+            // If a seeking writer were killed before this correction, no program could open the file. Seeking is
+            // therefore disabled.
             .disable_seeking(true)
             .create(NoSeek::new(BufWriter::new(file)))?;
         Ok(RecordingOutput { writer, flushed: 0, pending: 0 })
@@ -183,7 +183,7 @@ impl Sink for RecordingOutput {
 
     fn put(&mut self, topic: u16, sequence: u32, time: u64, data: &[u8]) -> McapResult<()> {
         // One chunk per second limits the loss if a run is killed. A chunk of only a few samples would compress badly,
-        // so it is continued.
+        // so such a chunk stays open after the second ends.
         if time / SECOND > self.flushed && self.pending > CHUNK as usize / 8 {
             self.writer.flush()?;
             (self.flushed, self.pending) = (time / SECOND, 0);

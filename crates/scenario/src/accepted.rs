@@ -45,7 +45,7 @@ pub struct AcceptedChannel {
     pub rms: Option<f64>,
 }
 
-/// File name extension of the accepted figures. It replaces the extension of the scenario file.
+/// File name extension of the accepted figures. This extension replaces the extension of the scenario file.
 const ENDING: &str = "accepted";
 
 /// The file of a scenario's accepted figures.
@@ -132,7 +132,7 @@ fn twice(root: &TomlTable, channels: &[AcceptedChannel]) -> Result<()> {
     }
 }
 
-/// The text of a file of accepted figures. Every number has one digit more than its bound.
+/// The text of a file of accepted figures. Every number is written to one digit beyond the leading digit of its bound.
 #[must_use]
 pub fn text(accepted: &Accepted) -> String {
     let quoted = |text: &str| Value::from(text).to_string();

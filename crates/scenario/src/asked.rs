@@ -29,7 +29,8 @@ pub struct StartRequest {
     /// what the input measures.
     pub is_shown: bool,
     /// Whether the caller defines a grid in place of the file's grid.
-    /// The case then has no instants, and the drive need not reach the instants of the file's grid.
+    /// If the caller defines a grid, the case has no instants, and the drive need not reach the instants of the file's
+    /// grid.
     pub without_grid: bool,
     /// Parameters of formulas by their keys. The parameters replace those of the file.
     pub set: Vec<(String, f64)>,
@@ -37,7 +38,7 @@ pub struct StartRequest {
     pub memory: Option<f64>,
     /// Whether drive, start and grid may be missing in the file.
     pub without_drive: bool,
-    /// Whether parameters that are missing in the file are added. If not, they are refused.
+    /// Whether the parameters in `set` that the file does not define are added. If not, these parameters are refused.
     pub adds_parameters: bool,
 }
 
@@ -85,7 +86,8 @@ impl StartRequest {
         self.modes.iter().map(|text| start::asked(text, mechanism, structure)).collect()
     }
 
-    /// The requested input at t = 0 (SI), if the first drive has this input.
+    /// The requested input at t = 0 (SI), if the first drive has the kind of input `input`. `None` if no input is
+    /// requested.
     #[must_use]
     pub fn start(&self, input: Input) -> Option<f64> {
         self.crank.map(|value| if self.is_shown { input.read(value) } else { value })
@@ -98,7 +100,7 @@ impl Start<'_> {
     ///
     /// # Errors
     /// The errors of [`first_choices`], with the group that causes the error.
-    /// [`ErrorKind::Geometry`] if the file's configuration cannot be followed to the angle.
+    /// [`ErrorKind::Geometry`] if the file's configuration cannot be followed to the crank angle `crank`.
     pub fn placed(&self, crank: f64, groups: &[(GroupId, StartGroup)]) -> Result<Placed> {
         let moved = crank != self.crank;
         if groups.is_empty() && !moved {
@@ -185,8 +187,8 @@ impl Start<'_> {
     }
 
     /// The pose of the file's configuration, followed until the crank is at `crank` (rad).
-    /// The direct path is tried first. If the direct path fails, the crank turns in the opposite direction to the same
-    /// angle.
+    /// The direct path is tried first. If the direct path fails, the crank turns to the requested angle in the opposite
+    /// direction.
     /// A dyad keeps its mode; a higher group is followed step by step.
     fn followed(&self, own: &(Pose, Vec<ConfigurationChoice>), crank: f64) -> Option<Pose> {
         let period = self.drives.crank().input.period();

@@ -104,7 +104,7 @@ impl Claim {
     }
 
     /// A full turn in the unit of the claim, if the claim is an angle, or a sum or difference of angles.
-    /// Values of such a claim that differ by full turns are equivalent.
+    /// Values of an angle that differ by full turns are equivalent.
     #[must_use]
     pub fn turn(&self) -> Option<f64> {
         fn is_sum(tree: &FormulaTree) -> bool {

@@ -23,7 +23,7 @@ pub enum CurveVariable {
 struct Stated {
     text: String,
     variable: CurveVariable,
-    /// Computes the value and the first two derivatives. It is locked because it stores intermediate values.
+    /// Computes the value and the first two derivatives. The program is locked because it stores intermediate values.
     program: Mutex<Program>,
 }
 
@@ -39,7 +39,7 @@ impl Smooth for Stated {
     }
 }
 
-/// Inputs of [`Formulas`]: the angle, then the time. The formula uses only one of them: `variable`, with the value `x`.
+/// Inputs of [`Formulas`]: the angle, then the time. The formula uses only the input `variable`, whose value is `x`.
 fn inputs(variable: CurveVariable, x: f64) -> [Rounded; 2] {
     let (own, other) = (Rounded::exact(x), Rounded::UNDEFINED);
     if variable == CurveVariable::Time { [other, own] } else { [own, other] }
@@ -61,7 +61,8 @@ pub fn formula(table: &mut TomlTable, variable: CurveVariable, end: f64) -> Resu
         Err(fault) => Err(fault),
     };
     let program = program.map_err(|fault| table.fault_in("formula", &fault))?;
-    // With other parameters, the same text is another function, so the parameters belong to the compared text.
+    // The text of a formula denotes another function if the parameters change, so the parameters belong to the compared
+    // text.
     let numbers: Vec<String> = parameters.iter().map(|own| format!("{} = {:e}", own.key, own.given)).collect();
     let stated = Stated { text: format!("{text} | {}", numbers.join(", ")), variable, program: Mutex::new(program) };
     let begin = stated.at(0.0)[0];

@@ -64,8 +64,8 @@ impl Draft {
         if draft.drives.is_empty() && draft.structure.is_ok() {
             (draft, mistakes) = read(&StartRequest { without_drive: true, ..asked.clone() })?;
         }
-        // If a parameter has a mistake, only this mistake is reported, because it may be the cause of all other
-        // mistakes.
+        // If a parameter has a mistake, only this mistake is reported, because the wrong parameter may be the cause of
+        // all other mistakes.
         Ok(Draft { mistakes: fault.or(mistakes), ..draft })
     }
 
@@ -143,8 +143,8 @@ fn guessed(mechanism: &Mechanism, crank: f64) -> Option<Drive> {
     Some(Drive::prescribed(index, joints[index].other(GROUND).link, 0.0, crank, MotionLaw::ConstantSpeed(1.0)))
 }
 
-/// The mechanism without the points whose position could not be read. Joints lie only at the points whose position
-/// could be read.
+/// The mechanism without the points whose position could not be read. No joint lies at such a point, because the reader
+/// of joints leaves these joints out.
 fn with_places(mechanism: &Mechanism) -> Mechanism {
     let mut links = mechanism.links().to_vec();
     for link in &mut links {

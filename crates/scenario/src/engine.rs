@@ -59,7 +59,7 @@ macro_rules! settings {
         }
 
         impl EngineSettings {
-            /// These settings. Each free setting is replaced by the same setting of `other`.
+            /// These settings. Each free setting is replaced by the corresponding setting of `other`.
             #[must_use]
             pub fn or(&self, other: &EngineSettings) -> Self {
                 EngineSettings { $($name: self.$name.or(&other.$name).clone(),)* }
@@ -189,7 +189,7 @@ impl EngineSettings {
         }
     }
 
-    /// The settings in the form that the search for the settings of a motion uses.
+    /// These settings, prepared for the search for the settings of a motion.
     /// Extrapolation would use steps finer than a given step. If the step is given, extrapolation is therefore off by
     /// default.
     #[must_use]

@@ -37,14 +37,15 @@ pub const SECTIONS: &[Section] = &[Section::at("formula").with(&[
 /// Name of the crank's angular velocity in a diagnosis.
 pub const OMEGA: &str = "omega_crank";
 
-/// The formulas of a scenario. They depend on the parameters, the crank angle and the time.
+/// The formulas of a scenario. The formulas depend on the parameters, the crank angle and the time.
 #[derive(Clone, Debug)]
 pub struct Formulas {
     /// Numbers with names.
     pub parameters: Vec<Parameter>,
     /// The formulas, in the order of the file. Each formula may use the formulas before it.
     pub list: Vec<Formula>,
-    /// Graph of all formulas. Its inputs are the crank angle (rad, as the scenario states it) and the time (s).
+    /// Graph of all formulas. The named inputs of the graph are the crank angle (rad, as the scenario states it) and
+    /// the time (s).
     /// Two more inputs have no names: the crank's angular velocity (rad/s) and angular acceleration (rad/s^2).
     pub graph: FormulaGraph,
 }
@@ -173,9 +174,10 @@ impl Formulas {
         None
     }
 
-    /// Calls `then` for the formula `of` after a change: the formulas in `changed`, given by index, have other trees.
+    /// Calls `then` for the formula `of` while the formulas in `changed` have the given trees. Each changed formula is
+    /// given by its index.
     /// Formulas that use a changed formula change too. The trees may use [`OMEGA`].
-    /// Afterwards the graph is as before. Returns `None` if a name is unknown.
+    /// After the call, the graph is as it was before the call. Returns `None` if a name is unknown.
     pub fn with_trees<T>(
         &mut self,
         changed: &[(usize, FormulaTree)],

@@ -1,6 +1,6 @@
 //! Scenario files: reads TOML and returns a [`Case`]. docs/scenario.md describes the format.
 //! Only this module converts units.
-//! Every error names file, line and key, what was found, and how to correct it.
+//! Every error names file, line and key, states what was found, and says how to correct the mistake.
 
 pub mod accepted;
 mod asked;
@@ -105,12 +105,13 @@ pub struct Scenario {
     pub oracles: Vec<Oracle>,
     /// Formulas that depend on the parameters, and the claims of the formulas.
     pub formulas: Formulas,
-    /// Outlines and the question about distances between them, if the scenario asks this question.
+    /// Outlines of the bodies and the question about the distances between the bodies, if the scenario asks this
+    /// question.
     pub clearance: Option<ClearanceQuestion>,
-    /// The start that the file requests for each group, in the order of the structure at the start
+    /// For each group, the start that the file requests. The groups have the order of the structure at the start
     /// ([`Structure::at_start`]).
     pub starts: Vec<StartGroup>,
-    /// How each of these groups was placed at the start.
+    /// How each group in `starts` was placed at the start.
     pub choices: Vec<ConfigurationChoice>,
 }
 
@@ -166,8 +167,9 @@ impl Scenario {
     ///
     /// Published numbers belong to the file's branch. If the start is on a branch other than the file's branch,
     /// published numbers are left out.
-    /// If the crank angle at t = 0 differs from that of the file, numbers that depend on this angle are also left out.
-    /// Such numbers are distances at t = 0 and values at times.
+    /// Numbers that depend on the crank angle at t = 0 are left out too if this angle differs from the angle in the
+    /// file.
+    /// These numbers are distances at t = 0 and values at times.
     /// Values at crank angles depend on the angle at t = 0 only in three cases:
     /// the crank's speed is not constant, there are further drives, or a torsional spring counts turns from the start.
     ///
@@ -230,9 +232,10 @@ impl Scenario {
         })
     }
 
-    /// The same scenario, restricted to the channels that `words` request. The words have the syntax of `want` in
+    /// This scenario, restricted to the channels that `words` request. The words have the syntax of `want` in
     /// `[channels]`.
-    /// Published numbers of channels that are not requested and figures of the whole mechanism are left out.
+    /// Figures of the whole mechanism are left out. Published numbers of channels that are not requested are left out
+    /// too.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for a word that requests nothing.
@@ -263,7 +266,7 @@ impl Scenario {
         self.choices.get(at_start.index())
     }
 
-    /// The same scenario with every drive in its nominal motion, for questions about crank angles.
+    /// This scenario with every drive in its nominal motion, for questions about crank angles.
     #[must_use]
     pub fn nominal(self) -> Scenario {
         Scenario { case: self.case.nominal(), ..self }
@@ -319,7 +322,7 @@ fn structure(mechanism: &Mechanism, drives: &Drives) -> Result<Structure> {
     Structure::of(mechanism, &drives.joints())
 }
 
-/// The scenario of a mechanism that is placed at its start, and the undecided groups.
+/// The scenario of a mechanism that is placed at its start. Also returns the undecided groups of the mechanism.
 fn finished(
     stated: FileSections,
     structure: Structure,

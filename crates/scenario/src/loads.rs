@@ -19,7 +19,7 @@ const ACTS: Words<Acts> =
 const SLIDING: Words<Acts> =
     &[("always", Acts::Always), ("extending", Acts::CounterClockwise), ("retracting", Acts::Clockwise)];
 
-/// Words for the side of the free slide on which a spring acts.
+/// Words that say when a spring acts: always, or only beyond or below its unloaded slide or angle.
 const SIDES: Words<Acts> = &[("always", Acts::Always), ("beyond", Acts::CounterClockwise), ("below", Acts::Clockwise)];
 
 /// All words of the key `acts`.
@@ -212,8 +212,8 @@ fn resisting_force(table: &mut TomlTable, mechanism: &Mechanism) -> Result<Load>
     let point = (table.string("link")?, table.string("point")?);
     let force = table.si("force")?;
     let at = loaded_point(table, mechanism, point)?;
-    // A point at a ground pivot has the velocity zero plus rounding error. Such a point is refused, because the
-    // rounding error would decide the direction of the force.
+    // A point at a ground pivot has the velocity zero plus rounding error. A point at a ground pivot is refused,
+    // because the rounding error would decide the direction of the force.
     let mut pins = mechanism.joints().iter().filter(|joint| joint.is_pin() && joint.on(GROUND).is_some());
     if pins.any(|joint| joint.on(at.link) == Some(at.local)) {
         let message = sentences::THE_POINT_DOES_NOT_MOVE_IT_IS_HINGED;
@@ -360,8 +360,8 @@ fn turning(table: &mut TomlTable, name: &str, mechanism: &Mechanism) -> Result<L
     if link == GROUND {
         return table.refuse("link", sentences::THE_GROUND_DOES_NOT_TURN, sentences::NAME_A_MOVING_LINK);
     }
-    // A link that cannot turn has the angular velocity zero plus rounding error. Such a link is refused, because the
-    // rounding error would decide the sense of the moment.
+    // A link that cannot turn has the angular velocity zero plus rounding error. A link that cannot turn is refused,
+    // because the rounding error would decide the sense of the moment.
     if !mechanism.can_turn(link) {
         return table.refuse("link", sentences::link_does_not_turn_prismatic(&name), sentences::NAME_A_LINK_THAT_TURNS);
     }

@@ -46,8 +46,8 @@ fn duplicate(text: &str, place: Places, span: Range<usize>) -> Error {
 }
 
 /// Position of the first occurrence of the duplicate key at `span`.
-/// Each earlier key is renamed in turn. If the error disappears, the renamed key is the first occurrence, because it is
-/// in the same table.
+/// The keys before `span` are renamed, one after the other. If the error disappears, the renamed key is the first
+/// occurrence, because it is in the table of the duplicate key.
 fn first_of(text: &str, span: &Range<usize>) -> Option<usize> {
     const OTHER: &str = "another-key";
     let key = &text[span.clone()];

@@ -74,8 +74,8 @@ impl Size {
     }
 }
 
-/// Names for the instants of rows, each with its factor to SI. For a value of the input, the last entry is the kind of
-/// input.
+/// Names for the instants of rows, each with its factor to SI. The last entry is the kind of input that the name
+/// measures; `None` for a time.
 pub const INSTANTS: [(&str, f64, Option<Input>); 8] = [
     ("time_s", 1.0, None),
     ("time_ms", 1e-3, None),

@@ -70,7 +70,8 @@ pub const SECTIONS: &[Section] = &[
 /// The drives of the mechanism: the crank first, then the further drives.
 /// `crank` is the stated crank angle at t = 0 (rad), if the first drive moves a crank. `asked` may replace the start of
 /// the first drive. The first drive gets the motor, if there is one.
-/// Also returns the stated start of the first drive. After a mistake, the result is `None`.
+/// Also returns the start of the first drive as the file states it. Returns `None` after a mistake in a drive or in the
+/// motor, or if there is no drive.
 pub fn drives(
     tables: Vec<TomlTable>,
     motor: Option<TomlTable>,
@@ -234,7 +235,7 @@ fn through(table: &mut TomlTable) -> Result<bool> {
     }
 }
 
-/// A law, and the input with which it begins, if the law states it.
+/// A law, and the input with which the law begins, if the law states this input.
 type Begun = (MotionLaw, Option<f64>);
 
 /// Laws of motion, each with its reader. The reader gets the input at t = 0.

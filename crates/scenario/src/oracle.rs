@@ -122,8 +122,8 @@ linkage::words! {
 }
 
 impl Oracle {
-    /// The part of the oracle that stays valid if the case starts at another crank angle than the file, on the same
-    /// branch.
+    /// The part of the oracle that stays valid if the case starts at a crank angle other than that of the file, on the
+    /// branch of the file's start.
     /// `None` if no part is valid.
     pub(super) fn at_another_start(mut self, case: &Case) -> Option<Oracle> {
         self.figures.retain(|figure| !matches!(figure.figure, MechanismFigure::Distance(_)));

@@ -8,8 +8,8 @@ use linkage::error::{Error, ErrorKind, Result};
 
 /// Reads the section `[parameters]`. Numbers in `set` replace those of the file.
 /// Keys that the file does not have are added if the caller allows this.
-/// A parameter with a mistake is left out. Only the first such mistake is returned, because it may cause later
-/// mistakes.
+/// A parameter with a mistake is left out. Only the first mistake in a parameter is returned, because it may cause
+/// later mistakes.
 ///
 /// # Errors
 /// Mistakes in `set`.

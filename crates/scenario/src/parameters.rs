@@ -77,7 +77,7 @@ impl Parameters {
         self.places.get(name).map(|&place| &self.list[place])
     }
 
-    /// Adds a parameter. Its names must not be in use.
+    /// Adds a parameter. The names of the parameter must not be in use.
     pub(super) fn push(&mut self, parameter: Parameter) {
         for (name, _) in parameter.names() {
             self.places.insert(name.into(), self.list.len());
@@ -85,7 +85,7 @@ impl Parameters {
         self.list.push(parameter);
     }
 
-    /// Gives the parameter of a key another number; `false` if there is no such parameter.
+    /// Replaces the number of the parameter whose key is `key`; `false` if there is no such parameter.
     pub(super) fn set(&mut self, key: &str, given: f64) -> bool {
         let place = self.places.get(key).copied().filter(|&place| self.list[place].key == key);
         place.map(|place| self.list[place].given = given).is_some()

@@ -15,7 +15,7 @@ pub struct Printed {
     pub value: f64,
     /// Number of printed decimals; negative if the last printed digit lies before the decimal point (1.5e3 has -2).
     pub digits: i32,
-    /// Largest distance of the true number from the printed one, in the printed unit.
+    /// Largest distance of the true number from the printed number, in the printed unit.
     pub half_unit: f64,
 }
 
@@ -48,7 +48,7 @@ pub const MOST_DIGITS: i32 = 20;
 /// Ending of a name that denotes the magnitude of a joint's reaction.
 const MAGNITUDE: &str = "f_N";
 
-/// Ending of the channel of the x component. This channel represents the magnitude.
+/// Ending of the name of the channel that represents the magnitude: the channel of the x component.
 const X_OF_MAGNITUDE: &str = "fx_N";
 
 /// The units in which a channel may be printed. `None` if it is printed only in its SI unit.
@@ -179,8 +179,8 @@ pub(super) fn finding(entry: &mut TomlTable) -> Result<Option<String>> {
     }
 }
 
-/// Refuses a correct number that is too close to the printed number, because a single number could then agree with both
-/// numbers.
+/// Refuses a correct number that is too close to the printed number, because one computed number could then agree with
+/// both numbers.
 pub(super) fn check_apart(entry: &TomlTable, printed: &Printed, right: &Printed) -> Result<()> {
     if (printed.value - right.value).abs() > printed.half_unit + right.half_unit {
         return Ok(());

@@ -70,7 +70,7 @@ impl<'a> TomlTable<'a> {
             .iter()
             .map(|(key, value)| Entry { key: key.get_ref().as_ref(), key_span: key.span(), value })
             .collect();
-        // The parser moves a table whose header comes after that of one of its children.
+        // If the header of a table comes after the header of one of its child tables, the parser moves the table.
         // The entries are therefore sorted by their position in the file.
         entries.sort_by_key(|entry| entry.key_span.start);
         let places = entries.iter().enumerate().map(|(place, entry)| (entry.key, place)).collect();
@@ -108,7 +108,8 @@ impl<'a> TomlTable<'a> {
         self.places.contains_key(key)
     }
 
-    /// The text of a key that is read later; `None` if it is missing or no text.
+    /// The text under `key`, without recording the key as requested; `None` if the key is missing or its value is not a
+    /// text.
     pub fn peek(&self, key: &str) -> Option<&'a str> {
         self.entry(key)?.value.get_ref().as_str()
     }
@@ -300,7 +301,7 @@ impl<'a> TomlTable<'a> {
         self.finite(key, value).map(Some).or_else(|error| self.instead(None, error))
     }
 
-    /// Finite number, or an arithmetic expression of these parameters.
+    /// Finite number, or an arithmetic expression of `parameters`.
     pub fn number_with(&mut self, key: &str, parameters: &Parameters) -> Result<f64> {
         let value = self.take(key);
         let value = self.required(key, value)?;

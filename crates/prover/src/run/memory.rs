@@ -24,10 +24,10 @@ const RUNS: f64 = 12.0;
 /// Number of values stored per instant besides the channels: time, crank angle, order, openings, powers.
 const BESIDE: usize = 6;
 
-/// Estimated memory (bytes) of a proof of a case by engines, one after the other.
+/// Estimated memory (bytes) of a proof of a case in which `engines` engines run one after the other.
 #[must_use]
 pub fn of_proof(case: &Case, engines: usize) -> f64 {
-    // The trajectory of every finished engine is kept.
+    // The trajectory of every engine whose runs are finished stays in memory.
     let trajectories = TRAJECTORIES + engines.saturating_sub(1) as f64;
     let row = trajectories * trajectory(case) + RUNS * Rows::bytes_of_row(case) as f64;
     ELSE + case.grid.len() as f64 * row
@@ -92,7 +92,7 @@ fn trajectory(case: &Case) -> f64 {
     ((case.channels().len() + BESIDE) * size_of::<f64>()) as f64
 }
 
-/// Checks that `needed` (bytes) is at most `most`, or the default.
+/// Checks that `needed` (bytes) is at most `most`, or at most the default limit if `most` is `None`.
 ///
 /// # Errors
 /// [`ErrorKind::Unsupported`] with the size of the run and advice.

@@ -15,7 +15,8 @@ use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
 
 /// A difference of at most this fraction of the quantity's largest value counts as rounding.
-/// The bound on forces between the two analytic sides is the same fraction: their linear systems are equally large.
+/// The bound on the difference between the forces of the two analytic sides is also this fraction, because the linear
+/// systems of the sides and of the methods are equally large.
 const BOUND: f64 = 1e-10;
 
 /// The compared quantities: directions, angular velocities, angular accelerations, forces.
@@ -27,7 +28,8 @@ enum Quantity {
     Force,
 }
 
-/// Largest difference of one method in every quantity, with the value of the input (SI).
+/// For every quantity: the largest difference of one method from the reference, and the value of the input (SI) at this
+/// difference.
 #[derive(Default)]
 struct Worst {
     differences: [(f64, f64); 4],
@@ -179,8 +181,8 @@ pub fn checks(case: &Case, reference: &dyn Solver) -> Result<Vec<Check>> {
     let watches: Result<Vec<Watch>> = Triad::all(case).into_iter().map(|triad| Watch::of(case, triad)).collect();
     let mut watches = watches?;
     let mut visit = |row: usize, state: &State| {
-        // The equations of all these methods are singular at a change point, so the methods are not used at such a
-        // pose.
+        // The equations of all these methods are singular at a change point, so the methods are not used at a change
+        // point.
         if state.passing.is_none() {
             watches.iter_mut().for_each(|watch| watch.see(case, row, state));
         }
@@ -209,7 +211,7 @@ mod tests {
     use super::*;
 
     /// If a method fails, only the instants before the failure are judged.
-    /// The first error of the method is reported as the reason, whatever the result at these instants.
+    /// The first error of the method is reported as the reason, whatever the result before the failure.
     #[test]
     fn a_failed_method_is_inconclusive() {
         for before in [0.0, 1e-3] {

@@ -1,5 +1,5 @@
-//! How far an engine's channels are from being conclusive, which part dominates its bounds, and whether the remaining
-//! work suffices.
+//! How far an engine's channels are from being conclusive, which part dominates its bounds, and whether the work that
+//! is still allowed suffices.
 //! See docs/numerics/settings.md.
 
 use linkage::math::KeepNan;
@@ -30,7 +30,7 @@ pub(super) struct Need {
     pub(super) is_vague: bool,
     /// Largest ratio of a bound to the requested bound.
     pub(super) share: f64,
-    /// The item with this ratio.
+    /// The item that has the ratio `share`.
     pub(super) of: Of,
 }
 
@@ -50,21 +50,22 @@ impl Need {
         }
     }
 
-    /// Whether the only need is a step that leaves out fewer instants.
+    /// Whether an order of convergence is observed and the largest need is a step that leaves out fewer instants.
     pub(super) fn is_of_instants(self) -> bool {
         !self.is_vague && self.of == Of::Instants
     }
 }
 
-/// If the sweeps cause at most this fraction of a bound, the step is also to blame.
+/// If the sweeps cause at most this fraction of a bound, sweeps and step are both to blame.
 const SHARED: f64 = 0.8;
 
 /// Cause of the largest bound.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Blame {
-    /// The largest part. If no order of convergence is observed, the iteration part, unless it is negligible.
+    /// The largest part of the bound. If no order of convergence is observed, this is the iteration part, unless the
+    /// iteration part is negligible.
     pub(super) part: BoundPart,
-    /// Whether the step contributes much although the sweeps cause the largest part. Half the step then reduces both
+    /// Whether the step contributes much although the sweeps cause the largest part. Halving the step then reduces both
     /// parts.
     pub(super) is_shared: bool,
 }
@@ -78,7 +79,8 @@ pub(super) fn need(judged: &Judged, wanted: f64) -> (Need, Blame) {
         let (parts, convergence) = check.estimate.as_ref()?;
         Some((*parts, 1.0, convergence, &check.verdict))
     });
-    // If a step leaves out too many instants, it proves nothing about them. The need is then at least `LEFT_OUT`.
+    // If a step leaves out too many instants, the run proves nothing about these instants. The need is then at least
+    // `LEFT_OUT`.
     let (least, of) = if judged.too_coarse > MOST_LEFT_OUT { (LEFT_OUT, Of::Instants) } else { (0.0, Of::Bound) };
     let none = Blame { part: BoundPart::Discretisation, is_shared: false };
     let mut worst = (Need { is_vague: false, share: least, of }, none);
@@ -91,7 +93,7 @@ pub(super) fn need(judged: &Judged, wanted: f64) -> (Need, Blame) {
         let share = if is_open && !is_vague && share <= 1.0 { 0.0 } else { share.larger(0.0) };
         let own = Need { is_vague, share: if share.is_nan() { f64::INFINITY } else { share }, of: Of::Bound };
         if own > worst.0 {
-            // If no order is observed, the sweeps are to blame as soon as their part is not negligible.
+            // If no order is observed, the sweeps are to blame as soon as the iteration part is not negligible.
             let sweeps = is_vague && 10.0 * parts.iteration > parts.discretisation;
             let part = if sweeps { BoundPart::Iteration } else { parts.largest() };
             worst = (
@@ -103,10 +105,11 @@ pub(super) fn need(judged: &Judged, wanted: f64) -> (Need, Blame) {
     worst
 }
 
-/// Number of rounds needed to determine a rate of progress. The first rounds show whether the settings are meaningful.
+/// Number of rounds needed to determine a rate of progress. The first rounds of a search show only whether the settings
+/// are meaningful.
 const ROUNDS: usize = 4;
-/// Factor on the observed power of the work with which the need falls. Extrapolation may become more effective as the
-/// runs become smooth.
+/// Factor on the observed exponent p of the law need = constant / work^p. The exponent may still increase, because
+/// extrapolation becomes more effective as the runs become smooth.
 /// In successful searches, progress in the last rounds is at most twice as fast as in the first rounds (all shipped
 /// scenarios).
 const OPTIMISM: f64 = 2.0;
@@ -119,8 +122,8 @@ pub(super) struct Pace {
 
 impl Pace {
     /// Records a round that ends with the work `effort` done. Returns whether `budget` is far too small.
-    /// The need falls with a power of the work. The budget is too small if the need stays above 1 even with twice the
-    /// power of the last rounds.
+    /// The need falls with a power of the work. The budget is too small if the predicted need at the budget exceeds 1.
+    /// The prediction uses [`OPTIMISM`] times the exponent that the last rounds show.
     pub(super) fn is_too_slow(&mut self, effort: f64, need: Need, budget: f64) -> bool {
         let least = self.rounds.last().map_or(f64::INFINITY, |[_, least]| *least).smaller(need.share);
         self.rounds.push([effort, least]);
@@ -142,12 +145,12 @@ impl Pace {
 const MOST_VAGUE: usize = 2;
 /// If halving the step reduces the bound to at most this fraction, the number of sweeps counts as sufficient.
 const BRINGS: f64 = 0.7;
-/// If more sweeps reduce the bound to at most this fraction, they are worth their work.
+/// If more sweeps reduce the bound to at most this fraction, the additional sweeps are worth their work.
 const HELPS: f64 = 0.5;
 /// If finer steps widen the bound in this number of consecutive rounds, rounding is to blame, however small the
 /// rounding part of the bound is.
 const MOST_WIDER: usize = 2;
-/// If more sweeps have helped little, this number of rounds passes before they are tried again.
+/// If more sweeps have helped little, this number of rounds passes before more sweeps are tried again.
 const PATIENCE: usize = 3;
 
 /// Record of steps without progress in a search.
@@ -177,9 +180,9 @@ pub(super) enum Next {
 impl Stall {
     /// Decides what to do after a round with `sweeps`, from the round's need and the part of the bound that is to
     /// blame.
-    /// Too few sweeps may hide the order of the step, and their error is not always visible.
+    /// Too few sweeps may hide the order of the step, and the error due to the sweeps is not always visible.
     /// If a smaller step helps little, more sweeps are tried, provided that the number of sweeps is `free`.
-    /// If more sweeps help little too, the search returns to the previous number of sweeps.
+    /// If a smaller step and more sweeps both help little, the search returns to the previous number of sweeps.
     pub(super) fn look_closer(&mut self, need: Need, blame: BoundPart, sweeps: usize, free: bool) -> Next {
         self.vague = if need.is_vague { self.vague + 1 } else { 0 };
         let before = self.before.replace(need);

@@ -37,21 +37,21 @@ pub(super) struct Observed {
     pub(super) reach: f64,
     /// Balancing moment from the balance of powers (N m) at every instant; empty if no balancing moment is requested.
     /// If the crank's speed changes, the moment is multiplied by the ratio of the crank's speed to its top speed.
-    /// In a motion under forces, the largest speed of a driving link replaces the top speed if it is larger.
+    /// In a motion under forces, the divisor of this ratio is the top speed or the largest speed of a driving link,
+    /// whichever is larger.
     pub(super) power: Vec<f64>,
-    /// Balancing moments of the trajectory, reduced to the crank (N m), at every instant. They are multiplied by the
-    /// same ratio as `power`.
+    /// Balancing moments of the trajectory, reduced to the crank (N m), at every instant. These moments are multiplied
+    /// by the ratio that is described for `power`.
     pub(super) torque: Vec<f64>,
     /// The larger of two ratios over the run.
-    /// The first compares the shaking forces from reactions and from momentum: their largest difference divided by the
-    /// largest force in a joint.
-    /// The second compares the shaking moments: their largest difference divided by the largest moment of a joint force
-    /// about the origin.
+    /// The first ratio compares the shaking forces from reactions and from momentum: their largest difference divided
+    /// by the largest force in a joint.
+    /// The second ratio compares the shaking moments from reactions and from momentum: their largest difference divided
+    /// by the largest moment of a joint force about the origin.
     pub(super) unbalance: Option<f64>,
-    /// Largest moment on the driving link (N m): the balancing moment, or the moment of a joint's force at the link's
-    /// length.
+    /// Largest moment on the driving link (N m): the balancing moment, or a joint's force times the link's length.
     pub(super) moment: f64,
-    /// Largest condition number of a passage of a side through a change point; 1 if there is no such passage.
+    /// Largest condition number of a passage of a side through a change point; 1 if no side passes a change point.
     pub(super) passing: f64,
     /// For every row, whether a side passes a change point in a singular pose; empty if the crank may not pass change
     /// points.
@@ -94,8 +94,8 @@ impl Observed {
 
     /// Largest difference between the balancing moment of the trajectory and the balancing moment of the powers,
     /// divided by the moments in the balance.
-    /// If the balancing moment vanishes, the moments in the balance cancel each other and only their rounding error
-    /// remains.
+    /// If the balancing moment vanishes, the moments in the balance cancel each other and only the rounding error of
+    /// these moments remains.
     pub(super) fn two_ways(&self) -> f64 {
         share(largest_size(&self.moment_gap().collect::<Vec<f64>>()), self.moment)
     }
@@ -165,8 +165,8 @@ pub(super) fn observe(
             (*opening, reach) = (own, reach.larger(far));
         }
         if with_power {
-            // A crank at rest has no power. So if the crank's speed changes, powers are compared. The powers are
-            // divided by the top speed after the run.
+            // A crank at rest has no power. So if the crank's speed changes, powers are compared instead of moments.
+            // When the run is complete, the powers are divided by the top speed.
             (power[row], torque[row]) = match steady {
                 true => (power::balancing_moment(case, state), reduced_torque(case, state)),
                 false => (-power::of_known_forces(case, state), state.drive_power(case)),
@@ -195,8 +195,9 @@ pub(super) fn observe(
         return Err(Stopped { error, kept, spent: None });
     }
     if !steady {
-        // In a free motion, powers are divided by the largest speed or, if that is larger, by the nominal speed.
-        // The motion may be much faster than the nominal speed of its case. An engine's speed may be only rounding.
+        // In a free motion, powers are divided by the largest speed or by the nominal speed, whichever is larger.
+        // The motion may be much faster than the nominal speed. If an engine's links stay at rest, their speeds are
+        // only rounding errors, so the nominal speed is used.
         let nominal = case.crank().top_speed();
         let top = if case.is_free() { fastest.larger(nominal.abs()) } else { nominal };
         power.iter_mut().chain(&mut torque).for_each(|power| *power = share(*power, top));

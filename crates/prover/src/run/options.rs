@@ -23,10 +23,10 @@ macro_rules! setters {
 /// Options of a proof.
 ///
 /// An option that is not given is taken from the scenario.
-/// If the scenario does not state step, sweeps or extrapolation, the proof finds them.
-/// Substeps, route and accuracy then have the engine's default.
-/// If a step is given, runs are extrapolated only on request.
-/// Numbers are checked when the proof begins.
+/// If neither the options nor the scenario give step, sweeps or extrapolation, the proof finds them.
+/// If neither the options nor the scenario give substeps, route or accuracy, the engine's default is used.
+/// If a step is given, runs are extrapolated only if extrapolation is requested.
+/// The numbers in the options are checked when the proof begins.
 ///
 /// ```
 /// use linkproof::Options;
@@ -69,7 +69,8 @@ impl Chosen {
         Chosen { engine: around(self.engine), ..self }
     }
 
-    /// This choice with the default route as a given one, so that forces that the engine itself exerts are not judged.
+    /// This choice, with the default route as its given route. Forces that the engine itself exerts are then not
+    /// judged.
     pub(crate) fn by_motion_alone(mut self) -> Self {
         self.given.route = EngineSetting::of(self.engine.settings().route);
         self

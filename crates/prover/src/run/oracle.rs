@@ -20,8 +20,8 @@ use scenario::{ExpectedCell, FigureValue, Oracle, OracleBasis, OraclePoint, Orac
 
 /// The checks of every series and figure of an oracle, for each analytic side.
 /// Series refer to channels of the problem's case; figures refer to the `whole` mechanism.
-/// `integration` is the integration error of a side in a channel, in the channel's unit. It applies to numbers of a
-/// motion under forces.
+/// `integration` is the integration error of a side in a channel, in the channel's unit. `integration` applies to
+/// numbers of a motion under forces.
 pub(super) fn checks(
     problem: Problem,
     whole: &Case,
@@ -29,19 +29,20 @@ pub(super) fn checks(
     integration: &dyn Fn(Reference, &Channel) -> f64,
 ) -> Result<Vec<Check>> {
     let mut checks = of_series(problem, sides, integration)?;
-    // If forces determine the true motion, means over a revolution belong to the nominal motion.
+    // If forces determine the true motion, a published mean over a revolution refers to the nominal motion.
     checks.extend(of_figures(problem.oracles, &whole.nominal(), sides)?);
     Ok(checks)
 }
 
-/// Rounding error of a number from an analytic side. The unit is one ulp of the largest number of the same quantity.
+/// Rounding error of a number from an analytic side. The unit is one ulp of the largest number that the quantity has in
+/// the side's trajectory.
 /// A printed number may have more digits than the side's result has correct digits.
 const ULPS: f64 = 16.0;
 
 /// Largest number of instants at which all channels of a stage are solved.
 const MOST: usize = 20_000;
 
-/// A side's trajectory, and for every channel the largest number of its quantity and the channel's scale.
+/// A side's trajectory. For every channel: the largest number of the channel's quantity, and the channel's scale.
 type Side = (Trajectory, Vec<(Channel, [f64; 2])>);
 
 /// Results of both sides.
@@ -58,7 +59,7 @@ struct Answers<'a> {
     timed: Option<Solved>,
     /// Input of the case.
     input: Input,
-    /// Integration error of a side in a channel of the motion itself.
+    /// Integration error of a side in a channel of the true motion.
     integration: &'a dyn Fn(Reference, &Channel) -> f64,
 }
 
@@ -101,7 +102,7 @@ impl<'a> Answers<'a> {
         Ok(Answers { nominal, timed: solved(case, Along::Time)?, input: case.crank().input, integration })
     }
 
-    /// A side's results for a series, in the nominal motion and in the motion itself.
+    /// A side's results for a series, in the nominal motion and in the true motion.
     fn of_series<'b>(
         &'b self,
         oracle: &Oracle,
@@ -132,7 +133,7 @@ struct Told<'a> {
     /// Scale of the channel at the instants of the numbers.
     scale: f64,
     rounded: &'a RoundedInstants,
-    /// The channel; for a magnitude, also the other component.
+    /// The channel of the series; for a magnitude, the channels of both components.
     channels: Vec<Channel>,
 }
 
@@ -168,13 +169,13 @@ impl Told<'_> {
         };
         let row = instants.binary_search_by(|other| other.total_cmp(&at)).expect("solved at this instant");
         let [value, other] = [self.side, self.side.other()].map(|side| self.values[side][row]);
-        // The difference between the two sides limits how accurately any number is known. So twice this difference is
-        // added to the known error.
+        // The difference between the two sides limits how accurately any number is known. Twice the difference between
+        // the sides is therefore added to the known error.
         let known = self.known + 2.0 * (value - other).abs();
         let difference = value - point.value;
         let deviation = if series.channel.kind.periodic { wrapped(difference) } else { difference }.abs();
-        // A magnitude changes at most as much as its vector. So the changes of the components are combined like the
-        // components of a vector.
+        // A magnitude changes at most as much as its vector. The changes of the components are therefore combined like
+        // the components of a vector.
         let drift = self.channels.iter().map(|own| self.rounded.of_point(own, at, point.at_error));
         let instant = drift.fold(0.0, f64::hypot);
         // The error of a side adds to the rounding of the printed number.
@@ -258,8 +259,8 @@ fn shortly(at: When, input: Input) -> String {
 }
 
 /// The worst check of a series whose printed numbers are all known to be wrong.
-/// Checks with an unexpected result are worse than all others.
-/// Among equals, the check with the largest ratio of deviation to bound is the worst.
+/// A check with an unexpected result is worse than any check with the expected result.
+/// If two checks are equal in this respect, the check with the larger ratio of deviation to bound is worse.
 fn worst_of(checks: impl Iterator<Item = Check>) -> Option<Check> {
     let rank = |check: &Check| (!matches!(check.verdict, Verdict::Expected { .. }), check.used());
     checks.reduce(|worst, check| {

@@ -1,7 +1,8 @@
 //! Finds an engine that converges with a lower order than its method has.
 //!
 //! Typical causes are a value computed half a step late, or a wrong weight.
-//! A bound from the engine's runs covers such an error at every step, so the size of the error never reveals the fault.
+//! A bound from the engine's runs covers an error of lower order at every step, so the size of the error never reveals
+//! the fault.
 //! Five runs give three estimates of the order. The order is reliable only if all three are near the same whole number.
 //! See docs/numerics/bounds.md.
 
@@ -19,7 +20,7 @@ use crate::bounds::{Convergence, Verdict};
 use crate::numbers::error;
 use crate::tolerance::Parts;
 
-/// If an observed order is below this fraction of the formal order, it is examined further.
+/// If an observed order is below this fraction of the formal order, the observed order is examined further.
 const LOW: f64 = 0.75;
 /// Orders are steady if they differ from the same whole number by at most this amount.
 const STEADY: f64 = 0.1;
@@ -30,7 +31,7 @@ const CLEAR: f64 = 5.0;
 const NEGLIGIBLE: f64 = 0.01;
 
 /// Finds channels that converge steadily with too low an order, and makes their verdicts disagree.
-/// Returns whether there are such channels.
+/// Returns whether there are channels that converge with too low an order.
 ///
 /// # Errors
 /// The errors of a run. A numeric error is not returned, because it shows nothing about the order.
@@ -120,8 +121,10 @@ fn steady(rungs: [Convergence; 3], finest: Parts) -> Option<f64> {
 mod tests {
     use super::*;
 
-    /// Halved steps halve an error of 8, so the order is 1, while the method has order 2.
-    /// If sweeps, rounding or the reference contribute a fourth of the finest error, they may have caused this order.
+    /// Each halving of the step halves the error, which begins at 8. The observed order is therefore 1, while the
+    /// method has order 2.
+    /// If sweeps, rounding or the reference contribute a fourth of the finest error, these errors may have caused the
+    /// observed order.
     #[test]
     fn an_order_counts_only_if_other_errors_are_much_smaller() {
         let rungs = |orders: [f64; 3], formal: f64| {

@@ -22,19 +22,20 @@ use linkage::solver::Progress;
 use linkage::trajectory::Stage;
 use scenario::EngineSetting;
 
-/// Limit of the number of sweeps at the start of the search, even if the motion has needed more.
+/// Limit of the number of sweeps at the start of the search, even if the motion has needed more sweeps.
 const ENOUGH: usize = 32;
 /// Additional work allowed for the engine's own forces, as a fraction of the work allowed for its settings.
 const SHARE: f64 = 0.05;
 
 /// Whether the engine's own forces are judged.
 /// The forces are not judged if no force is requested or if the route is given.
-/// If the engine's default route already gives its own forces, [`judged`] finds no route for them.
+/// If the engine's default route already gives the engine's own forces, [`judged`] finds no further route for these
+/// forces.
 pub(super) fn are_asked(judge: &Judge, chosen: &Chosen) -> bool {
     chosen.given.route.is_free() && judge.asking(judge.asked).of_own_forces().has_channels()
 }
 
-/// Judges the forces that the engine exerts, in addition to its `motion`. They must be [requested](are_asked).
+/// Judges the forces that the engine exerts, in addition to its `motion`. [`are_asked`] must be true for these forces.
 /// `None` if the engine has no route for these forces. The first conclusive route counts.
 pub(super) fn judged(
     judge: &Judge,
@@ -44,8 +45,9 @@ pub(super) fn judged(
     progress: Progress,
 ) -> Option<EngineProof> {
     let effort = motion.search.as_ref().map_or(0.0, |search| search.effort);
-    // If the motion has needed more work than is allowed for the engine's own forces, they are not judged.
-    // Impulses are of a lower order than the motion, so their runs need at least as much work.
+    // If the motion has needed more work than is allowed for the engine's own forces, these forces are not judged.
+    // Impulses are of a lower order than the motion, so the runs for impulses need at least as much work as the runs
+    // for the motion.
     if effort > SHARE * chosen.budget {
         let told = sentences::the_motion_has_taken_the_work(&error(effort), &error(SHARE * chosen.budget));
         let failure = Error::new(ErrorKind::Unsupported, told);

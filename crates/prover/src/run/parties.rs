@@ -1,4 +1,4 @@
-//! Compares reference and engines as equals, to find the one that disagrees with all others.
+//! Compares reference and engines as equals, to find the side that disagrees with all other sides.
 
 use super::engine_proof::EngineProof;
 use crate::bounds::largest_difference;
@@ -11,8 +11,8 @@ pub struct Dispute {
     pub channel: String,
     /// Pairs of sides whose difference exceeds the sum of their bounds.
     pub pairs: Vec<[&'static str; 2]>,
-    /// The side without which all others agree. `None` if there is no such side, if there are several, or if there are
-    /// only two sides.
+    /// The side without which all other sides agree. `None` if there is no such side, if there are several such sides,
+    /// or if there are only two sides.
     pub odd: Option<&'static str>,
 }
 
@@ -45,7 +45,7 @@ fn dispute(name: &'static str, channel: &Channel, values: &[f64], engines: &[Eng
     Some(Dispute { channel: channel.to_string(), pairs, odd })
 }
 
-/// Pairs that differ by more than the sum of their bounds, and the only side that is in all these pairs.
+/// Pairs of sides that differ by more than the sum of their bounds, and the only side that is in all these pairs.
 /// `None` if no pair differs.
 fn apart(parties: &[Party], periodic: bool) -> Option<(Vec<[&'static str; 2]>, Option<&'static str>)> {
     let differ = |a: &Party, b: &Party| {

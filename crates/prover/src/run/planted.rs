@@ -127,7 +127,7 @@ fn side_checks_find_three_times_their_bound_and_pass_a_fifth() {
         (sentences::ASSUR_AGAINST_NEWTON_REACTIONS, force, 1e-10 * largest("joint.O.fx_N")),
         (sentences::ASSUR_AGAINST_NEWTON_BALANCING_MOMENT, torque, 1e-10 * largest("drive.torque_N_m")),
         (sentences::BALANCING_MOMENT_FROM_EQUILIBRIUM_AND_FROM_POWERS_ASSUR, torque, 1e-11 * truth.moment),
-        // An error in the force of the frame's joint is the same error in the shaking force.
+        // A planted error in the force of the frame's joint causes an equal error in the shaking force.
         (sentences::SHAKING_FORCE_AND_MOMENT_FROM_REACTIONS_AND_FROM_MOMENTUM, force, 1e-11 * largest("joint.O.fx_N")),
     ];
     for (name, fault, bound) in planted {
@@ -236,7 +236,7 @@ fn every_class_three_method_is_in_the_proof_and_finds_faults() {
             }
         }
     }
-    // The methods are not used at a change point, because their equations are singular at such a point.
+    // The methods are not used at a change point, because their equations are singular at a change point.
     let passing: Fault = |state, size| {
         state.passing = Some(1.0);
         state.motions.iter_mut().for_each(|motion| (motion.omega, motion.alpha) = (size, size));
@@ -279,7 +279,8 @@ fn engine_proven(scenario: &Scenario, hook: Everywhere, search: Search) -> Engin
     engines::prove(&judge, &scenario.case, &chosen, &mut Ledger::default(), &mut |_| {}).unwrap()
 }
 
-/// Two faults are planted: an opening that does not vanish with the step, and a moment that disagrees with its powers.
+/// Two faults are planted: an opening that does not vanish with the step, and a balancing moment that disagrees with
+/// the balance of powers.
 /// The opening is far below 1 % of the mechanism's size. The moment is far below 1 % of the largest moment.
 #[test]
 fn engine_checks_find_errors_that_do_not_vanish_with_the_step() {
@@ -312,9 +313,9 @@ fn engine_checks_find_errors_that_do_not_vanish_with_the_step() {
     }
 }
 
-/// Velocities that are half a step late converge to the right values with order 1. So do accelerations that are a
-/// quarter of a step late.
-/// The bound from the engine's own runs always covers such an error.
+/// Velocities that are half a step late converge to the right values with order 1. Accelerations that are a quarter of
+/// a step late also converge with order 1.
+/// The bound from the engine's own runs always covers the error of a late reading.
 #[test]
 fn regress_late_readings_converge_with_order_one_and_disagree() {
     let velocities: Fault = |state, late| {
@@ -328,7 +329,7 @@ fn regress_late_readings_converge_with_order_one_and_disagree() {
         state.motions.iter_mut().for_each(|motion| motion.alpha -= late * motion.omega.powi(3));
     };
     // Five steps up to 8e-3 s still show the order for the crank-rocker, but not for the faster machine `ov7_base`.
-    // So this machine is tested only with free settings.
+    // `ov7_base` is therefore tested only with free settings.
     for (name, free) in
         [("crank_rocker", Search::None), ("crank_rocker", Search::Everything), ("ov7_base", Search::Everything)]
     {
@@ -347,7 +348,7 @@ fn regress_late_readings_converge_with_order_one_and_disagree() {
     }
 }
 
-/// The integration error belongs to a side, whichever side is the reference.
+/// Each analytic side has its own integration error, whichever side is the reference.
 #[test]
 fn each_side_has_the_error_of_its_own_integration() {
     let plain = text("crank_rocker_runup");
@@ -426,7 +427,7 @@ fn errors_of_an_engine_have_the_sign_of_its_fault() {
     assert!(errors.column(&torque).unwrap().iter().all(|error| (error - 100.0).abs() < 1.0));
 }
 
-/// Every figure is moved by one unit of its last digit.
+/// Every figure is changed by one unit of its last digit. The checks on both sides must then disagree.
 #[test]
 fn an_oracle_detects_one_unit_of_its_last_digit() {
     let name = "crank_rocker";
@@ -470,10 +471,11 @@ fn integration_error_widens_the_bound_of_numbers_at_a_time() {
 }
 
 /// The scale of a channel that is zero throughout is a tenth of the size of its quantity. The engine's error in this
-/// channel still comes from its runs.
+/// channel still comes from the engine's runs.
 /// For the acceleration of a crank at constant speed, a fault of a millionth of the quantity is found.
-/// For a rocker that rotates with the crank through change points, only a fault of a hundredth is found. A smaller
-/// difference in the rocker's channels proves nothing.
+/// For a rocker that rotates with the crank through change points, only a fault of at least a hundredth of the quantity
+/// is found.
+/// A smaller difference in the rocker's channels proves nothing.
 #[test]
 fn a_fault_of_fixed_size_is_found_where_the_reference_is_zero() {
     let cranks = include_str!("../../../../tests/suite/exact_zeros/parallel_cranks.toml");

@@ -25,7 +25,7 @@ impl<'a> Problem<'a> {
     }
 }
 
-/// Length, speed and force from the data of the case. They do not depend on which links move.
+/// Length, speed and force from the data of the case. These values do not depend on which links move.
 /// These three values are the scales for quantities that vanish in the whole mechanism.
 /// The force is the larger of two forces: the weight of all links, and the force that accelerates the links at this
 /// speed and size. The force is zero without masses.

@@ -52,7 +52,8 @@ pub(super) fn other_sweeps(case: &Case, engine: &dyn Engine, sweeps: usize, shar
     }
 }
 
-/// If the sweeps are given: number of sweeps of the judged run divided by that of the run with fewer sweeps.
+/// If the sweeps are given: number of sweeps of the judged run, divided by the number of sweeps of the run with fewer
+/// sweeps.
 pub(super) const FEWER: usize = 2;
 
 /// If a trajectory has more values than this, not all trajectories of a search are kept.
@@ -76,7 +77,7 @@ impl<'a> Bank<'a> {
         Bank { case, kept: CachedEngine::new(engine), seen: Vec::new(), watch, count: 0, effort: 0.0 }
     }
 
-    /// The engine at `settings`. It takes its runs from the bank.
+    /// The engine at `settings`. This engine takes its runs from the bank.
     pub(super) fn engine(&self, settings: Settings) -> Box<dyn Engine> {
         self.kept.with(settings)
     }
@@ -94,7 +95,7 @@ impl<'a> Bank<'a> {
         self.work(&self.kept.missing(self.case, settings))
     }
 
-    /// Work of plain runs on the case's grid. It is counted instead of timed, so that the same input gives the same
+    /// Work of plain runs on the case's grid. The work is counted instead of timed, so that equal inputs give equal
     /// work.
     fn work(&self, runs: &[Settings]) -> f64 {
         let [first, last] = ends(self.case);
@@ -107,7 +108,7 @@ impl<'a> Bank<'a> {
         self.seen.retain(|(settings, _)| sweeps.contains(&settings.sweeps));
     }
 
-    /// If the runs are large, drops those that `settings` do not need.
+    /// If the runs are large, drops the runs that `settings` do not need.
     pub(super) fn keep_needed(&mut self, settings: &[Settings]) {
         if self.is_large() {
             let needed: Vec<Settings> = settings.iter().copied().flat_map(plain_runs).collect();
@@ -121,8 +122,8 @@ impl<'a> Bank<'a> {
         self.case.grid.len() * self.case.channels().len() > FEW
     }
 
-    /// If the observations are large, drops those that `settings` do not need. They can be computed again from the kept
-    /// runs.
+    /// If the observations are large, drops the observations that `settings` do not need. Dropped observations can be
+    /// computed again from the kept runs.
     fn keep_few(&mut self, settings: &[Settings]) {
         if self.is_large() {
             self.seen.retain(|(own, _)| settings.contains(own));
@@ -139,8 +140,8 @@ impl<'a> Bank<'a> {
         Ok(seen)
     }
 
-    /// The runs that judge the engine at `settings`: those at double, single and half the resolution, and those with
-    /// `others` sweeps, at most two.
+    /// The runs that judge the engine at `settings`: the runs at double, single and half the resolution, and the runs
+    /// with the numbers of sweeps `others` (at most two numbers).
     pub(super) fn runs(&mut self, settings: Settings, others: &[usize], progress: Progress) -> Result<Runs, Stopped> {
         let rungs = rungs(settings, others);
         self.keep_few(&rungs);
@@ -190,8 +191,8 @@ fn ends(case: &Case) -> [f64; 2] {
 }
 
 /// The largest step (s) for which a run of this engine stays within the reachable crank angles.
-/// A run of a prescribed motion begins some steps before the first instant and ends some steps after the last one.
-/// Near a limit of rotation, these additional steps stay within the limit only if they are small.
+/// A run of a prescribed motion begins some steps before the first instant and ends some steps after the last instant.
+/// Near a limit of rotation, the additional steps of a run stay within the limit only if the steps are small.
 /// The result is infinite if the crank makes full revolutions or if forces determine the motion.
 pub(super) fn room(case: &Case, engine: &dyn Engine) -> f64 {
     let steps = engine.overrun();

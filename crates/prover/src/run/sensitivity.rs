@@ -9,12 +9,13 @@ use linkage::error::Result;
 use linkage::solver::Solver;
 use linkage::trajectory::Trajectory;
 
-/// Relative change of gravity and of the motor's torque. It is small enough for a linear response, but large compared
-/// with rounding.
+/// Relative change of gravity and of the motor's torque. The change is small enough for a linear response, but large
+/// compared with rounding.
 const CHANGE: f64 = 1e-6;
 
 /// Sensitivity of every channel of `reference`, in its order and in the channel's unit.
-/// This is the largest change of the channel's values over the run, per relative change of gravity and motor torque.
+/// The sensitivity is the largest change of the channel's values over the run, per relative change of gravity and motor
+/// torque.
 /// Empty for a motion that does not depend on forces.
 ///
 /// # Errors

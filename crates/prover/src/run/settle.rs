@@ -21,13 +21,14 @@ use scenario::EngineSettings;
 
 /// Work allowed by default, in steps without sweeps.
 pub const BUDGET: f64 = 2e7;
-/// Up to this fraction of the allowed work, a conclusive result is refined further, to the target accuracy.
+/// As long as the search has done less than this fraction of the allowed work, a conclusive result is refined further,
+/// to the target accuracy.
 const THRIFT: f64 = 0.0015;
 /// The search aims at bounds of this fraction of the widest conclusive bound.
 /// With extrapolation, a bound a hundred times narrower than the widest conclusive bound costs little.
 const AIM: f64 = 0.01;
-/// Limit of extrapolations. With more extrapolations, the weights add more rounding error than the truncation error
-/// that they cancel.
+/// Limit of extrapolations. With more extrapolations, the weights of the runs add more rounding error than they cancel
+/// truncation error.
 const MOST_TIMES: usize = 4;
 /// The coarsest step is at most this multiple of the first step.
 /// Steps coarser than the first step are tried if rounding dominates.
@@ -37,7 +38,8 @@ const COARSEST: f64 = 16.0;
 pub(super) const FIRST: f64 = 1e4;
 /// Each time this number of runs has failed, more sweeps are tried instead of a smaller step.
 const FAILURES: usize = 6;
-/// Fraction of the angle to a dead centre that the additional steps of a run may use.
+/// A run of a prescribed motion begins and ends a few steps outside its grid. These additional steps may use this
+/// fraction of the angle to a dead centre.
 const ROOM: f64 = 0.98;
 /// Largest number of rounds of a short search.
 const QUICK: i32 = 3;
@@ -51,7 +53,7 @@ const NEAR: f64 = 8.0;
 /// Returns an error if the first runs of an engine, at the settings `rungs`, need more work than `most`.
 /// The error names the requested `budget`.
 /// A step that divides the motion into more than [`BUDGET`] steps counts as a mistake of the user.
-/// For such a step this function returns no error, because the engine itself rejects the step.
+/// If the step counts as a mistake, this function returns no error, because the engine itself rejects the step.
 pub(super) fn too_much(
     bank: &Bank,
     settings: Settings,
@@ -91,7 +93,7 @@ pub(super) struct Settling<'a, 'b> {
     aim: f64,
     /// Whether the search ends as soon as all channels are conclusive.
     conclusive: bool,
-    /// Lower limit of the steps, if only coarser steps may be chosen.
+    /// Lower limit of the step (s); 0 if the step is not limited.
     finest: f64,
     /// Factor by which the sweeps were last multiplied.
     factor: usize,
@@ -136,8 +138,9 @@ impl<'a, 'b> Settling<'a, 'b> {
         }
     }
 
-    /// This search, changed to end as soon as every channel is conclusive.
-    /// The changed search begins with coarser steps and at least `sweeps` sweeps. No step is below `finest` (s).
+    /// Changes this search so that it ends as soon as every channel is conclusive.
+    /// The changed search begins with coarser steps than before, and with at least `sweeps` sweeps.
+    /// The changed search chooses no step below `finest` (s).
     pub(super) fn conclusive(mut self, finest: f64, sweeps: usize) -> Self {
         (self.aim, self.conclusive, self.finest, self.factor) = (1.0, true, finest, MORE_SWEEPS[1]);
         if self.given.sweeps.is_free() {
@@ -177,7 +180,7 @@ impl<'a, 'b> Settling<'a, 'b> {
                     BoundPart::Discretisation
                 }
                 Ok(mut trial) => {
-                    // If the order is wrong, neither the step nor the sweeps help, so the search ends.
+                    // If the order is wrong, neither a smaller step nor more sweeps help, so the search ends.
                     if round > QUICK && order::look(self.judge, self.bank, &mut trial.judged.proof)? {
                         borne_out = trial.judged.proof.against();
                         best = Some(trial);
@@ -188,8 +191,8 @@ impl<'a, 'b> Settling<'a, 'b> {
                     against = now;
                     let disagrees = !against.is_empty();
                     let (decided, sharp) = (trial.need.is_within(1.0), trial.need.is_within(self.aim));
-                    // If the sweeps cause only a part of the bound, they are multiplied by the smaller factor. Half the
-                    // step reduces the remaining part.
+                    // If the sweeps cause only a part of the bound, the number of sweeps is multiplied by the smaller
+                    // factor. Halving the step reduces the remaining part.
                     let is_careful = round > QUICK && !trial.need.is_vague && trial.blame.is_shared;
                     self.near = trial.need.is_within(NEAR) || is_careful;
                     let is_slow = self.conclusive && pace.is_too_slow(self.bank.effort, trial.need, self.budget);
@@ -209,8 +212,9 @@ impl<'a, 'b> Settling<'a, 'b> {
                     if trial.need.is_of_instants() && self.given.step.is_free() {
                         self.leave_out_less(&trial.judged);
                     }
-                    // A later round replaces the best round if the later round disagrees, or if its need is less.
-                    // A later round also replaces a disagreeing best round if the later round is decided.
+                    // A later round replaces the best round in three cases: a channel or check of the later round
+                    // disagrees, the later round has a smaller need, or the later round is decided and the best round
+                    // has a disagreement.
                     let better = best.as_ref().is_none_or(|best| {
                         let refuted = decided && !best.judged.proof.against().is_empty();
                         disagrees || refuted || trial.need < best.need
@@ -243,7 +247,8 @@ impl<'a, 'b> Settling<'a, 'b> {
         let search = SettingsSearch { runs: self.bank.count, effort: self.bank.effort, budget: self.budget, end };
         match (best, failure) {
             (Some(mut best), _) => {
-                // If the step is given, no finer run exists, so the error estimate of the run itself counts.
+                // If the step is given, there is no finer run to confirm a disagreement. The error estimate of the run
+                // itself then counts.
                 let is_over = matches!(end, SearchEnd::Budget | SearchEnd::Pace);
                 let is_cut = self.given.sweeps.is_free() && is_over;
                 if (!self.is_finest() || is_cut) && borne_out.is_empty() {
@@ -266,9 +271,8 @@ impl<'a, 'b> Settling<'a, 'b> {
         }
     }
 
-    /// Continues with steps small enough to leave out an acceptable number of instants. This number is proportional to
-    /// the step.
-    /// Larger steps decide nothing.
+    /// Chooses smaller steps for the next rounds, so that a run leaves out an acceptable number of instants.
+    /// The number of instants that a run leaves out is proportional to its step.
     fn leave_out_less(&mut self, judged: &Judged) {
         let most = judged.proof.info.settings.resolution * MOST_LEFT_OUT / judged.too_coarse;
         // The next round halves the step again, so a step of `most` is small enough.
@@ -369,7 +373,7 @@ impl<'a, 'b> Settling<'a, 'b> {
     }
 
     /// Makes the runs of a round, judges the combinations of the runs and returns the best combination.
-    /// A long search (`is_long`) determines the iteration error whatever the step.
+    /// In a long search (`is_long`), the iteration error is determined even if the step is to blame for the bound.
     fn round(&mut self, is_long: bool, progress: Progress) -> Result<Trial, Stopped> {
         let mut best: Option<Trial> = None;
         let mut failure = None;
@@ -394,7 +398,7 @@ impl<'a, 'b> Settling<'a, 'b> {
             }
         }
         let Some(best) = best else { return Err(failure.expect("every round has a candidate")) };
-        // At first the iteration error is determined only if the step is not to blame.
+        // In the first rounds, the iteration error is determined only if the step is not to blame for the bound.
         let settings = best.judged.proof.info.settings;
         let engine = self.bank.engine(settings);
         let share = if self.given.sweeps.is_free() { self.factor } else { FEWER };
@@ -412,8 +416,8 @@ impl<'a, 'b> Settling<'a, 'b> {
             found => found?,
         };
         // Before the sweeps are multiplied, a third run shows how fast they converge.
-        // Before a channel is reported as disagreeing, the third run shows whether the sweeps converge at all. If they
-        // have hardly begun to converge, two runs differ little.
+        // Before a channel is reported as disagreeing, the third run shows whether the sweeps converge at all. If the
+        // sweeps have hardly begun to converge, two runs with different numbers of sweeps differ little.
         let is_asked =
             found.blame.part == BoundPart::Iteration && !found.need.is_within(self.aim) && self.given.sweeps.is_free();
         if others.len() < 2 || (!is_asked && found.judged.proof.against().is_empty()) {

@@ -12,10 +12,10 @@ use linkage::trajectory::{Channel, Trajectory};
 use scenario::{OraclePoint, When, within};
 
 /// An instant counts as exact if its error is at most this many units in the last place of a double.
-/// The known errors of the sides cover such an error.
+/// The known errors of the analytic sides cover an error of this size.
 const EXACT: f64 = 4.0;
 /// Shifts of the instants at which the case is solved, as fractions of the rounding error of the instant.
-/// The two ends suffice if the values between them form a parabola, wherever its vertex is.
+/// If the values between the two ends form a parabola, the two ends suffice, wherever the vertex of the parabola is.
 const ENDS: [f64; 2] = [-1.0, 1.0];
 /// If the crank rotates by more than `FAR` (rad) between an instant and an end of its rounding interval, the case is
 /// also solved at `BETWEEN`.
@@ -100,7 +100,8 @@ pub fn shifted(
     Ok(())
 }
 
-/// Enlarges `drift` to the size of `changes`. Values of an angle that differ by a `turn` are equal.
+/// Raises every entry of `drift` to at least the magnitude of its entry in `changes`. Values of an angle that differ by
+/// a `turn` are equal.
 pub fn grow(drift: &mut [f64], changes: impl Iterator<Item = f64>, turn: Option<f64>) {
     for (drift, change) in drift.iter_mut().zip(changes) {
         let change = turn.map_or(change, |turn| change - turn * (change / turn).round()).abs();
@@ -119,7 +120,7 @@ pub(super) struct RoundedInstants {
 }
 
 impl RoundedInstants {
-    /// Rounded instants of some points of a case.
+    /// Rounded instants of the given points of a case.
     /// If the case cannot be solved at both ends of an instant's rounding interval, changes are estimated from
     /// neighbouring rows.
     ///

@@ -18,8 +18,8 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::trajectory::{Channel, Trajectory};
 use scenario::{Claim, Formulas, Scenario};
 
-/// Smallest errors of an analytic side's trajectory: rounding errors in well-conditioned poses, channel by channel, in
-/// their units.
+/// Smallest errors of an analytic side's trajectory: the rounding errors in well-conditioned poses. Each error belongs
+/// to one channel and is in the channel's unit.
 #[must_use]
 pub fn known_at_least(trajectory: &Trajectory) -> Vec<f64> {
     let sizes = magnitudes(trajectory).into_iter().zip(trajectory.channels());
@@ -35,7 +35,8 @@ pub fn known_of_complete(case: &Case, trajectory: &Trajectory) -> Vec<f64> {
     sizes.into_iter().zip(trajectory.channels()).map(|(size, channel)| usual(channel.kind.stage) * size).collect()
 }
 
-/// The channels that are solved for a claim: those needed to judge the claim, and the other channels of its subject.
+/// The channels that are solved for a claim: the channels needed to judge the claim, and the other channels of the
+/// claim's subject.
 /// The other channels determine the error of a component that is zero except for rounding.
 #[must_use]
 pub fn asked(claim: &Claim, case: &Case) -> Vec<Channel> {
@@ -50,7 +51,7 @@ pub fn asked(claim: &Claim, case: &Case) -> Vec<Channel> {
     asked
 }
 
-/// The part of a case on which some channels depend, solved by both sides, and the judged formulas.
+/// Solves with both sides the part of a case on which the requested channels depend, and judges the formulas.
 fn of_asked(
     scenario: &Scenario,
     whole: &Case,
@@ -77,7 +78,7 @@ impl Solved {
     /// Solves the channels that some claims of a scenario need, at the instants of a grid.
     ///
     /// # Errors
-    /// The errors of the sides, with the crank angle.
+    /// The errors of the analytic solvers, each with the crank angle of the failure.
     /// An error also if the drive does not reach an instant of the grid.
     pub fn of<'a>(scenario: &Scenario, grid: Grid, claims: impl IntoIterator<Item = &'a Claim>) -> Result<Self> {
         let asked: Vec<Channel> = claims.into_iter().flat_map(|claim| asked(claim, &scenario.case)).collect();
@@ -86,10 +87,10 @@ impl Solved {
         Ok(Solved { case, sides, least })
     }
 
-    /// The results, with lower limits of the channels' errors. `of` returns the limits, which are determined from all
-    /// channels of the mechanism.
-    /// If the few solved channels are zero except for rounding, their rounding error comes from channels that are not
-    /// solved.
+    /// These results, with the lower limits of the channels' errors that `of` returns.
+    /// `of` determines the limits from all channels of the mechanism.
+    /// The reason: if all solved channels are zero except for rounding, their rounding error comes from channels that
+    /// are not solved.
     #[must_use]
     pub fn known_at_least(mut self, of: &dyn Fn(&Channel) -> f64) -> Self {
         self.least = self.sides.trajectory().channels().iter().map(of).collect();
@@ -110,16 +111,16 @@ impl Solved {
         self.sides.trajectory()
     }
 
-    /// The checks of the sides on each other.
+    /// The checks that compare the two sides with each other.
     pub fn checks(&self) -> &[Check] {
         &self.sides.checks
     }
 }
 
-/// Judgement of the formulas by both sides.
+/// The formulas of a scenario, judged against both analytic sides.
 #[derive(Clone, Debug)]
 pub struct Claimed {
-    /// Judgements of both sides on every claim.
+    /// The judgement of every claim, against each of the two sides.
     pub judgement: Judgement,
     /// The checks of the sides themselves.
     pub checks: Vec<Check>,
@@ -127,10 +128,11 @@ pub struct Claimed {
     pub verdict: Verdict,
 }
 
-/// Judges the formulas of a scenario. Solves only the claimed channels and those needed for derivatives.
+/// Judges the formulas of a scenario. Solves only the claimed channels and the channels needed for their derivatives.
 ///
 /// # Errors
-/// [`ErrorKind::Input`] if no formula claims anything. The errors of the sides, with the crank angle.
+/// [`ErrorKind::Input`] if no formula claims anything. The errors of the analytic solvers, each with the crank angle of
+/// the failure.
 pub fn judge(scenario: &Scenario) -> Result<Claimed> {
     let mut asked: Vec<_> = scenario.formulas.claims().flat_map(|(_, claim)| needed(claim, &scenario.case)).collect();
     if asked.is_empty() {
@@ -140,14 +142,15 @@ pub fn judge(scenario: &Scenario) -> Result<Claimed> {
     let (_, mut sides) = of_asked(scenario, &scenario.case, &asked, &scenario.formulas)?;
     let is_open = |own: &Judgement| {
         let mut causes = own.causes.iter();
-        // If the search was long, it is not repeated with more channels.
+        // If the search for causes was long, the search is not repeated with more channels.
         own.work <= MOST_WORK
             && causes.any(|(name, cause)| {
                 !cause.as_ref().is_some_and(FormulaCause::is_whole) && !own.unsought.contains(name)
             })
     };
     if let Some(own) = sides.judgement.as_mut().filter(|own| is_open(own)) {
-        // The search is repeated with more channels: the error may be a missing term whose channel was not requested.
+        // The search for causes is repeated with more channels: the error may be a missing term whose channel was not
+        // requested.
         asked.extend(telling(&scenario.case, scenario.formulas.claims().map(|(_, claim)| claim)));
         let (_, all) = of_asked(scenario, &scenario.case, &asked, &scenario.formulas)?;
         if let Some(again) = all.judgement {

@@ -16,7 +16,7 @@ use scenario::words::{choice, nearest};
 use scenario::{Claim, PrintedChannel};
 use std::ops::Range;
 
-/// Instants of the rows of a party: times, crank angles, or both.
+/// Instants of the rows of a party (a solver or a table of numbers): times, crank angles, or both.
 #[derive(Clone, Debug, Default)]
 pub struct Instants {
     /// Times (s).
@@ -53,7 +53,7 @@ impl RowKey {
     }
 
     /// The first row (counted from 0) at which the instants reverse the direction of the table's first step.
-    /// Returns this row, the instant of the previous row, and the instant of this row.
+    /// Returns the index of the reversing row, the instant of the row before it, and the instant of the reversing row.
     /// If a time jumps back, a new run has begun.
     #[must_use]
     pub fn turns_back(&self) -> Option<(usize, [f64; 2])> {
@@ -93,7 +93,8 @@ pub struct Held {
 }
 
 /// Indices of a party's columns, by the text of the column and by its channel. If several columns match, the first one
-/// counts. An expression is not found by its channel. A magnitude is a separate channel.
+/// counts.
+/// An expression is found only by its text. The magnitude of a vector counts as a channel of its own.
 /// The maps are needed for speed: a party has as many columns as a mapping has lines, and each column is looked up.
 #[derive(Clone, Debug, Default)]
 struct Places {
@@ -135,7 +136,7 @@ impl Held {
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for an unknown column or channel, with its location.
-    /// The same error if nothing states the instants of the rows or the meaning of a column.
+    /// [`ErrorKind::Input`] also if nothing states the instants of the rows or the meaning of a column.
     pub fn of_table(raw: &Raw, mapping: &Mapping) -> Result<Held> {
         let mut reader = Reader::of(raw);
         let mut at = Instants::default();
@@ -201,7 +202,7 @@ impl Held {
     }
 
     /// The instants of the party's rows, as crank angles or times.
-    /// If no quantity is requested, times are preferred.
+    /// If `by` is `None`, times are preferred.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] if the requested instants are missing.
@@ -304,7 +305,7 @@ fn in_words(name: &str) -> Option<&'static str> {
     }
 }
 
-/// The claim that a text states. It may use the channels of any mechanism.
+/// The claim that a text states. The claim may use the channels of any mechanism.
 ///
 /// # Errors
 /// If the text cannot be parsed, or a name is not a channel.
@@ -399,7 +400,8 @@ impl<'a> Reader<'a> {
         (0..self.raw.len()).map(&mut row).collect()
     }
 
-    /// The error for an unknown name. Its help names the most similar column or, if there is none, the first columns.
+    /// The error for an unknown name. The help of the error names the most similar column or, if no column is similar,
+    /// the first columns.
     fn unknown(&self, name: &str, at: Range<usize>) -> FormulaFault {
         let message = sentences::the_table_has_no_column(&name);
         let help = match nearest(name, self.raw.names.iter().map(String::as_str)) {
@@ -415,7 +417,8 @@ mod tests {
     use super::*;
 
     /// If two columns have the same text, the first one counts.
-    /// A channel is also found in another unit. A magnitude is a separate channel.
+    /// A channel is also found in a column that has another unit. The magnitude of a vector counts as a separate
+    /// channel.
     #[test]
     fn a_claim_is_found_by_its_text_or_by_its_channel() {
         let names = ["point.B.x_mm", "2*point.B.x_m", "point.B.x_mm", "point.B.x_m", "joint.A.f_N", "joint.B.fx_N"];

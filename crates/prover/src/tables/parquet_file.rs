@@ -118,7 +118,7 @@ fn is_number(column: &ColumnDescriptor) -> bool {
         }
 }
 
-/// Adds the values of a part of a column, one for each row.
+/// Appends the values of a part of a column, one value for each row.
 fn values_of(
     part: ColumnReader,
     of: &ColumnDescriptor,
@@ -149,8 +149,8 @@ fn values_of(
     }
 }
 
-/// Adds the values of a part of a column that has one type of value. If the level of a row is not `full`, the row has
-/// no value.
+/// Appends the values of a part of a column that has one type of value. If the level of a row is not `full`, the row
+/// has no value.
 fn taken<T: DataType>(
     mut part: ColumnReaderImpl<T>,
     full: i16,

@@ -37,8 +37,8 @@ pub(super) struct Stand {
     pub(super) normal: Option<Vec2>,
 }
 
-/// Transfer of force and moment through a joint of the tree, from the needs of its outer link to the needs of its inner
-/// link.
+/// Weights of a joint of the tree: they give the force and moment that the inner link must receive so that the joint
+/// can transmit what the outer link needs.
 /// Each part of the transfer is a weighted sum of the three numbers x, y and moment.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pass {
@@ -50,7 +50,8 @@ pub(super) struct Pass {
     moment: Term,
 }
 
-/// One term of a linear function for force and moment about a link's mass centre: the parts x, y and z.
+/// One term of a linear function for a force and a moment about a link's mass centre: x and y of the force, then the
+/// moment.
 pub(super) type Term = [f64; 3];
 
 impl Seam {
@@ -127,7 +128,7 @@ impl Stand {
         self.normal.map_or(0.0, |normal| -cross(self.arms[1], turned(normal)) * thrust)
     }
 
-    /// Force (N) and moment about the joint's point (N m) that the outer link needs from a joint of the tree.
+    /// Force (N) and moment about the joint's point (N m) that a joint of the tree exerts on its outer link.
     #[inline]
     pub(super) fn reaction(&self, [x, y, moment]: Term) -> (Vec2, f64) {
         match self.normal {
@@ -146,7 +147,8 @@ impl Pass {
         weighed(&self.left_over, term)
     }
 
-    /// Adds the part that the joint transmits to the outer link to the needs of the inner link.
+    /// Adds the force and moment that the joint transmits to the outer link to the force and moment that the inner link
+    /// needs.
     #[inline]
     pub(super) fn on(&self, term: &Term, sum: &mut Term) {
         let [xx, xy, yy] = self.force;

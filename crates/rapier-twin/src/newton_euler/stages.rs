@@ -9,7 +9,7 @@ use linkage::math::dense::Lu;
 #[derive(Clone, Debug)]
 pub(super) struct Limb {
     pub(super) seam: Seam,
-    /// Index of the drive of the joint.
+    /// Index of the drive that drives the joint; `None` if the joint is not driven.
     pub(super) drive: Option<usize>,
     /// Whether the drive acts on both links of the joint, so that the joint transmits any force and moment.
     pub(super) is_rigid: bool,
@@ -67,7 +67,8 @@ impl Row {
 }
 
 /// Order in which the components are computed.
-/// Cut joints whose two components are the only unknowns of two equations come first; for dyads this is enough.
+/// Cut joints whose two components are the only unknowns of two equations come first; for dyads, these pairs give all
+/// components.
 /// Then all remaining components are computed together.
 pub(super) fn stages(limbs: &[Limb], cut: &[Range<usize>]) -> Vec<Stage> {
     let mut left: Vec<usize> = (0..limbs.len()).rev().filter(|&number| limbs[number].drive.is_none()).collect();

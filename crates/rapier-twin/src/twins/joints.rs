@@ -12,11 +12,11 @@ use linkage::input::Input;
 use linkage::math::Vec2;
 use linkage::mechanism::{GROUND, Joint, JointKind, Link, LinkId};
 
-/// Joint frequency (Hz). It is so high that joints are rigid up to rounding.
-/// The default, 1e6 Hz, adds 6 % to the closure gap at a step of 1e-5 s.
+/// Joint frequency (Hz), so high that joints are rigid up to rounding.
+/// Rapier's default, 1e6 Hz, adds 6 % to the closure gap at a step of 1e-5 s.
 const JOINT_FREQUENCY: f64 = 1e12;
 
-/// Damping of a velocity motor (N m s/rad). It is so high that the prescribed speed is kept up to rounding.
+/// Damping of a velocity motor (N m s/rad), so high that the prescribed speed is kept up to rounding.
 pub(super) const RIGID_MOTOR: f64 = 1e30;
 
 /// Rapier's vector.

@@ -122,8 +122,8 @@ impl World for Twin {
     fn set_drive(&mut self, drive: usize, omega: f64) {
         let motor = &self.motors[drive];
         let turn = omega * self.substep();
-        // A separate body turns by atan(omega dt) per substep, so its target speed is raised accordingly.
-        // Above one radian per substep, the body could not keep the speed anyway, so the speed is not raised.
+        // A separate body turns by atan(omega dt) per substep, so its target speed is raised to tan(omega dt) / dt.
+        // Above one radian per substep, the body cannot keep the prescribed speed, so the target speed is not raised.
         let is_angle = motor.axis == JointAxis::AngX;
         let omega = if is_angle && self.multibodies.is_empty() && turn.abs() < 1.0 {
             turn.tan() / self.substep()

@@ -10,7 +10,8 @@ impl Twin {
     /// Stores points of action and axes of the joints to be read.
     /// Points and axes are interpolated between the stored frames and the present frames.
     /// `share` is the weight of the present frames.
-    /// Rapier gives impulses in the axes at the start of the last substep, which lies between poses that can be read.
+    /// Rapier gives impulses in the axes at the start of the last substep. This instant lies between two poses that can
+    /// be read.
     /// Between these poses, frames are assumed to move along a straight line, with errors of second order.
     /// The errors of the impulses themselves are of first order.
     pub(super) fn keep_frames(&mut self, share: f64) {
@@ -48,14 +49,14 @@ impl Twin {
         let turning =
             |of: [f64; 2], other: [f64; 2]| of[0] * other[0] * inverse[0][1] + of[1] * other[1] * inverse[1][1];
         let lever = |along: Vec2| arms.map(|arm| cross(arm, along));
-        // Rapier makes a joint's rows orthogonal to each other only between separate bodies, so only their impulses are
-        // corrected.
+        // Rapier makes a joint's rows orthogonal to each other only if the joint connects separate bodies. The impulses
+        // of other joints are therefore not corrected.
         let is_orthogonal = self.multibodies.is_empty();
         let (force, moment) = match cut.joint.keeps_angle() {
             true => {
                 if is_orthogonal {
                     // Rapier made the row across the axis orthogonal to the row that keeps the angle.
-                    // The impulse of the angle's row is corrected accordingly.
+                    // The impulse of the row that keeps the angle is corrected for this orthogonalisation.
                     rows[2] -= rows[1] * turning(lever(across), [1.0; 2]) / turning([1.0; 2], [1.0; 2]);
                 }
                 (across * rows[1], rows[2])
@@ -63,7 +64,7 @@ impl Twin {
             false => {
                 if is_orthogonal {
                     // Rapier made the second row orthogonal to the first row. The impulse of the first row is corrected
-                    // accordingly.
+                    // for this orthogonalisation.
                     let mass = inverse[0][0] + inverse[1][0] + turning(lever(axis), lever(axis));
                     rows[0] -= rows[1] * turning(lever(axis), lever(across)) / mass;
                 }

@@ -144,7 +144,7 @@ impl Outline {
         if inside { (-least - self.radius, -away) } else { (least - self.radius, away) }
     }
 
-    /// Largest distance of a corner from the origin, with the rounding (m).
+    /// Largest distance of a corner from the origin, plus the radius of the rounding (m).
     #[must_use]
     pub fn extent(&self) -> f64 {
         self.corners.iter().map(|corner| corner.norm()).fold(0.0, f64::larger) + self.radius
@@ -192,8 +192,8 @@ fn check_simple(corners: &[Vec2]) -> Result<(), Flaw> {
         for j in i + 1..count {
             let is_next = j == i + 1 || (i == 0 && j == count - 1);
             let touch = if is_next {
-                // Neighbouring sides share a corner. If one side folds back onto the other side, they also touch
-                // elsewhere.
+                // Neighbouring sides share a corner. If one side folds back onto the other side, the two sides also
+                // touch elsewhere.
                 // The free end of one side then lies on the other side, so only the free ends are tested.
                 let (one, two) = if j == i + 1 { (side(i), side(j)) } else { (side(j), side(i)) };
                 [(one, two[1]), (two, one[0])].iter().any(|&(own, end)| (end - nearest(end, own)).norm() <= near)
@@ -291,7 +291,7 @@ fn triangles(corners: &[Vec2]) -> Option<Vec<[u32; 3]>> {
     Some(found)
 }
 
-/// Sine of the angle at the middle corner. It is positive where the polygon is convex.
+/// Sine of the angle at the middle corner. The sine is positive where the polygon is convex.
 fn sine([a, b, c]: [Vec2; 3]) -> f64 {
     cross(b - a, c - b) / ((b - a).norm() * (c - b).norm())
 }

@@ -31,7 +31,8 @@ pub struct ClearanceQuestion {
     pub bodies: Vec<ClearanceBody>,
     /// Pairs of bodies whose distance is requested, by their indices.
     pub pairs: Vec<[usize; 2]>,
-    /// The required clearance (m): the distance of every pair must be larger. `None` if no clearance is required.
+    /// The required clearance (m): the distance of every pair must exceed this value. `None` if no clearance is
+    /// required.
     pub wanted: Option<f64>,
     /// Tolerance of a smallest distance (m). The default is a millionth of the mechanism's size.
     pub tolerance: Option<f64>,
@@ -40,7 +41,7 @@ pub struct ClearanceQuestion {
 }
 
 impl ClearanceQuestion {
-    /// Largest distance of a corner from the origin of its frame, with the rounding (m).
+    /// Largest distance of a corner from the origin of its frame, plus the radius of the rounding (m).
     #[must_use]
     pub fn extent(&self) -> f64 {
         self.bodies.iter().map(|body| body.outline.extent()).fold(0.0, f64::larger)
@@ -72,7 +73,7 @@ pub fn are_joined(mechanism: &Mechanism, [a, b]: [LinkId; 2]) -> bool {
     if mechanism.joints().iter().any(|joint| joint.on(a).is_some() && joint.on(b).is_some()) {
         return true;
     }
-    // The search follows pins that lie at the same point of a link that they share.
+    // The search goes from one pin to another if both pins lie at one point of one link.
     let pins = mechanism.joints().iter().filter(|joint| joint.is_pin());
     for start in pins.filter_map(|joint| joint.on(a)) {
         let mut pin = vec![(a, start)];

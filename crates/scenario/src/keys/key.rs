@@ -129,7 +129,7 @@ impl ValueKind {
     pub(crate) const LIST_OF_LENGTHS: ValueKind = ValueKind::Quantities(&[&LENGTH]);
     pub(crate) const LIST_OF_TIMES: ValueKind = ValueKind::Quantities(&[&TIME]);
 
-    /// The same kind, restricted to quantities with values of the given sign.
+    /// This kind of value, restricted to quantities with values of the given sign.
     pub(crate) const fn of(self, sign: Sign) -> ValueKind {
         if let ValueKind::Quantity(families, _) = self { ValueKind::Quantity(families, sign) } else { self }
     }

@@ -116,7 +116,7 @@ fn every_key_of_the_table_is_read() {
     for section in sections() {
         // The same keys occur in several sections, for example positions and printed numbers. A single reader reads all
         // sections with the same keys.
-        // Therefore it suffices that the key is requested in one of these sections.
+        // It therefore suffices that a key is requested in one of the sections with the same keys.
         let alike = || sections().filter(|other| names(other) == names(section));
         for spelling in section.keys.iter().flat_map(super::FileKey::spellings) {
             if !alike().any(|own| asked.get(own.path).is_some_and(|keys| keys.contains(&spelling))) {

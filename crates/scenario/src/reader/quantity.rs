@@ -14,7 +14,7 @@ use linkage::error::{Error, ErrorKind, Result};
 type Spelled = (&'static UnitFamily, usize, &'static NamedUnit);
 
 /// Lower limit of the magnitude of a quantity in SI.
-/// Above this limit, squares and products with other quantities do not underflow.
+/// If all quantities exceed this limit, their squares and products do not underflow.
 const SMALLEST: f64 = 1e-100;
 
 impl<'a> TomlTable<'a> {
@@ -29,24 +29,27 @@ impl<'a> TomlTable<'a> {
         self.row(key).all_spellings().iter().any(|spelling| self.has(spelling))
     }
 
-    /// A quantity in SI, as its row describes it; `None` if the quantity is missing.
+    /// Value of a quantity in SI; `None` if the quantity is missing. The row of `key` states the allowed units and
+    /// signs.
     pub fn optional_si(&mut self, key: &str) -> Result<Option<f64>> {
         Ok(self.optional_si_of(key)?.map(|(_, value)| value))
     }
 
-    /// A quantity in SI, as its row describes it, with the family of its unit; `None` if the quantity is missing.
+    /// A quantity in SI and the family of its unit. The row of the quantity in the table of keys states the units and
+    /// the sign. `None` if the quantity is missing.
     pub fn optional_si_of(&mut self, key: &str) -> Result<Option<(&'static UnitFamily, f64)>> {
         let row = self.row(key);
         self.quantity_in(key, row.kind.families(), row.kind.sign())
     }
 
-    /// A list of quantities in SI, as its row describes it, with the family of the unit; `None` if the list is missing.
+    /// A list of quantities in SI and the family of their unit. The row of the list in the table of keys states the
+    /// units. `None` if the list is missing.
     pub fn optional_si_list(&mut self, key: &str) -> Result<Option<(&'static UnitFamily, Vec<f64>)>> {
         let family = self.row(key).kind.families()[0];
         Ok(self.optional_quantities(key, family)?.map(|values| (family, values)))
     }
 
-    /// A quantity in SI, as its row describes it.
+    /// Value of a quantity in SI. The row of `key` states the allowed units and signs.
     pub fn si(&mut self, key: &str) -> Result<f64> {
         let row = self.row(key);
         self.quantity(key, row.kind.families()[0], row.kind.sign())
@@ -86,7 +89,7 @@ impl<'a> TomlTable<'a> {
         Ok(Some((family, value)))
     }
 
-    /// The number of an entry in SI. Its sign and size must be allowed.
+    /// The number of an entry in SI. Returns an error if the sign or the size of the number is not allowed.
     fn allowed(&self, at: usize, unit: &NamedUnit, family: &UnitFamily, sign: Sign) -> Result<f64> {
         let entry = &self.entries[at];
         let number = self.finite(entry.key, entry.value)?;

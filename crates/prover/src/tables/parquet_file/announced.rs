@@ -90,7 +90,7 @@ struct Page {
 }
 
 impl Page {
-    /// Reads a header. Also returns its length (bytes).
+    /// Reads a header. Also returns the length of the header (bytes).
     fn read(from: impl Read) -> io::Result<(Self, u64)> {
         let mut page = Page::default();
         let mut tell = |depth: usize, [outer, field]: [i64; 2], found: Found| {
