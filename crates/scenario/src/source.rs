@@ -18,7 +18,8 @@ use linkage::mechanism::{LONGEST_NAME, is_unseen};
 /// Longest text (characters).
 const LONGEST_TEXT: usize = 10_000;
 
-/// Upper limit of the number of values in a file. It is estimated by the number of the characters `,` `=` `[` `{` `.`.
+/// Upper limit of the number of values in a file.
+/// The number of values is estimated by the number of the characters `,` `=` `[` `{` `.`.
 /// Every value needs some 200 bytes of memory, whatever its length in the file.
 /// The limit therefore also limits the memory, before the memory is used.
 const MOST_VALUES: usize = 2_000_000;

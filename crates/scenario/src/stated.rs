@@ -135,7 +135,7 @@ impl<'a> FileSections<'a> {
         let (drives, first) = drives.map_or((None, None), |(drives, first)| (Some(drives), Some(first)));
         let crank = first.or(crank).unwrap_or_default();
         // The sections after this line depend on numbers of the mechanism and of the drive.
-        // After a mistake in these numbers, the file therefore does not count as whole.
+        // After a mistake in these numbers, `faults.whole` is therefore false.
         faults.whole &= faults.is_empty();
         let clearance =
             clearance.and_then(|mut table| faults.read(&mut table, |table| clearance::read(table, &mechanism)));

@@ -132,7 +132,7 @@ impl<'a> TomlTable<'a> {
         Ok(value)
     }
 
-    /// The same as `instead`, for a name that no table of the file defines.
+    /// Does the same as `instead`, for a name that no table of the file defines.
     pub fn unknown_name<T>(&mut self, value: T, error: Error) -> Result<T> {
         if !self.goes_on {
             return Err(error);
