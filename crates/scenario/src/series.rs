@@ -135,8 +135,8 @@ impl Known<'_> {
     }
 }
 
-/// A time that exceeds the last instant by at most this fraction counts as the last instant, because the conversion
-/// between units is rounded.
+/// A time may exceed the last instant by this fraction of the last instant, because the conversion between units is
+/// rounded.
 const ROUNDING: f64 = 1e-12;
 
 const HELP: &str = sentences::A_NUMBER_HOLDS_AT_A_CRANK;

@@ -81,7 +81,8 @@ impl Simbody {
             accuracy: self.accuracy,
             tolerance: tolerance(case),
             time_scale: 1.0 / case.drives.top_speed(case.mechanism.size()),
-            // The local error is of fourth order in the step, so the number of steps is proportional to accuracy^(-1/4).
+            // The local error is of fourth order in the step. The number of steps is thus proportional to
+            // accuracy^(-1/4).
             steps: (MAX_STEPS * (Simbody::ACCURACY / self.accuracy).larger(1.0).powf(0.25)) as usize,
         }
     }
@@ -98,8 +99,8 @@ impl Engine for Simbody {
     }
 
     fn with(&self, settings: Settings) -> Box<dyn Engine> {
-        // Of the settings, only the resolution is used: Simbody has no sweeps, no substeps and no extrapolation, and only one method for
-        // reactions.
+        // Of the settings, only the resolution is used: Simbody has no sweeps, no substeps and no extrapolation, and
+        // only one method for reactions.
         let Settings { resolution: accuracy, sweeps: _, substeps: _, route: _, extrapolated: _ } = settings;
         Box::new(Simbody { accuracy })
     }

@@ -122,8 +122,8 @@ impl<'a> TomlTable<'a> {
         Error::all(self.faults.iter().cloned()).map_or(Ok(()), Err)
     }
 
-    /// If the reading continues after mistakes, notes an error and returns `value` in place of the wrong value. If not,
-    /// returns the error.
+    /// If the reading continues after mistakes, notes an error and returns `value` in place of the wrong value.
+    /// If the reading ends at the first mistake, returns the error.
     pub fn instead<T>(&mut self, value: T, error: Error) -> Result<T> {
         if !self.goes_on {
             return Err(error);
@@ -239,7 +239,7 @@ impl<'a> TomlTable<'a> {
         }
     }
 
-    /// The results without errors. Each error among the results is noted.
+    /// The values of all successful results. Each error among the results is noted.
     pub(super) fn sound<T>(&mut self, all: Vec<Result<T>>) -> Result<Vec<T>> {
         let sound = all.into_iter().map(|one| one.map(Some).or_else(|error| self.instead(None, error)));
         sound.filter_map(Result::transpose).collect()
