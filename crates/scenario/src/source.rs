@@ -104,7 +104,8 @@ impl<'a> Source<'a> {
             .help(sentences::DIVIDE_IT_OR_TAKE_A_COARSER))
     }
 
-    /// Checks all keys and texts of a table. They must not contain invisible characters or be longer than a limit.
+    /// Checks all keys and texts of a table.
+    /// Keys and texts must not contain invisible characters or be longer than a limit.
     ///
     /// Titles, sources and names go into reports, tables, drawings and recordings.
     /// A line break in a title would forge a line of a report. An escape character would command a terminal.

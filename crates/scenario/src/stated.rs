@@ -181,7 +181,8 @@ impl FileSections<'_> {
     }
 }
 
-/// The crank angle in `[start]`. It is required if the first drive moves a crank, and refused for any other drive.
+/// The crank angle in `[start]`.
+/// The crank angle is required if the first drive moves a crank, and refused if the first drive moves no crank.
 /// `input` is the input of the first drive, if it is known.
 fn crank_of(start: &mut TomlTable, input: Option<Input>) -> Result<Option<f64>> {
     match input {

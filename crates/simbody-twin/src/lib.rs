@@ -1,6 +1,6 @@
 //! Simbody as an engine: bodies on mobilizers, loops closed by constraints, an integrator that controls its error.
-//! This engine shares no code with the other engines. From the case it uses only geometry, masses, drive and the pose
-//! at t = 0.
+//! This engine shares no code with the other engines. From the case the engine uses only geometry, masses, drive and
+//! the pose at t = 0.
 //! See docs/numerics/twins.md.
 
 mod free;
