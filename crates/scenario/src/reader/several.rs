@@ -7,7 +7,7 @@ use super::{Entry, TomlTable};
 use crate::words::{choice, nearest};
 use linkage::error::{Error, ErrorKind, Result};
 
-/// Upper limit of the number of unknown keys in a table for which the nearest known key is searched.
+/// The nearest known key is searched for at most this number of unknown keys in a table.
 const MOST: usize = 20;
 
 /// The mistakes of a file.
@@ -204,13 +204,14 @@ impl<'a> TomlTable<'a> {
         !self.used.contains(&entry.key) && !self.asked.iter().any(|asked| asked == entry.key)
     }
 
-    /// Whether a table or an array is present that no reader requested.
+    /// Whether the table contains a table or an array that no reader requested.
     pub fn has_unknown_table(&self) -> bool {
         let is_table = |entry: &&Entry| matches!(entry.value.get_ref(), DeValue::Table(_) | DeValue::Array(_));
         self.entries.iter().filter(is_table).any(|entry| self.is_unknown(entry))
     }
 
-    /// Ends the reading. Every key that was not requested is an error. The error names the nearest known key.
+    /// Ends the reading. Every key that was not requested is an error.
+    /// The error names the nearest known key, or all known keys if none is near.
     pub fn finish(&mut self) -> Result<()> {
         #[cfg(test)]
         asked::put(&self.section, &self.asked);
