@@ -16,7 +16,7 @@ pub(super) struct Quantity {
     pub(super) name: &'static str,
     /// Symbol of its unit.
     pub(super) unit: &'static str,
-    /// Whether the quantity belongs to a slide as the input. Otherwise it belongs to an angle.
+    /// Whether the input to which the quantity is reduced is a slide. If not, the input is an angle.
     of_slide: bool,
     tree: fn(&Case) -> Found,
 }

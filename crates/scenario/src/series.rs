@@ -135,8 +135,8 @@ impl Known<'_> {
     }
 }
 
-/// A time may exceed the last instant by this fraction of the last instant: the rounding error of a conversion between
-/// units.
+/// A time may exceed the last instant by this fraction of the last instant, because the conversion between units is
+/// rounded.
 const ROUNDING: f64 = 1e-12;
 
 const HELP: &str = sentences::A_NUMBER_HOLDS_AT_A_CRANK;

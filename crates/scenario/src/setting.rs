@@ -7,7 +7,7 @@ use linkage::error::{Error, Place};
 pub enum SettingOrigin {
     /// In a scenario file: the dotted key, and its position.
     Key(String, Place),
-    /// As this argument of a command.
+    /// On the command line, by this argument.
     Argument(&'static str),
     /// In code.
     Code,

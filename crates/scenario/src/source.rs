@@ -18,7 +18,8 @@ use linkage::mechanism::{LONGEST_NAME, is_unseen};
 /// Longest text (characters).
 const LONGEST_TEXT: usize = 10_000;
 
-/// Upper limit of the number of values in a file. It is estimated by the number of the characters `,` `=` `[` `{` `.`.
+/// Upper limit of the number of values in a file.
+/// The number of values is estimated by the number of the characters `,` `=` `[` `{` `.`.
 /// Every value needs some 200 bytes of memory, whatever its length in the file.
 /// The limit therefore also limits the memory, before the memory is used.
 const MOST_VALUES: usize = 2_000_000;
@@ -103,7 +104,8 @@ impl<'a> Source<'a> {
             .help(sentences::DIVIDE_IT_OR_TAKE_A_COARSER))
     }
 
-    /// Checks all keys and texts of a table. They must not contain invisible characters or be longer than a limit.
+    /// Checks all keys and texts of a table.
+    /// Keys and texts must not contain invisible characters or be longer than a limit.
     ///
     /// Titles, sources and names go into reports, tables, drawings and recordings.
     /// A line break in a title would forge a line of a report. An escape character would command a terminal.

@@ -44,7 +44,7 @@ pub const SECTIONS: &[Section] = &[
     ]),
 ];
 
-/// Whether groups that the file leaves undecided are placed anyway and listed.
+/// Whether groups whose assembly mode the file does not state are placed anyway and listed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Lists {
     No,

@@ -135,7 +135,7 @@ impl<'a> FileSections<'a> {
         let (drives, first) = drives.map_or((None, None), |(drives, first)| (Some(drives), Some(first)));
         let crank = first.or(crank).unwrap_or_default();
         // The sections after this line depend on numbers of the mechanism and of the drive.
-        // After a mistake in these numbers, the file therefore does not count as whole.
+        // After a mistake in these numbers, `faults.whole` is therefore false.
         faults.whole &= faults.is_empty();
         let clearance =
             clearance.and_then(|mut table| faults.read(&mut table, |table| clearance::read(table, &mechanism)));
@@ -181,7 +181,8 @@ impl FileSections<'_> {
     }
 }
 
-/// The crank angle in `[start]`. It is required if the first drive moves a crank, and refused for any other drive.
+/// The crank angle in `[start]`.
+/// The crank angle is required if the first drive moves a crank, and refused if the first drive moves no crank.
 /// `input` is the input of the first drive, if it is known.
 fn crank_of(start: &mut TomlTable, input: Option<Input>) -> Result<Option<f64>> {
     match input {

@@ -15,15 +15,15 @@ use linkage::input::Input;
 use linkage::mechanism::{Joint, JointId, Link, LinkId, Mechanism, TransmissionDesign, TransmissionKind};
 use std::f64::consts::FRAC_PI_2;
 
-/// Reads the keys of a type of transmission. The link is the second member.
-/// Also returns the units of the lifts of a cam, if it states units.
+/// Reads the keys of a type of transmission. The argument of type [`Link`] is the second member.
+/// For a cam whose lifts have units, also returns these units.
 type ReadTransmission = fn(&mut TomlTable, &Link) -> Result<(TransmissionKind, Option<&'static UnitFamily>)>;
 
 /// Types of transmissions, each with its reader.
 const TYPES: Words<ReadTransmission> =
     &[("gears", gears), ("rack", rack), ("screw", screw), ("belt", belt), ("cam", cam::read)];
 
-/// Words for the contact of gears, each with the sign of the larger number of teeth.
+/// Words for the contact of gears, each with the sign that the larger number of teeth has in equations.
 const CONTACTS: Words<f64> = &[("external", 1.0), ("internal", -1.0)];
 
 /// Words for the strands of a belt, and whether they cross.

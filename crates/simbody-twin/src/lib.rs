@@ -1,6 +1,6 @@
 //! Simbody as an engine: bodies on mobilizers, loops closed by constraints, an integrator that controls its error.
-//! This engine shares no code with the other engines. From the case it uses only geometry, masses, drive and the pose
-//! at t = 0.
+//! This engine shares no code with the other engines. From the case the engine uses only geometry, masses, drive and
+//! the pose at t = 0.
 //! See docs/numerics/twins.md.
 
 mod free;
@@ -25,7 +25,7 @@ use model::Linkage;
 const LARGEST_GAP: f64 = 1e-9;
 /// Number of internal steps allowed per radian of crank angle at the default accuracy.
 /// If two instants are less than a radian apart, this number of steps is allowed between the two instants.
-/// `ov7_base` takes 200 steps, and 14 000 steps at an accuracy of 1e-14.
+/// `ov7_base` takes 200 steps at the default accuracy, and 14 000 steps at an accuracy of 1e-14.
 /// Without a limit the integrator would need hours for tiny steps near a dead point.
 const MAX_STEPS: f64 = 2000.0;
 
@@ -81,7 +81,8 @@ impl Simbody {
             accuracy: self.accuracy,
             tolerance: tolerance(case),
             time_scale: 1.0 / case.drives.top_speed(case.mechanism.size()),
-            // The local error is of fourth order in the step, so the number of steps grows with accuracy^(-1/4).
+            // The local error is of fourth order in the step. The number of steps is thus proportional to
+            // accuracy^(-1/4).
             steps: (MAX_STEPS * (Simbody::ACCURACY / self.accuracy).larger(1.0).powf(0.25)) as usize,
         }
     }
@@ -98,8 +99,8 @@ impl Engine for Simbody {
     }
 
     fn with(&self, settings: Settings) -> Box<dyn Engine> {
-        // Only the resolution is used: Simbody has no sweeps, no substeps and no extrapolation, and only one method for
-        // reactions.
+        // Of the settings, only the resolution is used: Simbody has no sweeps, no substeps and no extrapolation, and
+        // only one method for reactions.
         let Settings { resolution: accuracy, sweeps: _, substeps: _, route: _, extrapolated: _ } = settings;
         Box::new(Simbody { accuracy })
     }

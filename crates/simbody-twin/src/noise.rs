@@ -20,7 +20,7 @@ const ULPS: f64 = 20.0;
 /// The bound depends on the constraint tolerance `tolerance` (m) and the integrator's accuracy `accuracy`.
 ///
 /// In a free motion the integrator contributes too: each step may have an error (rad) equal to the accuracy.
-/// Every output time ends a step. With dense output times a smaller accuracy therefore hardly reduces the errors.
+/// Every output time ends a step. If output times are dense, a tighter accuracy therefore hardly reduces the errors.
 /// On the shipped run-ups the errors are 5e-9 to 5e-7 of the channel's scale at an accuracy of 1e-8.
 ///
 /// A constraint error rotates a link by an angle equal to the constraint error divided by the link's length.

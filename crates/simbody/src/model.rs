@@ -74,7 +74,7 @@ impl SimbodyModel {
         self.run_under(settings, None)
     }
 
-    /// The same as [`SimbodyModel::run`], with forces from `act` on the bodies.
+    /// Does the same as [`SimbodyModel::run`], with forces from `act` on the bodies.
     ///
     /// # Errors
     /// The errors of [`SimbodyModel::run`].

@@ -9,15 +9,15 @@ pub const GROUND: usize = 0;
 /// Positions (m) and unit vectors of axes are in the frame of the body to which they belong.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SimbodyJoint {
-    /// A revolute joint. Its coordinate is the angle of the child relative to its parent (rad).
+    /// A revolute joint. The coordinate of the joint is the angle of the child minus that of the parent (rad).
     Pin {
         /// Position on the parent (m).
         on_parent: [f64; 2],
         /// Position on the child (m).
         on_child: [f64; 2],
     },
-    /// A prismatic joint. Its coordinate is the distance along the axis from the parent's point to the child's point
-    /// (m).
+    /// A prismatic joint.
+    /// The coordinate of the joint is the distance along the axis from the parent's point to the child's point (m).
     Slider {
         /// Position on the parent (m).
         on_parent: [f64; 2],
@@ -60,7 +60,7 @@ pub struct Law {
 /// A body of the tree.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SimbodyBody {
-    /// The parent body. It is a body that was added before, or [`GROUND`].
+    /// The parent body: a body that was added before, or [`GROUND`].
     pub parent: usize,
     /// The joint to the parent.
     pub joint: SimbodyJoint,

@@ -7,7 +7,7 @@ use super::{Entry, TomlTable};
 use crate::words::{choice, nearest};
 use linkage::error::{Error, ErrorKind, Result};
 
-/// Upper limit of the number of unknown keys in a table for which the nearest known key is searched.
+/// The nearest known key is searched for at most this number of unknown keys in a table.
 const MOST: usize = 20;
 
 /// The mistakes of a file.
@@ -122,8 +122,8 @@ impl<'a> TomlTable<'a> {
         Error::all(self.faults.iter().cloned()).map_or(Ok(()), Err)
     }
 
-    /// If the reading continues after mistakes, notes an error and returns `value` in place of the wrong value. If not,
-    /// returns the error.
+    /// If the reading continues after mistakes, notes an error and returns `value` in place of the wrong value.
+    /// If the reading ends at the first mistake, returns the error.
     pub fn instead<T>(&mut self, value: T, error: Error) -> Result<T> {
         if !self.goes_on {
             return Err(error);
@@ -132,7 +132,7 @@ impl<'a> TomlTable<'a> {
         Ok(value)
     }
 
-    /// The same as `instead`, for a name that no table of the file defines.
+    /// Does the same as `instead`, for a name that no table of the file defines.
     pub fn unknown_name<T>(&mut self, value: T, error: Error) -> Result<T> {
         if !self.goes_on {
             return Err(error);
@@ -204,13 +204,14 @@ impl<'a> TomlTable<'a> {
         !self.used.contains(&entry.key) && !self.asked.iter().any(|asked| asked == entry.key)
     }
 
-    /// Whether a table or an array is present that no reader requested.
+    /// Whether the table contains a table or an array that no reader requested.
     pub fn has_unknown_table(&self) -> bool {
         let is_table = |entry: &&Entry| matches!(entry.value.get_ref(), DeValue::Table(_) | DeValue::Array(_));
         self.entries.iter().filter(is_table).any(|entry| self.is_unknown(entry))
     }
 
-    /// Ends the reading. Every key that was not requested is an error. The error names the nearest known key.
+    /// Ends the reading. Every key that was not requested is an error.
+    /// The error names the nearest known key, or all known keys if none is near.
     pub fn finish(&mut self) -> Result<()> {
         #[cfg(test)]
         asked::put(&self.section, &self.asked);
@@ -239,7 +240,7 @@ impl<'a> TomlTable<'a> {
         }
     }
 
-    /// The results without errors. Each error among the results is noted.
+    /// The values of all successful results. Each error among the results is noted.
     pub(super) fn sound<T>(&mut self, all: Vec<Result<T>>) -> Result<Vec<T>> {
         let sound = all.into_iter().map(|one| one.map(Some).or_else(|error| self.instead(None, error)));
         sound.filter_map(Result::transpose).collect()

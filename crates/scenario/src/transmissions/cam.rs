@@ -32,7 +32,8 @@ const CURVES: Words<CamCurve> = &[
 ];
 
 /// Angles of the cam count as equal if they differ by less than this limit (rad).
-/// The ends of a formula count as equal if they differ by at most this fraction of the formula's range.
+/// The values of a formula at the beginning and at the end of a turn count as equal if they differ by at most this
+/// fraction of the formula's range.
 const EQUAL: f64 = 1e-9;
 
 /// Description of the pieces of a law.
@@ -123,7 +124,7 @@ fn lifts(table: &mut TomlTable) -> Result<Law> {
     }
 }
 
-/// The lift (rad or m), if its units agree with those of the lifts before it.
+/// The lift (rad or m), if its units agree with those of the lifts that were read before it.
 fn lift_in(
     table: &mut TomlTable,
     lift: Option<(&'static UnitFamily, f64)>,
