@@ -70,7 +70,7 @@ impl MemoryArgs {
         self.memory * 1e9
     }
 
-    /// Reports the memory that a run needs, if the need is large but allowed.
+    /// Reports the memory that a run needs, if this memory is large but within the limit.
     pub(super) fn tell(self, case: &Case, needed: f64) {
         if needed >= TOLD && needed <= self.bytes() {
             output::note(&memory::told(case, needed));
@@ -84,7 +84,7 @@ impl MemoryArgs {
 #[derive(Clone, Debug)]
 pub(super) struct SettingArgs {
     settings: EngineSettings,
-    /// The first given option.
+    /// The first option that the user gave.
     first: Option<&'static str>,
 }
 

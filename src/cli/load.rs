@@ -81,7 +81,7 @@ pub(super) fn to_list(file: &Path, asked: &StartRequest) -> Result<(Scenario, Ve
     Scenario::parse_to_list(&text(file)?, named(file), asked).map_err(|error| of_mode(asked, error))
 }
 
-/// The readable part of the mechanism in a file that cannot be assembled.
+/// The readable part of a scenario file whose mechanism is incomplete or cannot be assembled.
 pub(super) fn draft(file: &Path, asked: &StartRequest) -> Result<Draft> {
     Draft::parse(&text(file)?, named(file), asked)
 }

@@ -63,7 +63,7 @@ impl Drawn {
         Ok(drawn?.with_unknown_traces(wish))
     }
 
-    /// The readable part of a mechanism whose file is not a valid scenario, because of an error.
+    /// The readable part of a mechanism, with the `error` because of which its file is not a valid scenario.
     pub(crate) fn of_draft(draft: Draft, wish: &PictureOptions, error: Error) -> Result<Drawn> {
         let when = wish.at.unwrap_or(When::Crank(draft.crank));
         // For links that cannot move, a missing drive is no error.

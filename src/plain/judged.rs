@@ -23,7 +23,7 @@ linkage::words! {
 }
 
 impl Grade {
-    /// The one of three values that belongs to this grade, in the order of the grades.
+    /// Selects the value for this grade from three values, which have the order of the grades.
     pub(crate) fn of<T>(self, [agree, open, disagree]: [T; 3]) -> T {
         match self {
             Grade::Agree => agree,

@@ -7,7 +7,7 @@ use linkage::trajectory::Stage;
 use linkage::work::Work;
 use prover::run::{LedgerEntry, Proof};
 
-/// The page of one proof. `further` names parts of the work that the command adds, such as the recording.
+/// The text about one proof. `further` has the work of the command besides the proof, such as the recording.
 #[must_use]
 pub fn text(proof: &Proof, further: &[LedgerEntry]) -> String {
     let case = &proof.scene.case;
