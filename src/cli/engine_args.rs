@@ -56,7 +56,7 @@ pub(super) struct EngineArgs {
 #[derive(Clone, Copy, Debug, clap::Args)]
 #[group(skip)]
 pub(super) struct MemoryArgs {
-    /// Memory allowed in GB for everything that runs at the same time; a run does not begin if its estimate is higher
+    /// Memory allowed in GB for everything that runs at the same time; a run does not begin if it would need more
     #[arg(long, value_name = "GB", default_value = "4", allow_hyphen_values = true, value_parser = number::positive)]
     memory: f64,
 }

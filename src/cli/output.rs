@@ -69,7 +69,7 @@ pub(super) fn page(text: &str) -> std::result::Result<PathBuf, String> {
     }
 }
 
-/// A directory for results; it is created with the first result.
+/// A directory for results. The command creates the directory when it writes the first result.
 pub(super) fn directory(text: &str) -> std::result::Result<PathBuf, String> {
     let path = PathBuf::from(text);
     files::may_fill(&path)?;
@@ -100,7 +100,7 @@ pub(super) fn make(text: &str, to: &Path) -> Result<()> {
     make_by(files::sealed(text, to).as_bytes(), to, &files::is_sealed)
 }
 
-/// Like [`make`], in the working directory; then prints the name, because the user did not choose it.
+/// Writes a file to the working directory like [`make`], then prints its name, because the user did not choose it.
 pub(super) fn make_here(text: &str, name: &str) -> Result<()> {
     make(text, Path::new(name))?;
     print(&format!("{name}\n"))

@@ -85,7 +85,7 @@ pub struct JudgedNumber<'a> {
     pub worst: Option<f64>,
 }
 
-/// All judged numbers: first the checks of the sides.
+/// All judged numbers of a proof: first the checks of the analytic sides.
 /// Then for each engine its channels, the forces that it exerts itself, and its checks.
 pub fn of(proof: &Proof) -> Vec<JudgedNumber<'_>> {
     let of_engine = |engine| of_engine(engine).chain(checks(Some(engine), &engine.checks));

@@ -28,7 +28,7 @@ pub fn text(proof: &Proof, further: &[LedgerEntry]) -> String {
     text
 }
 
-/// The requested channels, in short.
+/// One line with the requested stages or channels, and the number of instants.
 fn asked(case: &Case) -> String {
     let (own, all) = (case.channels(), case.all_channels().len());
     let stages: Vec<&str> = Stage::ALL.into_iter().filter(|&stage| case.wanted.has(stage)).map(Stage::name).collect();

@@ -81,8 +81,8 @@ fn picture(view: &View) -> Value {
 fn graph(plot: &Plot) -> Value {
     json!({
         "foxglovePanelTitle": plot.title, "lichtblickPanelTitle": plot.title, "title": plot.title,
-        // The viewer draws the first path last. The lines are reversed, so that the engines are in front of the
-        // reference.
+        // The viewer draws the first path of the list last, so the list is reversed. The engines are then in front of
+        // the reference.
         "paths": list(plot.lines.iter().rev(), path), "showXAxisLabels": true, "showYAxisLabels": true,
         "showLegend": plot.lines.len() > 1, "legendDisplay": "floating", "showPlotValuesInLegend": false,
         "isSynced": true, "xAxisVal": "timestamp", "sidebarDimension": 240,

@@ -14,7 +14,7 @@ use scenario::Scenario;
 
 /// The `[engine]` section that a scenario needs for the best settings.
 pub(crate) struct Section<'a> {
-    /// The section itself.
+    /// Text of the section.
     pub(crate) text: &'a str,
     /// The scenario's file.
     pub(crate) file: &'a Path,

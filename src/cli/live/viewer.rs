@@ -25,8 +25,8 @@ const TICK: Duration = Duration::from_millis(10);
 const GREETING: Duration = Duration::from_secs(5);
 /// Time limit for sending data to a viewer.
 const PATIENCE: Duration = Duration::from_secs(20);
-/// Upper limit of the time counted between two readings of the clock.
-/// A slow viewer therefore does not receive all missed messages at once.
+/// Largest time by which playback advances between two readings of the clock.
+/// After a pause, a slow viewer therefore does not receive all missed messages at once.
 const MOST: Duration = Duration::from_millis(100);
 /// Largest request (bytes).
 const LARGEST: usize = 1 << 20;
