@@ -251,7 +251,7 @@ fn of_guess(draft: &Draft) -> Option<String> {
 }
 
 /// Coordinates of the drives at an instant.
-/// If the time is not known, as in a free motion, further drives stand at their start.
+/// If the time is not known, as in a free motion, all drives except the first have their coordinates at the start.
 fn angles(drives: &[Drive], when: When) -> Vec<f64> {
     let at = drives.first().map(|drive| when.grid(drive)).unwrap_or_default();
     let angle = |(index, drive): (usize, &Drive)| {

@@ -118,8 +118,8 @@ impl<'a> Viewer<'a> {
         }
         let mut clock = None;
         for told in due.messages.map(|index| reel.message(index)) {
-            // Viewers date messages by the server's clock, not by the messages' log times. The server's clock is
-            // therefore sent before the messages of each log time.
+            // Viewers date a message by the last time that the server announced, not by the message's own log time.
+            // The server therefore announces each log time before it sends the messages with this log time.
             if clock != Some(told.time) {
                 self.send(live::time(told.time))?;
                 clock = Some(told.time);

@@ -94,8 +94,8 @@ fn grouped(proof: &Proof, tell: Tell) -> Vec<Reason> {
 }
 
 /// Key under which equivalent reasons are counted once.
-/// For an inconclusive verdict it is the reason without its numbers.
-/// For any other verdict it is the cause or, if the reason states none, the name without its side and channel.
+/// For an inconclusive verdict, the key is the reason without its numbers.
+/// For any other verdict, it is the cause or, if the reason states none, the name without its side and channel.
 fn key(name: &str, verdict: &Verdict, reason: &str) -> String {
     let bare = name.replace(" (assur)", "").replace(" (newton)", "");
     let channel = bare.split([' ', '(']).next().unwrap_or_default();

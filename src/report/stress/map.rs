@@ -1,4 +1,4 @@
-//! The map of a family as SVG: errors and bounds of all parties over the varied parameter.
+//! The map of a stress family as SVG: errors and bounds of all solvers and engines over the varied parameter.
 //!
 //! Every party has a separate colour and mark; the filling of a mark shows the verdict.
 
