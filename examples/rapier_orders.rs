@@ -1,4 +1,5 @@
-//! Errors and orders of Rapier's builds and routes against the reference, as `docs/rapier.md` shows them.
+//! Errors against the reference, and orders of convergence, of Rapier's builds and routes.
+//! The tables of `docs/rapier.md` come from this example.
 //!
 //! `cargo run --release --example rapier_orders -- SCENARIO DEG [ENGINE,..] [ROUTE,..] [plain|extrapolated] [SWEEPS]`
 //!

@@ -204,8 +204,8 @@ mod tests {
     /// The code of the solvers, of the scenario or of the documents does the work of these commands.
     const ONLY_HERE: [&str; 9] = ["completions", "docs", "inspect", "list", "man", "new", "schema", "solve", "view"];
 
-    /// A command's name leads directly to its code: to `src/cli/NAME.rs`, and to the module `NAME` of the crate that
-    /// does the work.
+    /// The code of the command `NAME` is in `src/cli/NAME.rs`, and in the module `NAME` of the crate that does the
+    /// work.
     #[test]
     fn every_command_has_a_room_of_its_name() {
         let top = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -244,7 +244,7 @@ mod tests {
         found
     }
 
-    /// The words of a line from `linkproof` to the end of the command, which is marked by a sign such as a pipe or `;`.
+    /// The words of a line from `linkproof` to the end of the command. A pipe, `;` or a similar sign ends the command.
     /// For a line with `cargo run`, the words begin at `--`.
     fn command(line: &str) -> Option<Vec<String>> {
         let words = shlex::split(line).unwrap_or_else(|| panic!("no shell understands {line}"));

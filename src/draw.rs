@@ -40,7 +40,7 @@ pub fn draw(scenario: Scenario, wish: &PictureOptions, medium: Medium) -> Result
     }
 }
 
-/// The picture of several files; files with faults are drawn as far as possible.
+/// The picture of several files. If a file has faults, its mechanism is drawn as far as possible.
 pub(crate) fn picture(all: &[Drawn], wish: &PictureOptions, medium: Medium) -> Result<Vec<u8>> {
     let frames = medium.frames(wish);
     let count: usize = all.iter().map(|own| if wish.each_mode { own.shots.len() } else { 1 }).sum();

@@ -1,7 +1,7 @@
 //! Plain text of a proof, its diagnosis and an error.
 //! The text is the message of a failed test, and the common part of all reports.
 
-/// Adds a line to a text: a format with its values, or a sentence.
+/// Adds a line to a text. The line is a format string with its values, or a complete sentence.
 macro_rules! say {
     ($text:expr, $format:literal $($values:tt)*) => {{
         use std::fmt::Write as _;
@@ -13,7 +13,7 @@ macro_rules! say {
     };
 }
 
-/// Appends to the last line of a text: a format with its values, or a sentence.
+/// Appends words to the last line of a text. They are a format string with its values, or a complete sentence.
 macro_rules! put {
     ($text:expr, $format:literal $($values:tt)*) => {{
         use std::fmt::Write as _;

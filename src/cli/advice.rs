@@ -1,9 +1,9 @@
-//! Advice worded for the command line: it names options and commands.
+//! Advice in the words of the command line: the text names options and commands.
 
 use crate::sentences;
 use linkage::error::{Advice, rounded_up};
 
-/// Words advice for a user of the command line.
+/// Puts advice into words for a user of the command line.
 pub(super) fn told(advice: &Advice) -> String {
     match advice {
         Advice::SmallerStep { to } => sentences::choose_a_smaller_time_step(&option("--dt", *to)),

@@ -162,7 +162,8 @@ fn put(out: &Path, found: &Bench, machine: &report::Machine) -> Result<()> {
     Ok(())
 }
 
-/// The command in a repeatable form; if the scenarios are all files of a directory, one pattern replaces them.
+/// The command, so that a user can repeat it.
+/// If the scenarios are all files of a directory, one pattern replaces their names.
 fn command(args: &Args) -> String {
     let files: Vec<String> = args.files.iter().map(|file| file.to_string_lossy().into_owned()).collect();
     let directory = args.files[0].parent().unwrap_or(Path::new("."));
@@ -190,7 +191,7 @@ fn quoted(word: &str) -> String {
     }
 }
 
-/// The directory, relative to the page, for links.
+/// Path of the directory `directory` relative to the page `page`, for the links of the page.
 fn seen_from(page: &Path, directory: &Path) -> String {
     let beside = page.parent().and_then(|parent| directory.strip_prefix(parent).ok()).unwrap_or(directory);
     let text = beside.to_string_lossy();

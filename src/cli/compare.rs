@@ -128,7 +128,7 @@ pub(super) fn compare(args: &Args) -> Result<u8> {
     check_parties(args)?;
     let mut second_mapping = mapping(&args.map, "--map")?;
     second_mapping.allowed.extend(args.rel.iter().chain(&args.rel_value).chain(&args.abs).cloned());
-    // The first party has a separate mapping, or the command's mapping if only the first party is a table.
+    // The first party has the mapping of `--map-a`. If only the first party is a table, it has the mapping of `--map`.
     let has_own = !args.map_a.is_empty() || is_table(&args.second);
     let first_mapping = if has_own { mapping(&args.map_a, "--map-a")? } else { second_mapping.clone() };
     let second = party(args, &args.second, &args.first, &second_mapping)?;
@@ -161,7 +161,7 @@ pub(super) fn compare(args: &Args) -> Result<u8> {
     Ok(graver(exit_code::of(&found.verdict), written.code()))
 }
 
-/// Refuses options that do not apply to these parties.
+/// Refuses options that do not apply to the two compared parties, for example `--map` without a table.
 fn check_parties(args: &Args) -> Result<()> {
     let tables = [&args.first, &args.second].map(|path| is_table(path));
     let has_recording =
@@ -188,7 +188,7 @@ fn is_table(path: &Path) -> bool {
     !path.extension().is_some_and(|ending| ending == "toml" || ending == "mcap")
 }
 
-/// The mapping given by lines and files.
+/// The mapping from the values of an option: each value is a line `EXPR=CHANNEL` or a mapping file.
 fn mapping(lines: &[String], option: &str) -> Result<Mapping> {
     let mut mapping = Mapping::default();
     for line in lines {

@@ -19,7 +19,7 @@ macro_rules! pages {
     };
 }
 
-/// Names and texts.
+/// Names and texts of the documentation pages.
 static PAGES: &[(&str, &str)] = pages! {
     "bench" "clearance" "compare" "draw" "engines" "extending" "findings" "foreign" "formulas" "gallery" "guide"
     "machines" "mjcf" "mutate" "notation" "numerics/bounds" "numerics/change_points" "numerics/diagnosis"

@@ -56,7 +56,7 @@ pub(super) struct EngineArgs {
 #[derive(Clone, Copy, Debug, clap::Args)]
 #[group(skip)]
 pub(super) struct MemoryArgs {
-    /// Memory allowed in GB for everything that runs at the same time; a run does not begin if its estimate is higher
+    /// Memory allowed in GB for everything that runs at the same time; a run does not begin if it would need more
     #[arg(long, value_name = "GB", default_value = "4", allow_hyphen_values = true, value_parser = number::positive)]
     memory: f64,
 }
@@ -70,7 +70,7 @@ impl MemoryArgs {
         self.memory * 1e9
     }
 
-    /// Reports the memory that a run needs, if the need is large but allowed.
+    /// Reports the memory that a run needs, if this memory is large but within the limit.
     pub(super) fn tell(self, case: &Case, needed: f64) {
         if needed >= TOLD && needed <= self.bytes() {
             output::note(&memory::told(case, needed));
@@ -84,7 +84,7 @@ impl MemoryArgs {
 #[derive(Clone, Debug)]
 pub(super) struct SettingArgs {
     settings: EngineSettings,
-    /// The first given option.
+    /// The first option that the user gave.
     first: Option<&'static str>,
 }
 

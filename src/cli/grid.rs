@@ -54,7 +54,8 @@ impl GridArgs {
         self.crank_deg.is_some() || self.times.is_some()
     }
 
-    /// The given grid of a scenario with this input: the name of its values, and its text; `None` if no grid is given.
+    /// The grid of the arguments, for a first drive with this input: the name of its values, and its text.
+    /// `None` if the arguments give no grid.
     pub(super) fn told(&self, input: Input) -> Option<(&'static str, &str)> {
         match &self.crank_deg {
             Some(values) => Some((input.shown_in().1, &values.text)),

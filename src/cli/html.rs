@@ -28,8 +28,8 @@ pub(super) struct Pages {
 }
 
 impl Pages {
-    /// The pages of this many scenarios.
-    /// Tests in advance whether the pages can be written.
+    /// The destination `to` for the pages of this number of scenarios.
+    /// The function tests in advance whether the pages can be written.
     ///
     /// # Errors
     /// An error is returned if a page cannot be written.

@@ -24,7 +24,7 @@ impl InstantArgs {
         self.time.map(When::Time).or_else(|| self.crank_deg.map(|value| When::Crank(input.read(value))))
     }
 
-    /// The error with the option that gives the instant, if one does.
+    /// Adds to an error the option that gives the instant; without such an option, the error is unchanged.
     pub(super) fn blamed(&self, error: Error) -> Error {
         match self.told() {
             (option, true) => error.key(option),
@@ -32,7 +32,7 @@ impl InstantArgs {
         }
     }
 
-    /// The option of the instant, and whether it is given.
+    /// The option that states the instant, and whether the user gave this option.
     pub(super) fn told(&self) -> (&'static str, bool) {
         match self.time {
             Some(_) => ("--time", true),

@@ -10,7 +10,7 @@ use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
 use linkage::error::{Error, ErrorKind, Result};
 
-/// Memory for all items in progress.
+/// The memory that all items in progress share.
 /// An item keeps its reserved memory until its result has been passed on.
 pub(super) struct Room {
     most: f64,
@@ -38,7 +38,7 @@ impl Room {
     /// Waits until item `index` may reserve `bytes`.
     /// Items reserve memory in their order.
     /// If no item other than this one has reserved memory, this item always gets its memory.
-    /// The first item without a result therefore never waits for a later item.
+    /// The earliest item without a result therefore never waits for memory that a later item holds.
     /// `tell` is called when the item's memory has been reserved.
     pub(super) fn take(&self, index: usize, bytes: f64, tell: impl FnOnce()) {
         let full = |held: &mut Held| held.next != index || (held.bytes > 0.0 && held.bytes + bytes > self.most);

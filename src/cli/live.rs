@@ -1,6 +1,6 @@
 //! `--live`: serves the result of a proof, as an animation, to viewers that connect by Foxglove's WebSocket.
 //!
-//! - Source: a `recording::Reel` in memory; the `Sink` that fills it also fills recordings.
+//! - Source: a `recording::Reel` in memory. The same function, `recording::pour`, fills a reel and a recording file.
 //! - Protocol: the former name (`foxglove.websocket.v1`) and the present one (`foxglove.sdk.v1`).
 //!   The server of Foxglove's library supports only the present name.
 //!   Lichtblick and the open Foxglove Studio offer only the former name.

@@ -75,13 +75,13 @@ pub(super) fn as_asked(file: &Path, asked: &StartRequest) -> Result<Scenario> {
     Scenario::parse_as(&text(file)?, named(file), asked).map_err(|error| of_mode(asked, error))
 }
 
-/// Like `load`, for a list of configurations.
+/// Reads a scenario like `load`, but also accepts a file that leaves configurations open, so that they can be listed.
 /// Also returns the groups whose configuration the file leaves open.
 pub(super) fn to_list(file: &Path, asked: &StartRequest) -> Result<(Scenario, Vec<Undecided>)> {
     Scenario::parse_to_list(&text(file)?, named(file), asked).map_err(|error| of_mode(asked, error))
 }
 
-/// The readable part of the mechanism in a file that cannot be assembled.
+/// The readable part of a scenario file whose mechanism is incomplete or cannot be assembled.
 pub(super) fn draft(file: &Path, asked: &StartRequest) -> Result<Draft> {
     Draft::parse(&text(file)?, named(file), asked)
 }

@@ -14,7 +14,8 @@ use linkage::error::{Error, ErrorKind, Result};
 use terminal_size::{Height, Width, terminal_size_of};
 
 /// Path for results, or `-` for standard output.
-/// Scenario files are refused: a shell expands `--json scenarios/*.toml`, and the first scenario would be overwritten.
+/// Scenario files are refused, because a shell expands `--json scenarios/*.toml` to several scenario names.
+/// The results would then overwrite the first scenario.
 pub(super) fn target(text: &str) -> std::result::Result<PathBuf, String> {
     let path = PathBuf::from(text);
     if path.extension().is_some_and(|extension| extension == "toml") {
@@ -68,7 +69,7 @@ pub(super) fn page(text: &str) -> std::result::Result<PathBuf, String> {
     }
 }
 
-/// A directory for results; it is created with the first result.
+/// A directory for results. The command creates the directory when it writes the first result.
 pub(super) fn directory(text: &str) -> std::result::Result<PathBuf, String> {
     let path = PathBuf::from(text);
     files::may_fill(&path)?;
@@ -93,20 +94,20 @@ pub(super) fn stream(to: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<
     if is_standard(to) { printed(fill) } else { put(&OutputTarget::Named(to), to, None, fill) }
 }
 
-/// Writes text with its seal to a file whose name the program chose.
-/// An existing file is replaced if its seal is unbroken; otherwise it is an error.
+/// Writes text with its seal, a checksum, to a file whose name the program chose.
+/// An existing file is replaced if its text still matches its seal; otherwise the function returns an error.
 pub(super) fn make(text: &str, to: &Path) -> Result<()> {
     make_by(files::sealed(text, to).as_bytes(), to, &files::is_sealed)
 }
 
-/// Like [`make`], in the working directory; then prints the name, because the user did not choose it.
+/// Writes a file to the working directory like [`make`], then prints its name, because the user did not choose it.
 pub(super) fn make_here(text: &str, name: &str) -> Result<()> {
     make(text, Path::new(name))?;
     print(&format!("{name}\n"))
 }
 
 /// Writes bytes, unchanged, to a file whose name the program chose.
-/// An existing file is replaced if `is_ours` accepts its bytes; otherwise it is an error.
+/// An existing file is replaced if `is_ours` accepts its bytes; otherwise the function returns an error.
 pub(super) fn make_by(bytes: &[u8], to: &Path, is_ours: &dyn Fn(&[u8]) -> bool) -> Result<()> {
     put(&OutputTarget::Made(to, is_ours), to, Some(bytes.len() as u64), |out| out.write_all(bytes))
 }

@@ -63,7 +63,7 @@ impl Drawn {
         Ok(drawn?.with_unknown_traces(wish))
     }
 
-    /// The readable part of a mechanism whose file is not a valid scenario, because of an error.
+    /// The readable part of a mechanism, with the `error` because of which its file is not a valid scenario.
     pub(crate) fn of_draft(draft: Draft, wish: &PictureOptions, error: Error) -> Result<Drawn> {
         let when = wish.at.unwrap_or(When::Crank(draft.crank));
         // For links that cannot move, a missing drive is no error.
@@ -251,7 +251,7 @@ fn of_guess(draft: &Draft) -> Option<String> {
 }
 
 /// Coordinates of the drives at an instant.
-/// If the time is not known, as in a free motion, further drives stand at their start.
+/// If the time is not known, as in a free motion, all drives except the first have their coordinates at the start.
 fn angles(drives: &[Drive], when: When) -> Vec<f64> {
     let at = drives.first().map(|drive| when.grid(drive)).unwrap_or_default();
     let angle = |(index, drive): (usize, &Drive)| {

@@ -52,7 +52,7 @@ fn of_engine(info: &EngineInfo) -> String {
     }
 }
 
-/// The short report, in lines of at most `width` columns; `tell` words the advice.
+/// The short report, in lines of at most `width` columns; `tell` puts the advice into words.
 #[must_use]
 pub fn proof(proof: &Proof, tell: Tell, width: usize) -> String {
     let width = Some(width);
@@ -67,7 +67,7 @@ pub fn proof(proof: &Proof, tell: Tell, width: usize) -> String {
             paragraph(engines::sentence(fault));
         }
     }
-    // If the proof agrees, undecided results do not weaken the agreement, so only one reason is shown.
+    // If the proof agrees, undecided results do not change its verdict, so only the first reason is shown.
     let most = if grade(&proof.verdict) == Grade::Agree { 1 } else { WORST };
     reasons::reasons(proof, tell, width, most, &mut text);
     reasons::diagnosed(proof, width, &mut text);

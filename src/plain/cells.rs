@@ -21,7 +21,8 @@ pub fn table(header: &str) -> Table {
     table
 }
 
-/// Name, in two lines, of a column with the values of a quantity at which something occurs.
+/// Header, in two lines, of a column that states where an extreme value or an event occurs.
+/// For the quantity `crank angle` in `deg`, the header is `at crank` above `angle, deg`.
 pub fn at_column(noun: &str, unit: &str) -> String {
     let name = format!("at {noun}");
     let (first, last) = name.rsplit_once(' ').expect("it has a blank");

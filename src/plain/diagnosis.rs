@@ -12,7 +12,7 @@ use prover::numbers::{fixed, input_in, input_told, significant, with_unit};
 /// Column at which the text of a line begins.
 pub const INDENT: usize = 12;
 
-/// Note on a diagnosis that ended early.
+/// Note for a diagnosis whose search for a cause stopped at its work limit.
 pub const CUT: &str = sentences::THE_SEARCH_FOR_A_CAUSE_ENDED;
 
 /// Number of channels that are named; further channels are only counted.

@@ -60,7 +60,7 @@ pub fn disputes(proof: &Proof) -> String {
     text
 }
 
-/// Source of the forces among an engine's channels.
+/// How an engine's joint reactions are obtained: read from the engine, or derived by the stated method.
 pub fn source(engine: &EngineProof) -> &str {
     match engine.info.provides.iter().find(|(stage, _)| *stage == Stage::Reactions.name()) {
         Some((_, Provision::Derived(how))) => how,

@@ -33,7 +33,7 @@ fn of_same_length(text: &str) -> Cow<'_, str> {
 const MOST_LINES: usize = 12;
 
 /// An error, and the errors found together with it, as text without a newline at its end.
-/// `tell` words the advice.
+/// `tell` puts the advice into words.
 pub fn text(error: &Error, tell: Tell) -> String {
     all(error, tell, ("error", Level::ERROR))
 }

@@ -23,7 +23,7 @@ linkage::words! {
 }
 
 impl Grade {
-    /// The one of three values that belongs to this grade, in the order of the grades.
+    /// Selects the value for this grade from three values, which have the order of the grades.
     pub(crate) fn of<T>(self, [agree, open, disagree]: [T; 3]) -> T {
         match self {
             Grade::Agree => agree,
@@ -85,7 +85,7 @@ pub struct JudgedNumber<'a> {
     pub worst: Option<f64>,
 }
 
-/// All judged numbers: first the checks of the sides.
+/// All judged numbers of a proof: first the checks of the analytic sides.
 /// Then for each engine its channels, the forces that it exerts itself, and its checks.
 pub fn of(proof: &Proof) -> Vec<JudgedNumber<'_>> {
     let of_engine = |engine| of_engine(engine).chain(checks(Some(engine), &engine.checks));

@@ -36,7 +36,7 @@ pub fn diagnosed(proof: &Proof, width: Option<usize>, text: &mut String) {
     }
 }
 
-/// The published numbers that are wrong as expected, by finding.
+/// The published numbers that are known to be wrong, grouped by the finding that explains them.
 pub fn expected(proof: &Proof, tell: Tell, text: &mut String) {
     let finding = |check: &Check| match &check.verdict {
         Verdict::Expected { finding, .. } => Some(tell(&Advice::Text(format!("docs/findings.md#{finding}")))),
@@ -54,7 +54,7 @@ pub fn expected(proof: &Proof, tell: Tell, text: &mut String) {
 /// Largest number of instants at rest that are solved for the interval of the driving moment or force.
 const MOST_AT_REST: usize = 20;
 
-/// Reports joints with friction, and transmissions with losses, that rest.
+/// Reports joints with friction and transmissions with losses, if they are at rest.
 /// Also reports the widest interval of the first drive's moment or force at these instants.
 fn at_rest(proof: &Proof, width: Option<usize>, text: &mut String) {
     let (case, reference) = (&proof.scene.case, &proof.reference_trajectory);

@@ -12,7 +12,7 @@ use prover::bounds::Verdict;
 pub enum Detail {
     /// The verdict, in one line.
     Verdict,
-    /// Everything needed to act.
+    /// The verdict, and everything that the user needs to act.
     Short,
     /// Everything.
     Whole,

@@ -25,7 +25,7 @@ linkage::words! {
     /// Action on the file of accepted figures.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum Deed: word {
-        /// The run was judged against the file, which stays unchanged.
+        /// The figures of the run were compared with those in the file, and the file stays unchanged.
         Checked = "checked",
         /// The file did not exist, and was written.
         Written = "written",

@@ -23,8 +23,8 @@ pub(crate) fn ratio(bench: &Bench, point: &BenchPoint) -> Option<f64> {
 }
 
 /// An error as text.
-/// If the reference's error limits the error, a note follows the number; if the error is below the reference's error, a
-/// note replaces the number.
+/// If the error of the reference limits the measured error, a note follows the number.
+/// If the measured error is below the error of the reference, a note replaces the number.
 pub(crate) fn error(errors: Errors, floor: f64) -> String {
     match (errors.is_limited, errors.max > floor) {
         (false, _) => format!("{:.1e}", errors.max),
@@ -54,7 +54,7 @@ pub(crate) fn fastest<'a>(
     timed.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, point)| point)
 }
 
-/// The fronts as text: the fastest party for each error.
+/// The Pareto fronts as text: for each error, the fastest program that reaches this error.
 pub(crate) fn text(bench: &Bench) -> String {
     let mut text = format!("{}: {}\n\n", bench.scenario[0], bench.scenario[1]);
     let failed = bench.points.iter().filter(|point| point.run().is_none()).count();

@@ -9,7 +9,7 @@ use lab::bench::{Bench, BenchPoint, CLEAR, CostAxis, MethodOwner, front};
 use linkage::math::statistics::distinct;
 use linkage::trajectory::Stage;
 
-/// Errors for which the cells of the tables state the times.
+/// For each of these errors, a cell states the run time that a program needs to reach the error.
 const WITHIN: [f64; 3] = [1e-3, 1e-6, 1e-9];
 /// Largest number of failure reasons listed for a scenario.
 const REASONS: usize = 6;

@@ -117,7 +117,7 @@ fn panel(bench: &Bench, stage: Stage, axis: CostAxis, [left, right]: [f64; 2]) -
             is_empty = false;
         }
     }
-    // The analytic sides are so fast that only they would be on a common front.
+    // On a Pareto front of all programs, only the analytic sides would appear, because they are so fast.
     // A second front is therefore drawn without the sides.
     let best = front(&bench.points, stage, axis, floor, &|_| true);
     let others = front(&bench.points, stage, axis, floor, &|point| point.party != MethodOwner::Side);

@@ -117,7 +117,8 @@ fn motor_of(motor: &Motor) -> Value {
     })
 }
 
-/// A constant course as a number, any other course as a table.
+/// The value of a load over the motion: a number if it is constant.
+/// For a table, only the table's kind: its period in turns, or that it is over a slide.
 fn course(course: &Course) -> Value {
     match course {
         Course::Constant(value) => json!(value),

@@ -1,4 +1,4 @@
-//! Judgements of formulas as text and JSON.
+//! Results of judged formulas, as text and as JSON.
 
 use crate::sentences;
 use std::cmp::Reverse;

@@ -117,7 +117,8 @@ pub(crate) fn text(
 /// The answer as JSON: one entry of the document.
 pub(crate) fn value(scenario: &Scenario, asked: &ClearanceQuestion, found: &ClearanceResult) -> Value {
     let (drive, variable) = (scenario.case.crank(), RangeVariable::of(&scenario.case));
-    // Input and time at a value of the variable. In a free motion, the time is not known.
+    // Input and time at a value of the range's variable, which is the time or the input of the first drive.
+    // In a free motion, the time is not known.
     let instant = |value: f64| match variable {
         RangeVariable::Time => (drive.at(value).value, Some(value)),
         RangeVariable::Input(_) => {

@@ -26,7 +26,7 @@ impl Closing {
     }
 
     /// The table in at most `width` columns, and the count.
-    /// `None` for a single file, whose verdict is already shown above.
+    /// `None` for a single file, because the report above already shows its verdict.
     pub(crate) fn text(&self, width: usize) -> Option<String> {
         if self.0.len() < 2 {
             return None;

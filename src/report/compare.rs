@@ -227,7 +227,7 @@ fn cause_of(explained: &Explained) -> Option<String> {
     terms.or_else(|| explained.diagnosis.cause.as_ref().map(diagnosis::cause))
 }
 
-/// The cause in words; if no cause was found, a description of the error, if a description is possible.
+/// The cause of a difference in words. If no cause was found, a description of the error; `None` if that fails too.
 #[must_use]
 pub fn why(explained: &Explained) -> Option<String> {
     cause_of(explained).or_else(|| explained.diagnosis.nature.map(diagnosis::nature))

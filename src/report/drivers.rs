@@ -8,11 +8,11 @@ use serde_json::{Value, json};
 
 use super::pretty::list;
 
-/// The structures for a list of driven joints, or the errors that explain why they do not exist.
+/// For each joint of a list, the structure with this joint as driven joint, or the reason why it does not exist.
 pub(crate) struct Drivers(Vec<(String, Result<Structure>)>);
 
 impl Drivers {
-    /// The structures of a case, if its first drive moves one of these joints.
+    /// For each of these joints, the structure of the case if the first drive moves this joint.
     pub(crate) fn of(case: &Case, joints: &[JointId]) -> Self {
         let name = |joint: JointId| case.mechanism.joints()[joint].name.clone();
         Drivers(joints.iter().map(|&joint| (name(joint), case.structure_at(joint))).collect())

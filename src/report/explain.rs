@@ -7,7 +7,7 @@ use linkage::trajectory::Stage;
 use linkage::work::Work;
 use prover::run::{LedgerEntry, Proof};
 
-/// The page of one proof. `further` names parts of the work that the command adds, such as the recording.
+/// The text about one proof. `further` has the work of the command besides the proof, such as the recording.
 #[must_use]
 pub fn text(proof: &Proof, further: &[LedgerEntry]) -> String {
     let case = &proof.scene.case;
@@ -28,7 +28,7 @@ pub fn text(proof: &Proof, further: &[LedgerEntry]) -> String {
     text
 }
 
-/// The requested channels, in short.
+/// One line with the requested stages or channels, and the number of instants.
 fn asked(case: &Case) -> String {
     let (own, all) = (case.channels(), case.all_channels().len());
     let stages: Vec<&str> = Stage::ALL.into_iter().filter(|&stage| case.wanted.has(stage)).map(Stage::name).collect();

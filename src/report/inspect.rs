@@ -17,7 +17,7 @@ use scenario::{Scenario, Undecided};
 /// Number of digits shown for the figures of a cam. These figures are extremes over 720 angles.
 const SAMPLED: usize = 5;
 /// Number of digits shown for a mass or a moment of inertia.
-/// So many digits show every digit of a scenario, but hide the rounding error of a unit conversion.
+/// This number of digits shows every digit of a scenario, but hides the rounding error of a unit conversion.
 const SHOWN: usize = 12;
 
 /// The structure as text.

@@ -1,4 +1,4 @@
-//! Proofs as JSON, schema 2. Numbers that are not finite (an order that is hidden by rounding) are `null`.
+//! Proofs as JSON, schema 2. Numbers that are not finite are `null`, for example an order that rounding hides.
 
 use crate::sentences;
 use std::collections::BTreeMap;
@@ -25,7 +25,7 @@ type Words = BTreeMap<&'static str, String>;
 /// A value of the input, by its key.
 type Keyed = BTreeMap<String, f64>;
 
-/// The value of the input under its key, after `before`: `crank_rad`, `slide_m`.
+/// The value of the input under its key, such as `crank_rad` or `slide_m`. The key has the prefix `before`.
 fn keyed(before: &str, at: InputValue) -> Keyed {
     [(format!("{before}{}", at.input.key()), at.value)].into()
 }
@@ -276,7 +276,7 @@ impl Document {
         Document::told_by(Advice::to_string)
     }
 
-    /// An empty document; `tell` words its advice.
+    /// An empty document; `tell` puts its advice into words.
     #[must_use]
     pub fn told_by(tell: Tell) -> Self {
         Document { schema: 2, runs: Vec::new(), errors: Vec::new(), tell }

@@ -51,7 +51,7 @@ fn flaw(case: &Case) -> Option<&'static str> {
     grade(&case.verdict).of([None, Some("error"), Some("failure")])
 }
 
-/// A case by name and class, with the element and the type of its flaw, and the reason.
+/// Writes a case with its name and class. A case without agreement has an XML element with a type and a reason.
 fn case(
     writer: &mut Writer<Vec<u8>>,
     names: [&str; 2],

@@ -1,5 +1,5 @@
 //! A layout for Foxglove and Lichtblick: the mechanism from above, beside plots of both sides and of their errors.
-//! Programs that convert a recording for other viewers get the same content as JSON, from `film`.
+//! The function `film` gives the same content as JSON, for programs that convert a recording for other viewers.
 
 use serde_json::{Map, Value, json};
 
@@ -81,8 +81,8 @@ fn picture(view: &View) -> Value {
 fn graph(plot: &Plot) -> Value {
     json!({
         "foxglovePanelTitle": plot.title, "lichtblickPanelTitle": plot.title, "title": plot.title,
-        // The viewer draws the first path last. The lines are reversed, so that the engines are in front of the
-        // reference.
+        // The viewer draws the first path of the list last, so the list is reversed. The engines are then in front of
+        // the reference.
         "paths": list(plot.lines.iter().rev(), path), "showXAxisLabels": true, "showYAxisLabels": true,
         "showLegend": plot.lines.len() > 1, "legendDisplay": "floating", "showPlotValuesInLegend": false,
         "isSynced": true, "xAxisVal": "timestamp", "sidebarDimension": 240,
@@ -102,7 +102,7 @@ fn path(line: &Line) -> Value {
     })
 }
 
-/// Colour of a side, where 0 is the reference, or of an error.
+/// Colour of a line: of a side, by its number (0 is the reference), or of an error.
 fn colour(side: Option<usize>) -> &'static str {
     // Viewers draw samples as dots, which are darker than the line on a light background and lighter on a dark one.
     // The colours of this list suit both backgrounds.

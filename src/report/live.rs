@@ -1,7 +1,7 @@
 //! Messages between the live server and a viewer: Foxglove's WebSocket protocol, as JSON and as bytes.
 //!
-//! The protocol has a new name, but the messages that this server uses are unchanged.
-//! Only viewers with the new name support playback control.
+//! Foxglove has renamed its protocol, but has not changed the messages that this server uses.
+//! Only viewers that offer the new name support playback control.
 //! Numbers are little-endian; a binary message begins with the number of its kind.
 
 use crate::sentences;

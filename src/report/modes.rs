@@ -32,7 +32,7 @@ fn open<'a>(scenario: &Scenario, all: &[Modes], undecided: &'a [Undecided], inde
 }
 
 /// The configurations as text.
-/// `undecided`: groups that the scenario leaves undecided.
+/// `undecided` has the groups whose configuration the scenario does not determine.
 pub(crate) fn text(scenario: &Scenario, crank: f64, all: &[Modes], undecided: &[Undecided]) -> String {
     let mechanism = &scenario.case.mechanism;
     let mut text = sentences::scenario_at(&scenario.name, &input_told(scenario.case.told(crank), 4));

@@ -84,7 +84,7 @@ fn scenarios(found: &[Mutated]) -> String {
     trimmed(table(header).add_rows(rows))
 }
 
-/// Outcome of one kind in all scenarios.
+/// Outcome of all planted faults of one kind, in all scenarios.
 #[derive(Default)]
 struct OfKind {
     sides: Share,
@@ -173,7 +173,8 @@ fn not_found(found: &[Mutated]) -> Vec<String> {
     lines
 }
 
-/// Missed faults, with a title for each list: faults in one party, and kinds in code shared by all parties.
+/// Two lists of missed faults, each with a title.
+/// The first list has faults in one party, the second has kinds of faults in code that all parties share.
 fn lists(found: &[Mutated], tally: &FaultCounts) -> [(&'static str, Vec<String>); 2] {
     [(sentences::NOT_FOUND_IN_ONE_PARTY, not_found(found)), (sentences::OPEN_IN_THE_TRUNK, open(tally))]
 }

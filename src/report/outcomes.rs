@@ -44,7 +44,7 @@ pub struct Outcomes {
 }
 
 impl Outcomes {
-    /// An empty list; `tell` words advice.
+    /// An empty list; `tell` puts advice into words.
     #[must_use]
     pub fn told_by(tell: Tell) -> Self {
         Outcomes { noun: "scenario", entries: Vec::new(), tell }
@@ -100,7 +100,7 @@ mod tests {
     use prover::run::{Options, prove};
     use scenario::of_repository;
 
-    /// The step is so coarse that the engine proves little.
+    /// This test uses a coarse step, so that some results are inconclusive.
     #[test]
     fn verdict_line_and_test_reports_have_equal_counts() {
         let scenario = of_repository("scenarios/crank_rocker.toml");

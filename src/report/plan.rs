@@ -25,7 +25,7 @@ fn known(value: f64, largest: f64) -> String {
 /// The plans as text.
 /// `singular`: the singular points of groups of class IV, or the reason why a singular point was not found.
 /// `is_free`: whether forces determine the motion; the plans then show the nominal motion.
-/// `tell` words the advice, `width` is the number of columns.
+/// `tell` puts the advice into words; `width` is the number of columns of the text.
 pub(crate) fn text(
     scenario: &Scenario,
     is_free: bool,

@@ -12,7 +12,8 @@ pub(crate) fn text(numbers: &Numbers, file: &Path) -> String {
     filled(include_str!("plotjuggler.xml"), &slots)
 }
 
-/// The plots, one below the other; empty without plots, because PlotJuggler exits if it must divide an empty area.
+/// The plots, one below the other.
+/// Without plots the text is empty, because PlotJuggler exits if it must divide an area without plots.
 fn plots(plots: &[Plot]) -> String {
     let count = plots.len();
     if count == 0 {

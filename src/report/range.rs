@@ -61,7 +61,7 @@ fn names(scenario: &Scenario, group: GroupId) -> String {
     scenario.case.structure.groups[group].names(&scenario.case.mechanism)
 }
 
-/// Transmission angle (rad) for a determinant; `None` if the group is not a dyad.
+/// Transmission angle (rad) of a group from the group's determinant; `None` if the group is not a dyad.
 fn transmission(scenario: &Scenario, group: GroupId, determinant: f64) -> Option<f64> {
     scenario.case.structure.groups[group].kind.letters().map(|_| determinant.abs().asin())
 }
@@ -192,7 +192,7 @@ mod tests {
     use super::*;
     use scenario::of_repository;
 
-    /// The mechanism may return to its first pose only after several turns of the crank.
+    /// If the mechanism returns to its first pose only after two turns of the crank, text and JSON say so.
     #[test]
     fn turns_to_the_same_pose_are_reported() {
         let scenario = of_repository("scenarios/crank_rocker.toml");

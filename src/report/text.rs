@@ -15,7 +15,7 @@ use prover::run::{ChannelProof, EngineInfo, EngineProof, Proof, SearchEnd, Setti
 const REASONS: usize = 5;
 
 /// The whole report of one proof: verdict and worst channels, then everything else.
-/// `tell` words the advice.
+/// `tell` puts the advice into words.
 /// Lines have at most `width` columns, if a width is given.
 #[must_use]
 pub fn proof(proof: &Proof, tell: Tell, width: Option<usize>) -> String {
@@ -236,7 +236,7 @@ mod tests {
     use prover::run::{Options, prove};
     use scenario::of_repository;
 
-    /// Residual, bound and the used fraction of the bound, line by line, in the order of the proof.
+    /// Each line has a residual, its bound and their ratio; the lines have the order of the proof.
     #[test]
     fn every_residual_is_printed_beside_its_bound() {
         let proof =

@@ -14,7 +14,7 @@ use scenario::Scenario;
 
 /// The `[engine]` section that a scenario needs for the best settings.
 pub(crate) struct Section<'a> {
-    /// The section itself.
+    /// Text of the section.
     pub(crate) text: &'a str,
     /// The scenario's file.
     pub(crate) file: &'a Path,
@@ -25,7 +25,7 @@ pub(crate) struct Section<'a> {
 /// How the user can continue, in the words of the calling program.
 #[derive(Clone, Copy)]
 pub(crate) struct Hints<'a> {
-    /// Function of an engine's name: it returns the command that shows why the engine does not run.
+    /// For the name of an engine, this function returns the command that shows why the engine cannot run.
     pub(crate) why: &'a dyn Fn(&str) -> String,
     /// Option or function that writes the section, such as `--write`.
     pub(crate) write: &'a str,

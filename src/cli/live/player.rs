@@ -39,7 +39,7 @@ impl Player {
     }
 
     /// Advances the position by `seconds` of the clock.
-    /// Messages at the end of a reel are sent before the reel starts again.
+    /// The messages up to the end of the reel are sent before the reel starts again.
     /// A reel of one instant does not repeat.
     pub(super) fn pass(&mut self, seconds: f64, reel: &Reel) -> Due {
         let again = self.plays && self.told == reel.len() && reel.lasts() > 0;

@@ -11,7 +11,7 @@ pub(super) struct Stage {
     shown: Mutex<Shown>,
 }
 
-/// The content, and how often it has changed.
+/// The content, and the number of times that the server has replaced it.
 #[derive(Clone, Default)]
 pub(super) struct Shown {
     /// Number of changes.

@@ -25,14 +25,14 @@ const TICK: Duration = Duration::from_millis(10);
 const GREETING: Duration = Duration::from_secs(5);
 /// Time limit for sending data to a viewer.
 const PATIENCE: Duration = Duration::from_secs(20);
-/// Upper limit of the time counted between two readings of the clock.
-/// A slow viewer therefore does not receive all missed messages at once.
+/// Largest time by which playback advances between two readings of the clock.
+/// After a pause, a slow viewer therefore does not receive all missed messages at once.
 const MOST: Duration = Duration::from_millis(100);
 /// Largest request (bytes).
 const LARGEST: usize = 1 << 20;
 /// Largest number of requests between two readings of the clock.
 const REQUESTS: usize = 64;
-/// Channel numbers of a content begin at this constant times the number of content changes.
+/// The channel numbers of new content begin at this constant, multiplied by the number of content changes so far.
 /// Each channel number is therefore unique.
 const CHANNELS: u64 = 1 << 16;
 
@@ -118,8 +118,8 @@ impl<'a> Viewer<'a> {
         }
         let mut clock = None;
         for told in due.messages.map(|index| reel.message(index)) {
-            // Viewers date messages by the server's clock, not by the messages' log times. The server's clock is
-            // therefore sent before the messages of each log time.
+            // Viewers date a message by the last time that the server announced, not by the message's own log time.
+            // The server therefore announces each log time before it sends the messages with this log time.
             if clock != Some(told.time) {
                 self.send(live::time(told.time))?;
                 clock = Some(told.time);

@@ -20,8 +20,8 @@ struct Reason {
     count: usize,
 }
 
-/// Why the verdict is not an agreement, for the top of the page: the diagnosis and the first reasons.
-/// Empty if everything agrees.
+/// For the top of the page, the reasons why the verdict is not *agree*: the diagnosis and the first reasons.
+/// The text is empty if everything agrees.
 pub(super) fn why(proof: &Proof, tell: Tell) -> String {
     if agrees(proof) {
         return String::new();
@@ -33,7 +33,7 @@ pub(super) fn why(proof: &Proof, tell: Tell) -> String {
     format!("<div id=\"why\">\n{}</div>", paragraphs(&told))
 }
 
-/// All findings other than those of `why`; empty if no such findings exist.
+/// All findings that `why` does not show at the top of the page; the text is empty if there are none.
 pub(super) fn others(proof: &Proof, tell: Tell) -> String {
     let mut told = String::new();
     if proof.engines.len() > 1 {
@@ -94,8 +94,8 @@ fn grouped(proof: &Proof, tell: Tell) -> Vec<Reason> {
 }
 
 /// Key under which equivalent reasons are counted once.
-/// For an inconclusive verdict it is the reason without its numbers.
-/// For any other verdict it is the cause or, if the reason states none, the name without its side and channel.
+/// For an inconclusive verdict, the key is the reason without its numbers.
+/// For any other verdict, it is the cause or, if the reason states none, the name without its side and channel.
 fn key(name: &str, verdict: &Verdict, reason: &str) -> String {
     let bare = name.replace(" (assur)", "").replace(" (newton)", "");
     let channel = bare.split([' ', '(']).next().unwrap_or_default();

@@ -91,7 +91,7 @@ fn name(mechanism: &Mechanism, load: &Load) -> String {
     }
 }
 
-/// The point or joint at this position of a link.
+/// Name of the point or joint that lies at this position on a link.
 fn point(mechanism: &Mechanism, at: JointSide) -> Option<&str> {
     let points = mechanism.links()[at.link].points.iter();
     let named = points.filter(|own| own.local == at.local).map(|own| own.name.as_str()).next();

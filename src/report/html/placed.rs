@@ -37,7 +37,7 @@ impl<'a> Placed<'a> {
         (!trajectory.times().is_empty()).then_some(Placed { mechanism, links, rates })
     }
 
-    /// Whether the velocities of all links are known, and with `accelerations` the accelerations too.
+    /// Whether the velocities of all links are known; if `accelerations` is true, the accelerations must be known too.
     pub(super) fn knows(&self, accelerations: bool) -> bool {
         self.rates.len() > usize::from(accelerations)
     }

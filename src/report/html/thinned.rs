@@ -45,7 +45,8 @@ impl Thinned {
     }
 }
 
-/// Whether a page stores a channel in double precision, so that joined parts meet even far from the origin.
+/// Whether a page stores a channel in double precision. Positions need it, so that joined links meet in the picture
+/// even far from the origin.
 pub(super) fn is_wide(channel: &Channel) -> bool {
     channel.kind.stage == Stage::Positions
 }

@@ -104,7 +104,7 @@ fn joints(mechanism: &Mechanism) -> String {
     table("Joints", &["joint", "kind", "first link", "second link"], rows.collect())
 }
 
-/// A row of a table; `last` is already a cell.
+/// A row of a table. `cells` are plain contents; `last` is the last cell, already with its HTML tags.
 fn row(cells: &[String], last: &str) -> String {
     let cells: String = cells.iter().map(|cell| format!("<td>{cell}</td>")).collect();
     format!("<tr>{cells}{last}</tr>\n")

@@ -1,5 +1,6 @@
-//! Stores the results of a family as JSON, schema 1, and reads them back.
-//! Each point contains a digest of its text; a changed point is not read back.
+//! Stores the results of a stress family as JSON, schema 1, and reads them back.
+//! A family is a set of mechanisms with one varied parameter; a point is one value of this parameter.
+//! Each stored point contains a digest of its text. If the text has been changed, the point is not read back.
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -32,7 +33,7 @@ fn digest(outcome: &StressOutcome) -> String {
     fnv(&serde_json::to_string(&bare).expect("texts and numbers can be written"))
 }
 
-/// The results of a family, in the order given.
+/// The results of a family as JSON, in the order of `outcomes`.
 pub(crate) fn json<'a>(family: &StressFamily, seed: u64, outcomes: impl Iterator<Item = &'a StressOutcome>) -> String {
     let document = Document {
         schema: SCHEMA,
@@ -45,7 +46,7 @@ pub(crate) fn json<'a>(family: &StressFamily, seed: u64, outcomes: impl Iterator
     serde_json::to_string_pretty(&document).expect("texts and numbers can be written") + "\n"
 }
 
-/// The results in a text.
+/// The stored results in the text of a file.
 /// A text with another schema, or from another program, gives no results, so everything is computed anew.
 /// A changed or invalid point is also computed anew.
 pub(crate) fn outcomes(text: &str) -> Vec<StressOutcome> {

@@ -1,4 +1,4 @@
-//! The map of a family as SVG: errors and bounds of all parties over the varied parameter.
+//! The map of a stress family as SVG: errors and bounds of all solvers and engines over the varied parameter.
 //!
 //! Every party has a separate colour and mark; the filling of a mark shows the verdict.
 
@@ -91,7 +91,7 @@ fn panel(family: &StressFamily, outcomes: &[&StressOutcome], names: &[&str], gro
         let mut marks = Vec::new();
         for own in outcomes {
             let Some(party) = own.parties.iter().find(|party| party.name == *name) else { continue };
-            // Several samples are drawn side by side.
+            // Several samples at one parameter value are drawn side by side.
             let dial = own.dial * (1.0 + 0.004 * own.sample as f64);
             let Some(reached) = party.reached.iter().find(|own| own.group == group) else {
                 if party.verdict == PointEnd::Fails {

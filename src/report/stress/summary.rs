@@ -1,6 +1,6 @@
 //! Results of the stress families as text. The overall verdict comes first.
 //! A table for each family then shows at which parameter values each solver and engine agrees.
-//! The page of the documents has the same tables in Markdown, with their maps.
+//! The page in Markdown has the same tables, each with the map of its family.
 
 use crate::sentences;
 use std::collections::BTreeMap;
@@ -104,7 +104,7 @@ pub(super) fn names<'a>(outcomes: &[&'a StressOutcome]) -> Vec<&'a str> {
     distinct(outcomes.iter().flat_map(|own| &own.parties).map(|party| party.name.as_str()))
 }
 
-/// Cells of a party: parameter values at which it agrees, and values at which it does not agree.
+/// Cells of a solver or engine: the parameter values at which it agrees, and those at which it does not agree.
 /// For the points with agreement, the cells show the largest errors, the largest ratio of error to bound, and the
 /// widest bound of a worst channel.
 pub(super) fn cells(outcomes: &[&StressOutcome], name: &str) -> [String; 7] {

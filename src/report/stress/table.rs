@@ -1,4 +1,4 @@
-//! A family as CSV: one row for each point, party and group of channels.
+//! The results of a stress family as CSV: one row for each point, each solver or engine, and each group of channels.
 
 use super::super::table_csv::csv;
 use lab::stress::{StressFamily, StressOutcome};
