@@ -1,5 +1,5 @@
 //! Follows mechanisms through change points, with many different numbers of steps.
-//! Whatever the steps, no change point is passed silently, and no false change point is reported.
+//! With any number of steps, no change point is passed silently, and no false change point is reported.
 
 use analytic::PoseSolver;
 use linkage::case::Case;

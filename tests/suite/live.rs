@@ -58,7 +58,7 @@ impl Drop for Served {
     }
 }
 
-/// What a server says.
+/// A message that the server sends to a viewer.
 #[derive(Debug)]
 enum Said {
     Text(Value),

@@ -15,7 +15,7 @@ use scenario::Scenario;
 
 use crate::compare::digits::{Format, RandomSource};
 
-/// A column of instants: format, number of its units in an SI unit, name.
+/// A column of instants: its format, the number of its units in one SI unit, and its name.
 type Instants = (Format, f64, &'static str);
 
 const TIMES: [Instants; 7] = [

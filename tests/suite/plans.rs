@@ -1,4 +1,5 @@
-//! Graphical methods: plans close and are images of the links, and drawings contain what they claim.
+//! Graphical methods: vector plans close, they contain scaled images of the links, and drawings contain what they
+//! claim.
 //! The chord method has its known error, and the published graphical figures are reproduced.
 
 mod drawings;

@@ -405,7 +405,7 @@ fn an_invalid_accuracy_is_refused() {
 }
 
 /// Free motion by a third solver that shares no code with the two sides.
-/// Motor and loads are forces that Simbody requests, and Simbody integrates by itself.
+/// Simbody requests the forces of motor and loads, and integrates the motion by itself.
 #[test]
 fn run_ups_and_pendulums_agree_with_the_reference() {
     let mut agreed = 0;

@@ -180,7 +180,7 @@ fn val_tangent_mechanism_is_a_tangent() {
 
 /// The guide is at its extreme positions where it is perpendicular to the crank.
 /// The angle at O1 between O1-O2 and the crank is then acos(r / d).
-/// The quick stroke therefore takes 2 acos(r / d) of the revolution.
+/// The crank therefore rotates by the angle 2 acos(r / d) during the quick stroke.
 #[test]
 fn val_quick_return_time_ratio() {
     let case = shipped("quick_return.toml").case;

@@ -32,6 +32,6 @@ fn large_and_heavy_links_within_precision_are_accepted() {
     // A point at the position of the mass centre makes the link as large as the distance of the mass centre.
     let point = "mass_centre = { x_mm = 13, y_mm = 0 }\n[links.crank.points]";
     taken(point, "mass_centre = { x_m = 1300, y_m = 0 }\n[links.crank.points]\nG = { x_m = 1300, y_m = 0 }");
-    // No other link has a mass, so this large inertia costs no digits of another link.
+    // No other link has a mass, so this large inertia makes no other inertia lose digits.
     taken("inertia_kg_m2 = 0.0002", "inertia_kg_m2 = 2e14");
 }

@@ -1,4 +1,4 @@
-//! `accept`: figures kept beside a scenario, and what has changed since.
+//! `accept`: stores accepted figures beside a scenario, and reports which figures have changed since then.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -119,7 +119,7 @@ fn a_length_change_of_a_tenth_of_a_nanometre_is_found() {
     assert_eq!(check(&place).code, 0);
 }
 
-/// Differences within the bounds do not count, whatever the digits.
+/// A difference within its bound does not count as a change, even if digits differ.
 #[test]
 fn a_figure_within_its_bound_has_not_moved() {
     let place = accepted();
@@ -134,7 +134,7 @@ fn a_figure_within_its_bound_has_not_moved() {
     let outcome = check(&place);
     assert_eq!(outcome.code, 1);
     assert!(outcome.stdout.contains(&format!("1 of {} channels moved.", channels())), "{}", outcome.stdout);
-    // Angles that differ by a whole revolution are equal.
+    // Angles that differ by a whole revolution count as equal.
     let turned = [
         ("at = [0.0, 1.5707963267949, 3.1415926535898,", "at = [6.2831853071796, 7.8539816339745, 9.4247779607694,"),
         ("4.7123889803847, 6.2831853071796]", "10.9955742875643, 12.5663706143592]"),

@@ -220,8 +220,8 @@ fn a_group_of_six_links_starts_from_a_rough_drawing() {
             assert_within!((own[0] * 1e3 - drawn).abs(), 45.0, "{name}: {} for {drawn}", own[0]);
         }
     }
-    // Three points are enough, as docs/scenario.md states: the poses of the links without such a point follow from
-    // their joints.
+    // Approximate positions of three points are enough, as docs/scenario.md states. The poses of links without an
+    // approximate position follow from the joints.
     six(&place, &near(&[drawn[0], drawn[1], drawn[3]]));
     let few = Table::of(&place.ok("solve scenarios/six.toml --with assur --crank-deg 0:10:5"));
     for point in ["B", "D", "F"] {

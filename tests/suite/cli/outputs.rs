@@ -140,8 +140,8 @@ fn in_shell(place: &Place, prepare: &str, arguments: &str) -> Output {
 fn no_output_is_left_half_written() {
     let place = Place::new();
     for (index, (command, _)) in FILES.into_iter().enumerate() {
-        // Commands alternate between replacing an older file and creating a new one.
-        // One of the two is enough for each command, because all outputs are written by the same method.
+        // Every second command replaces an older file; the remaining commands create a new file.
+        // One of these two cases is enough for each command, because all outputs are written by the same method.
         let old = index.is_multiple_of(2).then_some("an older file");
         if let Some(old) = old {
             fs::write(place.path("out"), old).unwrap();

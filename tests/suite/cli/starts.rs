@@ -1,5 +1,5 @@
 //! `--times`, `--crank-deg` and `--start-crank-deg` of `run` and `solve`, grids that list their values, and starts that
-//! the file leaves open or gets wrong.
+//! the file does not determine or states wrongly.
 
 use std::fs;
 
@@ -83,7 +83,7 @@ fn grids_in_files_may_list_values() {
 }
 
 /// `--start-crank-deg` replaces `crank_deg` of the file.
-/// At constant speed, the pose at any crank angle stays the same.
+/// At constant speed, the start angle does not change the pose at a given crank angle.
 #[test]
 fn the_start_angle_option_overrides_the_file() {
     let place = Place::new();

@@ -191,7 +191,7 @@ fn completions_and_manual_name_every_command() {
     }
     let page = place.ok("man");
     place.ok("man -o deep/man1");
-    // In a written file, a seal precedes the page.
+    // In a written manual page, a seal (the mark that the program wrote the file) precedes the text.
     let file = fs::read_to_string(place.path("deep/man1/linkproof.1")).unwrap();
     assert_eq!(file.split_once('\n').unwrap().1, page);
     for name in names.iter().filter(|name| **name != "help") {

@@ -1,6 +1,6 @@
 //! Constant columns.
-//! If the other columns of a file omit trailing zeros, zeros have the digits of these columns.
-//! Otherwise zeros may be rounded.
+//! If the other columns of a file omit trailing zeros, a `0` counts as printed with as many digits as these columns.
+//! Otherwise a `0` may be a rounded value.
 
 use super::digits::Format;
 use super::{scenario, solved};

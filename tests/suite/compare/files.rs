@@ -173,7 +173,7 @@ fn rounded_instants_and_the_digits_of_each_column_are_in_the_bound() {
     }
 }
 
-/// A diverged simulation writes NaN, which does not agree.
+/// A diverged simulation writes NaN, which never counts as agreement.
 /// Missing values are left out and counted.
 #[test]
 fn nan_does_not_agree_and_missing_cells_are_counted() {

@@ -58,7 +58,7 @@ fn both_sides_agree_in_every_channel() {
 }
 
 /// The lists `RUN_UPS` and `CHAINS` contain every shipped free motion.
-/// The test above therefore compares the sides on all of them.
+/// The comparison of both sides over these lists therefore omits no free motion.
 #[test]
 fn every_shipped_free_motion_is_compared() {
     let directory = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios");

@@ -143,7 +143,7 @@ fn a_force_against_a_point_of_a_pendulum_is_a_moment() {
 /// Symptom: in a step in which the point reverses, the twin kept the force's direction for the whole step.
 /// If the reversal came just after the start of a step, all runs had the same error, so the bound from their
 /// differences was too small.
-/// Moments against a link were already right: each direction counted for its part of the step.
+/// Moments against a link were already right, because each sense of rotation counted for its part of the step.
 #[test]
 fn regress_a_point_reversal_in_a_step_counts_by_its_shares() {
     let case = shipped("pendulum.toml").case;

@@ -378,7 +378,8 @@ fn higher_groups_pass_their_change_points() {
         let case = Scenario::parse(&plain, Path::new("through.toml")).unwrap_or_else(|error| panic!("{error}")).case;
         // The different steps put instants at different distances from the change point.
         // The wrong branch keeps the sign of the determinant.
-        // Near the change point, the wrong branch is as close as the branch that continues the motion.
+        // Near the change point, the wrong branch is as close to the previous pose as the branch that continues the
+        // motion.
         for steps in [20.0f64, 30.0, 60.0, 37.0, 100.0, 200.0, 300.0, 731.0, 2000.0] {
             let times = (0..).map(|k| 0.6 * f64::from(k) / steps).take_while(|&t| t <= 0.6).collect();
             let case = case.on(Grid::of_times(case.crank(), times)).unwrap();

@@ -1,5 +1,5 @@
 //! Steps that are far too large, and poses that cannot be reached.
-//! The result is an error that helps the user, never plausible numbers.
+//! In both cases the engine reports an error that helps the user, never plausible but wrong numbers.
 
 use std::path::Path;
 
@@ -22,7 +22,7 @@ use crate::common::specimens::specimen;
 /// Story 40.
 /// Symptom: numbers are wrong by 50 %, without a message.
 /// Cause: with a step of a tenth of a revolution, the gap of the loop stays below the limit that stops a run.
-/// Proofs at steps of 39, 15.6 and 7.8 degrees must then be inconclusive, or end with a helpful error.
+/// Proofs at steps of 39, 15.6 and 7.8 degrees must be inconclusive, or end with a helpful error.
 #[test]
 fn regress_40_steps_that_are_too_large_prove_nothing() {
     let scenario = shipped("crank_rocker.toml");

@@ -14,7 +14,7 @@ use super::{has_formal_order, solve};
 use crate::common::sliders::{self, SPEED, swapped};
 use crate::common::{assert_within, states};
 
-/// The same case with a massless link behind the crank: a rod, block or disc.
+/// The case with the link behind the crank (a rod, a block or a disc) made massless.
 fn lighter(case: &Case) -> Case {
     let mut links = case.mechanism.links().to_vec();
     links[2] = Link { mass: 0.0, inertia: 0.0, ..links[2].clone() };

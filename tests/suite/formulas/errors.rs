@@ -1,4 +1,4 @@
-//! Two lists of wrong formulas: one was used to develop the search, the other was run only after it was finished.
+//! Two lists of wrong formulas: the search was developed with the first list; the second list was run only afterwards.
 //! Every mistake is found, most causes are named, and no cause is invented.
 
 use prover::check::{FormulaCause, MOST_WORK};

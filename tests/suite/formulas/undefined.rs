@@ -42,8 +42,8 @@ fn regress_undefined_constants_are_refused_in_every_input() {
         ] {
             place.refused(&door, &[says, "^", "help: "]);
         }
-        // `check` judges a formula with such an operation instead of refusing it, because the diagnosis of the slip is
-        // more useful.
+        // `check` judges a formula with an operation outside its domain instead of refusing the formula, because the
+        // diagnosis of the slip is more useful.
         for formula in [format!("phi*180/pi+{operation}"), format!("u+phi*180/pi --let u={operation}")] {
             let outcome = place.run(&format!("{check} {formula} --channel link.crank.angle_deg"));
             assert_eq!(outcome.code, 1, "{formula}: {}", outcome.stdout);
@@ -140,7 +140,7 @@ fn overflow_is_inconclusive() {
 }
 
 /// An empty cell is a missing value.
-/// A mapping that is undefined for a given number is an error, and the message names the row.
+/// If the expression of a mapping is undefined for a number of the table, the error names the row of this number.
 #[test]
 fn a_mapping_undefined_in_a_row_is_refused() {
     let place = Place::new();

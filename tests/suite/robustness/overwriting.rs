@@ -135,7 +135,7 @@ fn foreign_files_are_replaced_only_if_named() {
         assert_eq!(fs::read_to_string(place.path("precious")).unwrap(), "mine", "{command}: {file}");
         assert!(fs::symlink_metadata(&at).unwrap().is_symlink(), "{command}: {file}");
         remove();
-        // A link to nothing.
+        // A symbolic link whose target does not exist.
         symlink(place.path("elsewhere"), &at).unwrap();
         meets(&place, writer, "a link to nothing");
         assert!(!place.path("elsewhere").exists(), "{command}: {file}");
