@@ -26,7 +26,8 @@ use scenario::{Scenario, StartRequest};
 /// Proves a scenario file, and panics with the report unless the proof agrees; returns the [`Proof`].
 ///
 /// The path is relative to the directory of the caller's `Cargo.toml`.
-/// Further arguments are methods of [`Proving`](crate::testing::Proving), each with its argument.
+/// Each further argument, such as `only = [...]`, calls the method of that name of
+/// [`Proving`](crate::testing::Proving).
 ///
 /// ```
 /// use linkproof::{Options, assert_proven};
@@ -192,9 +193,9 @@ impl Proving {
     }
 
     /// Sets an upper limit for the engine's error bound, as a fraction of a channel's scale.
-    /// Above this limit, agreement no longer counts as a proof.
+    /// If the error bound exceeds this limit, agreement no longer counts as a proof.
     /// The limit replaces `engine_rel` of `[tolerances]`.
-    /// The bounds themselves are computed and cannot be chosen.
+    /// The error bounds themselves are computed and cannot be chosen.
     pub fn tolerance(mut self, share: f64) -> Self {
         self.tolerance = Some(share);
         self

@@ -299,7 +299,7 @@ fn links_and_joints() {
 #[test]
 fn structure_and_drive() {
     assert_all_refused(&[
-        // A fourth bar joins crank and rocker. The mechanism then has two revolute joints too many.
+        // A fourth bar joins crank and rocker, so the mobility falls from 1 to 0.
         Bad {
             edits: &[
                 (

@@ -88,7 +88,7 @@ fn at(case: &Case, cranks: &[f64]) -> Vec<State> {
 }
 
 /// A question about all links and a housing of pins and plates.
-/// The outlines of the links have random widths; about every third is a random polygon.
+/// The outlines of the links have random widths; about every third outline is a random polygon.
 fn asked(random: &mut RandomSource, case: &Case) -> ClearanceQuestion {
     let mechanism = &case.mechanism;
     let size = mechanism.size();

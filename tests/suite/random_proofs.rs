@@ -25,7 +25,7 @@ fn regress_random_chains_of_rrr_dyads_never_disagree() {
     never_disagree(&SORTS[..1], draws(6));
 }
 
-/// The same test with all kinds of dyads.
+/// Repeats the test of RRR dyads with all kinds of dyads.
 /// Of sixty chains of up to three dyads, one has an error of first order in slide speeds; with 8192 sweeps this error
 /// vanishes.
 /// The fifteen chains of this test contain every kind of dyad alone, and chains of every length.

@@ -56,7 +56,8 @@ fn the_same_input_finds_the_same_settings_and_the_same_bits() {
 
 /// The masses of this mechanism differ by a factor of a thousand, and an initial speed must propagate through all of
 /// them.
-/// Below a thousand sweeps, all runs have nearly the same relative error, so their differences do not show it.
+/// Below a thousand sweeps, all runs have nearly the same relative error, so differences between runs do not show this
+/// error.
 #[test]
 fn regress_unconverged_sweeps_are_inconclusive() {
     let own = specimen(1, 397, &mut Default::default());

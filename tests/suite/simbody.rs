@@ -169,11 +169,11 @@ fn felt(spec: &Spec, open: f64) -> BTreeMap<(Stage, &'static str), f64> {
     felt
 }
 
-/// A joint may be open by the constraint tolerance; the engine's bound on each channel covers the effect of this
-/// opening.
-/// The bound is never below this effect, and not much above it.
+/// A joint may be open by the constraint tolerance.
+/// The engine's bound on each channel covers the effect of this opening.
+/// The bound is never below the effect of the opening, and not much above this effect.
 /// The bound assumes a transmission angle of 6 deg.
-/// At 7 deg the bound is less than a hundred times the effect; at larger angles the factor is larger.
+/// At 7 deg the bound is less than a hundred times the effect; at larger angles the ratio of bound to effect is larger.
 #[test]
 fn the_noise_bound_covers_the_effect_of_an_open_joint() {
     // This displacement is far above rounding error, and small enough that the effect is proportional to it.

@@ -44,9 +44,8 @@ fn the_rounding_of_a_large_crank_angle_is_in_the_bound() {
         let worst = side.deviations.iter().map(|own| own.used).fold(0.0, f64::larger);
         println!("{}: {worst:.2e} of its bound", side.name);
         assert_within!(worst, 1.0, "{}", side.name);
-        // The bound must not become too wide.
-        // For angles, the bound stays proportional to the angle including its revolutions, so angles are not tested
-        // here.
+        // The bound must not become too wide either.
+        // Angles are not tested here, because their bound is proportional to the angle including its revolutions.
         for own in side.deviations.iter().filter(|own| own.channel.kind.unit != Unit::Radian) {
             assert_within!(own.bound, 1e-9, "{} {}", side.name, own.channel);
         }

@@ -72,7 +72,7 @@ fn condition(contours: &Contours) -> f64 {
     matrix.column_iter().map(|column| column.norm()).product::<f64>() / matrix.determinant().abs()
 }
 
-/// The methods compared with the given states of a solver.
+/// Compares the methods with the given states of a solver.
 fn differences(case: &Case, triad: &Triad, states: &[State], times: &[f64]) -> Differences {
     let links = triad.links();
     let speed = case.crank().at(0.0).rate;

@@ -83,7 +83,7 @@ fn a_length_change_of_a_tenth_of_a_nanometre_is_found() {
         assert!((found - accepted).abs() > bound && bounds > 1.0, "{row}");
         assert_within!(((found - accepted).abs() / bound - bounds).abs(), 1e-3 * bounds);
     }
-    // Every reported figure is stored in the file under its name; the text lists the worst figure first.
+    // Every reported figure is stored in the file under its name; the report lists the worst figure first.
     let kept: toml::Table = before.parse().unwrap();
     let of = |name: &Value| {
         let all = kept["channels"].as_array().unwrap();
@@ -107,7 +107,7 @@ fn a_length_change_of_a_tenth_of_a_nanometre_is_found() {
     let told = outcome.stdout.lines().skip_while(|line| !is_header(line)).skip(1);
     let bounds: Vec<f64> = told.map_while(|line| line.split_whitespace().last()?.parse().ok()).collect();
     assert!(bounds.len() > 3 && bounds.is_sorted_by(|a, b| a >= b), "{}", outcome.stdout);
-    // The crank moves as before, so the figures of its channels are not rewritten.
+    // The change does not affect the crank's motion, so the figures of the crank's channels are not rewritten.
     let told = place.ok(&format!("accept {SCENARIO}"));
     assert!(told.starts_with("crank_rocker: new figures accepted in "), "{told}");
     let after = fs::read_to_string(place.path(FILE)).unwrap();

@@ -45,7 +45,7 @@ fn regress_without_a_planted_fault_nothing_is_proven() {
         assert_eq!(json["scenarios"][0]["kinds_instead"][1], "mass");
     }
     // Only independent numbers can reveal a fault in code that all parties share.
-    // `bare.toml` has no such numbers.
+    // The scenario `bare.toml` has no independent numbers.
     let outcome = place.run("mutate scenarios/scotch_yoke.toml --kind gravity-missing --party trunk --no-sizes");
     let word = if outcome.code == 0 { "ALL FOUND" } else { "SHARED FAULTS NOT FOUND" };
     assert!(outcome.stdout.starts_with(word), "{}", outcome.stdout);
@@ -80,7 +80,7 @@ fn invalid_requests_are_refused() {
     assert_eq!(place.run("mutate nowhere.toml").code, 2);
 }
 
-/// The page and the program have the same table of kinds.
+/// docs/mutate.md and the program have the same table of fault kinds.
 #[test]
 fn the_document_lists_all_kinds() {
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/mutate.md");
@@ -104,7 +104,7 @@ fn mistakes_in_formulas_are_found_and_counted_separately() {
         let formula = &fault["formula"];
         assert!(fault["party"] == "formulas" && formula["right"] != formula["wrong"], "{fault}");
         if fault["outcome"] == "detected" {
-            // Only the judgement of formulas finds the fault.
+            // Only the judgement of formulas finds the planted fault.
             let checks = fault["checks"].to_string();
             assert!(checks.contains("formulas (assur)") && !checks.contains("closure"), "{fault}");
             assert!(fault["first"]["time_s"].is_number(), "{fault}");
@@ -112,7 +112,7 @@ fn mistakes_in_formulas_are_found_and_counted_separately() {
     }
     // The series claims an approximate value, and mistakes are planted only in formulas that claim an exact value.
     assert!(faults.iter().all(|fault| fault["formula"]["name"] != "x_series"), "{json}");
-    // The planted formula is wrong for `check` as well.
+    // `check` also finds that the planted formula is wrong.
     let fault = faults.iter().find(|own| own["formula"]["name"] == "x" && own["kind"] == "formula-sign").unwrap();
     let own = fs::read_to_string(place.path(file)).unwrap();
     let [right, wrong] = ["right", "wrong"].map(|key| fault["formula"][key].as_str().unwrap());

@@ -101,7 +101,7 @@ fn no_output_overwrites_another_output_or_an_input() {
     place.ok("run scenarios/pendulum.toml --no-record --json /dev/null --junit /dev/null");
 }
 
-/// A proof that would take long ends at once and changes no file.
+/// If an output directory is read-only, a proof ends before its long computation and changes no file.
 #[test]
 fn a_read_only_directory_is_found_at_once() {
     let place = Place::new();

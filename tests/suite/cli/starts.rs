@@ -95,8 +95,9 @@ fn the_start_angle_option_overrides_the_file() {
         assert_eq!(asked, moved, "{solver}");
     }
     // The dyads of ov7_base have modes, which apply at the new start.
-    // The groups of class III (ov7_new) and IV (fourth_class) have approximate positions, which apply at the crank angle
-    // in the file. From there the configuration is followed to the new start.
+    // The groups of class III (ov7_new) and IV (fourth_class) have approximate positions.
+    // These positions apply at the crank angle in the file; from this angle, the configuration is followed to the new
+    // start.
     for (name, start, cranks) in
         [("ov7_base", -200, "0,-30,-250"), ("ov7_new", -70, "-60,-70,-80"), ("fourth_class", 200, "70,150,290")]
     {

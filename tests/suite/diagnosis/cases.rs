@@ -186,8 +186,9 @@ fn faults_in_every_shipped_scenario_are_named() {
         .collect();
     names.sort();
     for name in names {
-        // This scenario takes ten times as long as all remaining scenarios together, so it is tested only at night.
-        // The scenario is only a larger case of the same benchmark.
+        // The scenario `n_four_bar_2` takes ten times as long as all remaining scenarios together, so it is tested only
+        // at night.
+        // An ordinary run tests `n_four_bar_1`, the smaller case of the same benchmark.
         if name == "n_four_bar_2" && !by_night() {
             continue;
         }

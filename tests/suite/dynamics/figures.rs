@@ -235,7 +235,7 @@ fn a_motor_that_is_too_weak_stops_for_good() {
     let (found, end) = motion(&model, 0.0, &times(), ACCURACY).unwrap();
     let RunUpEnd::Held(t, crank) = end else { panic!("{end:?}") };
     assert!(found.iter().all(|at| at.t <= t && at.crank <= crank + 1e-12) && found.len() < 501);
-    // At this angle the resistance alone exceeds the motor's moment.
+    // At the angle of the stall, the resistance alone exceeds the motor's moment.
     let rows = model.rows(&[crank]).unwrap();
     assert!(rows[0].resistance > 10.0, "{rows:?}");
     let error = model.regime(&[], ACCURACY).unwrap_err();

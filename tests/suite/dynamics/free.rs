@@ -211,8 +211,8 @@ fn twin_run_ups_are_of_order_one_and_extrapolate_accurately() {
     }
 }
 
-/// The case has neither rotor nor flywheel.
-/// After the step, Rapier could pass over the constraints a second time, but this would increase the error 23 times.
+/// The case has neither rotor nor flywheel inertia.
+/// A second pass of Rapier over the constraints, after each step, would multiply the error by 23.
 /// The second pass would remove the velocity that moved the bodies across the constraints.
 #[test]
 fn the_twin_keeps_the_velocities_that_moved_it() {
@@ -229,7 +229,7 @@ fn the_twin_keeps_the_velocities_that_moved_it() {
 
 /// Without rotor and flywheel, the inertia reduced to the crank almost vanishes at one crank angle.
 /// The crank passes this angle so fast that the passage lasts about one step.
-/// The proof must be inconclusive; a disagreement would be wrong.
+/// The proof must be inconclusive; the verdict disagree would be wrong.
 #[test]
 fn an_ill_conditioned_run_up_is_inconclusive_with_its_sensitivity() {
     let mut scenario = shipped("crank_rocker_runup.toml");

@@ -42,7 +42,7 @@ fn largest_change(values: &[f64]) -> f64 {
     values.iter().map(|value| (value - values[0]).abs()).fold(0.0, f64::larger)
 }
 
-/// A class III group on one crank with dampers, so that side 1 cannot use the reduction to the crank.
+/// A class III group on one crank; its dampers prevent side 1 from using the reduction to the crank.
 #[test]
 fn a_higher_group_moves_under_a_damper() {
     let case = shipped("ov7_new_runup.toml").case;

@@ -25,7 +25,7 @@ fn lighter(case: &Case) -> Case {
 /// Story 50.
 /// Symptom: a slider moves in the wrong direction, or a slide, its speed or its moment does not converge.
 /// Cause: the slide is measured along the axis of the parent in the tree, which may be the joint's second link.
-/// The slide's speed is one step old, so the axis must be one step old too.
+/// The slide's speed belongs to the previous step, so the axis of the previous step must be used.
 /// The order must be 2 in every channel, whichever link is named first and whichever link has no mass.
 #[test]
 fn regress_50_all_sorts_of_sliders_converge_with_the_formal_order() {

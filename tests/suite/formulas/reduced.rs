@@ -26,7 +26,8 @@ fn found(scenario: &Scenario, quantity: &str) -> Vec<[f64; 3]> {
 }
 
 /// The reduced model computes the reduced inertia and the reduced moment from transfer functions.
-/// The channels that this test compares with the model come from the kinetic energy and the power that each side finds.
+/// Each side computes the channels of the same names from kinetic energy and power; the test compares them with the
+/// model.
 #[test]
 fn reduced_quantities_match_the_equation_of_motion() {
     for name in ["crank_rocker", "crank_rocker_runup", "class3_group", "compressor", "ov7_base", "quick_return"] {

@@ -1,4 +1,4 @@
-//! The Newton-Euler equations along the spanning tree against the dense system of all links.
+//! Compares the Newton-Euler equations along the spanning tree with the dense system of all links.
 //! The two methods share only the components of the joints.
 
 use crate::common::assert_within;
