@@ -1,8 +1,8 @@
 //! Tests of the architecture.
-//! They check which crate may use which other crate, and which module may use which other module.
+//! The tests check which crate may use which other crate, and which module may use which other module.
 //! Files must not depend on each other in a circle.
 //! The two analytic sides may share only their common base.
-//! They also check a few rules that apply to every file.
+//! The tests also check a few rules that apply to every file.
 
 mod graph;
 
@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 use graph::Graph;
 
 /// Every crate: name in code, directory, the workspace crates that it may use, and the foreign crates that it may use.
-/// The table must match the manifests: an unused entry fails too.
+/// The table must match the manifests: a crate that the table allows but no manifest uses is also an error.
 const CRATES: &[(&str, &str, &str, &str)] = &[
     ("linkage", "crates/linkage", "", "nalgebra petgraph"),
     ("analytic", "crates/analytic", "linkage", "differential-equations num-integer pulp wide"),

@@ -188,7 +188,7 @@ const GIVEN: [&str; 6] =
 
 /// Mechanisms with several drives of varying speed.
 /// The drives are at cranks, slides and joints between moving links, and their laws are cycloids and a table.
-/// A harmonic law and a formula replace two of these laws in further cases.
+/// Further cases replace two of the laws by a harmonic law and a formula.
 #[test]
 fn several_drives_with_laws_against_brute_force() {
     let mut seen = Seen::default();

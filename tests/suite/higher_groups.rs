@@ -16,7 +16,7 @@ const TRIES: usize = 60;
 
 /// A measure of how near the pose is to a singular pose: the largest speed or square root of an acceleration, divided
 /// by the crank's speed.
-/// Rounding error grows with the square of this measure.
+/// The rounding error of a solution grows with the square of `nearness`.
 /// Near a singular pose, accelerations are large even if a speed passes through zero.
 /// Lengths are about a metre, so linear and angular speeds are of similar size.
 fn nearness(trajectory: &Trajectory, crank: f64) -> f64 {

@@ -122,7 +122,7 @@ const WORK: f64 = 2e4;
 /// Tests every family of higher groups.
 /// The surroundings of the group change from family to family; with more draws, each family is tested in all
 /// surroundings.
-/// Before the bound included the error of the sweeps, three of these mechanisms disagreed falsely in velocities.
+/// Three of the tested mechanisms disagreed falsely in velocities before the bound included the error of the sweeps.
 #[test]
 fn regress_random_higher_groups_never_disagree() {
     let mut counts = BTreeMap::new();

@@ -27,7 +27,7 @@ fn scenarios() -> Vec<String> {
     let names = std::fs::read_dir(directory).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
     let mut names: Vec<String> = names.filter(|name| name.ends_with(".toml")).collect();
     // The engine refuses motion laws other than constant speed; free motions have a separate test.
-    // It refuses transmissions and friction too.
+    // The engine also refuses transmissions and friction.
     names.retain(|name| {
         let case = shipped(name).case;
         case.is_steady() && case.mechanism.transmissions().is_empty() && !case.has_friction()
@@ -277,7 +277,7 @@ fn random_mechanisms_agree() {
 /// A measure of how near a run comes to a singular pose.
 /// The measure is the largest speed, or the square root of the largest acceleration, divided by the crank's speed.
 /// Lengths are about a metre, so linear and angular speeds are of similar size.
-/// The effect of a small error grows with the square of this measure.
+/// The effect of a small error grows with the square of `nearness`.
 fn nearness(case: &Case, truth: &Trajectory) -> f64 {
     let crank = case.crank().at(0.0).rate.abs();
     let of = |(channel, values): (&Channel, &[f64])| {

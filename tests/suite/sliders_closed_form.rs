@@ -199,8 +199,8 @@ fn val_quick_return_time_ratio() {
     let swing = (first.angle - second.angle).abs();
     assert_within!((swing - 2.0 * (0.1f64 / 0.3).asin()).abs(), 1e-9, "{swing}");
     // At the extreme positions of the guide, the ram also reverses.
-    // The ram's speed is up to 3 m/s between these positions.
-    // At these positions, the computed speed is only the effect of an angle error of 1e-9 rad.
+    // Between two extreme positions, the ram's speed is up to 3 m/s.
+    // At an extreme position, the computed speed of the ram is only the effect of an angle error of 1e-9 rad.
     let mut cranks = vec![first.crank, second.crank];
     cranks.sort_by(f64::total_cmp);
     for rows in solved(&case.on(Grid::of_inputs(case.crank(), cranks)).unwrap()) {

@@ -132,7 +132,7 @@ fn refused_points_are_results_with_a_reason() {
 }
 
 /// The reference has one length that is wrong by a millionth.
-/// Both sides contradict the reference, while they agree with each other.
+/// Both sides contradict this reference, while they agree with each other.
 /// A wrong number that both sides share without a warning would show in the same way.
 #[test]
 fn a_wrong_number_that_both_sides_share_is_counted() {

@@ -42,7 +42,7 @@ struct Differences {
 impl Differences {
     /// Whether all differences are within `rounding` times a power of the condition number.
     /// The power is one for the solution of each linear system and for the angles.
-    /// It grows by one with every derivative of the angles.
+    /// The power grows by one with every derivative of the angles.
     fn are_within(&self, rounding: f64) -> bool {
         let (own, chain) = (self.condition, self.condition.larger(self.chain));
         self.cramer[0] <= rounding * own

@@ -106,7 +106,7 @@ fn inspect_reports_how_unambiguous_the_start_is() {
     let place = Place::new();
     // `inspect` reports the distance of point E from its approximate position, in the selected configuration and in the
     // next configuration of the list.
-    // Both distances must follow from the positions that `--modes` lists.
+    // The two reported distances must follow from the positions that `--modes` lists.
     let found: Value = serde_json::from_str(&place.ok("inspect scenarios/fourth_class.toml --modes --json -")).unwrap();
     let at = |mode: usize| {
         let points = found["modes"]["groups"][0]["modes"][mode]["links"][2]["points"].as_array().unwrap().clone();

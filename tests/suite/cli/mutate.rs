@@ -56,7 +56,7 @@ fn regress_without_a_planted_fault_nothing_is_proven() {
     assert!(outcome.stdout.starts_with("SHARED FAULTS NOT FOUND"), "{}", outcome.stdout);
 }
 
-/// In a proof that already disagrees, every planted fault would count as found, so the command refuses it.
+/// In a proof that already disagrees, every planted fault would count as found, so the command refuses this proof.
 #[test]
 fn regress_a_proof_that_disagrees_without_a_fault_is_refused() {
     let place = Place::new();
@@ -140,7 +140,7 @@ fn a_file_without_formulas_reports_nothing_planted() {
     assert_eq!(outcome.code, 3, "{}", outcome.stdout);
     assert!(outcome.stdout.starts_with("NOTHING PLANTED"), "{}", outcome.stdout);
     assert!(outcome.unbroken().contains("no formula of the scenario claims an exact value"), "{}", outcome.stdout);
-    // The scenario has no formulas, so no mistake can be planted in them.
-    // This is no error if `--kind` also requests a kind of fault that can be planted.
+    // The scenario has no formulas, so no mistake can be planted in a formula.
+    // The missing formulas are no error if `--kind` also requests a kind of fault that can be planted.
     place.ok("mutate scenarios/pendulum.toml --kind gravity-sign --kind formula --party assur --no-sizes");
 }

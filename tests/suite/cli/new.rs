@@ -153,8 +153,8 @@ fn jansens_leg_walks() {
 }
 
 /// The patent's table: with the leg drawn in, the foot is at (0, 0).
-/// Half a revolution earlier, the foot is one unit (100 mm) ahead.
-/// Between these two poses the foot is on the ground.
+/// In the pose half a revolution earlier, the foot is one unit (100 mm) ahead.
+/// Between the two poses of the table the foot is on the ground.
 #[test]
 fn klanns_leg_walks() {
     let (x, y) = steps("klann", "P33");

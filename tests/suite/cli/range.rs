@@ -25,7 +25,7 @@ fn a_crank_rocker_is_reported_with_its_extreme_positions() {
 }
 
 /// A crank lengthened to 0.15 m, with a frame of 0.150748 m, coupler 0.347072 m and rocker 0.25 m.
-/// This crank cannot rotate fully.
+/// The lengthened crank cannot rotate fully.
 #[test]
 fn a_limited_crank_is_reported_with_its_limits() {
     let place = Place::new();

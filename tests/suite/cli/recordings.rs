@@ -235,7 +235,8 @@ fn plotjuggler_layouts_name_recorded_curves() {
         assert_eq!(sides.into_iter().collect::<Vec<_>>(), ["engine", "error", "reference"]);
         assert_eq!(of("DockSplitter").next().unwrap().attribute("count"), Some("4"));
     }
-    // In another directory, the layout names the recording by its whole path.
+    // If the layout is in a directory other than that of the recording, the layout names the recording by its whole
+    // path.
     place.ok("view whole/crank_rocker.mcap --with plotjuggler -o there.xml");
     let whole = place.path("whole/crank_rocker.mcap").canonicalize().unwrap();
     let text = fs::read_to_string(place.path("there.xml")).unwrap();

@@ -140,7 +140,7 @@ fn unrequested_channels_have_no_column() {
         ("\"positions\", \"velocities\", \"reactions\"", "angle_rad omega_rad_s x_m y_m vx_m_s vy_m_s fx_N fy_N"),
     ] {
         let wanted = format!("[channels]\nwant = [{want}]\n[grid]");
-        // The published numbers of the scenario need more than positions, so they are all removed.
+        // The published numbers of the scenario need more than positions, so the test removes all of them.
         place.edited("crank_rocker.toml", "few.toml", &[("[grid]", &wanted)]);
         let text = fs::read_to_string(place.path("scenarios/few.toml")).unwrap();
         let text = text.split("[[oracle]]").next().unwrap();

@@ -164,7 +164,7 @@ fn regress_an_ambiguous_start_does_not_block_its_resolution() {
     assert!(chosen.contains("2, right, chosen by the scenario"), "{chosen}");
 }
 
-/// The approximate position of the group is halfway between its two configurations, so it does not choose between them.
+/// The approximate position of the group is halfway between its two configurations, so the position selects neither.
 #[test]
 fn all_configurations_of_an_open_group_are_listed() {
     let place = Place::new();

@@ -129,7 +129,7 @@ fn the_published_motor_is_chosen() {
     assert_eq!(json["motor"]["name"], "4A71A4");
 }
 
-/// An error in a catalogue is reported with its location.
+/// An error in a catalogue is reported with the location of this error.
 #[test]
 fn catalogues_are_checked() {
     let place = Place::new();

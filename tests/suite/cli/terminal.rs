@@ -93,8 +93,8 @@ fn formula_reports_fit_80_columns() {
     assert!(wrong.lines().all(|line| line.chars().count() <= 80), "{wrong}");
 }
 
-/// The short report shows both values at the worst instant, with the digits in which they differ.
-/// The report also has everything that the user needs to act.
+/// The short report shows both compared values at the worst instant, with the digits in which they differ.
+/// The short report also has everything that the user needs to act.
 #[test]
 fn a_disagreement_keeps_its_reasons_in_the_short_report() {
     let place = place();
@@ -139,7 +139,7 @@ fn any_number_of_jobs_prints_the_same_bytes() {
     assert!(one.stdout.lines().all(|line| line.chars().count() <= 80), "{}", one.stdout);
 }
 
-/// If a file is given twice and its settings are written, the second proof uses the new settings, whatever the number
+/// If a file is given twice and the settings are written to it, the second proof uses the new settings, with any number
 /// of jobs.
 #[test]
 fn settings_are_written_in_the_order_of_the_files() {

@@ -56,7 +56,8 @@ fn structural_constants_agree_in_every_format() {
     }
 }
 
-/// If the other columns omit trailing zeros, a column of `0` is zero to the digits of these columns, so it disagrees.
+/// If the other columns omit trailing zeros, a column of `0` is exact to the digits of these columns, so a wrong `0`
+/// disagrees.
 /// If the other columns have fixed decimals, `0` may be the rounded form of any value below 0.5.
 #[test]
 fn wrong_constants_disagree_only_where_they_are_exact() {

@@ -260,7 +260,7 @@ fn compressed_parquet_files_are_read_or_refused_by_name() {
 }
 
 /// A pipe delivers every byte only once.
-/// The program therefore reads the first four bytes to see whether the table is Parquet, and keeps them.
+/// The program reads the first four bytes of the pipe to see whether the table is Parquet, and keeps these bytes.
 #[test]
 fn a_table_comes_through_a_pipe_with_all_its_bytes() {
     let place = place();

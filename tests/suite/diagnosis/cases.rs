@@ -176,7 +176,7 @@ fn faults_of_a_free_case_are_named() {
     assert!(tally.wrong.is_empty(), "\n{}", tally.wrong.join("\n"));
 }
 
-/// Two faults in every shipped scenario that they affect: gravity is missing, or the last link is 5 % too heavy.
+/// Two faults, each in every shipped scenario that it affects: gravity is missing, or the last link is 5 % too heavy.
 #[test]
 fn faults_in_every_shipped_scenario_are_named() {
     let mut tally = Tally::default();

@@ -213,7 +213,8 @@ fn reducer_losses_apply_in_both_directions_of_power() {
     let model = ReducedModel::of(&case).unwrap();
     let run_up = RunUp::of(&model, 0.0, &times(), ACCURACY).unwrap();
     // Twice per revolution the mechanism drives the motor.
-    // The moment on the crank is then the motor's moment divided by 0.9; otherwise it is multiplied by 0.9.
+    // If the mechanism drives the motor, the moment on the crank is the motor's moment divided by 0.9; otherwise it is
+    // multiplied by 0.9.
     let motor = case.crank().motor().unwrap();
     let (mut drives, mut driven) = (0, 0);
     for at in &run_up.motion[1..] {

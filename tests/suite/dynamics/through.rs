@@ -130,7 +130,7 @@ fn reactions_of_one_four_bar_match_the_hand_calculation() {
 }
 
 /// With two parallelograms, the equations of the reactions contradict each other in level poses.
-/// Reactions therefore have a pole there, but the motion does not.
+/// Reactions therefore have a pole in level poses, but the motion does not.
 /// The middle bar carries two half rods, each end bar carries one half rod.
 #[test]
 fn reactions_may_have_a_pole_at_a_change_point() {
@@ -270,7 +270,7 @@ fn driven(lengths: [f64; 4], left: bool, start: f64, through: bool, cranks: &[f6
 }
 
 /// In a prescribed motion, the scenario states whether change points are passed.
-/// If the scenario does not state this, change points are errors.
+/// If the scenario does not state whether change points are passed, change points are errors.
 #[test]
 fn a_drive_passes_change_points_only_on_request() {
     let cranks: Vec<f64> = (0..200).map(|k| 61.3 + 5.7 * f64::from(k)).collect();
@@ -463,7 +463,7 @@ fn regress_an_instant_exactly_at_a_change_point_is_passed() {
 
 /// Symptom: the error at a change point said "shorten the grid" or "change a length", but did not mention `through`.
 /// If a load would do work in a motion along the second branch, reactions have a pole at the change point.
-/// If reactions are requested there, the error names this pole.
+/// If reactions are requested at the change point, the error names this pole.
 #[test]
 fn the_error_at_a_change_point_suggests_the_key_through() {
     for step in [10.0, 7.0] {

@@ -88,7 +88,7 @@ fn gap_of_a_step(case: &Case, state: &State, step: f64) -> f64 {
     let joints = case.mechanism.joints();
     let around: linkage::math::Vec2 = (0..joints.len())
         .map(|k| {
-            // Joints O, A, B, C in this order: one link, or the ground, joins joint k and the next joint.
+            // Joints O, A, B, C in this order; a link or the ground joins each joint k and the next joint.
             let (from, to) = (&joints[JointId(k)], &joints[JointId((k + 1) % joints.len())]);
             let link = [from.first.link, from.second.link].into_iter().find(|&link| to.on(link).is_some()).unwrap();
             let motion = &state.motions[link];

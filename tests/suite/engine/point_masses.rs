@@ -101,7 +101,7 @@ fn massless_links_move_under_forces() {
 }
 
 /// Symptom: without a motor, reactions that the engine reports contained a driving moment.
-/// This moment was 1e-4 of the moment that keeps the mechanism at rest.
+/// The wrong driving moment was 1e-4 of the moment that keeps the mechanism at rest.
 /// Cause: Rapier keeps the impulse of a motor that has been switched off.
 #[test]
 fn regress_a_free_link_without_motor_has_no_driving_moment() {

@@ -102,7 +102,7 @@ fn regress_52_links_in_sliders_turn_together() {
 /// Story 53.
 /// Symptom: at the same step, mechanisms with sliders have larger errors than mechanisms with pins only.
 /// At a step of 1e-4 s, the largest errors of the five mechanisms were 1.4e-6, 8.3e-6, 7.8e-7, 2.0e-5 and 1.7e-6.
-/// These are the largest values over all channels, divided by half the range of the channel.
+/// Each of these errors is the largest over all channels, divided by half the range of its channel.
 /// (The fourth mechanism makes only a fifth of a revolution, so its ranges are small.)
 /// The bounds are a tenth larger than these errors.
 #[test]

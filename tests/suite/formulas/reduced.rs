@@ -78,7 +78,7 @@ fn meaningless_claims_are_refused_with_a_reason() {
 }
 
 /// At instants when the crank is at rest, the division by the crank's speed is impossible.
-/// Such instants are left out; if the crank is at rest at all instants, nothing is proven.
+/// Instants at which the crank is at rest are left out; if the crank is at rest at all instants, nothing is proven.
 #[test]
 fn a_crank_at_rest_has_no_reduced_inertia() {
     let place = Place::new();

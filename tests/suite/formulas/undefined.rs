@@ -103,7 +103,8 @@ fn operations_outside_their_domain_disagree_with_a_position() {
 
 /// A pole between two instants is not an operation outside its domain.
 /// A formula with such a pole is right if its value is right at every instant, but its bound is wider near the pole.
-/// If rounding hides a pole at an instant, the formula is not judged at this instant; the other instants decide.
+/// If rounding hides a pole at an instant, the formula is not judged at this instant; the remaining instants decide the
+/// verdict.
 #[test]
 fn poles_between_instants_and_poles_that_rounding_hides() {
     let scenario = shipped("crank_rocker.toml");

@@ -160,8 +160,8 @@ fn both_sides_agree_with_friction_in_every_joint() {
     }
 }
 
-/// A coefficient of friction that is off by a thousandth changes the driving moment by more than 1e-5 of its value, and
-/// so does a coefficient with the wrong sign.
+/// A coefficient of friction that is off by a thousandth changes the driving moment by more than 1e-5 of its value.
+/// A coefficient with the wrong sign has the same effect.
 #[test]
 fn a_coefficient_off_by_a_thousandth_is_seen_and_its_sign_too() {
     let case = shipped("slider_crank_friction.toml").case;

@@ -21,7 +21,7 @@ enum Then {
 
 /// A command, the file whose name it chooses, and its reaction to a file of the user at that path.
 /// The last field states whether the file has a seal.
-/// If so, the command notices that its own output was edited, and treats the edited file as a file of the user.
+/// With a seal, the command notices that its own output was edited, and treats the edited file as a file of the user.
 type Writer = (&'static str, &'static str, Then, bool);
 
 const BENCH: &str = "bench scenarios/five_bar.toml --out out --quick --engine rapier --only positions --budget 1e4";
