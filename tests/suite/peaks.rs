@@ -56,7 +56,7 @@ fn val_ov7_new_largest_reactions_and_journals() {
     assert_within!((1e3 * journal_diameter(crank.value, 0.01, 200e6) - 8.04).abs(), 0.005);
 }
 
-/// Side 2 has the same reaction at the refined angle, and no larger reaction near this angle.
+/// At the refined angle of a maximum, side 2 gives the reaction that was found, and near this angle no larger reaction.
 #[test]
 fn the_other_side_has_the_same_peaks() {
     for name in ["crank_rocker.toml", "fourth_class.toml", "class3_group.toml"] {

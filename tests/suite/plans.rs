@@ -119,7 +119,7 @@ fn every_contour_of_every_plan_closes() {
             let plans = plans_with(name, solver, degrees);
             for plan in [&plans.velocity, &plans.acceleration] {
                 let (count, gap) = contours(plan);
-                // Each closed loop of the mechanism gives at least one contour; ground, crank, coupler and rocker form one loop.
+                // Each closed loop of the mechanism gives at least one contour.
                 assert!(count >= 1, "{name}: nothing closes");
                 // The solvers promise velocities and accelerations to eleven digits.
                 assert_within!(gap, 1e-11 * longest(plan), "{name} at {degrees}: {:e}", gap / longest(plan));

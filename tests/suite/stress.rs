@@ -95,7 +95,8 @@ fn a_long_chain_keeps_its_digits() {
     }
 }
 
-/// The work of side 1 for a chain is the sum of the work for its four-bars; the test counts it, without a clock.
+/// The work of side 1 for a chain is the sum of the work for its four-bars; the test counts operations and uses no
+/// clock.
 /// Side 2 iterates on blocks, and needs the same number of iterations per four-bar in a long chain.
 #[test]
 fn work_per_four_bar_does_not_grow_with_the_chain() {

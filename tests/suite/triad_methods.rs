@@ -138,7 +138,7 @@ fn all_methods_agree_with_both_solvers_over_the_turn_of_the_published_drive() {
             let states = states(solver, case, &case.grid.times).unwrap();
             let found = differences(case, &only_triad(case), &states, &case.grid.times);
             // Some two hundred operations lie between a pose and the accelerations.
-            // If all their rounding errors (1.1e-16) had the same sign, the sum would be 2e-14.
+            // If the rounding errors (1.1e-16) of all operations had the same sign, the sum would be 2e-14.
             // The solver adds its rounding errors, so the bound is 1e-13.
             assert!(found.are_within(1e-13), "{name} {} {found:?}", solver.name());
             assert!(found.condition < 2.0 && found.chain < 2.0, "{found:?}");

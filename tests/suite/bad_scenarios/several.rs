@@ -45,7 +45,7 @@ fn mistakes_in_different_tables_are_reported_together() {
         ("links = [\"crank\", \"coupler\"]", "links = [\"crank\", \"cuopler\"]", "joints.A.links", "cuopler"),
         ("speed_rpm = 130", "speed_rpm = 0\ncolour = 1", "drive.speed_rpm", "speed_rpm = 0"),
         // The edit of the drive makes two mistakes.
-        // The edit of `[gravity]` only adds an empty line; it is listed for the second mistake of the drive.
+        // The edit of `[gravity]` only adds an empty line; this edit stands for the second mistake of the drive.
         ("[gravity]", "\n[gravity]", "drive.colour", "colour"),
         ("x_m_s2 = 0\n", "", "gravity", "[gravity]"),
         ("link = \"rocker\"", "link = \"rockre\"", "loads[1].link", "rockre"),

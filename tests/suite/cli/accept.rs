@@ -146,8 +146,8 @@ fn a_figure_within_its_bound_has_not_moved() {
     assert_eq!(check(&place).code, 0);
 }
 
-/// A motion may change although its extremes and its few stored instants stay the same. Only the root mean square then
-/// shows the change.
+/// A motion may change although its extremes and its few stored instants stay the same. In such a case, only the root
+/// mean square shows the change.
 #[test]
 fn a_changed_root_mean_square_is_reported() {
     let place = accepted();

@@ -79,7 +79,7 @@ fn a_page_has_verdict_channels_errors_and_positions() {
         let max = judged["max"].as_f64().unwrap();
         assert!(judged["left_out"] != 0 || (largest - max).abs() <= 1e-6 * max, "{largest} {max}");
     }
-    // Positions are doubles, with the same bits as the solution.
+    // The page stores positions as doubles, with exactly the bits of the solution.
     let solved = Table::of(&place.ok("solve scenarios/pendulum.toml --with assur"));
     let times = solved.column("t_s");
     let rows: Vec<usize> =

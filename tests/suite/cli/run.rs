@@ -360,7 +360,7 @@ fn unrequested_channels_are_neither_compared_nor_checked() {
 }
 
 /// One factor scales all bounds.
-/// With a factor of 1e-9, numbers disagree.
+/// With a factor of 1e-9, even correct numbers disagree.
 /// With a factor of zero, the report prints every channel and check with its bound, and the verdicts are those of the
 /// factor 1.
 #[test]

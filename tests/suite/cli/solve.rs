@@ -248,7 +248,7 @@ fn assur_is_the_default_solver() {
     assert_ne!(table, place.ok(&format!("{solve} --with newton")));
 }
 
-/// Symptom: a free motion requested at 120 deg was solved at 147 deg.
+/// Symptom: a free motion requested at a crank angle of 120 deg was solved at 147 deg.
 /// Cause: angles were converted to times by the nominal speed.
 #[test]
 fn regress_a_free_motion_takes_no_grid_of_crank_angles() {

@@ -22,7 +22,7 @@ fn place() -> Place {
     place
 }
 
-/// The recording of this test was written by the first version that could record.
+/// The recording of this test comes from the first version that could record.
 #[test]
 fn a_recording_of_the_first_version_is_read() {
     let place = place();

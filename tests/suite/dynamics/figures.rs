@@ -169,7 +169,7 @@ fn a_flywheel_gives_the_requested_non_uniformity() {
     assert_eq!(Flywheel::of(&model, 0.5, ACCURACY).unwrap().inertia, 0.0);
     // With a large flywheel the speed hardly changes, so J = W / (delta omega^2), as in textbooks (Merzalow).
     // W is the largest surplus of work that the kinetic energy of the mechanism does not absorb.
-    // The motor's moment is then equal to the mean resistance.
+    // With a large flywheel, the motor's moment equals the mean resistance.
     let count = 36_000;
     let cranks: Vec<f64> = (0..count).map(|k| TAU * (f64::from(k) + 0.5) / f64::from(count)).collect();
     let mean = 100.0 * 64.0 / 360.0;

@@ -197,7 +197,7 @@ fn resisting_forces_dissipate_force_times_path() {
     both("several", &loaded(&resisted, &more), 1e-10);
 }
 
-/// A sufficiently large resisting force prevents the start of its point, and both sides report this.
+/// A sufficiently large resisting force keeps the loaded point at rest from the start, and both sides report this.
 #[test]
 fn a_force_against_a_point_can_hold_it() {
     let case = shipped("double_pendulum.toml").case;

@@ -423,7 +423,7 @@ const MOTION: &str = "want = [\"positions\", \"velocities\", \"accelerations\"]"
 
 /// Parallel cranks with a length ratio of two to five and a load on the coupler, over a whole revolution in steps of
 /// `step` (deg).
-/// `want` gives the requested channels, and `through` is the key of the drive.
+/// `want` gives the requested channels; `through` is the key that lets the drive pass change points, or an empty text.
 fn parallel_cranks(through: &str, want: &str, step: f64) -> Case {
     let mut spec = four_bar([0.127, 0.0508, 0.127, 0.0508], true);
     spec.links[0].mass = Some((0.5, Vec2::new(0.025, 0.0), 0.0003));

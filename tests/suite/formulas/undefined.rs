@@ -26,8 +26,8 @@ const OUTSIDE: [(&str, &str); 14] = [
 ];
 
 /// Symptom: the formula `phi*180/pi + 0*ln(-1)` was judged right.
-/// Causes: the parser simplified 0*x, 0/x and x^0, although only derivatives need this; and IEEE 754 gives 1/(1/0) a
-/// value.
+/// First cause: the parser simplified 0*x, 0/x and x^0, although only derivatives need these simplifications.
+/// Second cause: IEEE 754 gives 1/(1/0) a value.
 #[test]
 fn regress_undefined_constants_are_refused_in_every_input() {
     let place = Place::new();

@@ -47,8 +47,9 @@ fn val_efficiency_of_a_planetary_train() {
     }
 }
 
-/// A square thread with the lead angle alpha and the angle of friction phi: the moments are F d/2 tan(phi + alpha) up and
-/// F d/2 tan(phi - alpha) down. Beyond phi = alpha, the screw is self-locking.
+/// A square thread with the lead angle alpha and the angle of friction phi.
+/// The moments are F d/2 tan(phi + alpha) up and F d/2 tan(phi - alpha) down. Beyond phi = alpha, the screw is
+/// self-locking.
 #[test]
 fn val_screws_on_both_sides_of_self_locking() {
     let (lead, force, diameter): (f64, f64, f64) = (0.008, 6400.0, 0.03);

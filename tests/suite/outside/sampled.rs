@@ -219,8 +219,8 @@ impl Row<'_> {
     }
 
     /// Four imbalances, each divided by its largest term.
-    /// Two imbalances compare the sampled shaking force and moment with the reactions, and two compare them with the
-    /// momentum.
+    /// Two imbalances compare the sampled shaking force and moment with the reactions.
+    /// The remaining two compare the sampled shaking force and moment with the momentum.
     /// Also returns the total power of drives, loads, weights and inertia, and the largest of these powers (W).
     fn imbalances(&self) -> ([f64; 4], [f64; 2]) {
         let (case, loads, efforts) = (self.case, self.loads(), self.efforts());
