@@ -19,9 +19,9 @@ fn below(directory: &'static Dir<'static>, path: &str, found: &mut Vec<(String, 
     }
 }
 
-/// Paths, with `/`, and bytes of all embedded files.
+/// Every embedded file: its path, with `/` as separator, and its bytes.
 /// The embedded files are the scenarios with their tables, the catalogues, and the findings that published numbers
-/// refer to.
+/// cite.
 #[must_use]
 pub fn files() -> Vec<(String, &'static [u8])> {
     let mut found = vec![("docs/findings.md".to_string(), FINDINGS)];

@@ -26,7 +26,8 @@ use scenario::{Scenario, StartRequest};
 /// Proves a scenario file, and panics with the report unless the proof agrees; returns the [`Proof`].
 ///
 /// The path is relative to the directory of the caller's `Cargo.toml`.
-/// Further arguments are methods of [`Proving`](crate::testing::Proving), each with its argument.
+/// Each further argument, such as `only = [...]`, calls the method of that name of
+/// [`Proving`](crate::testing::Proving).
 ///
 /// ```
 /// use linkproof::{Options, assert_proven};
@@ -103,7 +104,7 @@ fn failure(proof: &Proof) -> Option<String> {
 }
 
 /// A proof of a scenario file, prepared by [`Proving::of`].
-/// Values that are not set come from the file.
+/// A setting that is not made here comes from the scenario file.
 #[derive(Clone, Debug)]
 #[must_use = "nothing is proven before `prove` or `assert`"]
 pub struct Proving {
@@ -115,7 +116,7 @@ pub struct Proving {
     tolerance: Option<f64>,
 }
 
-/// The values of a grid, crank angles (rad) or times (s), and the function that makes a grid from them.
+/// The crank angles (rad) or times (s) of a grid, and the function that builds a grid from such values.
 #[derive(Clone, Debug)]
 struct Instants {
     values: Vec<f64>,
@@ -142,13 +143,13 @@ impl Proving {
         }
     }
 
-    /// Sets engines, their settings and the reference.
+    /// Sets the engines, the settings of the engines, and the reference solution.
     pub fn with(mut self, options: Options) -> Self {
         self.options = options;
         self
     }
 
-    /// Requests only these channels, by the words of `want` in `[channels]`.
+    /// Requests only the channels that these words name; the words are those of `want` in `[channels]`.
     /// A word is a stage (`positions`), a subject (`point.P`), a subject's stage (`point.P.positions`) or a channel
     /// (`joint.B.fx_N`).
     /// The method may be called several times.
@@ -192,9 +193,9 @@ impl Proving {
     }
 
     /// Sets an upper limit for the engine's error bound, as a fraction of a channel's scale.
-    /// Above this limit, agreement no longer counts as a proof.
+    /// If the error bound exceeds this limit, agreement no longer counts as a proof.
     /// The limit replaces `engine_rel` of `[tolerances]`.
-    /// The bounds themselves are computed and cannot be chosen.
+    /// The error bounds themselves are computed and cannot be chosen.
     pub fn tolerance(mut self, share: f64) -> Self {
         self.tolerance = Some(share);
         self

@@ -14,7 +14,7 @@ use prover::run::Options;
 use scenario::files_in;
 
 /// Proves every scenario of a folder (`*.toml`, without subfolders), each as a test with the name of its file.
-/// The path is relative to the package, in whose directory Cargo runs tests.
+/// The path is relative to the directory of the package, because Cargo runs tests in this directory.
 ///
 /// `tests/scenarios.rs`, whole:
 ///
@@ -63,7 +63,7 @@ impl Folder {
         Folder { path: path.as_ref().into(), options: Options::default(), ignored: Vec::new() }
     }
 
-    /// Sets engines, their settings and the reference of every proof.
+    /// Sets the engines, the settings of the engines, and the reference solution for every proof.
     pub fn with(mut self, options: Options) -> Self {
         self.options = options;
         self
@@ -83,7 +83,7 @@ impl Folder {
     }
 
     /// A test for each scenario.
-    /// If the folder cannot be used, the error becomes a failing test, which every list of tests shows.
+    /// If the folder has no scenario or cannot be read, the result is one failing test that reports the error.
     fn trials(self) -> Vec<Trial> {
         let files = match files_in(&self.path) {
             Ok(files) if files.is_empty() => return vec![self.wrong(sentences::THERE_IS_NO_SCENARIO_TOML)],

@@ -1,8 +1,8 @@
 //! Tests of the architecture.
-//! They check which crate may use which other crate, and which module may use which other module.
+//! The tests check which crate may use which other crate, and which module may use which other module.
 //! Files must not depend on each other in a circle.
 //! The two analytic sides may share only their common base.
-//! They also check a few rules that apply to every file.
+//! The tests also check a few rules that apply to every file.
 
 mod graph;
 
@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 use graph::Graph;
 
 /// Every crate: name in code, directory, the workspace crates that it may use, and the foreign crates that it may use.
-/// The table must match the manifests: an unused entry fails too.
+/// The table must match the manifests: a crate that the table allows but no manifest uses is also an error.
 const CRATES: &[(&str, &str, &str, &str)] = &[
     ("linkage", "crates/linkage", "", "nalgebra petgraph"),
     ("analytic", "crates/analytic", "linkage", "differential-equations num-integer pulp wide"),
@@ -113,12 +113,12 @@ const ROOMS: &[(&str, &str)] = &[
 
 /// Modules, and the parts of other crates that each module must not name, although the module's crate may use them.
 const NEVER: &[(&str, &str)] = &[
-    // Only trajectories are compared.
+    // `prover::bounds` only compares trajectories.
     ("prover::bounds", "analytic rapier_twin simbody_twin linkage::case linkage::mechanism linkage::solver"),
     // Diagnosis solves changed cases with the solver that it receives as an argument.
     ("prover::diagnosis", "analytic rapier_twin simbody_twin linkage::engine"),
     ("prover::tolerance", "analytic rapier_twin simbody_twin linkage"),
-    // A run takes its engines only from the list in `prover::engines`.
+    // `prover::run` takes its engines only from the list in `prover::engines`.
     ("prover::run", "rapier_twin simbody_twin"),
     // Reports show results of the analytic crate and of design work, but compute no motion.
     ("linkproof::report", "analytic::assur analytic::assur_solver analytic::motion analytic::newton rapier_twin"),
@@ -134,7 +134,7 @@ const NEVER: &[(&str, &str)] = &[
 ];
 
 /// Names that only some modules may use.
-/// Foreign crates are used only in the module that wraps them.
+/// A foreign crate is used only in the module that wraps this crate.
 /// Only the command line uses the clock and the terminal.
 /// Only the modules that read or write files use the file system.
 /// Outside `recording`, unordered hash tables are banned, so that no result depends on their order.
@@ -147,7 +147,7 @@ const HOMES: &[(&str, &str)] = &[
     ("toml_edit", "design::synthesize scenario"),
     ("comfy_table", "linkproof::plain linkproof::report"),
     // Only `lab::outside` starts foreign programs.
-    // In the command line, `Command` is the type of clap; `testing` uses only an exit code.
+    // In the command line, `Command` is the command type of clap; `testing` uses only the exit code from `process`.
     ("Command", "linkproof::cli lab::outside"),
     ("process", "linkproof::cli lab::outside linkproof::testing"),
     ("serde", "lab::stress linkproof::report"),

@@ -134,7 +134,7 @@ fn regress_more_parts_than_can_be_drawn_are_refused() {
 }
 
 /// Symptom: an array of 31 million numbers took 5.95 GB before the required memory was estimated.
-/// Cause: the file was parsed first.
+/// Cause: the memory was estimated only after the file had been parsed.
 #[test]
 fn regress_more_values_than_memory_can_hold_are_counted_before_they_are_read() {
     let text = format!("{GOOD}\n[x]\na = [{}1]\n", "1,".repeat(2_000_000));
@@ -145,7 +145,7 @@ fn regress_more_values_than_memory_can_hold_are_counted_before_they_are_read() {
 }
 
 /// Symptom: 20 000 parameters took 19 s.
-/// Cause: for every text, the graph held all names of the file.
+/// Cause: the dependency graph stored all names of the file for every single expression.
 /// Every search for a key or a name also began at the start of the file.
 #[test]
 fn regress_twenty_thousand_parameters_and_points_are_read() {
@@ -299,7 +299,7 @@ fn links_and_joints() {
 #[test]
 fn structure_and_drive() {
     assert_all_refused(&[
-        // A fourth bar joins crank and rocker, so the mechanism has one pair of joints too many.
+        // A fourth bar joins crank and rocker, so the mobility falls from 1 to 0.
         Bad {
             edits: &[
                 (
@@ -462,8 +462,8 @@ fn oracles() {
             "oracle[3].figures[1].points", ["needs two points, found 1"]),
         bad!("\"reduced_inertia_mean_kg_m2\"" => "\"distance_mm\", points = [\"A\", \"X\"]", INPUT, at "figures =", key
             "oracle[3].figures[1].points", ["no point \"X\""]),
-        // Masses and lengths of one link are not allowed as figures, because they would only confirm a statement of the
-        // file itself.
+        // `figures` must not name the mass or the length of a link, because such a figure would only confirm the file
+        // itself.
         bad!("\"reduced_inertia_mean_kg_m2\"" => "\"mass_kg\", link = \"crank\"", INPUT, at "figures =", key
             "oracle[3].figures[1].figure", ["no figure \"mass_kg\""]),
         bad!("\"reduced_inertia_mean_kg_m2\"" => "\"distance_mm\", points = [\"C\", \"C\"]", INPUT, at "figures =", key

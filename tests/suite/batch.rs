@@ -1,5 +1,5 @@
-//! Many poses in one call.
-//! The numbers of a batch equal the numbers of a pose-by-pose solution up to rounding, and the errors are the same.
+//! Solves many poses in one call.
+//! Up to rounding, the numbers of a batch equal those of a pose-by-pose solution, and both report the same errors.
 //! The bits of a pose do not depend on its position in the series.
 
 use linkage::math::{KeepNan, Motion};
@@ -22,7 +22,7 @@ use linkage::trajectory::Stage;
 /// Bound on the differences, as a fraction of the largest value of the same kind.
 /// The bound allows about 900 rounding errors of 1.1e-16, from the crank to the last dyad and back.
 const ROUNDING: f64 = 1e-13;
-/// Acceleration of the crank (rad/s^2); it is not zero, so that terms with it are tested.
+/// Acceleration of the crank (rad/s^2); it is not zero, so that terms with the acceleration are tested.
 const ALPHA: f64 = 3.7;
 
 /// All numbers of a state by kind: positions, directions, velocities, angular velocities, accelerations, angular
@@ -123,8 +123,8 @@ fn batch_poses_match_the_pose_solver() {
         assert_eq!(poses.len(), 500);
         let found = differences(&rows(case, &poses), &states);
         // A dyad has a condition number near 1, but a higher group may have a much larger condition number.
-        // Differences behind a higher group grow with the group's condition number, so the bound is multiplied by this
-        // number.
+        // In the groups after a higher group, differences grow with the higher group's condition number, so the bound
+        // is multiplied by this number.
         let is_higher = case.structure.groups.iter().any(|group| group.kind == GroupKind::Higher);
         let bound = ROUNDING * if is_higher { condition(case, &states) } else { 1.0 };
         found.iter().for_each(|&found| assert_within!(found, bound, "{name}: {found:?}"));

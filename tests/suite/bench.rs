@@ -1,4 +1,5 @@
-//! Work-precision measurement: the floor of the errors, the fronts, reasons of failures, and invalid answers of peers.
+//! Work-precision measurement: the error floor, the Pareto fronts, the reasons of failures, and invalid answers of
+//! peers.
 
 use std::cell::Cell;
 
@@ -49,7 +50,7 @@ fn engine_errors_are_well_above_the_floor() {
                 assert!(errors.max >= CLEAR * floor && !errors.is_limited, "{name} {stage:?}: {errors:?} {floor:e}");
                 assert!(errors.rms <= errors.max, "{name} {stage:?}: {errors:?}");
             }
-            // The errors of the sides are at the floor, and the points are marked as limited by the floor.
+            // The errors of the sides are at the error floor, so their points are marked as limited by this floor.
             let sides = found.points.iter().filter(|point| point.party == MethodOwner::Side && point.is_usual);
             assert!(sides.filter_map(|point| point.error(stage)).all(|errors| errors.is_limited), "{name} {stage:?}");
             let best =
@@ -108,7 +109,7 @@ fn sides_keep_their_accuracy() {
 /// Changes an answer.
 type Change = Box<dyn Fn(&mut Answer)>;
 
-/// A peer with a name, which answers with the solution of side 2 changed by a function.
+/// A named peer that answers with the solution of side 2, changed by a function.
 struct Planted(String, Trajectory, Change);
 
 impl Peer for Planted {
@@ -169,7 +170,7 @@ fn invalid_answers_are_failures_with_a_reason() {
         assert!(told.contains(reason), "{reason}: {told}");
     }
     assert_eq!(points.len(), 4 + reasons.len());
-    // A failure of one stage leaves the other stages valid.
+    // If one stage of an answer fails, the remaining stages stay valid.
     assert!(nan.failure(Stage::Reactions).unwrap().contains("joint.B.fx_N is NaN"));
     assert!(nan.error(Stage::Positions).is_some() && nan.error(Stage::Reactions).is_none());
     assert!(short.failure(Stage::Reactions).is_some() && short.error(Stage::Positions).is_some());

@@ -1,6 +1,6 @@
 //! The parts of every bound of a few scenarios, as a reviewed table.
 //! Tests that plant multiples of a bound also pass if the bound is a thousand times too wide.
-//! This test fails for such a bound.
+//! This test fails if a bound is a thousand times too wide.
 //!
 //! Numbers have two digits.
 //! A number may differ from the table by a factor of up to 1.5, which allows for the noise between machines.
@@ -23,7 +23,7 @@ const NOISE: f64 = 1.5;
 /// The parts of an engine's bounds, in the order of the table.
 const ENGINE: &str = "discretisation, iteration, rounding, reference";
 
-/// A sample: name in the table, file, edits, time step (s; zero for claims alone), sweeps.
+/// A sample: name in the table, file, edits, time step (s; zero if no engine runs and only claims are judged), sweeps.
 type Sample = (&'static str, &'static str, &'static [(&'static str, &'static str)], f64, usize);
 
 const SAMPLES: [Sample; 9] = [

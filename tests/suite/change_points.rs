@@ -1,5 +1,5 @@
 //! Follows mechanisms through change points, with many different numbers of steps.
-//! Whatever the steps, no change point is passed silently, and no false change point is reported.
+//! With any number of steps, no change point is passed silently, and no false change point is reported.
 
 use analytic::PoseSolver;
 use linkage::case::Case;
@@ -160,7 +160,7 @@ fn moved(spec: &lab::specimens::spec::Spec, by: f64) -> Option<Scenario> {
     spec.scenario().ok()
 }
 
-/// Random higher groups: a ground point is moved until the group just passes a dead point, or just fails to pass it.
+/// Random higher groups: a ground point is moved until the group just passes a dead point, or just cannot pass it.
 /// For any number of steps, a run ends in the same pose as the run with the most steps, or reports an error.
 #[test]
 fn higher_groups_do_not_change_branch_silently() {

@@ -75,8 +75,8 @@ fn distance(asked: &ClearanceQuestion, state: &State, pair: [usize; 2]) -> f64 {
     (apart(&one, &two) - radii).larger(0.0)
 }
 
-/// States of side 2 at crank angles.
-/// A drive of constant speed reaches the crank angles, whatever the law of the case.
+/// States of side 2 at the given crank angles.
+/// A drive of constant speed, instead of the law of the case, moves the crank to these angles.
 /// If several drives have varying speeds, `cranks` contains times (s).
 fn at(case: &Case, cranks: &[f64]) -> Vec<State> {
     if case.goes_by_time() {
@@ -88,7 +88,7 @@ fn at(case: &Case, cranks: &[f64]) -> Vec<State> {
 }
 
 /// A question about all links and a housing of pins and plates.
-/// The outlines of the links have random widths; about every third is a random polygon.
+/// The outlines of the links have random widths; about every third outline is a random polygon.
 fn asked(random: &mut RandomSource, case: &Case) -> ClearanceQuestion {
     let mechanism = &case.mechanism;
     let size = mechanism.size();
@@ -186,8 +186,9 @@ fn check(case: &Case, asked: &ClearanceQuestion, found: &ClearanceResult, seen: 
 const GIVEN: [&str; 6] =
     ["boom_lift", "oldham_ram", "four_bar_relative", "rack_and_pinion", "planetary_train", "geared_five_bar"];
 
-/// Mechanisms with several drives of varying speed: cycloids and a table, at cranks, slides and joints between moving
-/// links. Also a harmonic and a formula in place of two of the laws.
+/// Mechanisms with several drives of varying speed.
+/// The drives are at cranks, slides and joints between moving links, and their laws are cycloids and a table.
+/// Further cases replace two of the laws by a harmonic law and a formula.
 #[test]
 fn several_drives_with_laws_against_brute_force() {
     let mut seen = Seen::default();
@@ -257,8 +258,8 @@ fn random_mechanisms_against_brute_force() {
     assert!(seen.pairs > 100 && seen.collisions > 10, "{seen:?}");
 }
 
-/// A nail just inside the path of a point of any moving link.
-/// Most nails are missed by samples, even on a grid twenty times as fine as that of the scenario.
+/// In each case, a nail lies just inside the path of a point of a random moving link.
+/// Sampled poses miss most nails, even on a grid twenty times as fine as the scenario's grid.
 #[test]
 fn planted_thin_crossings_are_found() {
     let (mut planted, mut missed) = (0, 0);
@@ -302,7 +303,7 @@ fn planted_thin_crossings_are_found() {
 }
 
 /// Almost three revolutions have the same poses as one revolution.
-/// Distances and areas are therefore the same, to the requested accuracy.
+/// Distances and areas therefore equal those of one revolution, to the requested accuracy.
 #[test]
 fn a_grid_of_several_turns_gives_the_results_of_one() {
     let scenario = shipped("crankcase.toml");
@@ -324,7 +325,7 @@ fn a_grid_of_several_turns_gives_the_results_of_one() {
 }
 
 /// The computed area is so close to the closed form that missing area at the border would show.
-/// The proven interval of the area is wider than this difference, because the work is limited.
+/// The proven interval of the area is wider than the error of the computed area, because the work is limited.
 #[test]
 fn a_swept_area_matches_its_closed_form_to_1e_4() {
     let scenario = shipped("crankcase.toml");
@@ -380,7 +381,7 @@ fn the_crankcase_is_clear() {
 
 /// The clearance of a free motion with one degree of freedom covers the crank angles that the motion reaches, up to one
 /// revolution.
-/// With several degrees of freedom, no single angle determines the pose, so the question is refused.
+/// With several degrees of freedom, no single angle determines the pose, so `[clearance]` is refused.
 #[test]
 fn motions_under_forces_cover_the_reached_crank_angles() {
     let case = shipped("crank_rocker_runup.toml").case;

@@ -42,7 +42,7 @@ pub fn shipped(name: &str) -> Scenario {
 }
 
 /// The end of a shipped scenario's text: numbers from a foreign program.
-/// These numbers are valid only for the unchanged case, so a test that changes the text must omit them.
+/// The foreign numbers are valid only for the unchanged case, so a test that changes the text must omit them.
 pub fn from_outside(text: &str) -> &str {
     &text[text.find("# Not published").expect("numbers from outside stand last")..]
 }

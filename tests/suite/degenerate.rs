@@ -1,5 +1,6 @@
 //! Mechanisms in which all values of a quantity vanish.
-//! A proof must not divide by the rounding errors of these values, and must not be inconclusive because of them.
+//! A proof must not divide by the rounding errors of the vanishing values, and such values must not make it
+//! inconclusive.
 
 use crate::common::spec::{Spec, four_bar};
 use crate::common::{from_outside, shipped};
@@ -43,7 +44,8 @@ fn crank_alone() -> Spec {
 
 /// Symptom: the analytic sides disagreed by 150 % on a parallelogram. For a crank without other links, the moments of
 /// the sides disagreed by 110 %.
-/// Cause: differences were divided by the range of the channel, but the range of these channels is only rounding error.
+/// Cause: differences were divided by the range of the channel, but the range of a vanishing channel is only rounding
+/// error.
 #[test]
 fn regress_channels_that_vanish_by_symmetry_agree() {
     for (name, spec) in [("parallelogram", parallelogram()), ("crank", crank_alone())] {
@@ -76,7 +78,8 @@ fn regress_a_single_point_driving_link_uses_slider_moments() {
 }
 
 /// Symptom: the proof of a loaded four-bar without masses was inconclusive.
-/// Cause: its shaking force vanishes, so the scale of the force was zero and the ratio of bound to scale was infinite.
+/// Cause: without masses the shaking force vanishes, so its scale was zero and the ratio of bound to scale was
+/// infinite.
 #[test]
 fn regress_a_zero_shaking_force_takes_its_scale_from_joints() {
     let masses = ["mass_kg", "mass_centre", "inertia_kg_m2"];

@@ -82,7 +82,7 @@ fn share(stage: Stage) -> f64 {
 }
 
 /// The diagnosis of a suspect with the bounds of an engine.
-/// The suspect's numerical error is up to 0.7 times these bounds.
+/// The numerical error of the suspect is up to 0.7 times the engine's bounds.
 fn examined(case: &Case, suspect: &Trajectory, step: Option<f64>) -> Option<Diagnosis> {
     let reference = analytic::AssurSolver.solve(case).unwrap();
     let mut seed = 1u64;

@@ -68,7 +68,7 @@ fn has_formal_order(case: &Case, engines: impl Iterator<Item = Box<dyn Engine>>,
             let kind = residual.channel.kind;
             // If the rounding error is a hundredth of the channel's error, it changes the order of convergence by less
             // than 0.02.
-            // Channels with more rounding error than this are skipped.
+            // Channels whose rounding error is more than a hundredth of the channel's error are skipped.
             let noise = engine.at(engine.settings().resolution / 4.0).noise(case, kind);
             if residual.rms <= 100.0 * noise {
                 continue;

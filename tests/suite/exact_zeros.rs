@@ -45,7 +45,7 @@ fn regress_equal_cranks_agree_though_the_rocker_has_no_acceleration() {
 
 /// A crank at constant speed, on a grid that ends beside a dead point.
 /// Only small steps are possible beside the dead point, so the second differences contain much rounding error.
-/// The rounding error is smallest at the largest of these steps.
+/// Of the possible small steps, the largest has the least rounding error.
 #[test]
 fn regress_a_constant_speed_crank_leaves_no_verdict_open() {
     let mut slow = scenario("zero_alpha.toml");

@@ -71,9 +71,9 @@ fn a_mass_wrong_by_one_percent() {
 }
 
 /// The crank is light and rotates uniformly.
-/// Its mass therefore affects only its bearing, the frame and, by its weight, the drive.
+/// The crank's mass therefore affects only the crank's bearing, the frame and, by its weight, the drive.
 /// One percent of the mass changes the bearing's reaction by 0.26 N, while the engine's error in this reaction is 1 N.
-/// The shaking force is much smoother than the bearing reaction, so it shows the fault.
+/// The shaking force is much smoother than the bearing reaction, so the shaking force shows the fault.
 #[test]
 fn a_crank_mass_wrong_by_one_percent() {
     let own =

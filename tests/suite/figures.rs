@@ -45,7 +45,7 @@ fn val_ov7_base_every_printed_number_by_both_sides() {
         scenario.oracles.iter().map(|oracle| oracle.series.iter().map(|series| series.points.len()).sum()).collect();
     // The first three entries count positions, velocities and accelerations: five points, two directions, 13 crank
     // angles.
-    // The next three count seven angles at each crank angle, and their first and second derivatives.
+    // The next three entries count seven angles at each crank angle, and their first and second derivatives.
     // The last two entries are not published: a distance at the start, and one pose with its forces.
     assert_eq!(cells, [130, 130, 130, 91, 91, 91, 0, 84]);
     assert!(

@@ -16,7 +16,7 @@ const TRIES: usize = 60;
 
 /// A measure of how near the pose is to a singular pose: the largest speed or square root of an acceleration, divided
 /// by the crank's speed.
-/// Rounding error grows with the square of this measure.
+/// The rounding error of a solution grows with the square of `nearness`.
 /// Near a singular pose, accelerations are large even if a speed passes through zero.
 /// Lengths are about a metre, so linear and angular speeds are of similar size.
 fn nearness(trajectory: &Trajectory, crank: f64) -> f64 {
@@ -32,7 +32,7 @@ fn nearness(trajectory: &Trajectory, crank: f64) -> f64 {
 }
 
 /// Returns, for each stage, the largest difference of the two sides.
-/// It is divided by the size of the channel's numbers and by the square of `nearness`.
+/// Each difference is divided by the size of the channel's numbers and by the square of `nearness`.
 /// Also returns the number of solved mechanisms, and the number of mechanisms whose start pose is the drawn pose.
 fn worst(family: &Family, among: Among, tries: usize) -> ([f64; 5], usize, usize) {
     let mut random = RandomSource::from_seed(7);

@@ -18,10 +18,10 @@ use prover::bounds::residuals;
 const COUNT: u32 = 128;
 
 /// Crank angle between the points of a difference quotient (rad).
-/// It is a little above eps^(1/5), where truncation error and rounding error are equal.
+/// The angle is a little above eps^(1/5), where truncation error and rounding error are equal.
 const TURN: f64 = 1e-3;
 /// Bound on the rounding error of a difference quotient, divided by the value's size and by the condition number.
-/// It is ten units in the last place of the value, divided by the crank angle of the quotient.
+/// The bound is ten units in the last place of the value, divided by the crank angle of the quotient.
 /// The largest error of these mechanisms is a quarter of the bound.
 const NOISE: f64 = 10.0 * f64::EPSILON / TURN;
 

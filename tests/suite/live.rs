@@ -58,7 +58,7 @@ impl Drop for Served {
     }
 }
 
-/// What a server says.
+/// A message that the server sends to a viewer.
 #[derive(Debug)]
 enum Said {
     Text(Value),
@@ -371,7 +371,7 @@ fn a_viewer_may_request_a_topic_four_times_at_most() {
 }
 
 /// Reads the listening address from the system's list of sockets.
-/// The printed address is not used, because it would be the same for every listening address.
+/// The test does not use the printed address, because a server prints the same address for every listening address.
 #[cfg(target_os = "linux")]
 #[test]
 fn live_listens_locally_unless_an_address_is_given() {

@@ -1,4 +1,4 @@
-//! Loads: against closed forms, the balance of powers, the energy of springs, and the engine by every route.
+//! Loads, compared with closed forms, the balance of powers, the energy of springs, and the engine by every route.
 
 mod closed_form;
 mod engines;

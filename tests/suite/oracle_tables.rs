@@ -15,7 +15,7 @@ use scenario::Scenario;
 
 use crate::compare::digits::{Format, RandomSource};
 
-/// A column of instants: format, number of its units in an SI unit, name.
+/// A column of instants: its format, the number of its units in one SI unit, and its name.
 type Instants = (Format, f64, &'static str);
 
 const TIMES: [Instants; 7] = [
@@ -220,7 +220,7 @@ fn a_wrong_number_is_found_among_rounded_instants() {
 }
 
 /// The instants are rounded to ten milliseconds, in which the crank turns by eight degrees.
-/// A number at such an instant is therefore inconclusive, whether it is right or wrong.
+/// A number at an instant with this rounding is inconclusive, whether the number is right or wrong.
 #[test]
 fn instants_rounded_too_much_are_inconclusive() {
     let scenario = text("scenarios/crank_rocker.toml");

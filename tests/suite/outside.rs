@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use linkproof::{Options, Scenario, prove};
 
-/// First words of the source of numbers from a foreign program.
+/// Beginning of the text `source` for numbers from a foreign program.
 const SOURCE: &str = "tests/outside/";
 
 /// Files of a directory of the package that are scenarios, in order.

@@ -60,8 +60,8 @@ fn exerted_forces_need_a_free_route_and_requested_forces() {
     assert!(proven(&still, &Options::default()).engine().own_forces.is_none());
 }
 
-/// No run for the exerted forces has a smaller step than half of the given step.
-/// The proof needs the run with half of the given step in any case, to estimate the error of the given step.
+/// No run for the forces that the engine exerts has a smaller step than half of the given step.
+/// The proof needs a run with half of the given step in any case, to estimate the error of the given step.
 #[test]
 fn a_given_step_is_extrapolated_from_coarser_ones_only() {
     let scenario = shipped("crank_rocker.toml");
@@ -73,7 +73,7 @@ fn a_given_step_is_extrapolated_from_coarser_ones_only() {
         assert_eq!((proof.verdict.word(), own(&proof).verdict.word()), ("agree", "agree"), "{step:e}");
         assert_eq!(proof.engine().info.settings.resolution, step);
     }
-    // A given number of extrapolations applies to the given step.
+    // If the number of extrapolations is given, it applies to the given step.
     let proof = proven(&scenario, &Options::default().step(1e-3).extrapolated(2));
     let settings = own(&proof).info.settings;
     assert_eq!((settings.resolution, settings.extrapolated), (1e-3, 2));
@@ -145,7 +145,7 @@ fn native_errors(name: &str, build: Build, step: f64, times: &[f64]) -> [f64; 2]
 
 /// If a mechanism starts in motion, its first velocities satisfy the constraints of the first pose, not of an earlier
 /// pose.
-/// Without a correction, the impulses of the first steps lack the part that belongs to the change from an earlier pose.
+/// Without a correction, the impulses of the first steps lack the part due to the change from an earlier pose.
 /// The missing part is 39 % of the range of a reaction, at any step.
 #[test]
 fn impulses_at_the_start_of_a_moving_mechanism_converge() {

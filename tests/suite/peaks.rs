@@ -48,15 +48,15 @@ fn val_ov7_new_largest_reactions_and_journals() {
         let found = 1e3 * journal_diameter(peak.value, 0.01, 200e6);
         assert_within!((found - diameter).abs(), 0.005, "joint {joint}: {found} mm, printed {diameter}");
     }
-    // The crank's journal of 4.91 mm is designed for the authors' R1 of 232.74 N.
-    // This R1 is about a quarter of the load that the journal must carry.
+    // The authors design the crank's journal, of 4.91 mm, for R1 = 232.74 N.
+    // This value of R1 is about a quarter of the load that the journal must carry.
     assert_within!((1e3 * journal_diameter(232.74, 0.01, 200e6) - 4.91).abs(), 0.005);
     let crank = peaks.reactions[case.mechanism.joint_named("1").unwrap()];
     assert_within!((crank.value - 1020.66).abs(), 0.02);
     assert_within!((1e3 * journal_diameter(crank.value, 0.01, 200e6) - 8.04).abs(), 0.005);
 }
 
-/// Side 2 has the same reaction at the refined angle, and no larger reaction near this angle.
+/// At the refined angle of a maximum, side 2 gives the reaction that was found, and near this angle no larger reaction.
 #[test]
 fn the_other_side_has_the_same_peaks() {
     for name in ["crank_rocker.toml", "fourth_class.toml", "class3_group.toml"] {

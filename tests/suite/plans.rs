@@ -1,4 +1,5 @@
-//! Graphical methods: plans close and are images of the links, and drawings contain what they claim.
+//! Graphical methods: vector plans close, they contain scaled images of the links, and drawings contain what they
+//! claim.
 //! The chord method has its known error, and the published graphical figures are reproduced.
 
 mod drawings;
@@ -118,7 +119,7 @@ fn every_contour_of_every_plan_closes() {
             let plans = plans_with(name, solver, degrees);
             for plan in [&plans.velocity, &plans.acceleration] {
                 let (count, gap) = contours(plan);
-                // Each moving loop of links gives at least one contour; crank, coupler and rocker form such a loop.
+                // Each closed loop of the mechanism gives at least one contour.
                 assert!(count >= 1, "{name}: nothing closes");
                 // The solvers promise velocities and accelerations to eleven digits.
                 assert_within!(gap, 1e-11 * longest(plan), "{name} at {degrees}: {:e}", gap / longest(plan));
@@ -129,7 +130,7 @@ fn every_contour_of_every_plan_closes() {
 
 /// Burmester and Mehmke: the image of a link is the link, rotated and enlarged.
 /// The test compares the sides of the drawn mechanism with the sides of the plans, using the listed omega and alpha.
-/// It does not use the vectors of the plans.
+/// The test does not use the vectors of the plans.
 #[test]
 fn the_image_of_a_link_is_similar_to_it() {
     for (name, degrees) in all() {

@@ -25,7 +25,7 @@ fn regress_random_chains_of_rrr_dyads_never_disagree() {
     never_disagree(&SORTS[..1], draws(6));
 }
 
-/// The same test with all kinds of dyads.
+/// Repeats the test of RRR dyads with all kinds of dyads.
 /// Of sixty chains of up to three dyads, one has an error of first order in slide speeds; with 8192 sweeps this error
 /// vanishes.
 /// The fifteen chains of this test contain every kind of dyad alone, and chains of every length.
@@ -122,7 +122,7 @@ const WORK: f64 = 2e4;
 /// Tests every family of higher groups.
 /// The surroundings of the group change from family to family; with more draws, each family is tested in all
 /// surroundings.
-/// Before the bound included the error of the sweeps, three of these mechanisms disagreed falsely in velocities.
+/// Three of the tested mechanisms disagreed falsely in velocities before the bound included the error of the sweeps.
 #[test]
 fn regress_random_higher_groups_never_disagree() {
     let mut counts = BTreeMap::new();

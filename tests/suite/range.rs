@@ -342,7 +342,7 @@ fn asked(case: &Case, degrees: f64) -> Case {
 }
 
 /// Both solvers and the list of configurations refuse an unreachable crank angle.
-/// The function `explained` adds the reachable range to their errors, to 1e-6 deg.
+/// The function `explained` adds the reachable range to the error of each, to 1e-6 deg.
 #[test]
 fn an_unreachable_angle_is_refused_with_the_reachable_range() {
     let lengths = [0.4, 0.35, 0.3, 0.2];

@@ -302,7 +302,7 @@ fn both_sides_are_read_back_bit_for_bit() {
     assert_same(&sides[0].1, &run.reference);
     assert_same(&sides[1].1, &run.engine);
     // The file must be smaller than 1 MB.
-    // Two thirds of its size are incompressible numbers and the index of 13 thousand messages.
+    // Two thirds of the file's size are incompressible numbers and the index of 13 thousand messages.
     let size = fs::metadata(&path).unwrap().len();
     assert!(size < 1_000_000, "361 samples of a four-bar take {size} bytes");
 }

@@ -1,4 +1,4 @@
-//! Whatever the input, the program neither panics nor hangs.
+//! With any input, the program neither panics nor hangs.
 //! Every message states the location of the fault, and names in the input cannot lead out of their folder.
 
 mod bad;

@@ -40,7 +40,7 @@ fn every_scenario_of_the_repository_can_be_read() {
     assert!(count >= 2);
 }
 
-/// docs/site/gallery writes the page, with the verdict of each scenario; `.ci/run` compares the complete page.
+/// docs/site/gallery writes docs/gallery.md, with the verdict of each scenario; `.ci/run` compares the complete page.
 #[test]
 fn the_gallery_has_every_mechanism() {
     let page = include_str!("../../docs/gallery.md");

@@ -112,8 +112,8 @@ fn the_scene_of_a_free_motion_omits_nothing() {
     assert_eq!(AssurSolver.solve(&scene.case).unwrap().channels().len(), own.channels().len());
 }
 
-/// Two links may share the name of a point although only an omitted link joined them there.
-/// Without this link, the two points get different names.
+/// Two links may share the name of a point although only an omitted link joined the two links at this point.
+/// Without the omitted link, the two points get different names.
 #[test]
 fn a_point_split_by_an_omitted_link_gets_two_names() {
     let case = shipped("ov7_base.toml").case;

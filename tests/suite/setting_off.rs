@@ -1,6 +1,6 @@
 //! Motions that begin at rest.
 //! A quantity that depends on the direction of motion takes the direction in which the motion begins.
-//! It must not take its direction from the rounding error of the speed.
+//! This direction must not come from the rounding error of the speed.
 
 use std::path::Path;
 
@@ -99,7 +99,7 @@ fn regress_an_ambiguous_start_is_refused() {
 }
 
 /// A pendulum on a driven crank is at rest when the motion begins; its load acts against the motion that then begins.
-/// Symptom: at that instant, the momentum of the whole mechanism lacked this load, so a correct motion disagreed.
+/// Symptom: at the first instant, the momentum of the whole mechanism lacked this load, so a correct motion disagreed.
 #[test]
 fn regress_a_load_on_a_link_that_starts_at_rest_agrees() {
     let text = |load: &str| {

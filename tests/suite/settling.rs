@@ -56,7 +56,8 @@ fn the_same_input_finds_the_same_settings_and_the_same_bits() {
 
 /// The masses of this mechanism differ by a factor of a thousand, and an initial speed must propagate through all of
 /// them.
-/// Below a thousand sweeps, all runs have nearly the same relative error, so their differences do not show it.
+/// Below a thousand sweeps, all runs have nearly the same relative error, so differences between runs do not show this
+/// error.
 #[test]
 fn regress_unconverged_sweeps_are_inconclusive() {
     let own = specimen(1, 397, &mut Default::default());
@@ -71,7 +72,7 @@ fn regress_unconverged_sweeps_are_inconclusive() {
 
 /// The third derivative of a spline jumps at its knots, so second differences across the knots have an error of order
 /// 1.
-/// The engine does not cause this error.
+/// The engine does not cause the error at the knots.
 #[test]
 fn regress_knots_of_a_motion_law_do_not_falsify_the_order() {
     let own = specimen(1, 374, &mut Default::default());
@@ -192,7 +193,7 @@ fn regress_bounds_near_a_change_point_include_the_condition() {
 }
 
 /// The sides agree with a published number that has all digits of a double.
-/// They disagree with a number that is off by 4e-14.
+/// The sides disagree with a published number that is off by 4e-14.
 #[test]
 fn regress_oracle_bounds_include_the_error_of_the_sides() {
     for (value, word) in [("1.5707963267948966", "agree"), ("1.5707963267949366", "disagree")] {

@@ -27,7 +27,7 @@ fn scenarios() -> Vec<String> {
     let names = std::fs::read_dir(directory).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
     let mut names: Vec<String> = names.filter(|name| name.ends_with(".toml")).collect();
     // The engine refuses motion laws other than constant speed; free motions have a separate test.
-    // It refuses transmissions and friction too.
+    // The engine also refuses transmissions and friction.
     names.retain(|name| {
         let case = shipped(name).case;
         case.is_steady() && case.mechanism.transmissions().is_empty() && !case.has_friction()
@@ -169,11 +169,11 @@ fn felt(spec: &Spec, open: f64) -> BTreeMap<(Stage, &'static str), f64> {
     felt
 }
 
-/// A joint may be open by the constraint tolerance; the engine's bound on each channel covers the effect of this
-/// opening.
-/// The bound is never below this effect, and not much above it.
+/// A joint may be open by the constraint tolerance.
+/// The engine's bound on each channel covers the effect of this opening.
+/// The bound is never below the effect of the opening, and not much above this effect.
 /// The bound assumes a transmission angle of 6 deg.
-/// At 7 deg the bound is less than a hundred times the effect; at larger angles the factor is larger.
+/// At 7 deg the bound is less than a hundred times the effect; at larger angles the ratio of bound to effect is larger.
 #[test]
 fn the_noise_bound_covers_the_effect_of_an_open_joint() {
     // This displacement is far above rounding error, and small enough that the effect is proportional to it.
@@ -277,7 +277,7 @@ fn random_mechanisms_agree() {
 /// A measure of how near a run comes to a singular pose.
 /// The measure is the largest speed, or the square root of the largest acceleration, divided by the crank's speed.
 /// Lengths are about a metre, so linear and angular speeds are of similar size.
-/// The effect of a small error grows with the square of this measure.
+/// The effect of a small error grows with the square of `nearness`.
 fn nearness(case: &Case, truth: &Trajectory) -> f64 {
     let crank = case.crank().at(0.0).rate.abs();
     let of = |(channel, values): (&Channel, &[f64])| {
@@ -405,7 +405,7 @@ fn an_invalid_accuracy_is_refused() {
 }
 
 /// Free motion by a third solver that shares no code with the two sides.
-/// Motor and loads are forces that Simbody requests, and Simbody integrates by itself.
+/// Simbody requests the forces of motor and loads, and integrates the motion by itself.
 #[test]
 fn run_ups_and_pendulums_agree_with_the_reference() {
     let mut agreed = 0;

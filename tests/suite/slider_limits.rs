@@ -18,7 +18,7 @@ fn on_cranks(case: &Case, cranks: &[f64]) -> Case {
 
 /// Symptom: the range of a mechanism whose slide goes to infinity is an error, and every message with the range takes
 /// 20 s.
-/// Cause: the curve of its poses is infinitely long.
+/// Cause: the slide goes to infinity, so the curve of the poses is infinitely long.
 /// The slide of the tangent mechanism is h tan(phi), so its limits are at -90 and 90 deg.
 #[test]
 fn regress_a_slide_that_goes_to_infinity_ends_the_range() {

@@ -180,7 +180,7 @@ fn val_tangent_mechanism_is_a_tangent() {
 
 /// The guide is at its extreme positions where it is perpendicular to the crank.
 /// The angle at O1 between O1-O2 and the crank is then acos(r / d).
-/// The quick stroke therefore takes 2 acos(r / d) of the revolution.
+/// The crank therefore rotates by the angle 2 acos(r / d) during the quick stroke.
 #[test]
 fn val_quick_return_time_ratio() {
     let case = shipped("quick_return.toml").case;
@@ -199,8 +199,8 @@ fn val_quick_return_time_ratio() {
     let swing = (first.angle - second.angle).abs();
     assert_within!((swing - 2.0 * (0.1f64 / 0.3).asin()).abs(), 1e-9, "{swing}");
     // At the extreme positions of the guide, the ram also reverses.
-    // The ram's speed is up to 3 m/s between these positions.
-    // At these positions, the computed speed is only the effect of an angle error of 1e-9 rad.
+    // Between two extreme positions, the ram's speed is up to 3 m/s.
+    // At an extreme position, the computed speed of the ram is only the effect of an angle error of 1e-9 rad.
     let mut cranks = vec![first.crank, second.crank];
     cranks.sort_by(f64::total_cmp);
     for rows in solved(&case.on(Grid::of_inputs(case.crank(), cranks)).unwrap()) {

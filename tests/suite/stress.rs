@@ -44,9 +44,8 @@ fn the_rounding_of_a_large_crank_angle_is_in_the_bound() {
         let worst = side.deviations.iter().map(|own| own.used).fold(0.0, f64::larger);
         println!("{}: {worst:.2e} of its bound", side.name);
         assert_within!(worst, 1.0, "{}", side.name);
-        // The bound must not become too wide.
-        // For angles, the bound stays proportional to the angle including its revolutions, so angles are not tested
-        // here.
+        // The bound must not become too wide either.
+        // Angles are not tested here, because their bound is proportional to the angle including its revolutions.
         for own in side.deviations.iter().filter(|own| own.channel.kind.unit != Unit::Radian) {
             assert_within!(own.bound, 1e-9, "{} {}", side.name, own.channel);
         }
@@ -96,7 +95,8 @@ fn a_long_chain_keeps_its_digits() {
     }
 }
 
-/// The work of side 1 for a chain is the sum of the work for its four-bars; the test counts it, without a clock.
+/// The work of side 1 for a chain is the sum of the work for its four-bars; the test counts operations and uses no
+/// clock.
 /// Side 2 iterates on blocks, and needs the same number of iterations per four-bar in a long chain.
 #[test]
 fn work_per_four_bar_does_not_grow_with_the_chain() {
@@ -133,8 +133,8 @@ fn refused_points_are_results_with_a_reason() {
 }
 
 /// The reference has one length that is wrong by a millionth.
-/// Both sides contradict the reference, while they agree with each other.
-/// A wrong number of the sides without a warning would show in the same way.
+/// Both sides contradict this reference, while they agree with each other.
+/// A wrong number that both sides share without a warning would show in the same way.
 #[test]
 fn a_wrong_number_that_both_sides_share_is_counted() {
     let four_bar = |coupler: f64| {

@@ -1,5 +1,5 @@
 //! Synthesis against analysis.
-//! Results from closed forms or by search are followed by the solvers, which do not use the synthesis.
+//! Closed forms or a search give a mechanism; then the solvers, which do not use the synthesis, compute its motion.
 
 mod closed_form;
 mod drives;

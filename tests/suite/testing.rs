@@ -40,7 +40,7 @@ fn an_agreement_returns_its_proof() {
     assert_eq!(proof.scenario, "crank_rocker");
     let asked = |channel: &linkproof::parts::ChannelProof| channel.residual.channel.of == "rocker";
     assert!(!proof.engine().channels.is_empty() && proof.engine().channels.iter().all(asked));
-    // Several options, one of which has two parts; the crank's length is a parameter.
+    // The macro gets several options, and the value of `set` has two parts; the length of the crank is a parameter.
     let place = Place::new();
     place.edited("formulas/slider_crank_centric.toml", "short.toml", &[("A = { x_mm = 40,", "A = { x_mm = \"r_mm\",")]);
     let file = place.path("scenarios/short.toml");

@@ -87,7 +87,8 @@ fn tables_by_time_support_known_wrong_cells() {
     assert_eq!(words, ["agree", "expected", "agree", "expected"]);
 }
 
-/// If the start angle differs from that of the file, the same time is a different instant of a different motion.
+/// If the start angle differs from the angle in the file, the motion differs, so a published time no longer names the
+/// published pose.
 #[test]
 fn another_start_omits_numbers_at_a_time() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker_runup.toml");

@@ -42,7 +42,7 @@ struct Differences {
 impl Differences {
     /// Whether all differences are within `rounding` times a power of the condition number.
     /// The power is one for the solution of each linear system and for the angles.
-    /// It grows by one with every derivative of the angles.
+    /// The power grows by one with every derivative of the angles.
     fn are_within(&self, rounding: f64) -> bool {
         let (own, chain) = (self.condition, self.condition.larger(self.chain));
         self.cramer[0] <= rounding * own
@@ -72,7 +72,7 @@ fn condition(contours: &Contours) -> f64 {
     matrix.column_iter().map(|column| column.norm()).product::<f64>() / matrix.determinant().abs()
 }
 
-/// The methods compared with the given states of a solver.
+/// Compares the methods with the given states of a solver.
 fn differences(case: &Case, triad: &Triad, states: &[State], times: &[f64]) -> Differences {
     let links = triad.links();
     let speed = case.crank().at(0.0).rate;
@@ -138,7 +138,7 @@ fn all_methods_agree_with_both_solvers_over_the_turn_of_the_published_drive() {
             let states = states(solver, case, &case.grid.times).unwrap();
             let found = differences(case, &only_triad(case), &states, &case.grid.times);
             // Some two hundred operations lie between a pose and the accelerations.
-            // If all their rounding errors (1.1e-16) had the same sign, the sum would be 2e-14.
+            // If the rounding errors (1.1e-16) of all operations had the same sign, the sum would be 2e-14.
             // The solver adds its rounding errors, so the bound is 1e-13.
             assert!(found.are_within(1e-13), "{name} {} {found:?}", solver.name());
             assert!(found.condition < 2.0 && found.chain < 2.0, "{found:?}");

@@ -87,15 +87,15 @@ fn a_closed_form_run_up_finds_faults_hidden_at_crank_angles() {
         let kind = named(name).unwrap_or_else(|| panic!("{name}"));
         let Plant::Case(change) = kind.plant else { panic!("{name} is no fault in a case") };
         let wrong = change(case, kind.size.unwrap_or(1.0)).unwrap_or_else(|| panic!("{name} cannot be planted"));
-        // A failing run would also reveal the fault, but all of these runs succeed, so only the difference can reveal
-        // it.
+        // A failing run would also reveal the fault, but all of these runs succeed, so only the difference from the
+        // closed form reveals the fault.
         let found = off(&wrong, times);
         assert!(!(found <= 1e-5), "{name} changes the run-up by {found:e} only");
     }
 }
 
 /// The scenario contains the same numbers as the run-up in closed form.
-/// Without these numbers, nothing inside a proof can reveal faults in the shared code.
+/// Without independent numbers, nothing inside a proof can reveal faults in the shared code.
 #[test]
 fn numbers_at_a_time_find_faults_of_a_run_up() {
     let [angle, speed] = closed(0.23);

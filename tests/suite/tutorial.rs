@@ -90,7 +90,7 @@ fn are_alike(one: &str, other: &str) -> bool {
     one.len() == other.len() && pairs.all(|(index, pair)| is_count(index) || is_near(pair))
 }
 
-/// Words that follow a count; the counts before these words may differ.
+/// Words that follow a count; two lines may differ in the counts before these words.
 const COUNTED: [&str; 4] = ["quantities", "channels", "checks", "kB"];
 
 #[test]

@@ -116,7 +116,7 @@ fn the_given_pose_closes_all_joints_of_the_file() {
         }
         pose.push(rocker);
         // Positions in the file are rounded to 1e-12 m, so x and y are each off by at most half of 1e-12 m.
-        // The position is then off by at most this half times the square root of two.
+        // The position is then off by at most 1e-12 m divided by the square root of two.
         let closure = Pose(pose.into()).closure(&case.mechanism);
         assert_within!(closure, 1e-12, "{}: {closure:e}", v.number);
         if plan.given < 1e-4 {

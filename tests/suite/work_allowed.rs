@@ -34,7 +34,7 @@ fn regress_substeps_count_as_work() {
     assert_refused(&proven(&scenario("substeps.toml"), &Options::default()));
     let many = Options::default().substeps(100_000).budget(1e4);
     assert_refused(&proven(&shipped("crank_rocker.toml"), &many));
-    // The same refusal follows if all settings are given, so that no setting is left to search.
+    // The proof is also refused if all settings are given, so that no setting is left to search.
     let given = Options::default().step(1e-3).sweeps(64).extrapolated(0).substeps(usize::MAX >> 12);
     assert_refused(&proven(&shipped("crank_rocker.toml"), &given));
 }
@@ -89,9 +89,9 @@ fn regress_planting_faults_keeps_to_the_work_limit() {
     assert_eq!(mutate(&large, &few, &mut |_| {}).unwrap().mutants.len(), 1);
 }
 
-/// Chains that swing through their change points.
-/// Impulses do not converge at change points, and four rounds of the search show this.
-/// Before the fix, the impulses took 48 of 51 million sweeps.
+/// Chains of parallelograms that swing through their change points.
+/// The impulses do not converge at change points, and four rounds of the search are enough to show this.
+/// Before the fix, the search spent 48 of 51 million sweeps on the impulses.
 #[test]
 fn regress_forces_without_progress_are_given_up_early() {
     let (proof, work) = proven(&shipped("n_four_bar_1.toml"), &Options::default());
@@ -102,9 +102,9 @@ fn regress_forces_without_progress_are_given_up_early() {
     assert!(work.of(Count::Sweeps) < 5_000_000, "{work:?}");
 }
 
-/// The forces that the engine exerts have a limit on their work.
+/// The work for the forces that the engine itself exerts has a limit.
 /// If the motion alone exceeds this limit, the search for the settings of the forces does not begin.
-/// Before the limit, the four-bar of this test took 118 million sweeps.
+/// Before the limit existed, the four-bar of this test took 118 million sweeps.
 #[test]
 fn regress_forces_are_skipped_if_the_motion_used_their_work() {
     let (proof, work) = proven(&scenario("transmission_1_deg.toml"), &Options::default());

@@ -242,7 +242,7 @@ fn a_correct_first_row_hides_no_cause() {
 }
 
 /// Many programs print angles within one revolution.
-/// Such angles are correct, and hide no fault of the table.
+/// Angles within one revolution are correct, and hide no fault of the table.
 #[test]
 fn angles_within_one_turn_hide_no_cause() {
     let wrong = Wrong {

@@ -21,7 +21,7 @@ struct Module {
     imports: BTreeMap<String, Vec<String>>,
     /// Modules from which all names are brought in.
     globs: Vec<Vec<String>>,
-    /// Paths in the code: the paths of private imports, and the paths written out.
+    /// All paths in the code, both those of private imports and those written out where they are used.
     paths: Vec<Vec<String>>,
     /// Macros that the module calls.
     macros: BTreeSet<String>,
@@ -122,8 +122,8 @@ impl Graph {
     }
 }
 
-/// Reads a module from its file, and the modules below it. `directory` is where the files of these modules are
-/// searched.
+/// Reads a module from its file, and then its submodules.
+/// `directory` contains the files of the submodules.
 fn read(modules: &mut BTreeMap<Vec<String>, Module>, at: Vec<String>, file: &Path, directory: &Path) {
     let text = fs::read_to_string(file).unwrap_or_else(|error| panic!("{}: {error}", file.display()));
     let code = syn::parse_file(&text).unwrap_or_else(|error| panic!("{}: {error}", file.display()));
@@ -240,7 +240,7 @@ fn words(tokens: TokenStream, paths: &mut Vec<Vec<String>>) {
     }
 }
 
-/// Leaves of an import: the whole path, and the local name.
+/// Leaves of an import tree: for each leaf, the whole path and the local name.
 fn expand(tree: &UseTree, before: &mut Vec<String>, leaves: &mut Vec<(Vec<String>, String)>) {
     match tree {
         UseTree::Path(path) => {

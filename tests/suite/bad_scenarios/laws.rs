@@ -1,4 +1,4 @@
-//! Errors in the law of `[drive]`, and grids outside the law.
+//! Errors in the motion law of `[drive]`, and grids that the law does not reach.
 
 use super::{Bad, GOOD, INPUT, assert_refused};
 

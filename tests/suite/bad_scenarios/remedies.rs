@@ -88,7 +88,8 @@ fn names(says: &str, key: &str) -> bool {
 }
 
 /// Calls `look` with every key of the shipped scenarios: its file, its text, and the key.
-/// Many keys occur often: in sections with the same first name, only the first two occurrences of a key are tried.
+/// Many keys occur often, so only the first two occurrences of a key are tried in all sections `NAME.*` with one
+/// `NAME`.
 fn for_each_key(mut look: impl FnMut(&Path, &str, &Key) -> Option<String>) {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let all = ["scenarios", "scenarios/formulas"].map(|directory| files_in(root.join(directory)).unwrap());

@@ -45,7 +45,7 @@ fn mistakes_in_different_tables_are_reported_together() {
         ("links = [\"crank\", \"coupler\"]", "links = [\"crank\", \"cuopler\"]", "joints.A.links", "cuopler"),
         ("speed_rpm = 130", "speed_rpm = 0\ncolour = 1", "drive.speed_rpm", "speed_rpm = 0"),
         // The edit of the drive makes two mistakes.
-        // The edit of `[gravity]` only adds an empty line; it is listed for the second mistake of the drive.
+        // The edit of `[gravity]` only adds an empty line; this edit stands for the second mistake of the drive.
         ("[gravity]", "\n[gravity]", "drive.colour", "colour"),
         ("x_m_s2 = 0\n", "", "gravity", "[gravity]"),
         ("link = \"rocker\"", "link = \"rockre\"", "loads[1].link", "rockre"),
@@ -83,16 +83,16 @@ fn mistakes_in_published_numbers_are_reported_together() {
 #[test]
 fn consequences_of_a_mistake_are_not_reported() {
     for (edits, key) in [
-        // The joint C and the load refer to the link, but only the link is reported.
+        // Joint C and the load refer to the rocker, but only the error in the rocker is reported.
         (
             &[("[links.rocker.points]\nC = { x_mm = 0, y_mm = 0 }", "[links.rocker.points]\nC = 5")][..],
             "links.rocker.points.C",
         ),
         (&[("B = { x_mm = 250, y_mm = 0 }", "B = { x_mm = 250, z_mm = 0 }")], "links.rocker.points.B.y_mm"),
-        // The drive refers to the joint, but only the joint is reported.
+        // The drive refers to joint O, but only the error in joint O is reported.
         (&[("name = \"O\"\ntype = \"revolute\"", "name = \"O\"\ntype = \"revolut\"")], "joints.O.type"),
         (&[("name = \"O\"\n", "")], "joints[1]"),
-        // The grid, the engine's step and the groups depend on the drive, but only the drive is reported.
+        // The grid, the engine's step and the groups depend on the drive, but only the error in the drive is reported.
         (&[("speed_rpm = 130", "speed_rpm = 1e308")], "drive.speed_rpm"),
         (&[("[[joints]]", "[[joint]]")], "joint"),
         (&[("[links.crank]\n", "[link.crank]\n")], "link"),

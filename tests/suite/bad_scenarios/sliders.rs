@@ -77,7 +77,7 @@ fn sliders() {
         bad!("link = \"rod\"" => "link = \"slider\"", INPUT, at "link = \"slider\"", key "loads[1].link",
             ["\"slider\" does not turn", "name a link that turns"]),
     ]);
-    // The guide stays the same if the ground is named second.
+    // Naming the ground as second link, instead of first link, does not change the guide.
     let turned = SLIDER.replace(GUIDE, "links = [\"slider\", \"ground\"]\npoints = [\"B\", \"O\"]");
     assert_ne!(turned, SLIDER);
     let [one, other] = [SLIDER, &turned].map(|text| parse(text, TABLE).unwrap().case.start.clone());

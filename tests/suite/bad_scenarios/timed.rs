@@ -2,7 +2,7 @@
 
 use super::{Bad, GOOD, INPUT, assert_all_refused, assert_refused, parse};
 
-/// The good scenario with a free crank, over a tenth of a second; all its published numbers are at a time.
+/// The good scenario with a free crank, over a tenth of a second; its published numbers belong to times, not to angles.
 fn free() -> String {
     let edits = [
         ("speed_rpm = 130\n", "motion = \"free\"\nspeed_rpm = 130\n"),

@@ -1,4 +1,4 @@
-//! `accept`: figures kept beside a scenario, and what has changed since.
+//! `accept`: stores accepted figures beside a scenario, and reports which figures have changed since then.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -83,7 +83,7 @@ fn a_length_change_of_a_tenth_of_a_nanometre_is_found() {
         assert!((found - accepted).abs() > bound && bounds > 1.0, "{row}");
         assert_within!(((found - accepted).abs() / bound - bounds).abs(), 1e-3 * bounds);
     }
-    // Every reported figure is stored in the file under its name; the text lists the worst figure first.
+    // Every reported figure is stored in the file under its name; the report lists the worst figure first.
     let kept: toml::Table = before.parse().unwrap();
     let of = |name: &Value| {
         let all = kept["channels"].as_array().unwrap();
@@ -107,7 +107,7 @@ fn a_length_change_of_a_tenth_of_a_nanometre_is_found() {
     let told = outcome.stdout.lines().skip_while(|line| !is_header(line)).skip(1);
     let bounds: Vec<f64> = told.map_while(|line| line.split_whitespace().last()?.parse().ok()).collect();
     assert!(bounds.len() > 3 && bounds.is_sorted_by(|a, b| a >= b), "{}", outcome.stdout);
-    // The crank moves as before, so the figures of its channels are not rewritten.
+    // The change does not affect the crank's motion, so the figures of the crank's channels are not rewritten.
     let told = place.ok(&format!("accept {SCENARIO}"));
     assert!(told.starts_with("crank_rocker: new figures accepted in "), "{told}");
     let after = fs::read_to_string(place.path(FILE)).unwrap();
@@ -119,7 +119,7 @@ fn a_length_change_of_a_tenth_of_a_nanometre_is_found() {
     assert_eq!(check(&place).code, 0);
 }
 
-/// Differences within the bounds do not count, whatever the digits.
+/// A difference within its bound does not count as a change, even if digits differ.
 #[test]
 fn a_figure_within_its_bound_has_not_moved() {
     let place = accepted();
@@ -134,7 +134,7 @@ fn a_figure_within_its_bound_has_not_moved() {
     let outcome = check(&place);
     assert_eq!(outcome.code, 1);
     assert!(outcome.stdout.contains(&format!("1 of {} channels moved.", channels())), "{}", outcome.stdout);
-    // Angles that differ by a whole revolution are equal.
+    // Angles that differ by a whole revolution count as equal.
     let turned = [
         ("at = [0.0, 1.5707963267949, 3.1415926535898,", "at = [6.2831853071796, 7.8539816339745, 9.4247779607694,"),
         ("4.7123889803847, 6.2831853071796]", "10.9955742875643, 12.5663706143592]"),
@@ -146,8 +146,8 @@ fn a_figure_within_its_bound_has_not_moved() {
     assert_eq!(check(&place).code, 0);
 }
 
-/// A motion may change although its extremes and its few stored instants stay the same. Only the root mean square then
-/// shows the change.
+/// A motion may change although its extremes and its few stored instants stay the same. In such a case, only the root
+/// mean square shows the change.
 #[test]
 fn a_changed_root_mean_square_is_reported() {
     let place = accepted();

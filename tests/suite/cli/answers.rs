@@ -221,7 +221,7 @@ fn a_range_is_reported_in_json() {
     assert!(text.contains("over 32.000000 deg"), "{text}");
 }
 
-/// Revolute joints are reported with journals, prismatic joints with moments.
+/// The answer gives journal diameters for revolute joints, and moments for prismatic joints.
 /// Lever and stress, given in mm and MPa, are reported in m and Pa.
 #[test]
 fn bearings_are_reported_in_json() {
@@ -271,7 +271,7 @@ fn bearings_are_reported_in_json() {
     }
 }
 
-/// The reported least and greatest values equal those of the table.
+/// The reported least and greatest values of inertia and resistance equal those of the table in the answer.
 /// The slope column is the derivative of the inertia column.
 #[test]
 fn a_drive_is_reported_in_json_and_its_run_up_in_csv() {

@@ -21,7 +21,7 @@ fn mjcf_is_written_to_the_given_file() {
     assert_eq!(step(&place.ok("export scenarios/crank_rocker.toml --mjcf - --dt 2e-5")), 2e-5);
     assert_eq!(place.ok("export scenarios/crank_rocker.toml --mjcf model.mjcf"), "");
     assert_eq!(fs::read_to_string(place.path("model.mjcf")).unwrap(), text);
-    // If the user does not choose the file name, the command prints it.
+    // If the user does not choose a file name, the command prints the name that it chooses.
     for option in ["", "--mjcf"] {
         assert_eq!(place.ok(&format!("export scenarios/crank_rocker.toml {option}")), "crank_rocker.xml\n");
     }
@@ -50,7 +50,7 @@ fn the_case_as_json_has_what_a_solver_needs() {
     assert_eq!((count("links"), count("joints"), count("drives"), count("loads"), count("times_s")), (4, 4, 1, 1, 501));
     assert_eq!(found["drives"][0]["motion"]["motor"]["torque"]["law"], "linear");
     assert_eq!(found["loads"][0]["type"], "resistance");
-    // The state at t = 0 is that of the solution.
+    // The exported state at t = 0 equals the state that `solve` computes.
     let solved = place.ok("solve scenarios/crank_rocker_runup.toml --with newton --times 0");
     let rows: Vec<Vec<&str>> = solved.lines().map(|line| line.split(',').collect()).collect();
     let column = rows[0].iter().position(|name| *name == "link.rocker.alpha_rad_s2").unwrap();

@@ -54,8 +54,8 @@ fn regress_symlinks_at_temporary_paths_are_not_followed() {
     );
 }
 
-/// If the user names a symbolic link as output, the command writes to the file behind the link.
-/// This file keeps its permissions.
+/// If the user names a symbolic link as output, the command writes to the file to which the link points.
+/// The permissions of this file stay unchanged.
 #[test]
 fn a_symlink_given_as_target_is_followed() {
     let place = Place::new();

@@ -79,7 +79,7 @@ fn a_page_has_verdict_channels_errors_and_positions() {
         let max = judged["max"].as_f64().unwrap();
         assert!(judged["left_out"] != 0 || (largest - max).abs() <= 1e-6 * max, "{largest} {max}");
     }
-    // Positions are doubles, with the same bits as the solution.
+    // The page stores positions as doubles, with exactly the bits of the solution.
     let solved = Table::of(&place.ok("solve scenarios/pendulum.toml --with assur"));
     let times = solved.column("t_s");
     let rows: Vec<usize> =
@@ -99,7 +99,7 @@ fn a_page_has_verdict_channels_errors_and_positions() {
         let wanted = rows.iter().map(|&row| f64::from((value(1, name, row) - value(0, name, row)) as f32));
         assert_eq!(errors, wanted.collect::<Vec<f64>>(), "{name}");
     }
-    // Unjudged instants are marked; here all instants are judged.
+    // The page marks instants that are not judged; in this run, all instants are judged.
     assert!(judged.iter().all(|own| own["left_out"] == 0));
     assert_eq!(data["engines"][0]["unjudged"], serde_json::json!([]));
     // Equal runs give equal bytes.

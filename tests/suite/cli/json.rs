@@ -153,7 +153,7 @@ fn proven(what: &str, run: &Value, proof: &Proof) {
     }
 }
 
-/// One case has a prescribed motion and a finding.
+/// The first case has a prescribed motion and a finding.
 /// The second case moves under forces, so its crank angles are not proportional to its times.
 #[test]
 fn every_number_of_the_json_is_that_of_the_proof() {
@@ -167,9 +167,9 @@ fn every_number_of_the_json_is_that_of_the_proof() {
     }
 }
 
-/// Features that the two cases above lack: a grid that begins late, a different engine, and engines that agree against
-/// the reference.
-/// Exhausted work, and loads that are omitted, are tested too.
+/// Features that the cases of the previous test lack: a grid that begins late, a different engine, and engines that
+/// agree with each other but not with the reference.
+/// The test also covers exhausted work and omitted loads.
 #[test]
 fn rare_parts_of_a_proof_are_exact_in_the_json() {
     let load = |name: &str, edit: [&str; 2]| {

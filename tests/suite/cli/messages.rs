@@ -50,7 +50,7 @@ fn inspect_lists_all_configurations() {
 }
 
 /// A platform on three rods of given length has up to six configurations; Hunt 1978, chapter on parallel manipulators.
-/// The lengths here are those of one known pose, so one configuration is known.
+/// The rod lengths in this test are those of one known pose, so one configuration is known.
 #[test]
 fn a_structure_without_a_drive_is_inspected_and_drawn() {
     let place = Place::new();
@@ -259,7 +259,7 @@ fn a_scenario_is_never_used_as_an_output_file() {
     let (scenario, other) = ("scenarios/crank_rocker.toml", "scenarios/ov7_base.toml");
     let before = fs::read(place.path(other)).unwrap();
     for command in [
-        // A shell expands `--json scenarios/*.toml` to arguments like these.
+        // A shell expands `--json scenarios/*.toml` to the arguments of this test.
         format!("run --no-record --json {other} {scenario}"),
         format!("solve {scenario} --with assur --csv {other}"),
         format!("inspect {scenario} --json {other}"),

@@ -106,7 +106,7 @@ fn inspect_reports_how_unambiguous_the_start_is() {
     let place = Place::new();
     // `inspect` reports the distance of point E from its approximate position, in the selected configuration and in the
     // next configuration of the list.
-    // Both distances must follow from the positions that `--modes` lists.
+    // The two reported distances must follow from the positions that `--modes` lists.
     let found: Value = serde_json::from_str(&place.ok("inspect scenarios/fourth_class.toml --modes --json -")).unwrap();
     let at = |mode: usize| {
         let points = found["modes"]["groups"][0]["modes"][mode]["links"][2]["points"].as_array().unwrap().clone();
@@ -220,8 +220,8 @@ fn a_group_of_six_links_starts_from_a_rough_drawing() {
             assert_within!((own[0] * 1e3 - drawn).abs(), 45.0, "{name}: {} for {drawn}", own[0]);
         }
     }
-    // Three points are enough, as docs/scenario.md states: the poses of the links without such a point follow from
-    // their joints.
+    // Approximate positions of three points are enough, as docs/scenario.md states. The poses of links without an
+    // approximate position follow from the joints.
     six(&place, &near(&[drawn[0], drawn[1], drawn[3]]));
     let few = Table::of(&place.ok("solve scenarios/six.toml --with assur --crank-deg 0:10:5"));
     for point in ["B", "D", "F"] {

@@ -45,7 +45,7 @@ fn regress_without_a_planted_fault_nothing_is_proven() {
         assert_eq!(json["scenarios"][0]["kinds_instead"][1], "mass");
     }
     // Only independent numbers can reveal a fault in code that all parties share.
-    // `bare.toml` has no such numbers.
+    // The scenario `bare.toml` has no independent numbers.
     let outcome = place.run("mutate scenarios/scotch_yoke.toml --kind gravity-missing --party trunk --no-sizes");
     let word = if outcome.code == 0 { "ALL FOUND" } else { "SHARED FAULTS NOT FOUND" };
     assert!(outcome.stdout.starts_with(word), "{}", outcome.stdout);
@@ -56,7 +56,7 @@ fn regress_without_a_planted_fault_nothing_is_proven() {
     assert!(outcome.stdout.starts_with("SHARED FAULTS NOT FOUND"), "{}", outcome.stdout);
 }
 
-/// In a proof that already disagrees, every planted fault would count as found, so the command refuses it.
+/// In a proof that already disagrees, every planted fault would count as found, so the command refuses this proof.
 #[test]
 fn regress_a_proof_that_disagrees_without_a_fault_is_refused() {
     let place = Place::new();
@@ -80,7 +80,7 @@ fn invalid_requests_are_refused() {
     assert_eq!(place.run("mutate nowhere.toml").code, 2);
 }
 
-/// The page and the program have the same table of kinds.
+/// docs/mutate.md and the program have the same table of fault kinds.
 #[test]
 fn the_document_lists_all_kinds() {
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/mutate.md");
@@ -104,7 +104,7 @@ fn mistakes_in_formulas_are_found_and_counted_separately() {
         let formula = &fault["formula"];
         assert!(fault["party"] == "formulas" && formula["right"] != formula["wrong"], "{fault}");
         if fault["outcome"] == "detected" {
-            // Only the judgement of formulas finds the fault.
+            // Only the judgement of formulas finds the planted fault.
             let checks = fault["checks"].to_string();
             assert!(checks.contains("formulas (assur)") && !checks.contains("closure"), "{fault}");
             assert!(fault["first"]["time_s"].is_number(), "{fault}");
@@ -112,7 +112,7 @@ fn mistakes_in_formulas_are_found_and_counted_separately() {
     }
     // The series claims an approximate value, and mistakes are planted only in formulas that claim an exact value.
     assert!(faults.iter().all(|fault| fault["formula"]["name"] != "x_series"), "{json}");
-    // The planted formula is wrong for `check` as well.
+    // `check` also finds that the planted formula is wrong.
     let fault = faults.iter().find(|own| own["formula"]["name"] == "x" && own["kind"] == "formula-sign").unwrap();
     let own = fs::read_to_string(place.path(file)).unwrap();
     let [right, wrong] = ["right", "wrong"].map(|key| fault["formula"][key].as_str().unwrap());
@@ -140,7 +140,7 @@ fn a_file_without_formulas_reports_nothing_planted() {
     assert_eq!(outcome.code, 3, "{}", outcome.stdout);
     assert!(outcome.stdout.starts_with("NOTHING PLANTED"), "{}", outcome.stdout);
     assert!(outcome.unbroken().contains("no formula of the scenario claims an exact value"), "{}", outcome.stdout);
-    // The scenario has no formulas, so no mistake can be planted in them.
-    // This is no error if `--kind` also requests a kind of fault that can be planted.
+    // The scenario has no formulas, so no mistake can be planted in a formula.
+    // The missing formulas are no error if `--kind` also requests a kind of fault that can be planted.
     place.ok("mutate scenarios/pendulum.toml --kind gravity-sign --kind formula --party assur --no-sizes");
 }

@@ -99,7 +99,7 @@ fn lengths_that_do_not_fit_are_written_and_reported() {
     }
 }
 
-/// `new --shipped` writes the files that other examples of the help texts need.
+/// `new --shipped` writes the files that the remaining examples in the help texts need.
 #[test]
 fn help_examples_run_in_an_empty_directory() {
     let place = Place::empty();
@@ -153,8 +153,8 @@ fn jansens_leg_walks() {
 }
 
 /// The patent's table: with the leg drawn in, the foot is at (0, 0).
-/// Half a revolution earlier, the foot is one unit (100 mm) ahead.
-/// Between these two poses the foot is on the ground.
+/// In the pose half a revolution earlier, the foot is one unit (100 mm) ahead.
+/// Between the two poses of the table the foot is on the ground.
 #[test]
 fn klanns_leg_walks() {
     let (x, y) = steps("klann", "P33");

@@ -2,7 +2,7 @@
 
 use super::tools::Place;
 
-/// Value names of decimal numbers in the help texts.
+/// Names that the help texts use for decimal numbers as option values.
 const DECIMAL: [&str; 14] =
     ["S", "DEG", "SHARE", "MM", "MPA", "RPM", "GB", "STEPS", "ACCURACY", "FACTOR", "KG_PER_M", "K", "NUMBER", "X,Y"];
 

@@ -1,4 +1,5 @@
-//! An output that cannot be written is detected before the work, or reported by its name. No output is left incomplete.
+//! An output that cannot be written is detected before the work; otherwise its name is reported. No output is left
+//! incomplete.
 #![cfg(unix)]
 
 use std::fs;
@@ -101,7 +102,7 @@ fn no_output_overwrites_another_output_or_an_input() {
     place.ok("run scenarios/pendulum.toml --no-record --json /dev/null --junit /dev/null");
 }
 
-/// A proof that would take long ends at once and changes no file.
+/// If an output directory is read-only, a proof ends before its long computation and changes no file.
 #[test]
 fn a_read_only_directory_is_found_at_once() {
     let place = Place::new();
@@ -119,7 +120,7 @@ fn a_read_only_directory_is_found_at_once() {
     fs::set_permissions(&locked, PermissionsExt::from_mode(0o755)).unwrap();
 }
 
-/// Testing whether an existing file can be written leaves it unchanged.
+/// The test whether an existing file can be written leaves this file unchanged.
 #[test]
 fn an_older_file_survives_a_bad_scenario() {
     let place = Place::new();
@@ -128,7 +129,7 @@ fn an_older_file_survives_a_bad_scenario() {
     assert_eq!(fs::read_to_string(place.path("out.json")).unwrap(), "old");
 }
 
-/// Runs `linkproof` in a shell: `$0` is the command, and `prepare` precedes it.
+/// Runs `linkproof` in a shell: `$0` is the command, and the shell commands `prepare` precede it.
 fn in_shell(place: &Place, prepare: &str, arguments: &str) -> Output {
     let linkproof = Command::cargo_bin("linkproof").unwrap().get_program().to_owned();
     let script = format!("{prepare} exec \"$0\" {arguments}");
@@ -140,8 +141,8 @@ fn in_shell(place: &Place, prepare: &str, arguments: &str) -> Output {
 fn no_output_is_left_half_written() {
     let place = Place::new();
     for (index, (command, _)) in FILES.into_iter().enumerate() {
-        // Commands alternate between replacing an older file and creating a new one.
-        // One of the two is enough for each command, because all outputs are written by the same method.
+        // Every second command replaces an older file; the remaining commands create a new file.
+        // One of these two cases is enough for each command, because all outputs are written by the same method.
         let old = index.is_multiple_of(2).then_some("an older file");
         if let Some(old) = old {
             fs::write(place.path("out"), old).unwrap();

@@ -25,7 +25,7 @@ fn a_crank_rocker_is_reported_with_its_extreme_positions() {
 }
 
 /// A crank lengthened to 0.15 m, with a frame of 0.150748 m, coupler 0.347072 m and rocker 0.25 m.
-/// This crank cannot rotate fully.
+/// The lengthened crank cannot rotate fully.
 #[test]
 fn a_limited_crank_is_reported_with_its_limits() {
     let place = Place::new();
@@ -49,7 +49,7 @@ fn a_limited_crank_is_reported_with_its_limits() {
     let base = 0.015f64.atan2(0.15);
     assert_within!((from - (base + half)).abs(), 1e-9, "{from} {to}");
     assert_within!((to - (base - half + std::f64::consts::TAU)).abs(), 1e-9, "{from} {to}");
-    // The limit is rounded inwards at the sixth decimal, so its first three decimals are the same.
+    // The message rounds the limit inwards at the sixth decimal, so the first three decimals stay unchanged.
     let interval = format!("from {:.3}", from.to_degrees());
     for command in [
         "solve scenarios/limited.toml --with assur",

@@ -14,7 +14,7 @@ const RUN: &str = "run scenarios/pendulum.toml --route differences --record out"
 fn recordings(place: &Place) -> Vec<String> {
     let entries = fs::read_dir(place.path("out")).unwrap();
     let mut names: Vec<String> = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
-    // Each layout belongs to a recording, and is not counted as one.
+    // Layout files accompany recordings, and are not counted as recordings.
     let layouts: Vec<String> = names.extract_if(.., |name| name.ends_with(".foxglove.json")).collect();
     names.sort();
     for layout in layouts {
@@ -77,7 +77,7 @@ fn other_settings_get_a_separate_file_name() {
         let line = format!("\n           pendulum.mcap belongs to another run and is kept: {why}");
         assert!(told.contains(&format!("recording  out/{name} (")) && told.contains(&line), "{arguments}: {told}");
     }
-    // A changed scenario of the same name gets a new file too.
+    // A changed scenario with an unchanged name also gets a new recording file.
     place.edited("pendulum.toml", "pendulum.toml", &[("title = \"", "title = \"Another, ")]);
     let told = place.ok(RUN);
     assert!(told.contains("out/pendulum-6.mcap") && told.contains("its scenario text differs"), "{told}");
@@ -97,7 +97,7 @@ fn files_that_are_no_recordings_are_left_alone() {
     assert_eq!(fs::read_to_string(place.path("out/pendulum.mcap")).unwrap(), "notes of mine");
 }
 
-/// Two scenarios of one name in one command.
+/// One command runs two scenarios that have the same name.
 #[test]
 fn scenarios_of_one_name_are_both_recorded() {
     let place = Place::new();
@@ -235,7 +235,8 @@ fn plotjuggler_layouts_name_recorded_curves() {
         assert_eq!(sides.into_iter().collect::<Vec<_>>(), ["engine", "error", "reference"]);
         assert_eq!(of("DockSplitter").next().unwrap().attribute("count"), Some("4"));
     }
-    // In another directory, the layout names the recording by its whole path.
+    // If the layout is in a directory other than that of the recording, the layout names the recording by its whole
+    // path.
     place.ok("view whole/crank_rocker.mcap --with plotjuggler -o there.xml");
     let whole = place.path("whole/crank_rocker.mcap").canonicalize().unwrap();
     let text = fs::read_to_string(place.path("there.xml")).unwrap();

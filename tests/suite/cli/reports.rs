@@ -40,7 +40,8 @@ fn junit_has_a_suite_per_scenario_and_a_case_per_result() {
     assert_eq!(failures(0), Vec::<&str>::new());
     assert!(failures(1).iter().any(|name| name.contains("w as link.crank.omega_rad_s")), "{:?}", failures(1));
     assert_eq!(failures(2), ["proof"]);
-    // A disagreement is a failure, and a scenario that cannot be read is an error: test runners distinguish them.
+    // A disagreement is a failure, and a scenario that cannot be read is an error: test runners distinguish failures
+    // from errors.
     let kinds = |index: usize| -> Vec<String> {
         let cases = suites[index].children().flat_map(|case| case.children().filter(roxmltree::Node::is_element));
         let names = cases.map(|node| node.tag_name().name().to_string());

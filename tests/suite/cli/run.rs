@@ -142,7 +142,7 @@ fn every_check_is_in_the_json() {
     for figure in figures {
         assert!(crank_rocker.iter().any(|name| !name.starts_with("published") && name.ends_with(figure)), "{figure}");
     }
-    // Printed numbers that are wrong and can be computed: both lengths, and both steady speeds.
+    // Wrong printed numbers that the program can compute: both lengths, and both steady speeds.
     for side in ["assur", "newton"] {
         for (oracle, wrong) in [
             ("lengths", ["distance_m of O A", "distance_m of A B"]),
@@ -360,7 +360,7 @@ fn unrequested_channels_are_neither_compared_nor_checked() {
 }
 
 /// One factor scales all bounds.
-/// With a factor of 1e-9, numbers disagree.
+/// With a factor of 1e-9, even correct numbers disagree.
 /// With a factor of zero, the report prints every channel and check with its bound, and the verdicts are those of the
 /// factor 1.
 #[test]

@@ -140,7 +140,7 @@ fn unrequested_channels_have_no_column() {
         ("\"positions\", \"velocities\", \"reactions\"", "angle_rad omega_rad_s x_m y_m vx_m_s vy_m_s fx_N fy_N"),
     ] {
         let wanted = format!("[channels]\nwant = [{want}]\n[grid]");
-        // The published numbers of the scenario need more than positions, so they are all removed.
+        // The published numbers of the scenario need more than positions, so the test removes all of them.
         place.edited("crank_rocker.toml", "few.toml", &[("[grid]", &wanted)]);
         let text = fs::read_to_string(place.path("scenarios/few.toml")).unwrap();
         let text = text.split("[[oracle]]").next().unwrap();
@@ -248,7 +248,7 @@ fn assur_is_the_default_solver() {
     assert_ne!(table, place.ok(&format!("{solve} --with newton")));
 }
 
-/// Symptom: a free motion requested at 120 deg was solved at 147 deg.
+/// Symptom: a free motion requested at a crank angle of 120 deg was solved at 147 deg.
 /// Cause: angles were converted to times by the nominal speed.
 #[test]
 fn regress_a_free_motion_takes_no_grid_of_crank_angles() {

@@ -1,5 +1,5 @@
 //! `--times`, `--crank-deg` and `--start-crank-deg` of `run` and `solve`, grids that list their values, and starts that
-//! the file leaves open or gets wrong.
+//! the file does not determine or states wrongly.
 
 use std::fs;
 
@@ -83,7 +83,7 @@ fn grids_in_files_may_list_values() {
 }
 
 /// `--start-crank-deg` replaces `crank_deg` of the file.
-/// At constant speed, the pose at any crank angle stays the same.
+/// At constant speed, the start angle does not change the pose at a given crank angle.
 #[test]
 fn the_start_angle_option_overrides_the_file() {
     let place = Place::new();
@@ -95,8 +95,9 @@ fn the_start_angle_option_overrides_the_file() {
         assert_eq!(asked, moved, "{solver}");
     }
     // The dyads of ov7_base have modes, which apply at the new start.
-    // The groups of class III (ov7_new) and IV (fourth_class) have approximate positions, which apply at the crank angle
-    // in the file. From there the configuration is followed to the new start.
+    // The groups of class III (ov7_new) and IV (fourth_class) have approximate positions.
+    // These positions apply at the crank angle in the file; from this angle, the configuration is followed to the new
+    // start.
     for (name, start, cranks) in
         [("ov7_base", -200, "0,-30,-250"), ("ov7_new", -70, "-60,-70,-80"), ("fourth_class", 200, "70,150,290")]
     {
@@ -163,7 +164,7 @@ fn regress_an_ambiguous_start_does_not_block_its_resolution() {
     assert!(chosen.contains("2, right, chosen by the scenario"), "{chosen}");
 }
 
-/// The approximate position of the group is halfway between its two configurations, so it does not choose between them.
+/// The approximate position of the group is halfway between its two configurations, so the position selects neither.
 #[test]
 fn all_configurations_of_an_open_group_are_listed() {
     let place = Place::new();

@@ -103,7 +103,7 @@ fn an_unusable_directory_is_reported_before_any_run() {
 }
 
 /// If an engine cannot move the mechanism, the engine fails.
-/// Such a failure is a result with a reason, not an error of the command.
+/// The failure of an engine is a result with a reason, not an error of the command.
 #[test]
 fn failures_are_results_with_reasons() {
     let place = Place::new();

@@ -49,7 +49,7 @@ fn a_search_is_written_drawn_and_checked() {
     let drawing = roxmltree::Document::parse(&svg).unwrap();
     let words: Vec<&str> = drawing.descendants().filter_map(|node| node.text()).collect();
     assert!(["dwell", "forward", "back", "360°", "100 %"].iter().all(|word| words.contains(word)), "{words:?}");
-    // The same command gives the same file, and `check` the same figures.
+    // A repeated command writes an identical file, and `check` prints the same figures as the search.
     place.ok(&format!("synthesize search {SINKER} {effort} -o again.toml --threads 1"));
     assert_eq!(written, fs::read_to_string(place.path("again.toml")).unwrap());
     let checked = place.ok(&format!("synthesize check {SINKER} found.toml"));
@@ -129,7 +129,7 @@ fn the_published_motor_is_chosen() {
     assert_eq!(json["motor"]["name"], "4A71A4");
 }
 
-/// An error in a catalogue is reported with its location.
+/// An error in a catalogue is reported with the location of this error.
 #[test]
 fn catalogues_are_checked() {
     let place = Place::new();

@@ -93,8 +93,8 @@ fn formula_reports_fit_80_columns() {
     assert!(wrong.lines().all(|line| line.chars().count() <= 80), "{wrong}");
 }
 
-/// The short report shows both values at the worst instant, with the digits in which they differ.
-/// The report also has everything that the user needs to act.
+/// The short report shows both compared values at the worst instant, with the digits in which they differ.
+/// The short report also has everything that the user needs to act.
 #[test]
 fn a_disagreement_keeps_its_reasons_in_the_short_report() {
     let place = place();
@@ -139,7 +139,7 @@ fn any_number_of_jobs_prints_the_same_bytes() {
     assert!(one.stdout.lines().all(|line| line.chars().count() <= 80), "{}", one.stdout);
 }
 
-/// If a file is given twice and its settings are written, the second proof uses the new settings, whatever the number
+/// If a file is given twice and the settings are written to it, the second proof uses the new settings, with any number
 /// of jobs.
 #[test]
 fn settings_are_written_in_the_order_of_the_files() {
@@ -191,7 +191,7 @@ fn completions_and_manual_name_every_command() {
     }
     let page = place.ok("man");
     place.ok("man -o deep/man1");
-    // In a written file, a seal precedes the page.
+    // In a written manual page, a seal (the mark that the program wrote the file) precedes the text.
     let file = fs::read_to_string(place.path("deep/man1/linkproof.1")).unwrap();
     assert_eq!(file.split_once('\n').unwrap().1, page);
     for name in names.iter().filter(|name| **name != "help") {

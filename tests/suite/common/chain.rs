@@ -7,7 +7,7 @@ use linkage::case::Case;
 use scenario::Scenario;
 
 /// Scenario of `pairs` parallelograms of slender rods of 1 m and 1 kg.
-/// At t = 0 they are upright, and the first coupler moves at 1 m/s.
+/// At t = 0 the parallelograms are upright, and the first coupler moves at 1 m/s.
 /// The grid goes to `to` (s) in steps of `step` (s).
 pub fn text(pairs: usize, to: f64, step: f64) -> String {
     let mut text = "format = 1\nname = \"chain\"\ntitle = \"chain\"\n[ground.points]\n".to_string();

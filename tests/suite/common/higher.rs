@@ -17,7 +17,7 @@ pub enum End {
 use End::{Crank, Ground, Own};
 
 /// A group: number of links, class and joints.
-/// The list has the outer joint of each lead directly before its inner joint.
+/// In the list of joints, the outer joint of each lead comes directly before the inner joint of this lead.
 #[derive(Debug)]
 pub struct Topology {
     pub name: &'static str,
@@ -92,7 +92,7 @@ pub const CLASS_4_ORDER_3: Topology = Topology {
     ],
 };
 
-/// A group with a choice of prismatic joints.
+/// A group, and the choice of its joints that are prismatic.
 #[derive(Debug)]
 pub struct Family {
     pub topology: &'static Topology,
@@ -143,7 +143,7 @@ pub enum Among {
 const ROUGH: f64 = 0.01;
 
 /// A mechanism with a group of this family.
-/// Approximate positions of its joints define its start.
+/// Approximate positions of the group's joints define the start of the mechanism.
 pub fn mechanism(
     random: &mut RandomSource,
     family: &Family,

@@ -1,5 +1,5 @@
 //! Hostile inputs of every kind that the command line reads, reproducible from seed and number.
-//! They are shipped files with damaged text or bytes, and inputs that nobody writes by hand.
+//! The inputs are shipped files with damaged text or bytes, and inputs that nobody writes by hand.
 
 mod spoil;
 
@@ -275,8 +275,9 @@ pub fn attack(seed: u64, index: u64, good: &Good) -> Attack {
                     spoil(random, &mut bytes, &mut what);
                     what.push(name.clone());
                 }
-                // For these files the program knows only whether it wrote them, not whether they have changed since.
-                // A changed file may therefore be replaced.
+                // For the file names listed below, the program knows only whether it wrote a file, not whether the file
+                // has changed since.
+                // A changed file of this kind may therefore be replaced.
                 let is_any = ["mcap", "s/turns.json", "s/turns.csv"].iter().any(|own| name.ends_with(own));
                 // Changed line endings do not count as damage, because tools change them.
                 let plain = |bytes: &[u8]| bytes.iter().copied().filter(|&byte| byte != b'\r').collect::<Vec<u8>>();

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 /// If an input takes longer than this time, the test prints the number of the input.
-/// The slowest input takes a small fraction of this time.
+/// Even the slowest input takes only a small fraction of this limit.
 /// On a busy machine a time limit proves nothing; a test that ends proves termination.
 const PATIENCE: Duration = Duration::from_secs(300);
 

@@ -56,7 +56,7 @@ pub fn for_each_of(
 }
 
 thread_local! {
-    /// For each quantity, the largest fraction of its bound used in this test.
+    /// For each quantity, the largest ratio of a value to its bound in this test.
     static WORST: RefCell<BTreeMap<String, f64>> = const { RefCell::new(BTreeMap::new()) };
 }
 

@@ -1,7 +1,7 @@
 //! Mechanisms with prismatic joints, built by hand, with their motion in closed form.
 //! Every kind of dyad with prismatic joints occurs, RPP twice: without and with rotation.
 //! No frame or axis is parallel to the world's axes, and no mass centre is at a joint.
-//! A wrong sign or a missing rotation therefore shows.
+//! A wrong sign or a missing rotation therefore changes the computed motion.
 
 pub mod double;
 

@@ -1,6 +1,6 @@
 //! Constant columns.
-//! If the other columns of a file omit trailing zeros, zeros have the digits of these columns.
-//! Otherwise zeros may be rounded.
+//! If the other columns of a file omit trailing zeros, a `0` counts as printed with as many digits as these columns.
+//! Otherwise a `0` may be a rounded value.
 
 use super::digits::Format;
 use super::{scenario, solved};
@@ -56,8 +56,9 @@ fn structural_constants_agree_in_every_format() {
     }
 }
 
-/// If the other columns omit trailing zeros, a column of `0` is zero to the digits of these columns, so it disagrees.
-/// If the other columns have fixed decimals, `0` may stand for any value below 0.5.
+/// If the other columns omit trailing zeros, a column of `0` is exact to the digits of these columns, so a wrong `0`
+/// disagrees.
+/// If the other columns have fixed decimals, `0` may be the rounded form of any value below 0.5.
 #[test]
 fn wrong_constants_disagree_only_where_they_are_exact() {
     let of = |format, constant| {

@@ -22,7 +22,7 @@ fn place() -> Place {
     place
 }
 
-/// The first version that could record wrote this file.
+/// The recording of this test comes from the first version that could record.
 #[test]
 fn a_recording_of_the_first_version_is_read() {
     let place = place();
@@ -173,7 +173,7 @@ fn rounded_instants_and_the_digits_of_each_column_are_in_the_bound() {
     }
 }
 
-/// A diverged simulation writes NaN, which does not agree.
+/// A diverged simulation writes NaN, which never counts as agreement.
 /// Missing values are left out and counted.
 #[test]
 fn nan_does_not_agree_and_missing_cells_are_counted() {
@@ -260,7 +260,7 @@ fn compressed_parquet_files_are_read_or_refused_by_name() {
 }
 
 /// A pipe delivers every byte only once.
-/// The program therefore reads the first four bytes to see whether the table is Parquet, and keeps them.
+/// The program reads the first four bytes of the pipe to see whether the table is Parquet, and keeps these bytes.
 #[test]
 fn a_table_comes_through_a_pipe_with_all_its_bytes() {
     let place = place();

@@ -133,7 +133,7 @@ fn rows_without_an_instant_are_refused_with_their_line() {
 }
 
 /// A motion law has an end, and a free motion has a beginning.
-/// Instants outside this range are refused, but the last instant may be outside by its rounding error.
+/// Instants outside the range of the motion are refused, but the last instant may be outside by its rounding error.
 #[test]
 fn instants_beyond_a_law_are_refused_except_for_rounding() {
     let place = Place::new();

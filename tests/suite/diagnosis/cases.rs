@@ -176,7 +176,7 @@ fn faults_of_a_free_case_are_named() {
     assert!(tally.wrong.is_empty(), "\n{}", tally.wrong.join("\n"));
 }
 
-/// Two faults in every shipped scenario that they affect: gravity is missing, or the last link is 5 % too heavy.
+/// Two faults, each in every shipped scenario that it affects: gravity is missing, or the last link is 5 % too heavy.
 #[test]
 fn faults_in_every_shipped_scenario_are_named() {
     let mut tally = Tally::default();
@@ -186,8 +186,9 @@ fn faults_in_every_shipped_scenario_are_named() {
         .collect();
     names.sort();
     for name in names {
-        // This scenario takes ten times as long as all remaining scenarios together, so it is tested only at night.
-        // The scenario is only a larger case of the same benchmark.
+        // The scenario `n_four_bar_2` takes ten times as long as all remaining scenarios together, so it is tested only
+        // at night.
+        // An ordinary run tests `n_four_bar_1`, the smaller case of the same benchmark.
         if name == "n_four_bar_2" && !by_night() {
             continue;
         }

@@ -103,8 +103,8 @@ const OTHERS: &[Fault] = &[
     ("five_bar_on_a_spring", "stiffness_N_m_rad = 4", "stiffness_N_m_rad = 0", "load 1, torsion spring: missing"),
 ];
 
-/// This fault costs more than all remaining faults, so it is tested only at night.
-/// An ordinary run tests the same kind of fault in a prescribed motion; `cases.rs` tests it in this scenario.
+/// The fault in `BY_NIGHT` costs more than all remaining faults, so it is tested only at night.
+/// An ordinary run tests the same kind of fault in a prescribed motion; `cases.rs` tests it in `five_bar_on_a_spring`.
 const BY_NIGHT: &[Fault] =
     &[("five_bar_on_a_spring", "mode = \"left\"", "mode = \"right\"", "another configuration of rod_1, rod_2: right")];
 

@@ -161,7 +161,7 @@ fn a_pendulum_swings_in_its_known_time() {
         let quarters: Vec<f64> = (0..10).map(|k| period * (f64::from(k) + 0.25)).collect();
         let (found, _) = motion(&model, 0.0, &quarters, 1e-13).unwrap();
         for at in &found {
-            // The bound is that of run-ups in `figures.rs`.
+            // The bound equals the bound of run-ups in `figures.rs`.
             assert_within!((at.crank + PI / 2.0).abs(), 1e-10, "{degrees}: {at:?}");
         }
     }

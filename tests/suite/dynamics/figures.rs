@@ -169,7 +169,7 @@ fn a_flywheel_gives_the_requested_non_uniformity() {
     assert_eq!(Flywheel::of(&model, 0.5, ACCURACY).unwrap().inertia, 0.0);
     // With a large flywheel the speed hardly changes, so J = W / (delta omega^2), as in textbooks (Merzalow).
     // W is the largest surplus of work that the kinetic energy of the mechanism does not absorb.
-    // The motor's moment is then equal to the mean resistance.
+    // With a large flywheel, the motor's moment equals the mean resistance.
     let count = 36_000;
     let cranks: Vec<f64> = (0..count).map(|k| TAU * (f64::from(k) + 0.5) / f64::from(count)).collect();
     let mean = 100.0 * 64.0 / 360.0;
@@ -213,7 +213,8 @@ fn reducer_losses_apply_in_both_directions_of_power() {
     let model = ReducedModel::of(&case).unwrap();
     let run_up = RunUp::of(&model, 0.0, &times(), ACCURACY).unwrap();
     // Twice per revolution the mechanism drives the motor.
-    // The moment on the crank is then the motor's moment divided by 0.9; otherwise it is multiplied by 0.9.
+    // If the mechanism drives the motor, the moment on the crank is the motor's moment divided by 0.9; otherwise it is
+    // multiplied by 0.9.
     let motor = case.crank().motor().unwrap();
     let (mut drives, mut driven) = (0, 0);
     for at in &run_up.motion[1..] {
@@ -235,7 +236,7 @@ fn a_motor_that_is_too_weak_stops_for_good() {
     let (found, end) = motion(&model, 0.0, &times(), ACCURACY).unwrap();
     let RunUpEnd::Held(t, crank) = end else { panic!("{end:?}") };
     assert!(found.iter().all(|at| at.t <= t && at.crank <= crank + 1e-12) && found.len() < 501);
-    // At this angle the resistance alone exceeds the motor's moment.
+    // At the angle of the stall, the resistance alone exceeds the motor's moment.
     let rows = model.rows(&[crank]).unwrap();
     assert!(rows[0].resistance > 10.0, "{rows:?}");
     let error = model.regime(&[], ACCURACY).unwrap_err();

@@ -58,7 +58,7 @@ fn both_sides_agree_in_every_channel() {
 }
 
 /// The lists `RUN_UPS` and `CHAINS` contain every shipped free motion.
-/// The test above therefore compares the sides on all of them.
+/// The comparison of both sides over these lists therefore omits no free motion.
 #[test]
 fn every_shipped_free_motion_is_compared() {
     let directory = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios");
@@ -85,7 +85,7 @@ fn both_methods_of_side_1_agree() {
 }
 
 /// Two rods of length l and mass m, with Lagrange's equations for their angles from the vertical, as in textbooks.
-/// The test integrates these equations with classical Runge-Kutta steps.
+/// The test integrates Lagrange's equations with classical Runge-Kutta steps.
 #[test]
 fn the_double_pendulum_obeys_lagranges_equations() {
     let case = shipped("double_pendulum.toml").case;
@@ -199,7 +199,7 @@ fn twin_run_ups_are_of_order_one_and_extrapolate_accurately() {
         let forces = worst(&reference, &best, force);
         println!("{name} {}: {most:.1e} rad, {forces:.1e} of the range of forces", route.name());
         assert_within!(most, 1e-6, "{name} {}: {most:e} rad, {forces:e}", route.name());
-        // The wider bound includes the start, where forces are extrapolated from those of later steps.
+        // The wider bound includes the start, where forces are extrapolated from the forces of later steps.
         assert_within!(forces, 4e-5, "{name} {}: {most:e} rad, {forces:e}", route.name());
         let forces = crank.iter().filter(|residual| force(&residual.channel) && residual.max > 0.0);
         let later = forces.map(|residual| {
@@ -211,8 +211,8 @@ fn twin_run_ups_are_of_order_one_and_extrapolate_accurately() {
     }
 }
 
-/// The case has neither rotor nor flywheel.
-/// After the step, Rapier could pass over the constraints a second time, but this would increase the error 23 times.
+/// The case has neither rotor nor flywheel inertia.
+/// A second pass of Rapier over the constraints, after each step, would multiply the error by 23.
 /// The second pass would remove the velocity that moved the bodies across the constraints.
 #[test]
 fn the_twin_keeps_the_velocities_that_moved_it() {
@@ -228,8 +228,8 @@ fn the_twin_keeps_the_velocities_that_moved_it() {
 }
 
 /// Without rotor and flywheel, the inertia reduced to the crank almost vanishes at one crank angle.
-/// The crank passes this angle so fast that the passage lasts about one step.
-/// The proof must be inconclusive; a disagreement would be wrong.
+/// The crank passes the angle of vanishing inertia so fast that the passage lasts about one step.
+/// The proof must be inconclusive; the verdict disagree would be wrong.
 #[test]
 fn an_ill_conditioned_run_up_is_inconclusive_with_its_sensitivity() {
     let mut scenario = shipped("crank_rocker_runup.toml");

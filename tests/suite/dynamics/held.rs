@@ -42,7 +42,7 @@ fn largest_change(values: &[f64]) -> f64 {
     values.iter().map(|value| (value - values[0]).abs()).fold(0.0, f64::larger)
 }
 
-/// A class III group on one crank with dampers, so that side 1 cannot use the reduction to the crank.
+/// A class III group on one crank; its dampers prevent side 1 from using the reduction to the crank.
 #[test]
 fn a_higher_group_moves_under_a_damper() {
     let case = shipped("ov7_new_runup.toml").case;
@@ -143,7 +143,7 @@ fn a_force_against_a_point_of_a_pendulum_is_a_moment() {
 /// Symptom: in a step in which the point reverses, the twin kept the force's direction for the whole step.
 /// If the reversal came just after the start of a step, all runs had the same error, so the bound from their
 /// differences was too small.
-/// Moments against a link were already right: each direction counted for its part of the step.
+/// Moments against a link were already right, because each sense of rotation counted for its part of the step.
 #[test]
 fn regress_a_point_reversal_in_a_step_counts_by_its_shares() {
     let case = shipped("pendulum.toml").case;
@@ -197,7 +197,7 @@ fn resisting_forces_dissipate_force_times_path() {
     both("several", &loaded(&resisted, &more), 1e-10);
 }
 
-/// A sufficiently large resisting force holds its point at rest from the start, and both sides report this.
+/// A sufficiently large resisting force keeps the loaded point at rest from the start, and both sides report this.
 #[test]
 fn a_force_against_a_point_can_hold_it() {
     let case = shipped("double_pendulum.toml").case;

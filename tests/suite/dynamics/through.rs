@@ -130,7 +130,7 @@ fn reactions_of_one_four_bar_match_the_hand_calculation() {
 }
 
 /// With two parallelograms, the equations of the reactions contradict each other in level poses.
-/// Reactions therefore have a pole there, but the motion does not.
+/// Reactions therefore have a pole in level poses, but the motion does not.
 /// The middle bar carries two half rods, each end bar carries one half rod.
 #[test]
 fn reactions_may_have_a_pole_at_a_change_point() {
@@ -270,7 +270,7 @@ fn driven(lengths: [f64; 4], left: bool, start: f64, through: bool, cranks: &[f6
 }
 
 /// In a prescribed motion, the scenario states whether change points are passed.
-/// If the scenario does not state this, change points are errors.
+/// If the scenario does not state whether change points are passed, change points are errors.
 #[test]
 fn a_drive_passes_change_points_only_on_request() {
     let cranks: Vec<f64> = (0..200).map(|k| 61.3 + 5.7 * f64::from(k)).collect();
@@ -378,7 +378,8 @@ fn higher_groups_pass_their_change_points() {
         let case = Scenario::parse(&plain, Path::new("through.toml")).unwrap_or_else(|error| panic!("{error}")).case;
         // The different steps put instants at different distances from the change point.
         // The wrong branch keeps the sign of the determinant.
-        // Near the change point, the wrong branch is as close as the branch that continues the motion.
+        // Near the change point, the wrong branch is as close to the previous pose as the branch that continues the
+        // motion.
         for steps in [20.0f64, 30.0, 60.0, 37.0, 100.0, 200.0, 300.0, 731.0, 2000.0] {
             let times = (0..).map(|k| 0.6 * f64::from(k) / steps).take_while(|&t| t <= 0.6).collect();
             let case = case.on(Grid::of_times(case.crank(), times)).unwrap();
@@ -422,7 +423,7 @@ const MOTION: &str = "want = [\"positions\", \"velocities\", \"accelerations\"]"
 
 /// Parallel cranks with a length ratio of two to five and a load on the coupler, over a whole revolution in steps of
 /// `step` (deg).
-/// `want` gives the requested channels, and `through` is the key of the drive.
+/// `want` gives the requested channels; `through` is the key that lets the drive pass change points, or an empty text.
 fn parallel_cranks(through: &str, want: &str, step: f64) -> Case {
     let mut spec = four_bar([0.127, 0.0508, 0.127, 0.0508], true);
     spec.links[0].mass = Some((0.5, Vec2::new(0.025, 0.0), 0.0003));
@@ -462,7 +463,7 @@ fn regress_an_instant_exactly_at_a_change_point_is_passed() {
 
 /// Symptom: the error at a change point said "shorten the grid" or "change a length", but did not mention `through`.
 /// If a load would do work in a motion along the second branch, reactions have a pole at the change point.
-/// If reactions are requested there, the error names this pole.
+/// If reactions are requested at the change point, the error names this pole.
 #[test]
 fn the_error_at_a_change_point_suggests_the_key_through() {
     for step in [10.0, 7.0] {

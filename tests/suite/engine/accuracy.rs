@@ -88,7 +88,7 @@ fn gap_of_a_step(case: &Case, state: &State, step: f64) -> f64 {
     let joints = case.mechanism.joints();
     let around: linkage::math::Vec2 = (0..joints.len())
         .map(|k| {
-            // Joints O, A, B, C in this order: one link, or the ground, joins joint k and the next joint.
+            // Joints O, A, B, C in this order; a link or the ground joins each joint k and the next joint.
             let (from, to) = (&joints[JointId(k)], &joints[JointId((k + 1) % joints.len())]);
             let link = [from.first.link, from.second.link].into_iter().find(|&link| to.on(link).is_some()).unwrap();
             let motion = &state.motions[link];
@@ -130,8 +130,8 @@ fn regress_64_loops_open_by_the_local_error_of_a_step() {
 }
 
 /// Story 70.
-/// With two substeps, the same step of 0.08 deg meets every required figure at once.
-/// The figures are fractions of the range.
+/// With two substeps, a step of 0.08 deg meets all required accuracies at once.
+/// The required accuracies are fractions of the range.
 /// For angles: 1e-6.
 /// For reactions in all joints and the balancing moment: 3e-6 by differences, 1e-7 extrapolated, 1e-6 by probe.
 /// Loops close to 1e-7 of the mechanism's size.
@@ -161,7 +161,8 @@ fn regress_70_two_substeps_meet_all_accuracy_goals_at_once() {
     assert_within!(largest, 1e-7, "{largest:e}");
 }
 
-/// The opening of 1e-7 was stated for a crank of half the length. With this crank, the same step opens the loop less.
+/// The opening of 1e-7 was stated for a crank of half the length.
+/// At equal steps, the loop opens less with the half crank than with the whole crank.
 #[test]
 fn regress_64_half_the_crank_leaves_gaps_below_1e_7() {
     let whole_crank = whole("crank_rocker");

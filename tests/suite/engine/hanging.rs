@@ -52,10 +52,10 @@ const ONLY_ITS_FORCE: (&str, &str) = ("[grid]", "[channels]\nwant = [\"joint.N\"
 
 /// Story 71.
 /// Symptom: if a free link hangs on a link of a loop, Rapier's force at its hinge is wrong by newtons.
-/// All results except this force are right.
+/// All results except the force at this hinge are right.
 /// In a chain without a loop, the force is also wrong if no second reaction is requested.
-/// Cause: this force is read in a world that cuts the hinge. In that world the hanging link was a separate body, and
-/// Rapier never rotated it.
+/// Cause: the force at the hinge is read in a world that cuts the hinge. In that world the hanging link was a separate
+/// body, and Rapier never rotated the separate body.
 /// Remedy: the hanging link is a floating link of the multibody.
 #[test]
 fn regress_71_a_link_hanging_on_a_loop_has_the_right_reaction() {

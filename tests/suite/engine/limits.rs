@@ -1,5 +1,5 @@
 //! Steps that are far too large, and poses that cannot be reached.
-//! The result is an error that helps the user, never plausible numbers.
+//! In both cases the engine reports an error that helps the user, never plausible but wrong numbers.
 
 use std::path::Path;
 
@@ -22,7 +22,7 @@ use crate::common::specimens::specimen;
 /// Story 40.
 /// Symptom: numbers are wrong by 50 %, without a message.
 /// Cause: with a step of a tenth of a revolution, the gap of the loop stays below the limit that stops a run.
-/// Proofs at steps of 39, 15.6 and 7.8 degrees must then be inconclusive, or end with a helpful error.
+/// Proofs at steps of 39, 15.6 and 7.8 degrees must be inconclusive, or end with a helpful error.
 #[test]
 fn regress_40_steps_that_are_too_large_prove_nothing() {
     let scenario = shipped("crank_rocker.toml");
@@ -77,7 +77,7 @@ fn regress_41_a_pose_that_cannot_be_assembled_is_an_error_with_its_crank_angle()
 }
 
 /// Story 42.
-/// The same symptom as in story 41, with a slider: the gap in the guide does not show the error.
+/// Symptom: as in story 41, but with a slider: the gap in the guide does not show the error.
 /// Beyond 261.347 deg the rod is too short.
 #[test]
 fn regress_42_a_slider_out_of_reach_is_an_error_with_its_crank_angle() {
@@ -97,8 +97,8 @@ fn regress_42_a_slider_out_of_reach_is_an_error_with_its_crank_angle() {
 #[test]
 fn regress_higher_groups_do_not_change_branch_unnoticed() {
     const FROM_THE_END: f64 = 2.0;
-    /// If the distance from the exact motion (deg) is larger than this value, the configuration is a wrong one.
-    /// The value is twice the largest error found at steps of 4 deg.
+    /// Distance from the exact motion (deg) beyond which a configuration counts as the wrong one.
+    /// This distance is twice the largest error found at steps of 4 deg.
     const FAR: f64 = 17.0;
     let (mut stopped, mut through) = (0, 0);
     // These specimens contain groups of class III of order 3 and 4, and of class IV of order 2.

@@ -110,8 +110,8 @@ fn val_elliptic_integral_period_of_a_compound_pendulum() {
 /// Story 31.
 /// Symptom: free motion is far less accurate than driven motion with the same step.
 /// Cause: free motion is of first order.
-/// A quarter of a period after the start, the pendulum is at its lowest point.
-/// At the lowest point, the extrapolation 2y - x is much more accurate than y.
+/// A quarter of a period after the start, the pendulum is at its lowest point, so the exact angle is zero.
+/// With the angles x at step h and y at step h / 2, the extrapolation 2y - x is much more accurate than y.
 #[test]
 fn regress_31_free_motion_is_of_first_order() {
     let quarter = exact_period() / 4.0;

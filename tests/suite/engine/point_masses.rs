@@ -72,8 +72,8 @@ fn approaches(what: &str, case: &Case, step: f64, bound: f64) {
             for (what_of, coarse, fine) in [("alpha", coarse[0], fine[0]), ("force", coarse[1], fine[1])] {
                 let message = format!("{what}: {name} {route:?} {what_of}: {coarse:e} {fine:e}");
                 assert_within!(fine, bound, "{message}");
-                // Halving the step must halve the error; below a tenth of the bound, rounding may prevent this, so such
-                // an error passes.
+                // Halving the step must halve the error.
+                // An error below a tenth of the bound passes in any case, because rounding may hide the halving.
                 assert!(fine <= 0.65 * coarse || fine <= 0.1 * bound, "{message}");
             }
         }
@@ -101,7 +101,7 @@ fn massless_links_move_under_forces() {
 }
 
 /// Symptom: without a motor, reactions that the engine reports contained a driving moment.
-/// This moment was 1e-4 of the moment that keeps the mechanism at rest.
+/// The wrong driving moment was 1e-4 of the moment that keeps the mechanism at rest.
 /// Cause: Rapier keeps the impulse of a motor that has been switched off.
 #[test]
 fn regress_a_free_link_without_motor_has_no_driving_moment() {

@@ -14,7 +14,7 @@ use super::{has_formal_order, solve};
 use crate::common::sliders::{self, SPEED, swapped};
 use crate::common::{assert_within, states};
 
-/// The same case with a massless link behind the crank: a rod, block or disc.
+/// The case with the link behind the crank (a rod, a block or a disc) made massless.
 fn lighter(case: &Case) -> Case {
     let mut links = case.mechanism.links().to_vec();
     links[2] = Link { mass: 0.0, inertia: 0.0, ..links[2].clone() };
@@ -25,7 +25,7 @@ fn lighter(case: &Case) -> Case {
 /// Story 50.
 /// Symptom: a slider moves in the wrong direction, or a slide, its speed or its moment does not converge.
 /// Cause: the slide is measured along the axis of the parent in the tree, which may be the joint's second link.
-/// The slide's speed is one step old, so the axis must be one step old too.
+/// The slide's speed belongs to the previous step, so the axis of the previous step must be used.
 /// The order must be 2 in every channel, whichever link is named first and whichever link has no mass.
 #[test]
 fn regress_50_all_sorts_of_sliders_converge_with_the_formal_order() {
@@ -102,7 +102,7 @@ fn regress_52_links_in_sliders_turn_together() {
 /// Story 53.
 /// Symptom: at the same step, mechanisms with sliders have larger errors than mechanisms with pins only.
 /// At a step of 1e-4 s, the largest errors of the five mechanisms were 1.4e-6, 8.3e-6, 7.8e-7, 2.0e-5 and 1.7e-6.
-/// These are the largest values over all channels, divided by half the range of the channel.
+/// Each of these errors is the largest over all channels, divided by half the range of its channel.
 /// (The fourth mechanism makes only a fifth of a revolution, so its ranges are small.)
 /// The bounds are a tenth larger than these errors.
 #[test]

@@ -44,7 +44,7 @@ fn regress_65_substeps_keep_the_formal_order_by_every_route() {
 }
 
 /// Story 66.
-/// Symptom: as in story 65.
+/// Symptom: as in story 65, the crank of the impulse build lags.
 /// The crank keeps its angle to rounding error, as it does without substeps (story 1).
 #[test]
 fn regress_66_the_motor_holds_its_speed_with_substeps() {

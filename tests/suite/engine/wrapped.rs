@@ -70,7 +70,7 @@ fn a_neutral_wrapper_does_not_change_an_engine() {
     }
 }
 
-/// The wrapper also changes forces of an extrapolated motion.
+/// In a plain and in an extrapolated motion, the change that the wrapper makes is applied exactly once.
 #[test]
 fn a_hook_applies_exactly_once_plain_and_extrapolated() {
     let case = shipped("crank_rocker.toml").case;
@@ -92,7 +92,7 @@ fn a_hook_applies_exactly_once_plain_and_extrapolated() {
 }
 
 /// A method has a default only if the default calls methods that every implementation must define.
-/// A wrapper that forgets one of these methods therefore does not compile.
+/// A wrapper that forgets a required method therefore does not compile.
 #[test]
 fn engine_and_solver_have_only_derived_default_methods() {
     let defaults = |file: &str, name: &str| -> Vec<String> {

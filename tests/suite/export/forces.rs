@@ -1,4 +1,4 @@
-//! Motors and loads in the file: each with the force that the case itself gives at the start.
+//! Motors and loads in the exported file: at the start, each exerts the same force as in the case.
 
 use std::path::Path;
 

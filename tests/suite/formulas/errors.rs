@@ -1,4 +1,4 @@
-//! Two lists of wrong formulas: one was used to develop the search, the other was run only after it was finished.
+//! Two lists of wrong formulas: the search was developed with the first list; the second list was run only afterwards.
 //! Every mistake is found, most causes are named, and no cause is invented.
 
 use prover::check::{FormulaCause, MOST_WORK};
@@ -18,7 +18,7 @@ struct Error<'a> {
 }
 
 /// The scenario with one wrong formula.
-/// All claims are removed except the one that the formula belongs to.
+/// Only the claim to which this formula belongs is kept; all other claims are removed.
 fn with_error(scenario: &Scenario, error: &Error) -> Scenario {
     let mut parameters = scenario.formulas.parameters.clone();
     let (key, value) = error.change.split_once('=').unwrap_or((error.change, ""));

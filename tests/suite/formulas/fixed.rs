@@ -55,9 +55,8 @@ fn a_formula_in_degrees_is_judged_as_strictly() {
     assert!(claimed("phi*180/pi*(1 + 1e-10)").iter().all(|own| *own == FormulaOutcome::Wrong));
 }
 
-/// Cancellation leaves fewer than six digits at some instants.
-/// A few such instants do no harm.
-/// If most instants are affected, the formula is neither right nor wrong.
+/// A few instants at which cancellation leaves fewer than six digits do no harm.
+/// If cancellation affects most instants, the formula is neither right nor wrong.
 #[test]
 fn a_formula_that_loses_its_digits_at_most_instants_proves_nothing() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/formulas/slider_crank_centric.toml");

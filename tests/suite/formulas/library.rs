@@ -37,8 +37,8 @@ const NAMED: &[(&str, &[&str])] = &[
     ("missing term", &["missing", "an offset"]),
 ];
 
-/// Each claim of the library has a twin with one slip.
-/// All twins disagree, and the diagnosis names the slip in nine of ten twins.
+/// Each claim of the library has a wrong copy, which contains one slip.
+/// All wrong copies disagree, and the diagnosis names the slip in nine of ten copies.
 #[test]
 fn an_altered_copy_of_every_claim_disagrees_and_is_explained() {
     let mut reader = csv::Reader::from_reader(include_bytes!("spoiled.csv").as_slice());

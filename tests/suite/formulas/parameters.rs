@@ -65,7 +65,8 @@ to_deg = 405
 step_deg = "90/ratio"
 "#;
 
-/// A short name has the unit of the key if the short name measures the same quantity as the key, otherwise the SI unit.
+/// The short name `b` of a parameter `b_mm` has the unit of the key that uses it, if both measure the same quantity.
+/// Otherwise `b` has the SI unit.
 /// A whole key, such as `b_mm`, is the number as given, without conversion.
 #[test]
 fn numbers_may_be_expressions_of_parameters() {

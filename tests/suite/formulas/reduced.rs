@@ -26,7 +26,8 @@ fn found(scenario: &Scenario, quantity: &str) -> Vec<[f64; 3]> {
 }
 
 /// The reduced model computes the reduced inertia and the reduced moment from transfer functions.
-/// The channels that this test compares with the model come from the kinetic energy and the power that each side finds.
+/// Each side computes the channels of the same names from kinetic energy and power; the test compares them with the
+/// model.
 #[test]
 fn reduced_quantities_match_the_equation_of_motion() {
     for name in ["crank_rocker", "crank_rocker_runup", "class3_group", "compressor", "ov7_base", "quick_return"] {
@@ -77,7 +78,7 @@ fn meaningless_claims_are_refused_with_a_reason() {
 }
 
 /// At instants when the crank is at rest, the division by the crank's speed is impossible.
-/// Such instants are left out; if the crank is at rest at all instants, nothing is proven.
+/// Instants at which the crank is at rest are left out; if the crank is at rest at all instants, nothing is proven.
 #[test]
 fn a_crank_at_rest_has_no_reduced_inertia() {
     let place = Place::new();

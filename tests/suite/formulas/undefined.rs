@@ -26,8 +26,8 @@ const OUTSIDE: [(&str, &str); 14] = [
 ];
 
 /// Symptom: the formula `phi*180/pi + 0*ln(-1)` was judged right.
-/// Causes: the parser simplified 0*x, 0/x and x^0, although only derivatives need this; and IEEE 754 gives 1/(1/0) a
-/// value.
+/// First cause: the parser simplified 0*x, 0/x and x^0, although only derivatives need these simplifications.
+/// Second cause: IEEE 754 gives 1/(1/0) a value.
 #[test]
 fn regress_undefined_constants_are_refused_in_every_input() {
     let place = Place::new();
@@ -42,8 +42,8 @@ fn regress_undefined_constants_are_refused_in_every_input() {
         ] {
             place.refused(&door, &[says, "^", "help: "]);
         }
-        // `check` judges a formula with such an operation instead of refusing it, because the diagnosis of the slip is
-        // more useful.
+        // `check` judges a formula with an operation outside its domain instead of refusing the formula, because the
+        // diagnosis of the slip is more useful.
         for formula in [format!("phi*180/pi+{operation}"), format!("u+phi*180/pi --let u={operation}")] {
             let outcome = place.run(&format!("{check} {formula} --channel link.crank.angle_deg"));
             assert_eq!(outcome.code, 1, "{formula}: {}", outcome.stdout);
@@ -103,7 +103,8 @@ fn operations_outside_their_domain_disagree_with_a_position() {
 
 /// A pole between two instants is not an operation outside its domain.
 /// A formula with such a pole is right if its value is right at every instant, but its bound is wider near the pole.
-/// If rounding hides a pole at an instant, the formula is not judged at this instant; the other instants decide.
+/// If rounding hides a pole at an instant, the formula is not judged at this instant; the remaining instants decide the
+/// verdict.
 #[test]
 fn poles_between_instants_and_poles_that_rounding_hides() {
     let scenario = shipped("crank_rocker.toml");
@@ -140,7 +141,7 @@ fn overflow_is_inconclusive() {
 }
 
 /// An empty cell is a missing value.
-/// A mapping that is undefined for a given number is an error, and the message names the row.
+/// If the expression of a mapping is undefined for a number of the table, the error names the row of this number.
 #[test]
 fn a_mapping_undefined_in_a_row_is_refused() {
     let place = Place::new();

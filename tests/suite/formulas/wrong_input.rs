@@ -49,7 +49,7 @@ fn steps_ranges_and_claimed_errors() {
     assert_eq!(outcome.code, 3, "{}", outcome.stdout);
     assert!(outcome.stdout.contains("no instant lies between"), "{}", outcome.stdout);
     // The formula is right for half a revolution.
-    // At the ends of this half, the derivative of acos is undefined.
+    // At both ends of this half revolution, the derivative of acos is undefined.
     let branch = "check scenarios/crank_rocker.toml acos(cos(phi)) --channel link.crank.angle_rad";
     let outcome = place.run(branch);
     assert_eq!(outcome.code, 1);

@@ -173,7 +173,7 @@ fn swapping_the_links_of_a_joint_flips_only_its_force() {
                 for (ours, mut theirs) in pairs(solver, sample, &other, 1.0) {
                     theirs.forces[index] = -theirs.forces[index];
                     // In `theirs` the moment is about the point on the link that is second after the exchange.
-                    // It is transferred to the point on the link that was second before.
+                    // The moment is transferred to the point on the link that was second before.
                     let [first, second] =
                         [joint.first, joint.second].map(|side| ours.motions[side.link].point(side.local));
                     if joint.slides() {
@@ -187,7 +187,8 @@ fn swapping_the_links_of_a_joint_flips_only_its_force() {
     });
 }
 
-/// Changes the mode of the group that has `joint` as an inner joint, or of an RRP dyad that has it as an outer joint.
+/// Changes the mode of the group in which `joint` is an inner joint, or of an RRP dyad in which `joint` is an outer
+/// joint.
 /// The mode stays unchanged if `matters` does not accept the kind of the group.
 fn turn_modes(case: &Case, spec: &mut Spec, joint: JointId, matters: impl Fn(GroupKind) -> bool) {
     for group in case.structure.groups.iter().filter(|group| matters(group.kind)) {
@@ -201,7 +202,7 @@ fn turn_modes(case: &Case, spec: &mut Spec, joint: JointId, matters: impl Fn(Gro
 }
 
 /// A guide is a line.
-/// The sense of its axis and the choice of the point on the line do not matter.
+/// The sense of a guide's axis and the choice of the point on its line do not matter.
 #[test]
 fn sense_and_reference_point_of_a_guide_do_not_matter() {
     for_each(COUNT, |sample| {

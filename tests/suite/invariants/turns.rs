@@ -9,7 +9,7 @@ use crate::common::spec::four_bar;
 use crate::common::{assert_within, states};
 use linkage::mechanism::LinkId;
 
-/// Base, crank, coupler and rocker of mechanisms whose crank rotates fully.
+/// Lengths of base, crank, coupler and rocker of four-bars whose crank rotates fully.
 /// The last two numbers are the revolutions of coupler and rocker per revolution of the crank.
 const TURNING: [([f64; 4], [f64; 2]); 4] = [
     // Crank-rocker: the shortest link is the crank.

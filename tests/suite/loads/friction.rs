@@ -1,4 +1,5 @@
-//! Friction in joints: closed forms, the limits of self-locking, both sides against each other, and motions under forces.
+//! Friction in joints: closed forms, the limits of self-locking, both sides compared with each other, and motions under
+//! forces.
 
 use std::path::Path;
 
@@ -160,8 +161,8 @@ fn both_sides_agree_with_friction_in_every_joint() {
     }
 }
 
-/// A coefficient of friction that is off by a thousandth changes the driving moment by more than 1e-5 of its value, and
-/// so does a coefficient with the wrong sign.
+/// A coefficient of friction that is off by a thousandth changes the driving moment by more than 1e-5 of its value.
+/// A coefficient with the wrong sign has the same effect.
 #[test]
 fn a_coefficient_off_by_a_thousandth_is_seen_and_its_sign_too() {
     let case = shipped("slider_crank_friction.toml").case;

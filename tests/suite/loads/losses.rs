@@ -47,8 +47,9 @@ fn val_efficiency_of_a_planetary_train() {
     }
 }
 
-/// A square thread with the lead angle alpha and the angle of friction phi: the moments are F d/2 tan(phi + alpha) up and
-/// F d/2 tan(phi - alpha) down. Beyond phi = alpha, the screw is self-locking.
+/// A square thread with the lead angle alpha and the angle of friction phi.
+/// The moments are F d/2 tan(phi + alpha) up and F d/2 tan(phi - alpha) down. Beyond phi = alpha, the screw is
+/// self-locking.
 #[test]
 fn val_screws_on_both_sides_of_self_locking() {
     let (lead, force, diameter): (f64, f64, f64) = (0.008, 6400.0, 0.03);
@@ -220,10 +221,10 @@ inertia_kg_m2 = 1e-3
 points = { R = { x_mm = 0, y_mm = 0 }, T = { x_mm = 50, y_mm = -5 } }
 "#;
 
-/// Symptom: both free motions disagreed falsely.
+/// Symptom: both free motions of this test disagreed falsely.
 /// First cause: the engine computes friction from the acceleration of its first step, which lacks half of the
 /// centripetal part.
-/// Second cause: a loss at rest leaves a moment undetermined, and this moment was taken for a force in a guide.
+/// Second cause: with a loss at rest, one moment is undetermined, and this moment was mistaken for a force in a guide.
 #[test]
 fn regress_free_motions_with_losses_never_disagree() {
     let five_bar = include_str!("../../../scenarios/geared_five_bar.toml").split("[[formula]]").next().unwrap();

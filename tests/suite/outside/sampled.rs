@@ -16,7 +16,7 @@ use super::{files, loaded};
 /// The limit allows for rounding error, and for the error of a side at a change point.
 const BOUND: f64 = 1e-8;
 
-/// An imbalance of power is divided by at least this fraction of the largest power of the motion.
+/// The divisor of an imbalance of power is at least this fraction of the largest power of the motion.
 const DWELL: f64 = 1e-6;
 
 /// One row of a trajectory.
@@ -110,8 +110,8 @@ impl Row<'_> {
                 Load::TorsionSpring { links, stiffness, free_angle, acts } => {
                     let angle = |link: LinkId| self.link(link).turn[0];
                     let begun = self.case.start.0[links[1]].angle - self.case.start.0[links[0]].angle;
-                    // At t = 0 the twist is in (-pi, pi]; `turns` is the number of revolutions by which the start
-                    // angles exceed this interval.
+                    // At t = 0 the twist must be in (-pi, pi]; `turns` is the number of revolutions that reduce the
+                    // difference of the start angles to this interval.
                     let turns = ((begun - std::f64::consts::PI) / std::f64::consts::TAU).ceil();
                     let twist = angle(links[1]) - angle(links[0]) - turns * std::f64::consts::TAU;
                     let over = twist - free_angle;
@@ -219,8 +219,8 @@ impl Row<'_> {
     }
 
     /// Four imbalances, each divided by its largest term.
-    /// Two imbalances compare the sampled shaking force and moment with the reactions, and two compare them with the
-    /// momentum.
+    /// Two imbalances compare the sampled shaking force and moment with the reactions.
+    /// The remaining two compare the sampled shaking force and moment with the momentum.
     /// Also returns the total power of drives, loads, weights and inertia, and the largest of these powers (W).
     fn imbalances(&self) -> ([f64; 4], [f64; 2]) {
         let (case, loads, efforts) = (self.case, self.loads(), self.efforts());

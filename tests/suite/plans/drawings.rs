@@ -46,7 +46,7 @@ fn drawings_are_well_formed_and_hold_every_vector() {
 }
 
 /// Letters overlap neither each other nor a line.
-/// The boxes have the size of the letters, which is slightly smaller than the free space.
+/// The test uses boxes of the size of the letters, slightly smaller than the space that the drawing keeps free.
 #[test]
 fn letters_do_not_overlap() {
     let (mut letters, mut crossed) = (0, 0);

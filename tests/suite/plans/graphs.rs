@@ -62,7 +62,7 @@ fn rounding_is_drawn_as_a_constant() {
     assert!(graphs.graphs[0].is_constant());
     let text = draw::graphs(&graphs, "constant");
     assert!(text.contains(">constant 3.000<") && !text.contains("<circle") && !text.contains("least"), "{text}");
-    // The test uses a constant zero: the values are rounding errors around zero, but the graph's scale is 3.
+    // The values of this graph are zero except for rounding error, although the graph's scale is 3.
     let graph = &mut graphs.graphs[0];
     graph.points.iter_mut().for_each(|point| point[1] -= 3.0);
     graph.marks.iter_mut().for_each(|mark| mark.at[1] -= 3.0);

@@ -66,9 +66,10 @@ fn the_error_of_all_four_methods_is_of_second_order() {
 }
 
 /// The example of a published graphical course: a piston of the two-stage compressor.
-/// Chords give velocity and acceleration of the piston from its displacement; graphical integration gives the reverse.
-/// All three quantities follow the authors' closed form (phi clockwise from +y).
-/// The test computes all four methods by hand from that closed form.
+/// Chords give velocity and acceleration of the piston from its displacement.
+/// Graphical integration gives velocity from acceleration, and displacement from velocity.
+/// Displacement, velocity and acceleration follow the authors' closed form (phi clockwise from +y).
+/// From this closed form, the test recomputes the results of all four methods.
 #[test]
 fn chord_errors_of_a_piston_match_the_closed_form() {
     let (crank, rod, omega) = (0.06, 0.24, 104.71975511965978);

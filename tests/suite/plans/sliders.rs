@@ -93,7 +93,7 @@ fn relative_and_coriolis_parts_match_numerical_derivatives() {
     assert_within!(worst, 1e-8, "{worst:e}");
 }
 
-/// A contour contains the sliding pair; without its relative vectors, fewer contours close.
+/// At least one contour contains the sliding pair: without the relative vectors of this pair, fewer contours close.
 #[test]
 fn contours_with_sliding_pairs_need_their_relative_vectors() {
     for (name, _, point, under) in MOVING {

@@ -1,4 +1,4 @@
-//! The Newton-Euler equations along the spanning tree against the dense system of all links.
+//! Compares the Newton-Euler equations along the spanning tree with the dense system of all links.
 //! The two methods share only the components of the joints.
 
 use crate::common::assert_within;
@@ -202,7 +202,7 @@ proptest! {
 
 /// The tested cases include several drives, open chains and loads.
 /// The cases include prismatic joints as cut joints and as joints of the tree.
-/// Some equations of these cases are solved in pairs, and some are solved all at once.
+/// In some of the cases the equations are solved in pairs, in others all at once.
 #[test]
 fn every_kind_of_joint_is_tested() {
     let mut seen = [0; 7];

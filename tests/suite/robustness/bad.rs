@@ -1,5 +1,5 @@
 //! Thousands of bad scenarios: no panic, no hang, and every error states its location.
-//! It also states its key, unless the whole file is at fault.
+//! Every error also states the key at fault, unless the whole file is at fault.
 
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};

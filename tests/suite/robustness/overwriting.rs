@@ -21,7 +21,7 @@ enum Then {
 
 /// A command, the file whose name it chooses, and its reaction to a file of the user at that path.
 /// The last field states whether the file has a seal.
-/// If so, the command notices that its own output was edited, and treats the edited file as a file of the user.
+/// With a seal, the command notices that its own output was edited, and treats the edited file as a file of the user.
 type Writer = (&'static str, &'static str, Then, bool);
 
 const BENCH: &str = "bench scenarios/five_bar.toml --out out --quick --engine rapier --only positions --budget 1e4";
@@ -135,7 +135,7 @@ fn foreign_files_are_replaced_only_if_named() {
         assert_eq!(fs::read_to_string(place.path("precious")).unwrap(), "mine", "{command}: {file}");
         assert!(fs::symlink_metadata(&at).unwrap().is_symlink(), "{command}: {file}");
         remove();
-        // A link to nothing.
+        // A symbolic link whose target does not exist.
         symlink(place.path("elsewhere"), &at).unwrap();
         meets(&place, writer, "a link to nothing");
         assert!(!place.path("elsewhere").exists(), "{command}: {file}");

@@ -52,7 +52,7 @@ fn the_published_crank_rocker_equals_the_shipped_scenario() {
 }
 
 /// The mechanism has exactly the requested extreme positions.
-/// The range of motion, which checks these positions, uses arc length and independent equations.
+/// The extreme positions are checked by the range of motion, which uses arc length and independent equations.
 #[test]
 fn crank_rockers_have_the_requested_extreme_positions() {
     let mut proven = 0;

@@ -124,7 +124,7 @@ fn the_written_scenario_has_the_values_found() {
     assert_within!((scenario.case.crank().zero.to_degrees() - 70.7355).abs(), 1e-9);
     assert_within!((links[LinkId(2)].mass - 3.0 * 0.345_679).abs(), 1e-6);
     assert_within!((links[LinkId(2)].inertia / links[LinkId(2)].mass - 0.345_679f64.powi(2) / 12.0).abs(), 1e-7);
-    // Only the dimensions differ from the drawing.
+    // Only the dimensions differ from those of `drawing`, the scenario that the task names.
     assert_eq!(scenario.case.loads, drawing.case.loads);
     assert_eq!(scenario.case.mechanism.links()[LinkId(0)], drawing.case.mechanism.links()[LinkId(0)]);
 }

@@ -85,10 +85,10 @@ fn rows(space: &Space) -> Vec<Box<dyn Engine>> {
 }
 
 /// Searches every row of the space from the finest affordable step to larger steps.
-/// The limit of the cost is at first `below`. After a row with sufficient settings, the limit is the cost of these
+/// The limit of the cost is `below` at first. After a row with sufficient settings, the limit is the cost of these
 /// settings.
 /// Returns the cheapest settings of each row that stay below the limit and have at most the error `within`.
-/// Each result is therefore cheaper than the one before, and the cheapest settings of all rows come last.
+/// Each result is therefore cheaper than the previous result, and the last result is the cheapest of all rows.
 /// Also returns the number of runs.
 pub fn cheaper(
     scenario: &Scenario,

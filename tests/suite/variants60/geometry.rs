@@ -78,7 +78,8 @@ fn degrees(angle: f64) -> Vec2 {
     unit(angle.to_radians())
 }
 
-/// A value below this limit counts as singular, because the limit is the rounding error of a sine and a few products.
+/// An absolute value below this limit counts as zero, and the pose as singular; the limit is the rounding error of a
+/// sine and a few products.
 const SINGULAR: f64 = 1e-12;
 
 impl Linkage {

@@ -1,4 +1,4 @@
-//! The statements of docs/variants60.md about the whole family, below its marker.
+//! The statements of docs/variants60.md about the whole family, which stand below a marker in that page.
 
 use std::fmt::Write;
 

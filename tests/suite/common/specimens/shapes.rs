@@ -46,7 +46,7 @@ impl Safe {
     }
 }
 
-/// The shape with this number; ten kinds alternate.
+/// The shape with the number `index`; the ten kinds of shape follow each other in turn.
 pub fn shape(random: &mut RandomSource, index: u64) -> Result<Shape, String> {
     let round = (index / 10) as usize;
     let (sort, mut spec) = match index % 10 {
