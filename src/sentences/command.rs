@@ -211,8 +211,8 @@ linkage::sentences! {
     // cli/view.rs
     layout_plotjuggler_file_file_being(to) = "layout     {to}\nplotjuggler -l FILE, with the layout above as FILE: the layout loads the recording.\n";
     layout_open_in_foxglove_or_lichtblick(to, args) = "layout     {to}\n1. Open {args} in Foxglove or Lichtblick (open local file).\n2. Layouts, import from file: the layout above. The mechanism then moves beside its plots.\n";
-    OPEN_THE_FILE_FROM_RERUN = "open the file in Rerun; it contains the whole scene";
+    OPEN_THE_FILE_FROM_RERUN = "open the file in Rerun; the file contains the whole scene";
     rerun_viewer_has_not_shown(to, found) = "Rerun's viewer did not show {to}: {found}";
-    PYTHON3_PIP_INSTALL_RERUN_SDK = "`python3 -m pip install rerun-sdk`, or use --python to name a Python that has it";
+    PYTHON3_PIP_INSTALL_RERUN_SDK = "`python3 -m pip install rerun-sdk`, or use --python to name a Python installation that has rerun-sdk";
     cannot_be_written_by(to, python, found) = "{to} cannot be written by `{python}`: {found}";
 }

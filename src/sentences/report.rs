@@ -15,13 +15,13 @@ linkage::sentences! {
     only_the_first_configurations_are_drawn(most) = "only the first {most} configurations are drawn";
     joint_stays_open_by_mm(name, significant) = "joint {name} stays open by {significant} mm";
     // testing.rs
-    GIVE_EVERY_INSTANT_ONCE_CRANK = "give every instant once, crank angles in rad or times in s";
+    GIVE_EVERY_INSTANT_ONCE_CRANK = "give every instant only once, as a crank angle (rad) or as a time (s)";
     the_grid_cannot_be(message) = "invalid grid: {message}";
     GIVE_A_NUMBER_BETWEEN_AND_SUCH_AS = "give a number between 0 and 1, such as 1e-2";
     found_as_tolerance_but_this_is_a_share(share) = "found tolerance {share}, but a tolerance is a fraction of a channel's scale";
     is_not_proven(scenario, word, proof) = "{scenario} is not proven: {word}\n\n{proof}";
     // testing/folder.rs
-    is_to_be_ignored_but_no_scenario(own) = "\"{own}\" is to be ignored, but no scenario has this name";
+    is_to_be_ignored_but_no_scenario(own) = "\"{own}\" is listed as ignored, but no scenario has this name";
     THERE_IS_NO_SCENARIO_TOML = "there is no scenario (*.toml) in this folder";
     // plain/errors.rs
     also_in_places(times, place, lines) = "\n   = note: the same mistake {times}, in {place} {lines}";
@@ -107,11 +107,11 @@ linkage::sentences! {
     from_in(fixed, at, channel) = "; from {fixed} s, {at}, in {channel}";
     at_time_first_in(fixed, at, names) = "t = {fixed} s, {at}, first in {names}";
     cannot_be_told_differ(pairs) = "cannot be decided: {pairs} differ";
-    nobody_stand_against(one, other) = "no single party: {one} disagree with {other}";
+    nobody_stand_against(one, other) = "no single party: the parties {one} disagree with {other}";
     all_others_agree_with_each(name) = "{name}; all others agree with each other";
-    NOBODY_EACH_IS_WITHIN_THE_BOUNDS = "no party: each is within the bounds of all others";
+    NOBODY_EACH_IS_WITHIN_THE_BOUNDS = "no party: any two parties agree within their bounds";
     which_explains_as_much(cause) = "{cause}; this explains equally much";
-    no_single_one_a_part_is_explained(cause) = "no single cause found; a part is explained by this: {cause}";
+    no_single_one_a_part_is_explained(cause) = "no single cause found; this cause explains a part of the difference: {cause}";
     that_explains_all_to_within(cause, wrong) = "{cause}; this explains all {wrong} to within their bounds";
     nothing_simple_changed_cases_and_all(solved) = "not found: neither {solved} modified cases nor any simple slip explains the difference";
     diagnosis_of(suspect) = "Diagnosis of {suspect}:";
@@ -407,7 +407,7 @@ found down to: faults larger than this are found in every scenario, to a factor 
     AT_THIS_PACE_THE_WORK_THAT_WAS_ALLOWED = "; at this rate of progress the work limit would not be enough";
     THE_WORK_THAT_WAS_ALLOWED = "; the work limit was reached";
     FINER_STEPS_WOULD_ADD_ROUNDING = "; finer steps would add rounding error";
-    NO_OTHER_SETTING_WAS_LEFT = "; no free setting has a better value";
+    NO_OTHER_SETTING_WAS_LEFT = "; no other value of a free setting narrows the bound";
     extrapolated_times(times) = "extrapolated {times} times";
     route_step(told, settings, step, search) = "{told}\n(method {settings}, step {step} s; {search}):";
     the_forces_above_forces_as_the_engine(source, how) = "Source of the forces above: {source}.\nForces that the engine itself exerts: {how}";

@@ -59,11 +59,11 @@ linkage::sentences! {
     // motion/march.rs
     IT_RUNS_AWAY_OR_A_LOAD_TURNS = "the motion runs away, or a load reverses all the time: check loads and motor, or end the grid earlier";
     of_the_motion_has_gone_in_pieces(last, x, value) = "the motion had to be divided into {value} pieces within the first {x:.9} s of {last} s";
-    NO_STEP_REACHES_ITS_BOUND = "no time step ends at the boundary of its piece";
-    ITS_STEPS_BECOME_TOO_SMALL = "its steps become too small, as at a singular pose (dead point or change point)";
+    NO_STEP_REACHES_ITS_BOUND = "no time step can be made to end where a load or the motor's law changes";
+    ITS_STEPS_BECOME_TOO_SMALL = "the time steps become too small, as at a singular pose (dead point or change point)";
     of_steps_it_is_only_on_of(steps, way, last) = "{steps} steps have covered only {way} of {last}";
     // motion/side.rs
-    GIVE_ITS_LINKS_OR_THE_MOTOR = "give its links, or the motor's rotor, a moment of inertia";
+    GIVE_ITS_LINKS_OR_THE_MOTOR = "give the links, or the motor's rotor, a moment of inertia";
     THE_EQUATIONS_OF_MOTION_ARE_SINGULAR = "the equations of motion are singular: a degree of freedom has no inertia at this pose";
     // motion/step.rs
     WHERE_MASSES_NEARLY_VANISH_AT_A_CRANK = "the equation is stiff where the inertia nearly vanishes at a crank angle: give the crank or the rotor a moment of inertia";
@@ -111,12 +111,12 @@ linkage::sentences! {
     it_can_be_turned_from_to_deg(to_degrees, to) = ": it can turn only from {to_degrees:.6} to {to:.6} deg";
     GIVE_THE_TABLES_TURNS_THAT_DIVIDE = "choose `turns` of the tables so that one divides the other";
     mechanism_and_tables_of_loads(turns, most_turns) = "mechanism and load tables together repeat only after {turns} turns; the limit is {most_turns}";
-    GIVE_IT_AS_A_TABLE_OF_FORCES = "give it as a table of forces over the crank angle";
+    GIVE_IT_AS_A_TABLE_OF_FORCES = "give the load as a table of forces over the crank angle";
     reduced_quantities_are_asked_for_but_a_load(load) = "reduced quantities are requested, but the direction of a load of type \"{load}\" follows the motion of a point, which the reduction to the crank cannot represent";
     // reduced/model.rs
-    FASTEN_IT_TO_LINKS_THAT_DO_NOT_TURN = "attach it to links that do not turn relative to each other";
+    FASTEN_IT_TO_LINKS_THAT_DO_NOT_TURN = "attach the load to links that do not turn relative to each other";
     IS_WOUND_UP_BY_EVERY_TURN = "is wound up by every turn of the crank";
-    LEAVE_IT_OUT_OR_TAKE_ITS_PART = "leave it out, or include it in the motor's law";
+    LEAVE_IT_OUT_OR_TAKE_ITS_PART = "leave this load out, or include it in the motor's law";
     DEPENDS_ON_THE_SIZE_OF_SPEEDS = "depends on the magnitude of speeds, which this reduction to the crank cannot represent";
     the_motion_under_forces_is_asked_for_but_a_load(load, why) = "the motion under forces is requested, but a load of type \"{load}\" {why}";
     TAKE_A_SCENARIO_WITH_ONE_DRIVE = "use a scenario with one `[drive]`";

@@ -2,12 +2,12 @@
 
 linkage::sentences! {
     // bearings.rs
-    PEAKS_ARE_LOOKED_FOR_OVER = "peaks are searched over the crank angle, but the drive's law may reach an angle more than once";
+    PEAKS_ARE_LOOKED_FOR_OVER = "peaks are searched for over the crank angle, but the drive's law may reach an angle more than once";
     // drive/catalogue.rs
     GIVE_BREAKDOWN_TORQUE_OVER_RATED = "give the breakdown torque divided by the rated torque, usually 2 to 3, or leave it out";
-    THE_BREAKDOWN_TORQUE_IS_NOT_ABOVE = "the breakdown torque is not above the rated one";
+    THE_BREAKDOWN_TORQUE_IS_NOT_ABOVE = "the breakdown torque is not above the rated torque";
     CHECK_THE_TWO_SPEEDS_AND_THEIR = "check the two speeds and their units";
-    THE_RATED_SPEED_IS_NOT_BELOW = "the rated speed is not below the synchronous one";
+    THE_RATED_SPEED_IS_NOT_BELOW = "the rated speed is not below the synchronous speed";
     ADD_A_TABLE_MOTORS_FOR_EACH = "add a table `[[motors]]` for each motor";
     THE_CATALOGUE_HOLDS_NO_MOTOR = "the catalogue contains no motor";
     GIVE_THE_PATH_OF_A_CATALOGUE = "give the path of a catalogue of motors, such as catalogues/motors.toml";
@@ -16,7 +16,7 @@ linkage::sentences! {
     PRESCRIBE_THE_DRIVES_OR_LET = "prescribe the drives, or let no more than one link move freely";
     clearance_knows_no_cams(name) = "clearance is not proven for cams such as \"{name}\"";
     LEAVE_THE_CAM_OUT = "leave the cam out and drive its follower";
-    CLEARANCE_IS_LOOKED_FOR_OVER = "clearance is searched over crank angles, but forces determine several degrees of freedom of the motion";
+    CLEARANCE_IS_LOOKED_FOR_OVER = "clearance is searched for over crank angles, but several degrees of freedom move under forces";
     // plan/builder.rs
     along_the_guide(joint) = ", along the guide {joint}";
     tangential_part_alpha_perpendicular_to(line) = "tangential part, alpha l, perpendicular to {line}";
@@ -53,7 +53,7 @@ linkage::sentences! {
     EXTEND_THE_GRID = "extend the grid over the stroke";
     THE_CHORD_METHOD_DIVIDES_A_TURN = "the chord method divides the motion into equal times, but the drive's speed changes";
     give_from_to_divisions(least, most) = "give from {least} to {most} divisions";
-    a_turn_cannot_be_divided(divisions) = "the motion cannot be divided into {divisions} parts here";
+    a_turn_cannot_be_divided(divisions) = "the motion cannot be divided into {divisions} parts";
     allowed_here(names) = "allowed here: {names}";
     CHANNELS_ARE_NAMED_LIKE_POINT = "channels are named like point.B.x_m, point.B.y_m or link.crank.angle_rad";
     is_neither_a_position_nor(name) = "\"{name}\" is neither a position nor an angle";
@@ -148,7 +148,7 @@ linkage::sentences! {
     ask_for_less_than_or_choose(most) = "ask for less than {most:.6}, or choose a smaller offset";
     a_time_ratio_of_is_out_of_reach(ratio, stroke, e) = "a time ratio of {ratio} cannot be reached with a stroke of {stroke:.6} m at an offset of {e:.6} m";
     GIVE_THE_LENGTH_OF_THE_ROD = "give the length of the rod instead of the time ratio, or change the offset";
-    WITH_AN_OFFSET_THE_TWO_STROKES = "with an offset the two strokes never take the same time";
+    WITH_AN_OFFSET_THE_TWO_STROKES = "with an offset, the forward and the return stroke never take the same time";
     without_an_offset_both_strokes(ratio) = "without an offset both strokes take the same time, not {ratio} times as long";
     WITHOUT_AN_OFFSET_ANY_ROD = "without an offset any rod gives a time ratio of 1";
     the_time_ratio_is(ratio) = "the time ratio is {ratio}";
@@ -173,7 +173,7 @@ linkage::sentences! {
     THE_CURVE_IS_TO_BE_FOLLOWED = "the curve is to be followed, but some levels are not given";
     AN_OUTPUT_THAT_ROCKS_GOES = "an output that rocks goes forward and back in every turn";
     no_phase_goes_the_output(sense) = "no phase moves {sense}: the output would not return";
-    LET_IT_END_AT_DEG = "let it end at 360 deg";
+    LET_IT_END_AT_DEG = "let the last phase end at 360 deg";
     the_last_phase_ends_at_deg(to_degrees) = "the last phase ends at {to_degrees:.6} deg, not after a whole turn";
     GIVE_A_NUMBER_FROM_TO_BELOW = "give a number of at least 0 and below 1";
     THE_LEAST_DISPLACEMENT_IS_A_SHARE = "the least displacement is a share of the stroke";

@@ -7,7 +7,7 @@ linkage::sentences! {
     cannot_be_written(what, why, needs) = "{what} cannot be written: {why}{needs}";
     are_needed(size) = "; {size} are needed";
     RAISE_THE_LIMIT_ON_THE_SIZE = "raise the limit on the size of files, or ask for fewer instants or channels";
-    RENAME_OR_REMOVE_WHAT_IS_THERE = "rename or remove what is there, or choose another path";
+    RENAME_OR_REMOVE_WHAT_IS_THERE = "rename or remove the existing entry, or choose another path";
     MAKE_ROOM_THERE_OR_WRITE = "free space there, or write to another device";
     A_FILE_OF_THIS_SIZE_IS_NOT_ALLOWED = "a file of this size is not allowed";
     THE_QUOTA_ON_THE_DEVICE_IS_USED = "the quota on the device is used up";
@@ -21,7 +21,7 @@ linkage::sentences! {
     THIS_IS_A_DIRECTORY_EXPECTED = "this is a directory; expected a file";
     more_than_symbolic_links_lead(links) = "more than {links} symbolic links follow one another there";
     A_FILE_IS_THERE_THAT_THIS_PROGRAM = "a file exists there that this program did not write, or that was changed since";
-    SOMETHING_ELSE_THAN_A_FILE = "something other than a file exists there";
+    SOMETHING_ELSE_THAN_A_FILE = "the path exists, but is not a file";
     A_SYMBOLIC_LINK_THAT_NOBODY = "an unexpected symbolic link exists there";
     // text.rs
     it_is_not_written_in_utf(line, byte, char) = "it is not written in UTF-8: line {line} has the byte 0x{byte}, in Latin-1 the letter `{char}`";

@@ -25,7 +25,7 @@ sentences! {
     A_DIVISOR_MUST_NOT_BE_ZERO = "a divisor must not be zero";
     ITS_PARTS_MUST_HAVE_VALUES = "every part of it must have a value";
     is_undefined(what) = "{what} is undefined";
-    WHAT_IT_STANDS_FOR_HAS_NO_VALUE = "its definition has no value";
+    WHAT_IT_STANDS_FOR_HAS_NO_VALUE = "the definition of this name has no value";
     // graph.rs
     there_is_no(name) = "there is no `{name}`";
     known_are(names) = "known names: {names}";
@@ -38,7 +38,7 @@ sentences! {
     the_functions_are_write_a_product(known) = "the functions are {known}; write a product with `*`";
     WRITE_A_POWER_WITH = "write a power with `^`";
     WRITE_IT_BY_SIN_COS_AND_TAN = "write it with sin, cos and tan";
-    WRITE_LN_FOR_THE_NATURAL = "write ln for the natural logarithm, ln(x)/ln(10) for that to base 10";
+    WRITE_LN_FOR_THE_NATURAL = "write ln for the natural logarithm, and ln(x)/ln(10) for the logarithm to base 10";
     write_it_with_parentheses_phi(function) = "write it with parentheses: {function}(phi)";
     the_function_has_no_argument(function) = "the function `{function}` is written without its argument";
     WRITE_A_NUMBER_SUCH_AS = "write a number such as 1.5e-3";
@@ -63,7 +63,7 @@ sentences! {
     WRITE_NUMBERS_WITH_A_DECIMAL = "write numbers with a decimal point, such as 0.5";
     WRITE_THE_RIGHT_SIDE_ONLY = "write the right side only";
     A_FORMULA_HAS_NO = "a formula has no `=`";
-    TAKE_IT_OUT_OR_OPEN_IT = "remove it, or add `(`";
+    TAKE_IT_OUT_OR_OPEN_IT = "remove this `)`, or add `(`";
     THERE_IS_NO_BEFORE_THIS = "there is no `(` before this `)`";
     DIVIDE_IT_A_FORMULA_MAY_USE = "divide it: a formula can use earlier formulas by name";
     the_formula_is_nested_deeper(deepest) = "the formula is nested deeper than {deepest}";

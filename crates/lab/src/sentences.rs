@@ -16,11 +16,11 @@ linkage::sentences! {
     DIFFERENCE_OF_THE_TWO_SIDES = "difference of the two sides";
     SIDE_ASSUR = "side 1 (assur)";
     SIDE_ASSUR_INTEGRATED_A_HUNDRED = "side 1 (assur), integrated with a tolerance a hundred times tighter";
-    DIFFERENCE_OF_BOTH_SIDES_AT_THE_TIGHTER = "difference of both sides at the tighter tolerance, or the remaining error of the tighter integration";
+    DIFFERENCE_OF_BOTH_SIDES_AT_THE_TIGHTER = "the larger of two errors: the difference of both sides at the tighter tolerance, and the estimated integration error";
     // mutate/plan.rs
     PLANT_FEWER_OF_THEM_SOME = "plant fewer faults: select some kinds or one party, or omit the sizes";
     planting_faults_takes_the_work(scenario, faults, work, budget) = "{scenario}: planting {faults} faults costs about as much as {work} engine steps of a four-bar; the work limit is {budget}";
-    PROVE_IT_WITHOUT_A_FAULT = "prove it without a fault, and correct what disagrees";
+    PROVE_IT_WITHOUT_A_FAULT = "prove the scenario without a fault, and correct what disagrees";
     disagrees_without_a_fault_so(scenario) = "{scenario} disagrees without a fault, so every fault would count as found";
     // mutate/seen.rs
     own_forces(name) = "forces that {name} itself exerts";
@@ -69,7 +69,7 @@ linkage::sentences! {
     it_ended_with_2(status) = "it ended with {status}";
     exec_rerun(python) = "exec {python} -m rerun \"$1\"";
     // stress/point.rs
-    THERE_IS_NOTHING_TO_HOLD = "there is no reference to compare with";
+    THERE_IS_NOTHING_TO_HOLD = "no reference exists with which the engine can be compared";
     the_other_side(without) = "the other side ({without})";
     THE_OTHER_SIDE_2 = "the other side";
     // tune.rs

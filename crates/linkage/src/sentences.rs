@@ -75,7 +75,7 @@ crate::sentences! {
     TAKE_FEWER_INSTANTS_OR_FEWER = "use fewer instants, or fewer channels (`want` in `[channels]`)";
     allow_more_work_such_as_steps(to) = "allow more work, such as {to} steps";
     LEAVE_OUT_THE_ENGINE_SETTINGS = "leave out the engine settings, so that the proof chooses them";
-    raise_the_number_of_sweeps(to) = "raise the number of sweeps, such as to {to}";
+    raise_the_number_of_sweeps(to) = "raise the number of sweeps, for example to {to}";
     RAISE_THE_NUMBER_OF_SWEEPS_2 = "raise the number of sweeps";
     choose_a_looser_accuracy_such_as(to) = "choose a looser accuracy, such as {to}";
     choose_a_tighter_accuracy_such_as(to) = "choose a tighter accuracy, such as {to}";
@@ -87,7 +87,7 @@ crate::sentences! {
     more_mistakes_are_not_shown(many) = "{many} more mistakes are not shown";
     MORE_MISTAKE_IS_NOT_SHOWN = "1 more mistake is not shown";
     // mechanism.rs
-    GIVE_THE_MASS_TOO_OR_LEAVE = "give the mass too, or leave both out";
+    GIVE_THE_MASS_TOO_OR_LEAVE = "give the mass too, or leave out the moment of inertia";
     the_link_has_a_moment_of_inertia(inertia) = "the link has a moment of inertia ({inertia} kg·m²) but no mass";
     GIVE_A_NUMBER_THAT_IS_ZERO = "give a number that is zero or positive";
     the_is(what, value) = "the {what} is {value}";
@@ -151,7 +151,7 @@ crate::sentences! {
     DRIVE_ANOTHER_JOINT = "drive another joint, or make one of the prismatic joints revolute";
     the_mobility_is_but_the_number(n, p, mobility, drives) = "the mobility is W = 3*{n} - 2*{p} = {mobility}, but the number of drives is {drives}";
     the_mobility_with_transmissions_is(n, p, t, mobility, drives) = "the mobility is W = 3*{n} - 2*{p} - {t} = {mobility}, with {t} transmissions, but the number of drives is {drives}";
-    the_start_joint_of_a_transmission_changes(group) = "with the start joints of the transmissions, the group {group} would change, although no transmission acts in it";
+    the_start_joint_of_a_transmission_changes(group) = "with the start joints of the transmissions, the group {group} would change, although the group contains no transmission";
     the_start_joint_is_driven(name, joint) = "the start joint \"{joint}\" of transmission \"{name}\" is driven";
     GIVE_A_JOINT_OF_THE_TRANSMISSION = "name another joint of a member or of the carrier with `start_joint`";
     the_start_of_the_transmissions(message) = "with the start joints of the transmissions: {message}";

@@ -26,7 +26,7 @@ linkage::sentences! {
     // check/judged.rs
     WRITE_IT_SO_THAT_NO_DIGITS = "write it so that no digits cancel, for example with atan2 instead of acos";
     rounding_leaves_the_formula_less(lost, all) = "rounding error leaves the formula fewer than six digits at {lost} of {all} instants";
-    LET_THE_GRID_COME_TO_THEM = "extend the grid to them, or claim the formula for other crank angles";
+    LET_THE_GRID_COME_TO_THEM = "extend the grid to the crank angles of the claim, or claim the formula for crank angles in the grid";
     NO_INSTANT_LIES_BETWEEN_THE_CRANK = "no instant lies between the crank angles for which the formula is claimed";
     CLAIM_IT_WHERE_THE_CRANK = "claim it for instants at which the crank turns";
     the_claim_has_no_number_at_any(undefined) = "the claimed quantity has no value at any of {undefined} instants: it divides by zero";
@@ -43,7 +43,7 @@ linkage::sentences! {
     // bounds/verdict.rs
     is_beyond_the_bound(error_in, error_in_2) = "{error_in} is beyond the bound {error_in_2}";
     neither_the_printed_number_nor(finding, place) = "the printed number and the correction in finding \"{finding}\" are both wrong: {place}";
-    the_finding_says_that_the_printed(finding) = "the finding \"{finding}\" says that the printed number is wrong, but it agrees: correct one of the two";
+    the_finding_says_that_the_printed(finding) = "the finding \"{finding}\" says that the printed number is wrong, but the number agrees with the mechanism: correct the finding or the number";
     MOST_OF_IT_IS_THE_REFERENCE = "; most of it is the error of the reference";
     MOST_OF_IT_IS_LEFT_BY_THE_SWEEPS = "; most of it is iteration error: too few sweeps";
     MOST_OF_IT_IS_ROUNDING = "; most of it is rounding error";
@@ -85,7 +85,7 @@ linkage::sentences! {
     NEWTONS_TAKEN_FOR_KILOPONDS = "newtons taken for kiloponds";
     KILOPONDS_INSTEAD_OF_NEWTONS = "kiloponds instead of newtons";
     A_THOUSANDTH_AS_KG_FOR_OR_KN = "a thousandth, as kg for g or kN for N";
-    A_THOUSANDFOLD_AS_FOR_KG = "a thousandfold, as g for kg or mN for N";
+    A_THOUSANDFOLD_AS_FOR_KG = "a thousand times too large, as with g for kg or mN for N";
     PER_SECOND_TAKEN_FOR_PER = "per second taken for per minute";
     PER_MINUTE_INSTEAD_OF_PER = "per minute instead of per second";
     FEET_INSTEAD_OF_METRES = "feet instead of metres";
@@ -186,7 +186,7 @@ linkage::sentences! {
     given_found(value, unit, value_2) = "given {value} {unit}, found {value_2:.10}";
     NAME_A_LINK_POINT_OR_JOINT = "name a link, point or joint of this scenario";
     oracle_there_is_no_channel(oracle, channel) = "oracle {oracle}: there is no channel {channel}";
-    PRINT_THE_INSTANTS_WITH_MORE = "print the instants with more digits, zeros at their ends included";
+    PRINT_THE_INSTANTS_WITH_MORE = "print the instants with more digits, including trailing zeros";
     at_the_rounding_of_the_instant(at) = "at {at} the number deviates by more than a hundredth of the channel's scale; this is within the bound only because the instant is rounded";
     // run/order.rs
     the_runs_converge_with_order(order, error, error_2, formal) = "the runs converge with order {order:.2} at all five steps from {error} to {error_2} s, but the method has order {formal}: the values read or computed are not those of the method";
@@ -213,7 +213,7 @@ linkage::sentences! {
     the_run_from_which_the_error(what, message) = "the run {what}, which is needed to estimate the error of the requested run, failed: {message}";
     with_sweeps(sweeps) = "with {sweeps} sweeps";
     // run/settle.rs
-    THE_OTHERS_ARE_NOT_CONCLUSIVE = "the other results are not conclusive";
+    THE_OTHERS_ARE_NOT_CONCLUSIVE = "other channels are not yet conclusive";
     NO_FINER_RUN_BEARS_IT_OUT = "no finer run confirms the disagreement";
     the_first_runs_of_the_engine(error, error_2) = "the first runs of the engine, with all their substeps, cost as much as {error} engine steps of a four-bar; the work limit is {error_2}";
     // run/solved.rs
@@ -289,7 +289,7 @@ linkage::sentences! {
     a_recording_has_no_side(side) = "a recording has no side {side}";
     // compare/align.rs
     ALLOW_INTERPOLATION_OR_GIVE_BOTH = "allow interpolation, or give both parties the same instants; check the units of the instants";
-    of_the_second_party_is_one_of_the_first(which, what) = "{which} {what} of the second party occurs in the first";
+    of_the_second_party_is_one_of_the_first(which, what) = "{which} {what} of the second party is also in the first party";
     the_rows_of_the_parties_have_different_inputs(one, other) = "the rows of one party have a {one}, those of the other a {other}";
     MAP_THE_INSTANTS_OF_BOTH_TO_THE_SAME_INPUT = "map the instants of both parties to the same input, or to times";
     MAP_THE_COLUMNS_OF_BOTH_TO_THE_SAME = "map the columns of both parties to the same channels";

@@ -194,7 +194,7 @@ linkage::sentences! {
     link_does_not_turn_prismatic(name) = "link \"{name}\" does not turn: only prismatic joints connect it with the ground";
     NAME_A_MOVING_LINK = "name a moving link";
     THE_GROUND_DOES_NOT_TURN = "the ground does not turn";
-    THE_GROUND_DOES_NOT_MOVE = "the ground does not move, and bears any load";
+    THE_GROUND_DOES_NOT_MOVE = "the ground does not move, so a load on it has no effect";
     WRITE_FOR_A_FOUR_STROKE_ENGINE = "write 2 for a four-stroke engine, otherwise leave it out";
     found_but_a_table_repeats(other, most_turns) = "found {other}, but a table repeats after 1 to {most_turns} turns of the crank";
     A_TABLE_REPEATS_AFTER_A_TURN = "a table repeats after one turn or after `turns` turns: leave out its last point if it repeats the first";
@@ -246,7 +246,7 @@ linkage::sentences! {
     link_has_a_moment_of_inertia(link, own, own_2) = "link \"{link}\": its moment of inertia plus its mass times the square of the largest link's length is {own} kg·m²; this is {own_2} times that of everything else";
     CHECK_THE_UNIT_A_LINK_THAT_IS_SO = "check the unit; if the link really is so large, add a point there";
     the_mass_centre_of_link_is_away(link, far, far_2) = "the mass centre of link \"{link}\" is {far} m away from all its points, {far_2} times the largest link";
-    CHECK_THE_UNITS_OF_ITS_SPEED = "check the units of its speed and of its length";
+    CHECK_THE_UNITS_OF_ITS_SPEED = "check the units of the link's speed and length";
     at_rad_link_of_has_points(speed, link, link_2) = "at {speed} rad/s, link \"{link}\" of {link_2} m has points that are faster than light";
     // motion.rs
     A_TABLE_OF_ANGLES_NEEDS_TWO = "a table needs at least two points with different values";
@@ -369,7 +369,7 @@ linkage::sentences! {
     A_CRANK_ANGLE_AND_A_TIME = "a crank angle and a time are both given";
     A_NUMBER_HOLDS_AT_A_CRANK = "a number belongs to a crank angle (of the nominal motion, if forces determine the motion) or to a time";
     CHANNELS_ARE_NAMED_LIKE_POINT = "channels are named like \"point.A.x_mm\", \"link.crank.angle_deg\", \"link.crank.omega_rad_s\", \"joint.A.fx_N\" or \"drive.torque_N_m\"";
-    of_what_moves(suggestion) = "for a moving part: {suggestion}";
+    of_what_moves(suggestion) = "channels of a moving part: {suggestion}";
     add_to_want_or_take_the_published(stage) = "add \"{stage}\" to `want`, or remove the published numbers";
     this_channel_is_one_of_the_which_channels(stage) = "this channel is one of the {stage}, which `channels.want` leaves out";
     the_mechanism_has_no_channel(name) = "the mechanism has no channel \"{name}\"";

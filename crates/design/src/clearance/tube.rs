@@ -1,5 +1,6 @@
 //! Poses of all links over an interval of crank angles: the pose of the analytic solver (side 1) at the middle, a
 //! uniform motion through this pose, and a proven bound on the deviation from the uniform motion.
+//! Where [`RangeVariable`](super::RangeVariable) is the time, read time (s) for crank angle (rad) in this module.
 //!
 //! Over the interval, a uniform motion approximates the motion of each link.
 //! The link's reference point moves along a straight line, and the link's angle changes in proportion to the crank
