@@ -94,7 +94,7 @@ fn a_closed_form_run_up_finds_faults_hidden_at_crank_angles() {
     }
 }
 
-/// The scenario contains the same numbers as the run-up in closed form.
+/// A scenario with reference values of the run-up, computed in closed form, finds every fault in the shared code.
 /// Without independent numbers, nothing inside a proof can reveal faults in the shared code.
 #[test]
 fn numbers_at_a_time_find_faults_of_a_run_up() {

@@ -110,7 +110,7 @@ fn column(link: LinkId) -> usize {
 }
 
 impl Whole<'_> {
-    /// A system with three unknowns for every moving link, all zero.
+    /// A system with three unknowns for every moving link. All its coefficients and right sides are zero.
     fn empty(&self) -> System {
         let unknowns = 3 * (self.case.mechanism.links().len() - 1);
         System { rows: vec![vec![Long::ZERO; unknowns]; unknowns], right: vec![Long::ZERO; unknowns] }

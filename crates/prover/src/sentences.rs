@@ -218,7 +218,7 @@ linkage::sentences! {
     the_first_runs_of_the_engine(error, error_2) = "the first runs of the engine, with all their substeps, cost as much as {error} engine steps of a four-bar; the work limit is {error_2}";
     // run/solved.rs
     CLAIM_A_CHANNEL_OF_THE_SCENARIO = "claim a channel of the scenario";
-    NO_CLAIMED_CHANNEL_WAS_SOLVED = "no claimed channel was solved";
+    NO_CLAIMED_CHANNEL_WAS_SOLVED = "none of the channels that the formulas claim was solved";
     ADD_CHANNEL_TO_A_FORMULA = "add `channel` to a [[formula]], or give a formula as an argument; docs/formulas.md has examples";
     no_formula_of_the_scenario(scenario) = "no formula of the scenario {scenario} claims a channel";
     // tables.rs

@@ -17,8 +17,8 @@ const SPEED_ULPS: f64 = 20.0;
 /// The difference itself has an error of four half units (12.6 epsilon for a full turn; 11.7 were measured).
 /// For the links behind the crank, this error is doubled.
 const DIFFERENCE_ULPS: f64 = 4.0;
-/// Lower limit of the largest angle (rad) in the rounding error of a second difference: unit vectors and positions are
-/// rounded even if a link has hardly turned.
+/// The rounding error of a difference is proportional to the largest angle. If the largest angle is smaller than this
+/// angle (rad), this angle is used, because unit vectors and positions are rounded even if a link has hardly turned.
 /// For a quarter turn and for half a turn, 12.6 epsilon were measured on the crank-rocker and on `quick_return`.
 /// On `ov7_base`, 26 epsilon were measured; 37 epsilon are allowed.
 const LEAST_TURN: f64 = 3.0 * std::f64::consts::PI;

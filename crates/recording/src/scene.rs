@@ -59,7 +59,7 @@ impl<'a> ViewerScene<'a> {
         (!sides.is_empty()).then_some(ViewerScene { mechanism, sides, size, sketch })
     }
 
-    /// Height between the sides in the drawing (m).
+    /// Distance, perpendicular to the plane of motion, between the pictures of two successive sides (m).
     /// The height is enough for a viewer's depth test but too small to be seen: a visible gap would look like a
     /// disagreement.
     pub fn layer(&self) -> f64 {

@@ -70,7 +70,7 @@ fn other_settings_get_a_separate_file_name() {
         ("--only positions", "pendulum-4.mcap", "its only is none, not \"positions\""),
         ("--reference newton", "pendulum-2.mcap", "its reference"),
         // A recording with fewer samples never replaces a complete recording.
-        // A recording with the same samples at another speed may replace it.
+        // A recording that differs only in the playback speed (`--slow`) may replace a complete recording.
         ("--record-hz 10", "pendulum-5.mcap", "its record_hz is none, not \"10\""),
     ] {
         let told = place.ok(&format!("{RUN} {arguments}"));

@@ -92,8 +92,8 @@ pub(crate) trait Side {
     /// First and second link of a joint.
     fn joint_ends(&self, joint: JointId) -> [LinkId; 2];
 
-    /// Rate of a joint's coordinate (rad/s or m/s) and its second derivative after the last call of
-    /// [accelerate](Side::accelerate).
+    /// First derivative (rad/s or m/s) and second derivative (rad/s^2 or m/s^2) of a joint's coordinate, after the last
+    /// call of [accelerate](Side::accelerate).
     fn joint_rates(&mut self, joint: JointId) -> [f64; 2];
 
     /// Acceleration (m/s^2) of a point of a link after the last call of [accelerate](Side::accelerate).

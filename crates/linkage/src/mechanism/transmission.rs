@@ -136,7 +136,8 @@ pub struct Losses {
     /// Moment of the losses for a force of 1 N in the first line of action, divided by the lost fraction (m).
     /// It is positive if this force takes power from the first member while the joint's coordinate increases.
     pub lever: f64,
-    /// Lost fraction of the second member's power: if power flows to the second member, then if power comes from it.
+    /// Lost power divided by the power at the second member.
+    /// The first number applies if power flows to the second member, the second number if power comes from it.
     pub lost: [f64; 2],
 }
 

@@ -93,8 +93,8 @@ pub(super) fn missing(trial: &mut Trial, dimensions: &Dimensions) -> Vec<Missing
                             {
                                 continue;
                             }
-                            // An explanation is simpler if the expression is missing in the formula itself, and if it
-                            // uses only names that the formula already contains.
+                            // An explanation is less simple if the expression is missing in an earlier formula, if its
+                            // position is deeper in the formula, and for each name that the formula does not contain.
                             let outside = usize::from(index != trial.index) + depth + own.strangers;
                             found.push((weight + 2 * outside, own));
                         }

@@ -53,8 +53,8 @@ impl Diagnosis {
 /// Examines a disagreement. `None` if no channel exceeds its bound.
 ///
 /// Causes are tried from the simplest to the most complicated.
-/// The cause that explains the most disagreeing channels within their bounds is named. The named cause must not make an
-/// agreeing channel disagree.
+/// The named cause is the one that explains the largest number of disagreeing channels. A channel is explained if the
+/// cause brings the channel within its bound. The named cause must not make an agreeing channel disagree.
 /// Further causes that explain the same channels are mentioned.
 #[must_use]
 pub fn diagnose(question: &DiagnosisInput, parties: &[DiagnosedParty]) -> Option<Diagnosis> {

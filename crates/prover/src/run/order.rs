@@ -69,7 +69,7 @@ pub(super) fn look(judge: &Judge, bank: &mut Bank, proof: &mut EngineProof) -> R
         rungs.push(own);
     }
     // The iteration error needs one more run, which takes half as long as the longest run.
-    // This run is made only for steady orders, which are rare.
+    // This run is made only if a channel converges steadily with too low an order, which is rare.
     let may_be = |index: usize| {
         is_low(&proof.channels[index]) && is_steady([0, 1, 2].map(|k| rungs[k].channels[index].convergence))
     };

@@ -172,7 +172,8 @@ impl<'a> TomlTable<'a> {
     /// The error for a missing key, and the entry whose key is a misspelling of the missing key.
     fn missing_by(&self, spellings: &[String], help: Option<&'static str>) -> (Error, Option<&'a str>) {
         let wanted = choice(spellings.iter().map(String::as_str), "`");
-        // The error states the key itself, because the top level has no table name.
+        // In a named table, the error already names the table, and `key` changes nothing.
+        // The top level has no name, so the error names the missing key.
         let error = self.fault(sentences::is_missing(&wanted)).key(spellings[0].clone());
         let spelling = |key: &str| nearest(key, spellings.iter().map(String::as_str));
         let unread = self.entries.iter().filter(|entry| self.is_unknown(entry));
