@@ -399,8 +399,8 @@ fn coinciding_configurations_have_no_velocities() {
 /// relative error of the angles.
 /// Accelerations are divided by the same determinant again.
 /// Relative to their size, however, velocities and accelerations both lose a factor of k^2.
-/// Divided by epsilon k for the angle, and by epsilon k^2 for the relative differences of velocity and acceleration, the
-/// largest measured differences are 2.5, 2.1 and 6.4.
+/// Divided by epsilon k for the angle, and by epsilon k^2 for the relative differences of velocity and acceleration,
+/// the largest measured differences are 2.5, 2.1 and 6.4.
 /// These quotients are nearly the same for 30 and for 0.3 degrees between coupler and rocker (0 if stretched).
 /// The condition number is therefore the only cause of the loss of digits.
 /// The bound allows twice the largest measured quotient, for other mathematical libraries.

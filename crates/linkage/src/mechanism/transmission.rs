@@ -104,7 +104,8 @@ pub struct TransmissionDesign {
     pub efficiency: [f64; 2],
 }
 
-/// Largest ratio of lost power to useful power. With a larger ratio, rounding errors of the reactions exceed all bounds.
+/// Largest ratio of lost power to useful power.
+/// With a larger ratio, rounding errors of the reactions exceed all bounds.
 const LARGEST_LOSS: f64 = 1e6;
 
 /// A transmission between two members of a carrier.

@@ -93,8 +93,8 @@ impl Action {
         reactions.moments[self.joint] = moment * self.sign;
     }
 
-    /// Factor by which the joint's reaction is multiplied to give the action on the link: +1 for the joint's second link,
-    /// -1 for the first.
+    /// Factor by which the joint's reaction is multiplied to give the action on the link: +1 for the joint's second
+    /// link, -1 for the first.
     #[inline]
     pub(super) fn sign(&self) -> f64 {
         self.sign
