@@ -300,7 +300,7 @@ fn known_wrong_numbers_disagree_and_their_corrections_agree() {
     assert_eq!(with_correction(51.0, 50.0).verdict.word(), "agree");
     // First case: the printed number agrees, although the finding calls it wrong.
     // Second case: neither number agrees; the right number is off by two units of its last digit.
-    for (printed, right, words) in [(50.0, 51.0, "but it agrees"), (51.0, 50.000_000_002, "are both wrong")] {
+    for (printed, right, words) in [(50.0, 51.0, "but the number agrees"), (51.0, 50.000_000_002, "are both wrong")] {
         match with_correction(printed, right).verdict {
             Verdict::Disagree { place } => assert!(place.contains(words), "{place}"),
             other => panic!("{other:?}"),

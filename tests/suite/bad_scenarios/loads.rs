@@ -27,7 +27,7 @@ fn sorts_links_points_and_tables() {
             force.replace("rocker", "ground") + "x_N = 1\ny_N = 1\n",
             "link = \"ground\"",
             "loads[2].link",
-            &["bears any load"],
+            &["a load on it has no effect"],
         ),
         (
             "type = \"resisting_force\"\nlink = \"rocker\"\npoint = \"C\"\nforce_N = 1\n".into(),

@@ -46,9 +46,8 @@ const SHORTEST: f64 = 1e-9;
 const STEPS_TO_ZERO: usize = 60;
 /// Largest number of poses. More poses indicate an error.
 const MOST_POINTS: usize = 200_000;
-/// Work of one elimination, or of two solutions with a factored matrix, divided by the square of the number of
-/// coordinates.
-/// The work is in the unit of work budgets.
+/// Work (in the unit of budgets) of one elimination, or of two solutions with a factored matrix, divided by the square
+/// of the number of coordinates.
 const SQUARE: f64 = 1e-3;
 /// The search for a return to the first pose ends after this number of turns of the crank.
 const MOST_TURNS: i32 = 12;
