@@ -361,7 +361,7 @@ mod tests {
         let parts = Parts { discretisation: 0.5, ..Parts::default() };
         let open = Verdict::of_engine(&residual(1e-4), &converging(2.0), parts, 1e-2).from_settings(1e-3, false, 0);
         let told = open.reason(Advice::to_string).unwrap();
-        assert!(told.ends_with("is conclusive; choose a smaller time step, such as 5e-4 s"), "{told}");
+        assert!(told.ends_with("is inconclusive; choose a smaller time step, such as 5e-4 s"), "{told}");
         assert_eq!(Verdict::open("nothing was run").reason(Advice::to_string).unwrap(), "nothing was run");
         assert_eq!(Verdict::Agree { margin: 1.0 }.reason(Advice::to_string), None);
     }
@@ -420,7 +420,7 @@ mod tests {
                 panic!("{found}: {other:?}")
             }
         };
-        assert!(reason(5.2).contains("but it agrees"));
+        assert!(reason(5.2).contains("but the number agrees"));
         for third in [f64::NAN, f64::INFINITY, 9.0, 6.0, -7.0] {
             assert!(reason(third).contains("are both wrong"), "{third}");
         }
