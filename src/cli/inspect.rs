@@ -10,6 +10,7 @@ use crate::report::fixed::FixedStructure;
 use crate::report::{inspect as report, modes, range};
 use crate::sentences;
 use analytic::range::explained;
+use design::plan::grid_at;
 use linkage::case::{Case, When};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::mechanism::JointId;
@@ -69,9 +70,7 @@ pub(super) fn inspect(args: &Args) -> Result<()> {
     let modes = match args.modes {
         true => {
             let when = args.instant.of(case.crank().input).unwrap_or(When::Crank(case.crank().start));
-            let grid = when.grid(case.crank());
-            let fault = |message: String| args.instant.blamed(Error::new(ErrorKind::Input, message));
-            grid.check(&case.drives).map_err(fault)?;
+            let grid = grid_at(&case.drives, when).map_err(|error| args.instant.blamed(error))?;
             Some((grid.inputs[0], analytic::modes::all(case, when).map_err(|error| explained(case, error))?))
         }
         false => None,

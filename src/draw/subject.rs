@@ -4,7 +4,7 @@ use super::media::{Medium, PictureOptions};
 use super::motion::{swung, turned, with_travels};
 use crate::sentences;
 use design::draw::significant;
-use design::plan::state_at;
+use design::plan::{grid_at, state_at};
 use drawing::lay::{GroupPlacement, Laid, all_modes, lay, lay_loose};
 use drawing::sheet::SheetCell;
 use drawing::view::{DrawnSubject, Extras, Shot, Trace, cells};
@@ -56,6 +56,10 @@ impl Drawn {
     /// A mechanism that can be assembled at some crank angle.
     pub(crate) fn of(scenario: Scenario, wish: &PictureOptions, medium: Medium) -> Result<Drawn> {
         let when = wish.at.unwrap_or(When::Crank(scenario.case.crank().start));
+        // Configurations exist at any crank angle, but a time must lie within the laws of motion.
+        if let When::Time(_) = when {
+            grid_at(&scenario.case.nominal().drives, when)?;
+        }
         let drawn = match wish.each_mode {
             true => Drawn::each_mode(draft_of(&scenario), when, None),
             false => Drawn::whole(scenario, when, wish, medium),

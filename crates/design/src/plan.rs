@@ -8,7 +8,7 @@ pub mod singular;
 mod sliding;
 pub(crate) mod vectors;
 
-pub use planner::{Planner, Plans, state_at};
+pub use planner::{Planner, Plans, grid_at, state_at};
 pub use scheme::Scheme;
 pub use singular::SingularPoint;
 pub use vectors::{Quantity, Tip, TipKind, Vector, VectorKind, VectorPlan};

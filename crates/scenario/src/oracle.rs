@@ -8,8 +8,7 @@ use super::reader::{Faults, TomlTable};
 use super::series::{ExpectedCell, Known, OraclePoint, OracleSeries, instant};
 use super::table_file;
 use crate::sentences;
-use linkage::case::Case;
-use linkage::case::When;
+use linkage::case::{Case, When};
 use linkage::error::Result;
 
 const NUMBER: &[FileKey] = &[

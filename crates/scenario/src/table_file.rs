@@ -13,8 +13,7 @@ use super::source::Source;
 use super::words::suggestion;
 use columns::{Records, Twice};
 use formula::Rounded;
-use linkage::case::Case;
-use linkage::case::When;
+use linkage::case::{Case, When};
 use linkage::error::{Advice, Error, ErrorKind, Place, Result};
 use linkage::mechanism::is_unseen;
 

@@ -95,7 +95,7 @@ fn an_instant_may_be_a_time() {
         assert!(right != 0.0);
     }
     assert!(place.run("plan scenarios/lifting_screw.toml --crank-deg 30").stderr.contains("or a time in s"));
-    for command in ["plan", "draw -o beyond.svg", "inspect --modes"] {
+    for command in ["plan", "draw -o beyond.svg", "draw --each-mode -o beyond.svg", "inspect --modes"] {
         let beyond = place.run(&format!("{command} scenarios/robot_arm.toml --time 99"));
         assert!(
             beyond.code == 2 && beyond.stderr.contains("`--time`: the time 99 s is requested"),

@@ -27,7 +27,7 @@ pub(super) fn gearings(case: &Case, constraints: &Constraints) -> Result<(usize,
             constraints.of_given(given - 1)
         })
         .collect();
-    if case.drives.len() > 1 && case.drives.iter().any(|drive| drive.constant_speed().is_none()) {
+    if case.goes_by_time() {
         let help = sentences::GIVE_THE_DRIVES_CONSTANT_SPEEDS;
         return Err(Error::new(ErrorKind::Unsupported, sentences::ONE_OF_SEVERAL_DRIVES_CHANGES).help(help));
     }

@@ -239,12 +239,13 @@ impl<'a> Tubes<'a> {
     pub fn slice(&mut self, crank: f64, half: f64) -> Result<Slice> {
         self.poses += 1;
         let case = self.case;
-        // If several drives have varying speeds, the rate of each drive is taken at the middle, with a bound on the
-        // deviation from this rate.
-        let by_time = case.goes_by_time();
-        let course = |drive: &Drive| match by_time {
-            true => [drive.at(crank).rate, drive.largest_acceleration() * half * half / 2.0],
-            false => [f64::NAN, 0.0],
+        // The rate of each drive per unit of the variable, and the largest deviation from this rate.
+        let courses: Vec<[f64; 2]> = match case.goes_by_time() {
+            true => {
+                let course = |drive: &Drive| [drive.at(crank).rate, drive.largest_acceleration() * half * half / 2.0];
+                case.drives.iter().map(course).collect()
+            }
+            false => case.drives.ratios(0.0).map(|ratio| [ratio, 0.0]).collect(),
         };
         let state = self.solver.solve(crank, 1.0, 0.0, Stage::Velocities)?;
         let mut tubes = vec![Tube::STILL; state.motions.len()];
@@ -255,10 +256,10 @@ impl<'a> Tubes<'a> {
             let (direction, spin) = (motion.direction, motion.omega);
             *tube = Tube { centre, at, rate, direction, spin, off: rounding, twist: ROUNDING, half };
         }
-        for drive in &case.drives {
+        for (drive, [_, bend]) in case.drives.iter().zip(&courses) {
             // A crank turns about its pivot on the ground. A link on a driven guide of the ground moves along the guide.
             let pivot = case.mechanism.joints()[drive.joint].on(drive.link).unwrap_or_else(Vec2::zeros);
-            let (tube, motion, [_, bend]) = (&mut tubes[drive.link], &state.motions[drive.link], course(drive));
+            let (tube, motion) = (&mut tubes[drive.link], &state.motions[drive.link]);
             if drive.input == Input::Angle {
                 (tube.centre, tube.at, tube.rate) = (pivot, motion.point(pivot), Vec2::zeros());
                 tube.twist += bend;
@@ -266,9 +267,9 @@ impl<'a> Tubes<'a> {
                 tube.off += bend;
             }
         }
-        for row in self.units.iter_mut().flat_map(|(_, rows)| rows).filter(|_| by_time) {
+        for row in self.units.iter_mut().flat_map(|(_, rows)| rows) {
             if let Some(drive) = row.drive {
-                [row.rate, row.bend] = course(&case.drives[drive]);
+                [row.rate, row.bend] = courses[drive];
             }
         }
         let sound = self.units.iter().all(|(links, rows)| enclose(rows, links, half, &mut tubes, rounding));
@@ -330,7 +331,8 @@ fn rows<'a>(
     let mut rows: Vec<Row> = joints.flat_map(|&id| closure(&all[id])).collect();
     rows.extend(given.iter().map(|&id| {
         let drive = case.drives.iter().position(|drive| drive.joint == id);
-        Row { drive, ..motion(&all[id], rate(case, id)) }
+        // `Tubes::slice` sets the rate.
+        Row { drive, ..motion(&all[id], f64::NAN) }
     }));
     for &id in trains {
         let own = &case.mechanism.transmissions()[id];
@@ -348,13 +350,6 @@ fn rows<'a>(
         rows.push(Row { terms: terms.collect(), drive: None, rate: 0.0, bend: 0.0, is_zero: false });
     }
     rows
-}
-
-/// Rate of a driven joint's coordinate, per unit of the first drive's input, for constant speeds.
-fn rate(case: &Case, joint: JointId) -> f64 {
-    let further = case.drives.further().iter().find(|drive| drive.joint == joint);
-    let speed = |drive: &Drive| drive.constant_speed().unwrap_or(f64::NAN);
-    further.map_or(1.0, |drive| speed(drive) / speed(case.crank()))
 }
 
 /// The equations that close a joint.

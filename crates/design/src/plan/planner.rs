@@ -23,7 +23,8 @@ use super::scheme::Scheme;
 use super::sliding::{Slide, slides, travels};
 use super::vectors::{Quantity, VectorPlan};
 use crate::sentences;
-use linkage::case::{Case, Wanted, When};
+use linkage::case::{Case, Grid, Wanted, When};
+use linkage::drive::Drives;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::input::Input;
 use linkage::mechanism::{LinkId, Mechanism};
@@ -121,6 +122,20 @@ impl<'a> Planner<'a> {
     }
 }
 
+/// The grid of one instant, at which the laws of all drives are defined.
+///
+/// # Errors
+/// [`ErrorKind::Input`] as for [`state_at`].
+pub fn grid_at(drives: &Drives, when: When) -> Result<Grid> {
+    let grid = when.grid(drives.crank());
+    grid.check(drives).map_err(|message| {
+        let input = drives.crank().input;
+        let (noun, unit) = (input.noun(), input.shown_in().0.replace("deg", "degrees"));
+        Error::new(ErrorKind::Input, message).help(sentences::give_a_number_in(&noun, &unit))
+    })?;
+    Ok(grid)
+}
+
 /// Computes the state of `case` at an instant, up to accelerations.
 ///
 /// # Errors
@@ -128,12 +143,7 @@ impl<'a> Planner<'a> {
 /// and for a crank angle that the law of motion does not reach at exactly one time.
 /// The errors of the solver.
 pub fn state_at(case: &Case, solver: &dyn Solver, when: When) -> Result<State> {
-    let grid = when.grid(case.crank());
-    grid.check(&case.drives).map_err(|message| {
-        let input = case.crank().input;
-        let (noun, unit) = (input.noun(), input.shown_in().0.replace("deg", "degrees"));
-        Error::new(ErrorKind::Input, message).help(sentences::give_a_number_in(&noun, &unit))
-    })?;
+    let grid = grid_at(&case.drives, when)?;
     let wanted = Wanted::of(&[Stage::Positions, Stage::Velocities, Stage::Accelerations]);
     let case = case.on(grid)?.wanting(wanted);
     let mut found = State::at_start(&case);

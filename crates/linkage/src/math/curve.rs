@@ -56,10 +56,11 @@ impl FormulaCurve {
     #[must_use]
     pub fn new(of: Arc<dyn Smooth>, end: f64) -> Self {
         let places = parts(end);
+        let values: Vec<[f64; 3]> = places.iter().map(|&x| of.at(x)).collect();
         let largest = |order: usize| {
             let [least, most] = [-1.0, 1.0].map(|sign| {
                 let mut derivative = |x: f64| Ok::<_, Infallible>(sign * of.at(x)[order]);
-                let samples: Vec<f64> = places.iter().map(|&x| sign * of.at(x)[order]).collect();
+                let samples: Vec<f64> = values.iter().map(|own| sign * own[order]).collect();
                 let Ok((_, most)) = extremum::greatest(&places, &samples, &mut derivative);
                 sign * most
             });

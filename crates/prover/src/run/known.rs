@@ -42,7 +42,7 @@ fn power(stage: Stage) -> i32 {
 const ULPS: f64 = 16.0;
 
 /// Assumed ratio of a side's integration error to the side's difference from its run with a tighter tolerance. The run
-/// with a tighter tolerance has an error of its own.
+/// with a tighter tolerance also has an error.
 /// A ratio of 3.2 was measured with steps that crossed knots of a load's table. In the present program steps end at
 /// knots.
 const SAFETY: f64 = 4.0;

@@ -94,7 +94,7 @@ pub struct Held {
 
 /// Indices of a party's columns, by the text of the column and by its channel. If several columns match, the first one
 /// counts.
-/// An expression is found only by its text. The magnitude of a vector counts as a channel of its own.
+/// An expression is found only by its text. The magnitude of a vector counts as a separate channel.
 /// The maps are needed for speed: a party has as many columns as a mapping has lines, and each column is looked up.
 #[derive(Clone, Debug, Default)]
 struct Places {

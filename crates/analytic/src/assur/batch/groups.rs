@@ -81,8 +81,7 @@ impl Groups {
         let hinged = |driver: &DrivingLink| {
             driver.input == Input::Angle && case.mechanism.joints()[driver.joint].other(driver.link).link == GROUND
         };
-        let steady = case.drives.len() == 1 || case.drives.iter().all(|drive| drive.constant_speed().is_some());
-        let is_plain = steady && case.mechanism.transmissions().is_empty();
+        let is_plain = !case.goes_by_time() && case.mechanism.transmissions().is_empty();
         if !(is_plain && case.loads.iter().all(simple) && case.structure.drivers.iter().all(hinged)) {
             return None;
         }

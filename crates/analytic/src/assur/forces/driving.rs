@@ -35,6 +35,7 @@ impl Driving {
     pub(super) fn solve(&self, case: &Case, motions: &[Motion], reactions: &mut Reactions) {
         let pole = self.joint.pivot.place(motions);
         let (force, moment) = self.body.resultant(case, motions, reactions, pole);
+        // The usual case, a crank, without the general arms and signs: the pole is the pivot.
         if self.joint.input == Input::Angle {
             self.joint.pivot.put(-force, reactions);
             reactions.efforts[self.joint.index] = -moment;
