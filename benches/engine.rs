@@ -15,7 +15,7 @@ use rapier_twin::tree::SpanningTree;
 use rapier_twin::{Build, Precision, Rapier};
 use scenario::Scenario;
 
-/// Steps per run. Runs are short, so that some of them are not disturbed by other activity of the machine.
+/// Steps per run. The runs are short, so that other activity of the machine leaves some of them undisturbed.
 const STEPS: usize = 500;
 /// Number of timings; the shortest counts, because other activity of the machine only adds time.
 const REPEATS: usize = 40;

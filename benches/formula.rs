@@ -29,7 +29,9 @@ fn shortest(mut run: impl FnMut()) -> f64 {
 }
 
 fn main() {
-    println!("time of judging one formula on both sides over that of solving its poses on both; {INSTANTS} instants\n");
+    println!(
+        "time of judging one formula, divided by the time of solving its poses (both sides); {INSTANTS} instants\n"
+    );
     println!("{:28} {:>8} {:>10} {:>10}", "", "formulas", "mean", "largest");
     for path in files_in(Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/formulas")).unwrap() {
         let scenario = Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"));

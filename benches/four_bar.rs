@@ -71,7 +71,8 @@ impl FourBar {
         let m2 = (r[1] - 1.0) * (px * f2y - py * f2x) - self.inertia[1] * e2;
         let m3 = (r[2] - 1.0) * (qx * f3y - qy * f3x) - self.inertia[2] * e3 + load;
         let (tx, ty) = (f2x + f3x, f2y + f3y);
-        // With u = A - B = -p and w = C - B = -q, the two links give u x R = -m2 and w x R = m3 - w x F.
+        // R is the force of the crank on the coupler at A, and T = f2 + f3. With u = A - B = -p and w = C - B = -q, the
+        // moments of coupler and rocker about B give u x R = -m2 and w x R = m3 - w x T.
         let rhs = m3 + (qx * ty - qy * tx);
         let (rax, ray) = ((qx * m2 + px * rhs) * det, (qy * m2 + py * rhs) * det);
         let (rcx, rcy) = (-rax - tx, -ray - ty);

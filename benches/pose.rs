@@ -105,7 +105,7 @@ fn turns_of(case: &Case, part: Part) -> Box<dyn FnMut() + '_> {
         Part::Batch => {
             let cranks: Vec<f64> = (0..POSES).map(|k| start + angle(k)).collect();
             let mut found = Poses::new();
-            // Every revolution uses a new batch: a used batch already knows the anchors of its higher groups.
+            // Every revolution uses a new batch: a used batch already contains the anchors of its higher groups.
             Box::new(move || {
                 let mut batch = Batch::of(case).unwrap();
                 batch.solve(black_box(&cranks), omega, 0.0, Stage::BalancingMoment, &mut found).unwrap();

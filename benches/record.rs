@@ -47,7 +47,7 @@ fn shortest(mut work: impl FnMut()) -> f64 {
     times.fold(f64::INFINITY, f64::smaller)
 }
 
-/// Records the sides as the command `run` does.
+/// Records reference and engine as the command `run` does.
 fn record(scenario: &Scenario, sides: &[RecordedSide], errors: Option<&Trajectory>, path: &Path) {
     let recording = Recording {
         name: &scenario.name,

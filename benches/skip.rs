@@ -44,7 +44,7 @@ fn seconds(solver: &dyn Solver, case: &Case) -> f64 {
 }
 
 fn main() {
-    println!("times cheaper than everything; {INSTANTS} instants of a turn\n");
+    println!("cost of all channels divided by the cost of the requested channels; {INSTANTS} instants of a turn\n");
     println!("{:14} {:24} {:>8} {:>8} {:>8}", "", "asked", "assur", "newton", "rapier");
     for (name, words) in QUESTIONS {
         let whole = case(name);

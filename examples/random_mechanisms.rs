@@ -54,7 +54,7 @@ fn main() -> std::io::Result<()> {
         }
     });
     println!("{count} mechanisms of seed {seed} in {}", out.display());
-    println!("drawings that were not used, by reason:");
+    println!("random draws that were not used, by reason:");
     for (why, times) in all.into_inner().unwrap() {
         println!("{times:6} {why}");
     }

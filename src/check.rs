@@ -47,7 +47,7 @@ impl FormulaQuestion {
             scenario.formulas.check_name(name).map_err(|error| error.key(words.step))?;
             scenario.formulas.add(name, text).map_err(|fault| refused(words.step, text, &fault))?;
         }
-        let claim = Claim::parse(&self.channel, &scenario.case);
+        let claim = Claim::with_parameters(&self.channel, &scenario.case, &scenario.formulas.parameters);
         let claim = claim.map_err(|fault| refused(words.channel, &self.channel, &fault))?;
         let formula = scenario.formulas.add("formula", &self.formula);
         let formula = formula.map_err(|fault| refused(words.formula, &self.formula, &fault))?;

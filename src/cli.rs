@@ -14,8 +14,10 @@ mod draw;
 mod drive;
 mod engine_args;
 mod engine_section;
+mod exercise;
 mod exit_code;
 mod export;
+mod graph;
 mod grid;
 mod html;
 mod inspect;
@@ -25,6 +27,8 @@ mod list;
 mod live;
 mod load;
 mod man;
+mod mark;
+mod merge;
 mod mutate;
 mod new;
 mod number;
@@ -36,12 +40,16 @@ mod progress;
 mod record_args;
 mod run;
 mod schema;
+mod sensitivity;
 mod solve;
+mod solving;
 mod stress;
+mod sweep;
 mod synthesize;
 mod tune;
 mod view;
 
+use std::ffi::OsString;
 use std::process::ExitCode;
 
 use crate::plain::style::wrapped;
@@ -103,15 +111,18 @@ commands! {
         /// Show the structure of a mechanism (links, joints, mobility, driving link and Assur groups), its
         /// configurations and its range of motion
         Inspect(inspect::Args) = inspect::inspect,
-        /// Draw mechanisms, also those that cannot be assembled yet, and all configurations: SVG, PNG, animated GIF and
-        /// WebP
+        /// Draw mechanisms, also those that cannot be assembled yet, and all configurations: SVG, PDF, PNG, animated
+        /// GIF and WebP
         Draw(draw::Args) = draw::draw,
         /// Velocity and acceleration plans at one instant, as a table, as JSON or drawn to scale
         Plan(plan::Args) = plan::plan,
         /// Velocity and acceleration by the chord method, velocity and displacement by graphical integration, and their
         /// errors
         Diagram(diagram::Args) = diagram::diagram,
-        /// Show a recording in Rerun or Foxglove: the mechanism from above, beside plots of both sides
+        /// Graphs for print: channels, formulas and magnitudes over crank angle, time or each other, and hodographs:
+        /// SVG, PDF, PNG and CSV
+        Graph(graph::Args) = graph::graph,
+        /// Show a recording in Rerun or Foxglove: the mechanism from above, beside plots of reference and engine
         View(view::Args) = view::view,
         /// List scenarios, or the available channels and solvers
         List(list::Args) = list::list,
@@ -125,10 +136,25 @@ commands! {
         /// The mechanism reduced to its crank; its steady motion under its motor; flywheel and run-up; choice of a
         /// motor
         Drive(drive::Args) = drive::drive,
+        /// How dimensions, masses and loads change figures such as the largest reaction: exact derivatives, tolerance
+        /// stacks, tornado drawing
+        Sensitivity(Box<sensitivity::Args>) = sensitivity::sensitivity,
         /// Find dimensions for a required motion: crank-rocker and slider-crank in closed form, any linkage by search
         Synthesize(synthesize::Args) = synthesize::synthesize,
+        /// Solve many mechanisms that differ in some numbers: grids, random samples, Latin hypercubes and Sobol
+        /// sequences, with figures of every case in a Parquet table
+        Sweep(Box<sweep::Args>) = sweep::sweep,
+        /// Join the shards of a sweep into one table
+        Merge(merge::Args) = merge::merge,
         /// Write a mechanism for another program: MuJoCo's MJCF, or JSON
         Export(export::Args) = export::export,
+    }
+    "Teach" {
+        /// Give every student of a class different numbers for a mechanism: task sheets, answer tables, and the answers
+        /// for the teacher
+        Exercise(Box<exercise::Args>) = exercise::exercise,
+        /// Judge the answers of a class cell by cell, and name the causes of wrong answers
+        Mark(mark::Args) = mark::mark,
     }
     "Study" {
         /// Find the cheapest settings of an engine that reach a required accuracy, by measurement
@@ -183,9 +209,27 @@ fn man(args: &man::Args) -> Result<()> {
 /// Runs the command line and returns its exit code.
 #[must_use]
 pub fn main() -> ExitCode {
+    ExitCode::from(run(std::env::args_os()))
+}
+
+/// Silences panics that are caught and become errors. Call it once, at the start of the process.
+pub fn silence() {
     panics::silence(linkage::quiet::is_guarded);
-    let cli = Cli::from_arg_matches(&command().get_matches()).unwrap_or_else(|error| error.exit());
-    ExitCode::from(cli.command.run())
+}
+
+/// Runs the command line with these arguments, the name of the program first, and returns its exit code.
+/// A host such as Python calls this function, because the arguments of its process are not those of the command.
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    silence();
+    let read = command().try_get_matches_from(arguments).and_then(|matches| Cli::from_arg_matches(&matches));
+    match read {
+        Ok(cli) => cli.command.run(),
+        Err(error) => {
+            // A closed terminal does not count as an error.
+            let _ = error.print();
+            u8::try_from(error.exit_code()).unwrap_or(exit_code::BAD_INPUT)
+        }
+    }
 }
 
 #[cfg(test)]
@@ -202,7 +246,8 @@ mod tests {
 
     /// Commands whose only module is `src/cli/NAME.rs`.
     /// The code of the solvers, of the scenario or of the documents does the work of these commands.
-    const ONLY_HERE: [&str; 9] = ["completions", "docs", "inspect", "list", "man", "new", "schema", "solve", "view"];
+    const ONLY_HERE: [&str; 10] =
+        ["merge", "completions", "docs", "inspect", "list", "man", "new", "schema", "solve", "view"];
 
     /// The code of the command `NAME` is in `src/cli/NAME.rs`, and in the module `NAME` of the crate that does the
     /// work.
@@ -213,7 +258,8 @@ mod tests {
         for command in Cli::command().get_subcommands() {
             let file = format!("{}.rs", command.get_name());
             assert!(top.join("src/cli").join(&file).is_file(), "src/cli/{file}");
-            let found = crates.iter().any(|source| top.join(source).join(&file).is_file());
+            let is_crate = top.join("crates").join(command.get_name()).is_dir();
+            let found = is_crate || crates.iter().any(|source| top.join(source).join(&file).is_file());
             assert_eq!(found, !ONLY_HERE.contains(&command.get_name()), "room of {file}");
         }
     }

@@ -2,8 +2,12 @@
 
 mod media;
 mod motion;
+mod points;
+mod positions;
 mod subject;
 
+use drawing::paper::document::Drawing;
+use drawing::paper::figure::DrawnFigure;
 use drawing::sheet::{SheetCell, columns, sheet};
 use linkage::error::Result;
 use linkage::math::Vec2;
@@ -15,6 +19,8 @@ pub(crate) use subject::{Drawn, Note};
 /// Size of a picture with one mechanism, and of each picture among several (mm).
 const ALONE: [f64; 2] = [150.0, 120.0];
 const AMONG: [f64; 2] = [100.0, 96.0];
+/// Factor on `ALONE` and `AMONG` if several positions or enlarged paths are drawn.
+const SERIES: f64 = 1.3;
 
 /// Draws a mechanism; returns the bytes of a file.
 ///
@@ -42,9 +48,27 @@ pub fn draw(scenario: Scenario, wish: &PictureOptions, medium: Medium) -> Result
 
 /// The picture of several files. If a file has faults, its mechanism is drawn as far as possible.
 pub(crate) fn picture(all: &[Drawn], wish: &PictureOptions, medium: Medium) -> Result<Vec<u8>> {
+    let (pages, title) = pages(all, wish, medium);
+    medium.bytes(&pages, &title, wish)
+}
+
+/// The picture of one file as a drawing, which can be written in every still format.
+pub(crate) fn drawing(one: Drawn, wish: &PictureOptions) -> Drawing {
+    let (pages, title) = pages(&[one], wish, Medium::Svg);
+    let (figure, size) = pages.into_iter().next().unwrap_or_default();
+    Drawing { figure, size, title }
+}
+
+/// The pages of a picture with their sizes (mm), one page for each frame, and the title of the picture.
+fn pages(all: &[Drawn], wish: &PictureOptions, medium: Medium) -> (Vec<(DrawnFigure, [f64; 2])>, String) {
     let frames = medium.frames(wish);
-    let count: usize = all.iter().map(|own| if wish.each_mode { own.shots.len() } else { 1 }).sum();
-    let room = Vec2::from(if columns(count) == 1 { ALONE } else { AMONG });
+    let count: usize = all.iter().map(|own| own.count(wish)).sum();
+    let room = Vec2::from(match (columns(count), wish.course()) {
+        (1, None) => ALONE,
+        (1, Some(_)) => ALONE.map(|size| SERIES * size),
+        (_, None) => AMONG,
+        (_, Some(_)) => AMONG.map(|size| SERIES * size),
+    });
     // The cells of all files, for each frame.
     let mut sheets: Vec<Vec<SheetCell>> = vec![Vec::new(); frames];
     for own in all {
@@ -52,20 +76,21 @@ pub(crate) fn picture(all: &[Drawn], wish: &PictureOptions, medium: Medium) -> R
         if all.len() > 1 {
             cells.iter_mut().for_each(|cell| cell.heading.insert(0, own.headline.clone()));
         }
-        match wish.each_mode {
-            true => sheets[0].extend(cells),
+        match frames {
+            1 => sheets[0].extend(cells),
             // A mechanism that cannot move looks the same in every frame, so its last cell is repeated.
-            false => {
+            _ => {
                 let last = cells.last().cloned().into_iter().cycle();
                 sheets.iter_mut().zip(cells.into_iter().chain(last)).for_each(|(sheet, cell)| sheet.push(cell));
             }
         }
     }
+    let formula = all.first().filter(|_| wish.groups).and_then(Drawn::formula);
     let (title, subtitle) = match all {
         [one] if medium.moves() => (one.name.clone(), one.title.as_str()),
-        [one] => (one.headline.clone(), one.title.as_str()),
+        [one] => (one.headline.clone(), formula.as_deref().unwrap_or(&one.title)),
         _ => (all.iter().map(|own| own.name.as_str()).collect::<Vec<_>>().join(", "), ""),
     };
-    let pages: Vec<_> = sheets.iter().map(|cells| sheet(&title, subtitle, cells, room.x)).collect();
-    medium.bytes(&pages, &title, wish)
+    let pages = sheets.iter().map(|cells| sheet(&title, subtitle, cells, room.x)).collect();
+    (pages, title)
 }

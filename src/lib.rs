@@ -2,7 +2,6 @@
 //! agree.
 //!
 //! A [`Scenario`] contains a [`Case`].
-//! An analytic side and an engine solve the case, and their trajectories are compared.
 //! [`prove`] solves the case with both analytic sides and with engines, and compares the trajectories.
 //! [`solve`] gives only the analytic solution.
 //! [`check`] judges formulas, and [`compare`] judges tables and recordings of other programs.
@@ -84,6 +83,8 @@ mod check;
 pub mod cli;
 #[cfg(feature = "command")]
 mod draw;
+#[cfg(feature = "command")]
+mod graph;
 #[cfg(feature = "command")]
 #[doc(hidden)]
 pub mod report;

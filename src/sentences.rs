@@ -3,7 +3,11 @@
 #[cfg(feature = "command")]
 mod command;
 mod report;
+#[cfg(feature = "command")]
+mod sweep;
 
 #[cfg(feature = "command")]
 pub(crate) use command::*;
 pub(crate) use report::*;
+#[cfg(feature = "command")]
+pub(crate) use sweep::*;

@@ -233,7 +233,7 @@ def front(rows):
 
 def show(rows):
     for scenario in dict.fromkeys(row["scenario"] for row in rows):
-        print(f"\n{scenario}: what no other setting of the same engine beats in time and reaction")
+        print(f"\n{scenario}: settings that no other setting of the same engine surpasses in both time and error of the reaction")
         print(f"{'engine':8} {'settings':36} {'step s':>9} {'runs':>4} {'steps':>6} {'crank':>8} {'reaction B':>10} {'row':>4} {'ms':>8}")
         reached = {}
         for engine in ("rapier", "exudyn", "mujoco"):
@@ -244,7 +244,7 @@ def show(rows):
             enough = [row["ms"] for row in own if row["reaction"] <= WANTED]
             reached[engine] = min(enough, default=None)
         told = [f"{engine} {'never' if ms is None else f'{ms:.1f} ms'}" for engine, ms in reached.items()]
-        print(f"reaction to {WANTED:g} of its range: " + ", ".join(told))
+        print(f"time for an error of the reaction of at most {WANTED:g} of its range: " + ", ".join(told))
 
 
 def main():

@@ -33,7 +33,7 @@ class Bench:
         return np.abs(ours - self.exact(name, "time_s", at)[channel]).max()
 
     def lag(self):
-        print("Servo: the crank is late by the integral of the moment over the gain.")
+        print("Servo: the crank is late by the integral of the moment, divided by the gain.")
         for gain in (1e4, 1e5, 1e6):
             _, at, ours = self.mapped("crank_rocker", four_bar.simulate(5e-4, gain=gain, since=0.0))
             right = self.exact("crank_rocker", "time_s", at)
@@ -44,8 +44,8 @@ class Bench:
             if gain == 1e4:
                 rocker = "link.rocker.angle_rad"
                 by_angle = self.exact("crank_rocker", "crank_rad", ours["link.crank.angle_rad"])[rocker]
-                print(f"    rocker by time {np.abs(ours[rocker] - right[rocker]).max():.1e} rad, "
-                      f"by the crank's own angle {np.abs(ours[rocker] - by_angle).max():.1e}")
+                print(f"    error of the rocker {np.abs(ours[rocker] - right[rocker]).max():.1e} rad at equal times, "
+                      f"{np.abs(ours[rocker] - by_angle).max():.1e} rad at equal crank angles")
 
     def half_a_step(self):
         print("Velocities belong to the middle of the last step.")
@@ -53,20 +53,20 @@ class Bench:
         for step in (2e-3, 1e-3, 5e-4):
             _, at, ours = self.mapped("crank_rocker", four_bar.simulate(step))
             off = [self.off(ours[rocker], "crank_rocker", at - shift, rocker) for shift in (0.0, step / 2)]
-            print(f"  step {step:g} s: rocker {off[0]:.1e} rad/s as read, {off[1]:.1e} half a step earlier")
+            print(f"  step {step:g} s: error of the rocker {off[0]:.1e} rad/s at the time of the row, {off[1]:.1e} half a step earlier")
 
     def servo_force(self):
-        print("The servo's force is that of the step before.")
+        print("The servo's force belongs to the previous step.")
         for step in (2e-3, 1e-3, 5e-4):
             rows = four_bar.simulate(step)
             _, at, _ = self.mapped("crank_rocker", rows)
             motor = -np.array([row["motor"] for row in rows])
             off = [self.off(motor, "crank_rocker", at - shift, "drive.torque_N_m") for shift in (0.0, step)]
-            print(f"  step {step:g} s: {off[0]:.1e} N m as read, {off[1]:.1e} a step earlier")
+            print(f"  step {step:g} s: error {off[0]:.1e} N m at the time of the row, {off[1]:.1e} a step earlier")
 
     def stiffness(self):
-        print("Run-up with RK4, joint A's x, of scale: what stays at every step depends on the loop's time constant in steps,")
-        print("in the first row on its impedance.")
+        print("Run-up with RK4: error of the x component in joint A, divided by the scale. A part does not vanish with the step.")
+        print("In the first row, this part depends on the loop's impedance; in later rows, on its time constant in steps.")
         for choice in ({"stiffness": 0}, *({"stiffness": count} for count in (2, 3, 4, 8)), {"impedance": 0.9}):
             found = []
             for step in (5e-4, 2.5e-4, 1.25e-4):
@@ -77,7 +77,7 @@ class Bench:
             print(f"  {choice}: " + "; ".join(found))
 
     def ringing(self):
-        print("Exudyn: joint A's x after the start, N, every 16 steps of 0.25 ms.")
+        print("Exudyn: error of the x component in joint A (N) after the start, every 16 steps of 0.25 ms.")
         for radius in (0.9, 0.6):
             exudyn_crank_rocker.simulate(2.5e-4, self.path, radius=radius)
             how, at, ours = mapped(self.path, HERE / "exudyn_crank_rocker.map.toml")

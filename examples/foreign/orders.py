@@ -23,7 +23,7 @@ from tables import KINDS, errors
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 STEPS = (4e-3, 2e-3, 1e-3, 5e-4, 2.5e-4)
-# Steps that show whether the error of a choice falls with a power of the step, or not at all.
+# Steps that show whether the error of a modelling choice falls with a power of the step, or not at all.
 PAIR, FINE = (1e-3, 2.5e-4), (1e-3, 2.5e-4, 3.125e-5)
 TURN = exudyn_crankcase.END
 
@@ -49,7 +49,7 @@ CASES = (
     ("pylinkage", "crank_rocker", "pylinkage_crank_rocker", lambda _, path: pylinkage_crank_rocker.simulate(path), [None]),
     ("pylinkage", "six_bar_slider", "pylinkage_six_bar", lambda _, path: pylinkage_six_bar.simulate(path), [None]),
 )
-# Runs with other choices, by the same mappings.
+# Runs with other modelling choices; the mappings are the same.
 CHOICES = (
     (*CASES[0][:4], PAIR),
     ("servo of 1e4", *CASES[0][1:3], mujoco(four_bar, gain=1e4), PAIR),

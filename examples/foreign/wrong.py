@@ -35,5 +35,5 @@ def write():
 
 
 if __name__ == "__main__":
-    with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):  # MuJoCo writes its log to the working directory
+    with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):  # MuJoCo writes its log into the working directory
         write()

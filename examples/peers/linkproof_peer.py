@@ -41,9 +41,12 @@ class Case:
 
 @dataclass
 class Motion:
-    """Arrays with one row for each instant; x and y are the last axis. `origin`, `angle`, ... are by link. Forces are by
-    joint, of the first link on the second; moments are about the joint's point on the second link. Torques are in the order
-    of drives. Channels of an empty quantity are left out."""
+    """Arrays with one row for each instant. The components x and y are along the last axis of an array.
+
+    The keys of `origin`, `angle`, `velocity`, `omega`, `acceleration` and `alpha` are links; those of `force` and `moment` are
+    joints. A force is that of the first link on the second; a moment is about the joint's point on the second link. Torques
+    are in the order of drives. If a quantity is empty, its channels are left out.
+    """
 
     origin: dict
     angle: dict
@@ -73,7 +76,7 @@ class Motion:
 
 
 def columns(case, motion):
-    """All channels that a motion has, by name."""
+    """All channels of a motion, by name."""
     found = {"t_s": case.times}
 
     def put(name, of, suffixes):

@@ -92,7 +92,7 @@ def moment_of(case, model, data, joint):
     """Moment on the body that a joint of the tree carries, about the joint's point, in world axes."""
     read = data.sensor(f"{joint}.moment").data[2]
     carried = model.jnt_bodyid[model.joint(joint).id]
-    # Sensors compute backwards from the motion, and ignore loads on links farther out.
+    # MuJoCo computes the sensor's moment backwards from the motion, without the loads on the links beyond this joint.
     for load in case.loads:
         body = model.body(load["link"]).id
         while body not in (0, carried):
@@ -139,7 +139,7 @@ def solve(request, case, way):
     table = lambda: {name: np.zeros((rows, 2)) for name in names}
     line = lambda: {name: np.zeros(rows) for name in names}
     motion = Motion(table(), line(), table(), line(), table(), line())
-    # Sensors do not include forces of springs, and forces on points.
+    # Sensors include neither forces of springs nor forces on points.
     forces = "reactions" in case.stages and all(load["type"] in ("resistance", "moment") for load in case.loads)
     if forces:
         motion.force = {joint["name"]: np.zeros((rows, 2)) for joint in case.joints}

@@ -14,7 +14,7 @@ LINKPROOF = os.environ.get("LINKPROOF", "linkproof")
 FOLDER = pathlib.Path(os.environ.get("SCENARIOS", pathlib.Path(__file__).parent / "scenarios"))
 FILES = sorted(FOLDER.glob("*.toml"))
 
-# Largest number of wrong or open entries shown.
+# Largest number of channels and checks shown that do not agree.
 SHOWN = 5
 
 
@@ -42,7 +42,7 @@ def failure(error):
 
 
 def report(proof):
-    """Verdict, worst channel or check, cause, and further channels that disagree or are open."""
+    """Verdict, worst channel or check, cause, and further channels that disagree or are inconclusive."""
     lines = [f"{proof['verdict'].upper()}: {proof['scenario']}, {proof['title']}"]
     found = sorted(not_agreeing(proof), key=used, reverse=True)
     if found:
@@ -60,7 +60,7 @@ def report(proof):
 
 
 def not_agreeing(proof):
-    """Channels and checks that disagree or are open, each with a name and a value."""
+    """Channels and checks that disagree (or, if none disagrees, are inconclusive), each with a name and a value."""
     engines = proof["engines"]
     channels = [
         own | {"name": f"{own['channel']} ({engine['name']})", "value": own["max"]}

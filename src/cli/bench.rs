@@ -51,7 +51,8 @@ pub(super) struct Args {
     /// Time limit in seconds for one call of a peer
     #[arg(long, value_name = "S", default_value_t = LIMIT, allow_hyphen_values = true, value_parser = number::positive)]
     peer_limit: f64,
-    /// Work allowed to the engines of a scenario, in engine steps without sweeps [default: 2e6, with `--quick` 3e5]
+    /// Work allowed to the engines of a scenario; the unit is an engine step without sweeps [default: 2e6, with
+    /// `--quick` 3e5]
     #[arg(long, value_name = "STEPS", allow_hyphen_values = true, value_parser = number::positive)]
     budget: Option<f64>,
     /// Number of timing rounds; the shortest time counts [default: 3, with `--quick` 1]
@@ -113,7 +114,7 @@ pub(super) fn run(args: &Args) -> Result<()> {
 /// Work of other programs on the machine changes the processor time less than it changes the elapsed time.
 /// On systems other than Linux, the function returns the elapsed time.
 fn used(since: Instant) -> f64 {
-    // Linux updates the processor time when the thread yields, so the thread yields before the time is requested.
+    // Linux updates the processor time when the thread yields, so the thread yields before it reads the time.
     std::thread::yield_now();
     processor_time().unwrap_or_else(|| since.elapsed().as_secs_f64())
 }
@@ -171,7 +172,8 @@ fn command(args: &Args) -> String {
     sorted.sort();
     let whole = sorted.len() > 1 && files_in(directory).is_ok_and(|all| all == sorted);
     let mut words = vec!["linkproof".to_string()];
-    for word in std::env::args().skip(1) {
+    // The name of the program may be several words, such as an interpreter and its script.
+    for word in std::env::args().skip_while(|word| word != "bench") {
         match files.iter().position(|file| *file == word) {
             Some(0) if whole => words.push(format!("{}/*.toml", directory.display())),
             Some(_) if whole => {}

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::exit_code::graver;
 use super::load::plain;
-use super::outputs::{Outputs, results};
+use super::outputs::{Made, Outputs, results};
 use super::progress::Bar;
 use super::{exit_code, load, output};
 use crate::report::clearance::{self as report, Standing};
@@ -80,7 +80,7 @@ fn answer(args: &Args, file: &Path) -> Result<(Scenario, ClearanceResult)> {
         find(&scenario.case, asked, &mut |part| bar.at(part)).map_err(|error| explained(&scenario.case, error))?;
     drop(bar);
     for to in args.outputs.of(ClearanceResults::Svg) {
-        output::write(&draw::clearance(&scenario.case, &scenario.name, asked, &found)?, to)?;
+        Made::from(draw::clearance(&scenario.case, &scenario.name, asked, &found)?).write(to)?;
     }
     for to in args.outputs.of(ClearanceResults::Csv) {
         let course = course(&scenario.case, asked)?;

@@ -2,13 +2,13 @@
 
 use std::path::PathBuf;
 
-use super::engine_args::side;
+use super::engine_args::{side, word};
 use super::load::plain;
 use super::number;
-use super::outputs::{Outputs, results};
+use super::outputs::{Made, Outputs, results};
 use crate::report::diagram as report;
 use analytic::range::explained;
-use design::diagram::{MotionCurve, MotionDiagram};
+use design::diagram::{Construction, ConstructionSort, MotionCurve, MotionDiagram};
 use design::draw;
 use linkage::error::Result;
 use prover::run::Reference;
@@ -25,6 +25,10 @@ pub(super) struct Args {
     /// Number of equal divisions of one crank turn, or of the stroke of a slide
     #[arg(long, value_name = "N", default_value_t = 12, allow_hyphen_values = true, value_parser = number::count)]
     divisions: usize,
+    /// Show the construction of a method: pole, rays, scale factors, ordinates or areas
+    #[arg(long, value_name = "METHOD")]
+    #[arg(value_parser = word(ConstructionSort::ALL.map(ConstructionSort::word), ConstructionSort::named))]
+    construction: Option<ConstructionSort>,
     /// Analytic solver
     #[arg(long, value_name = "SOLVER", default_value = "assur", value_parser = side())]
     with: Reference,
@@ -34,7 +38,7 @@ pub(super) struct Args {
 
 results! { DiagramResults {
     Json = "errors and points",
-    Svg = "the three diagrams",
+    Svg = "the three diagrams, or the construction",
     Csv = "the points",
 } }
 
@@ -44,12 +48,17 @@ pub(super) fn diagram(args: &Args) -> Result<()> {
     let course = MotionCurve::named(&scenario.case, &args.channel)?;
     let diagram = MotionDiagram::of(&scenario.case, solver, &course, args.divisions)
         .map_err(|error| explained(&scenario.case, error))?;
-    let result = |form| {
+    let construction = args.construction.map(|sort| Construction::of(&diagram, sort));
+    let construction = construction.as_ref();
+    let result = |form| -> Result<Made> {
         Ok(match form {
-            DiagramResults::Svg => draw::motion(&diagram, &scenario.name),
-            DiagramResults::Csv => report::points(&diagram),
-            DiagramResults::Json => report::json(&scenario, &diagram),
+            DiagramResults::Svg => match construction {
+                Some(own) => draw::construction(&diagram, own, &scenario.name).into(),
+                None => draw::motion(&diagram, &scenario.name).into(),
+            },
+            DiagramResults::Csv => report::points(&diagram).into(),
+            DiagramResults::Json => report::json(&scenario, &diagram, construction).into(),
         })
     };
-    args.outputs.deliver(result, |_| report::text(&scenario, &diagram))
+    args.outputs.deliver(result, |width| report::text(&scenario, &diagram, construction, width))
 }

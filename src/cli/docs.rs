@@ -21,11 +21,11 @@ macro_rules! pages {
 
 /// Names and texts of the documentation pages.
 static PAGES: &[(&str, &str)] = pages! {
-    "bench" "clearance" "compare" "draw" "engines" "extending" "findings" "foreign" "formulas" "gallery" "guide"
-    "machines" "mjcf" "mutate" "notation" "numerics/bounds" "numerics/change_points" "numerics/diagnosis"
-    "numerics/forces" "numerics/friction" "numerics/given" "numerics/laboratory" "numerics/settings" "numerics/twins"
-    "peers" "plans" "rapier" "recording" "report" "scenario" "skip" "stories" "stress" "synthesis" "testing"
-    "tutorial" "variants60" "verification"
+    "authors" "bench" "clearance" "compare" "course" "draw" "engines" "exercise" "extending" "findings" "foreign"
+    "formulas" "gallery" "graph" "guide" "machines" "mjcf" "mutate" "notation" "numerics/bounds" "numerics/change_points"
+    "numerics/diagnosis" "numerics/forces" "numerics/friction" "numerics/given" "numerics/laboratory"
+    "numerics/settings" "numerics/twins" "peers" "plans" "python" "rapier" "recording" "report" "scale" "scenario"
+    "sensitivity" "skip" "stories" "stress" "sweep" "synthesis" "testing" "tutorial" "variants60" "verification"
 };
 
 pub(super) fn docs(args: &Args) -> Result<()> {

@@ -19,7 +19,7 @@ pub(super) struct Args {
     /// Scenario files; `-` for standard input
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
-    /// Picture to write: .svg, .png, or one turn of the crank as .gif or .webp; `-` for SVG on standard output
+    /// Picture to write: .svg, .pdf, .png, or one turn of the crank as .gif or .webp; `-` for SVG on standard output
     /// [default: FILE.svg, for several files mechanisms.svg, in this directory]
     #[arg(long, short, value_name = "PICTURE", value_parser = target)]
     output: Option<PathBuf>,
@@ -28,7 +28,8 @@ pub(super) struct Args {
     /// Start a group in a different assembly mode from that of the file, as in `linkproof run`
     #[arg(long, value_name = "LINK,LINK=MODE")]
     mode: Vec<String>,
-    /// Value of a parameter, by its key in `[parameters]`; may be given several times
+    /// Value of a parameter by its key, or of a number of the file by its path (links.crank.mass_kg); may be given
+    /// several times
     #[arg(long, value_name = "KEY=NUMBER", value_parser = load::setting)]
     set: Vec<(String, f64)>,
     /// Draw all configurations at this crank angle, each with the modes of its groups
@@ -40,9 +41,20 @@ pub(super) struct Args {
     /// Draw the paths of the points without a joint
     #[arg(long)]
     traces: bool,
-    /// Draw the path of this point; may be given several times
+    /// Draw the path of this point, or of a mass centre such as link.coupler; may be given several times
     #[arg(long, value_name = "POINT")]
     trace: Vec<String>,
+    /// Draw N positions in one picture, equally spaced over a turn, over the grid or in time, and numbered along the
+    /// paths of the points
+    #[arg(long, value_name = "N")]
+    positions: Option<usize>,
+    /// Draw the path of this point beside the picture at a larger scale, with numbered positions; may be given several
+    /// times
+    #[arg(long, value_name = "POINT", value_delimiter = ',')]
+    enlarge: Vec<String>,
+    /// Draw the driving links and the groups apart, in the order in which they are solved
+    #[arg(long)]
+    groups: bool,
     /// Write the lengths of the links into the picture
     #[arg(long)]
     dimensions: bool,
@@ -77,7 +89,7 @@ fn fits(args: &Args, medium: Medium) -> Result<()> {
         _ if args.each_mode && medium.moves() => {
             refused("--each-mode", sentences::AN_ANIMATION_SHOWS_ONE_CONFIGURATION, sentences::WRITE_AN_SVG_OR_A_PNG)
         }
-        _ if args.width.is_some() && medium == Medium::Svg => {
+        _ if args.width.is_some() && matches!(medium, Medium::Svg | Medium::Pdf) => {
             refused("--width", sentences::AN_SVG_HAS_NO_PIXELS, sentences::LEAVE_IT_OUT_OR_WRITE_A_PNG)
         }
         _ => Ok(()),
@@ -97,11 +109,14 @@ pub(super) fn draw(args: &Args) -> Result<()> {
         dimensions: args.dimensions,
         all_traces: args.traces,
         traces: args.trace.clone(),
+        positions: args.positions,
+        enlarged: args.enlarge.clone(),
+        groups: args.groups,
         solver: args.with,
         width: args.width,
         frames: args.frames.map(|count| count as usize),
         seconds: args.seconds,
-        traces_key: Some("--trace"),
+        keys: Some(["--trace", "--enlarge", "--positions", "--groups"]),
     };
     let asked = StartRequest { modes: args.mode.clone(), set: args.set.clone(), ..StartRequest::default() };
     let at_instant = |input: Input| PictureOptions { at: args.instant.of(input), ..wish.clone() };
@@ -114,7 +129,7 @@ pub(super) fn draw(args: &Args) -> Result<()> {
         Err(error) => {
             let draft = load::draft(file, &asked)?;
             let wish = at_instant(draft.input());
-            Drawn::of_draft(draft, &wish, error)
+            Drawn::of_draft(draft, &wish, medium, error)
         }
     };
     let all = args.files.iter().map(drawn).collect::<Result<Vec<_>>>()?;

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 
 use super::load::load;
-use super::outputs::{Outputs, results};
+use super::outputs::{Made, Outputs, results};
 use super::{number, output};
 use crate::report::drive::{self as report, Found};
 use crate::report::drive_graphs::{self, Curves};
@@ -16,8 +16,9 @@ use analytic::reduced::{ACCURACY, ReducedModel, RunUp, means as reduced};
 use analytic::steady::Averaged;
 use design::drive::catalogue;
 use design::drive::flywheel::Flywheel;
-use design::drive::motor::MotorChoice;
+use design::drive::motor::{MotorChoice, MotorLimit};
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::KeepNan;
 use scenario::Scenario;
 
 #[derive(Debug, clap::Args)]
@@ -101,17 +102,25 @@ fn driven(args: &Args, scenario: &Scenario) -> Result<()> {
             return Ok(());
         }
         if !is_said && !args.outputs.take_standard() {
-            output::print(&report::run_up(&motion))?;
+            let speeds = motion.motion.iter().map(|instant| scenario.case.crank().sense() * instant.omega);
+            let ends = speeds.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], speed| {
+                [low.smaller(speed), high.larger(speed)]
+            });
+            let motor = scenario.case.crank().motor();
+            let limits = motor.map_or_else(Vec::new, |motor| MotorLimit::of(motor, ends, true));
+            output::print(&report::run_up(&motion, &limits, output::columns()))?;
         }
     }
     let found = find(scenario, &model, args.step_deg, args.non_uniformity)?;
-    let result = |form| match form {
-        DriveResults::Svg => Ok(drive_graphs::draw(scenario, &found, &curves(scenario, &model, &found)?)),
-        DriveResults::Json => Ok(report::json(scenario, &found)),
+    let result = |form| -> Result<Made> {
+        Ok(match form {
+            DriveResults::Svg => drive_graphs::draw(scenario, &found, &curves(scenario, &model, &found)?).into(),
+            DriveResults::Json => report::json(scenario, &found).into(),
+        })
     };
     match is_said {
         true => args.outputs.write(result),
-        false => args.outputs.deliver(result, |_| report::text(scenario, &found, args.table)),
+        false => args.outputs.deliver(result, |_| report::text(scenario, &found, args.table, output::columns())),
     }
 }
 
@@ -143,8 +152,7 @@ pub(super) fn find(
     let cranks: Vec<f64> =
         (0..=count).map(|k| case.crank().start + sense * (step_deg * k as f64).to_radians()).collect();
     let resistance = sense * means.resistance;
-    let inertia = means.inertia + model.added_inertia();
-    let averaged = case.crank().motor().and_then(|motor| Averaged::of(motor, inertia, resistance));
+    let averaged = case.crank().motor().and_then(|motor| Averaged::over_turn(model, motor, &means));
     let steady = match case.crank().motor() {
         None => None,
         Some(motor) => {
@@ -152,12 +160,16 @@ pub(super) fn find(
             Some(([sense * speed, sense * speed * motor.ratio], model.regime(&cranks, ACCURACY)?))
         }
     };
+    let limits = match (case.crank().motor(), &steady) {
+        (Some(motor), Some((_, regime))) => MotorLimit::of(motor, regime.ends(), false),
+        (None, _) | (_, None) => Vec::new(),
+    };
     let flywheel = match non_uniformity {
         Some(wanted) => Some((wanted, Flywheel::of(model, wanted, ACCURACY)?)),
         None => None,
     };
     let (extremes, rows) = (model.extremes()?, model.rows(&cranks)?);
-    Ok(Found { means, extremes, added: model.added_inertia(), rows, steady, averaged, flywheel })
+    Ok(Found { means, extremes, added: model.added_inertia(), rows, steady, averaged, limits, flywheel })
 }
 
 /// Data of the graphs: rows at equal intervals, and at the kinks of the reduced quantities.
@@ -196,5 +208,5 @@ fn choose(args: &Args, file: &Path, scenario: &Scenario) -> Result<()> {
         DriveResults::Svg => output::refused("--output", sentences::NO_GRAPHS_OF_A_CHOICE, sentences::WRITE_JSON),
         DriveResults::Json => Ok(motor_choice::json(scenario, &choice)),
     };
-    args.outputs.deliver(result, |_| motor_choice::text(scenario, &choice))
+    args.outputs.deliver(result, |_| motor_choice::text(scenario, &choice, output::columns()))
 }

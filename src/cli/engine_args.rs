@@ -44,8 +44,8 @@ pub(super) struct EngineArgs {
     pub(super) engine: Vec<Which>,
     #[command(flatten)]
     settings: SettingArgs,
-    /// Work allowed for finding the settings that are not given, in engine steps without sweeps [default: 2e7, of
-    /// `tune` 5e6]
+    /// Work allowed for finding the settings that are not given; the unit is an engine step without sweeps [default:
+    /// 2e7, of `tune` 5e6]
     #[arg(long, value_name = "STEPS", allow_hyphen_values = true, value_parser = number::positive)]
     budget: Option<f64>,
     #[command(flatten)]
@@ -61,7 +61,7 @@ pub(super) struct MemoryArgs {
     memory: f64,
 }
 
-/// If a run needs more memory than this constant (bytes), the command reports the need in advance.
+/// If a run needs more memory than this constant (bytes), the command reports the needed memory in advance.
 const TOLD: f64 = 5e8;
 
 impl MemoryArgs {
@@ -120,7 +120,7 @@ impl FromArgMatches for SettingArgs {
 }
 
 /// The command-line argument for a row of settings.
-/// `None` for the row of engines, because each command defines that argument separately.
+/// `None` for the row that names the engines, because each command defines that argument separately.
 fn argument(row: &'static SettingRow) -> Option<Arg> {
     let own = Arg::new(row.argument).long(row.argument).value_name(row.value).help(row.help);
     Some(match (row.slot)(&mut EngineSettings::default()) {

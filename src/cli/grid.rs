@@ -49,12 +49,17 @@ impl GridArgs {
         case.on(grid)
     }
 
+    /// Whether a given grid consists of inputs and not of times; `None` if no grid is given.
+    pub(super) fn is_by_input(&self) -> Option<bool> {
+        self.is_given().then_some(self.crank_deg.is_some())
+    }
+
     /// Whether a grid is given.
     pub(super) fn is_given(&self) -> bool {
         self.crank_deg.is_some() || self.times.is_some()
     }
 
-    /// The grid of the arguments, for a first drive with this input: the name of its values, and its text.
+    /// The grid of the arguments for a first drive with this input: the name of its values, and its text as given.
     /// `None` if the arguments give no grid.
     pub(super) fn told(&self, input: Input) -> Option<(&'static str, &str)> {
         match &self.crank_deg {

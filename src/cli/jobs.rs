@@ -9,6 +9,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::quiet::panic_text;
 
 /// The memory that all items in progress share.
 /// An item keeps its reserved memory until its result has been passed on.
@@ -112,8 +113,7 @@ pub(super) fn side_by_side<T, R: Send>(
 
 /// A panic as an error; its location is already on standard error.
 fn panicked(panic: &(dyn Any + Send)) -> Error {
-    let text = panic.downcast_ref::<&str>().copied().or(panic.downcast_ref::<String>().map(String::as_str));
-    let message = sentences::this_is_a_fault_of_the_program(&text.unwrap_or("it panicked"));
+    let message = sentences::this_is_a_fault_of_the_program(&panic_text(panic).unwrap_or("it panicked"));
     Error::new(ErrorKind::Numeric, message).help(sentences::REPORT_IT_WITH_THE_SCENARIO)
 }
 

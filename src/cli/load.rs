@@ -25,7 +25,8 @@ pub(super) struct StartArgs {
     /// `[start]`, or the start of its first drive; published numbers stay if the start lies on the branch of the file
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = number::finite)]
     pub(super) start_crank_deg: Option<f64>,
-    /// Value of a parameter, by its key in `[parameters]`; may be given several times
+    /// Value of a parameter by its key, or of a number of the file by its path (links.crank.mass_kg); may be given several
+    /// times
     #[arg(long, value_name = "KEY=NUMBER", value_parser = setting)]
     pub(super) set: Vec<(String, f64)>,
 }
@@ -38,15 +39,19 @@ impl StartArgs {
 
     /// Like `load`, with the additional requests in `besides`.
     pub(super) fn load_as(&self, file: &Path, grid: &GridArgs, besides: StartRequest) -> Result<Scenario> {
-        let asked = StartRequest {
+        grid.on(as_asked(file, &self.request(grid, besides))?)
+    }
+
+    /// The request of this start and the given grid, with the additional requests in `besides`.
+    pub(super) fn request(&self, grid: &GridArgs, besides: StartRequest) -> StartRequest {
+        StartRequest {
             modes: self.mode.clone(),
             crank: self.start_crank_deg,
             is_shown: true,
             without_grid: grid.is_given(),
             set: self.set.clone(),
             ..besides
-        };
-        grid.on(as_asked(file, &asked)?)
+        }
     }
 }
 

@@ -33,9 +33,9 @@ pub(super) fn writable(path: PathBuf) -> std::result::Result<PathBuf, String> {
     Ok(path)
 }
 
-/// Whether a path means standard output: `-`.
+/// Whether a path means standard output: `-`, or `-.ENDING` for a drawing.
 pub(super) fn is_standard(path: &Path) -> bool {
-    path == Path::new("-")
+    path == Path::new("-") || path.to_str().is_some_and(|path| path.starts_with("-.") && !path.contains('/'))
 }
 
 /// Refuses two options with the same file, because the second result would replace the first.

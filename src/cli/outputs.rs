@@ -9,6 +9,8 @@ use clap::error::ErrorKind as Wrong;
 use clap::{Arg, ArgAction, ArgMatches, Command, FromArgMatches};
 
 use super::output;
+use crate::draw::Medium;
+use drawing::paper::document::Drawing;
 use linkage::error::{Error, Result};
 
 /// A form of results.
@@ -42,7 +44,7 @@ impl Form {
             Form::Mjcf => &["xml", "mjcf"],
             Form::Results => &[],
             Form::Scenario => &["toml"],
-            Form::Svg => &["svg"],
+            Form::Svg => &["svg", "pdf", "png"],
         }
     }
 
@@ -65,6 +67,23 @@ impl Form {
     /// The form as users see it: `.json`, or `DIR`.
     pub(super) fn sign(self) -> String {
         self.endings().first().map_or("DIR".into(), |ending| format!(".{ending}"))
+    }
+
+    /// The endings of the form in help: all endings of a drawing, the usual ending of any other form.
+    fn told(self) -> String {
+        match self {
+            Form::Svg => sentences::SVG_PDF_OR_PNG.into(),
+            Form::Csv
+            | Form::Dxf
+            | Form::Html
+            | Form::Json
+            | Form::Junit
+            | Form::Markdown
+            | Form::Mjcf
+            | Form::Page
+            | Form::Results
+            | Form::Scenario => self.sign(),
+        }
     }
 
     /// The path of a result of this form.
@@ -98,6 +117,37 @@ pub(super) trait Results: Clone + Copy + Debug + PartialEq + Send + Sync + 'stat
     /// The form of this result.
     fn form(self) -> Form {
         Self::ALL.iter().find(|(own, ..)| *own == self).expect("the macro lists every result").1
+    }
+}
+
+/// A result: text, or a drawing. The path to which a drawing is written selects its picture format.
+pub(super) enum Made {
+    Text(String),
+    Drawing(Drawing),
+}
+
+impl From<String> for Made {
+    fn from(text: String) -> Made {
+        Made::Text(text)
+    }
+}
+
+impl From<Drawing> for Made {
+    fn from(drawing: Drawing) -> Made {
+        Made::Drawing(drawing)
+    }
+}
+
+impl Made {
+    /// Writes the result to the file `to`, or to standard output.
+    pub(super) fn write(&self, to: &Path) -> Result<()> {
+        match self {
+            Made::Text(text) => output::write(text, to),
+            Made::Drawing(drawing) => {
+                let medium = Medium::of(to).unwrap_or(Medium::Svg);
+                output::write_bytes(&medium.drawn(drawing)?, to)
+            }
+        }
     }
 }
 
@@ -155,12 +205,13 @@ fn read<R: Results>(text: &str) -> std::result::Result<(R, PathBuf), String> {
             return Err(sentences::expected_found(&expected.join(", "), &found));
         }
     };
-    Ok((own, form.target(if standard.is_some() { "-" } else { text })?))
+    // On standard output too, the ending of the path selects the picture format of a drawing.
+    Ok((own, form.target(if standard.is_some() && form != Form::Svg { "-" } else { text })?))
 }
 
 impl<R: Results> clap::Args for Outputs<R> {
     fn augment_args(command: Command) -> Command {
-        let contents: Vec<String> = R::ALL.iter().map(|(_, form, what)| format!("{} {what}", form.sign())).collect();
+        let contents: Vec<String> = R::ALL.iter().map(|(_, form, what)| format!("{} {what}", form.told())).collect();
         let first = R::ALL[0].1.sign();
         let standard = if first == "DIR" { String::new() } else { sentences::is_standard_output_as(&first) };
         let output = Arg::new("output")
@@ -247,13 +298,13 @@ impl<R: Results> Outputs<R> {
         self.each().map(|(_, path)| ("--output", path)).collect()
     }
 
-    /// Writes every result for which `make` returns a text.
+    /// Writes every result that `make` returns.
     /// If a result cannot be written, the other results are still written.
     ///
     /// # Errors
     /// The first error is returned; the other errors are shown.
-    pub(super) fn write_some(&self, mut make: impl FnMut(R) -> Result<Option<String>>) -> Result<()> {
-        let mut one = |(own, to): (R, &Path)| make(own)?.map_or(Ok(()), |text| output::write(&text, to));
+    pub(super) fn write_some<T: Into<Made>>(&self, mut make: impl FnMut(R) -> Result<Option<T>>) -> Result<()> {
+        let mut one = |(own, to): (R, &Path)| make(own)?.map_or(Ok(()), |made| made.into().write(to));
         let mut errors: VecDeque<Error> = self.each().filter_map(|found| one(found).err()).collect();
         let first = errors.pop_front();
         errors.iter().for_each(output::show);
@@ -264,7 +315,7 @@ impl<R: Results> Outputs<R> {
     ///
     /// # Errors
     /// The errors of [`Outputs::write_some`].
-    pub(super) fn write(&self, mut make: impl FnMut(R) -> Result<String>) -> Result<()> {
+    pub(super) fn write<T: Into<Made>>(&self, mut make: impl FnMut(R) -> Result<T>) -> Result<()> {
         self.write_some(|own| make(own).map(Some))
     }
 
@@ -273,9 +324,9 @@ impl<R: Results> Outputs<R> {
     ///
     /// # Errors
     /// The errors of [`Outputs::write_some`].
-    pub(super) fn deliver(
+    pub(super) fn deliver<T: Into<Made>>(
         &self,
-        make: impl FnMut(R) -> Result<String>,
+        make: impl FnMut(R) -> Result<T>,
         text: impl FnOnce(Option<usize>) -> String,
     ) -> Result<()> {
         self.write(make)?;

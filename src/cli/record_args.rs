@@ -214,7 +214,7 @@ mod tests {
         assert_eq!(large(19_999_999, &times, None), "");
         assert_eq!(
             large(62_000_000, &times, None),
-            "\n           it is large; --record-hz 80 would reduce it to about 5.0 MB"
+            "\n           the recording is large; --record-hz 80 would reduce it to about 5.0 MB"
         );
         assert!(large(62_000_000, &times, Some(200.0)).contains("--record-hz 10 "));
     }

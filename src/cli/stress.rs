@@ -38,7 +38,7 @@ pub(super) struct Args {
 }
 
 results! { Stresses {
-    Results = "tables and maps; points already in it are not run again [default: stress]",
+    Results = "tables and maps; points already in the directory are not run again [default: stress]",
     Page = "a page; its maps go to a directory of the same name next to it",
 } }
 

@@ -1,5 +1,6 @@
 //! `linkproof synthesize`.
 
+mod check;
 mod closed_form;
 mod search;
 
@@ -21,8 +22,10 @@ enum Command {
     /// Lengths and pivots of any linkage whose output should follow a timing: random search, then refinement of the
     /// best candidates
     Search(search::Args),
-    /// Show how well a scenario keeps the timing of a synthesis file
-    Check(search::CheckArgs),
+    /// Show how well scenarios keep the timing of a synthesis file; compare several at one speed
+    Check(check::CheckArgs),
+    /// Draw the phases of all organs of a machine over its main shaft, and their displacements
+    Cyclogram(check::CyclogramArgs),
 }
 
 pub(super) fn synthesize(args: &Args) -> Result<()> {
@@ -30,6 +33,7 @@ pub(super) fn synthesize(args: &Args) -> Result<()> {
         Command::CrankRocker(args) => closed_form::crank_rocker(args),
         Command::SliderCrank(args) => closed_form::slider_crank(args),
         Command::Search(args) => search::search(args),
-        Command::Check(args) => search::check(args),
+        Command::Check(args) => check::check(args),
+        Command::Cyclogram(args) => check::cyclogram(args),
     }
 }

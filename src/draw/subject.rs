@@ -1,20 +1,25 @@
 //! The drawn content of a file: the mechanism in its poses, or as far as it can be laid out.
 
 use super::media::{Medium, PictureOptions};
-use super::motion::{swung, turned, with_travels};
+use super::motion::{Course, swung, turned, with_travels};
+use super::points::RequestedPoints;
+use super::positions::{DrawnPositions, is_same_pose, poses};
 use crate::sentences;
 use design::draw::significant;
 use design::plan::{grid_at, state_at};
+use drawing::groups::group_cells;
 use drawing::lay::{GroupPlacement, Laid, all_modes, lay, lay_loose};
 use drawing::sheet::SheetCell;
-use drawing::view::{DrawnSubject, Extras, Shot, Trace, cells};
+use drawing::view::{DrawnSubject, Extras, Shot, ShownMotion, Trace, cells};
 use drawing::{Sketch, Travels, acting, unit};
 use linkage::case::When;
 use linkage::drive::Drive;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
 use linkage::mechanism::assembly::ConfigurationChoice;
-use linkage::mechanism::{AssemblyMode, DrivingLink, GROUND, LinkId, LinkPose, Mechanism, StartGroup, Structure};
+use linkage::mechanism::{
+    AssemblyMode, DrivingLink, GROUND, JointId, JointSide, Mechanism, StartGroup, Structure, roman,
+};
 use linkage::solver::State;
 use scenario::{Draft, Scenario};
 
@@ -45,6 +50,9 @@ pub(crate) struct Drawn {
     headings: Vec<Vec<String>>,
     travels: Travels,
     traces: Vec<Trace>,
+    positions: DrawnPositions,
+    /// The structure, if the links form one.
+    structure: Option<Structure>,
     /// Fault of the file or of the request.
     pub(crate) fault: Option<Error>,
     /// Whether the file has mistakes. The mistakes of a file are listed below the picture.
@@ -55,6 +63,7 @@ pub(crate) struct Drawn {
 impl Drawn {
     /// A mechanism that can be assembled at some crank angle.
     pub(crate) fn of(scenario: Scenario, wish: &PictureOptions, medium: Medium) -> Result<Drawn> {
+        wish.check(medium)?;
         let when = wish.at.unwrap_or(When::Crank(scenario.case.crank().start));
         // Configurations exist at any crank angle, but a time must lie within the laws of motion.
         if let When::Time(_) = when {
@@ -68,10 +77,17 @@ impl Drawn {
     }
 
     /// The readable part of a mechanism, with the `error` because of which its file is not a valid scenario.
-    pub(crate) fn of_draft(draft: Draft, wish: &PictureOptions, error: Error) -> Result<Drawn> {
+    pub(crate) fn of_draft(draft: Draft, wish: &PictureOptions, medium: Medium, error: Error) -> Result<Drawn> {
+        wish.check(medium)?;
         let when = wish.at.unwrap_or(When::Crank(draft.crank));
-        // For links that cannot move, a missing drive is no error.
+        // Links that cannot move need no drive.
         let error = Some(error).filter(|_| !draft.is_fixed());
+        if let (true, Some(_)) = (draft.is_fixed(), wish.course()) {
+            let [_, enlarged, positions, _] = wish.keys();
+            let key = if wish.positions.is_some() { positions } else { enlarged };
+            let error = Error::new(ErrorKind::Input, sentences::THE_STRUCTURE_DOES_NOT_MOVE).key(key);
+            return Err(error.help(sentences::TAKE_IT_OUT_OR_ADD_A_DRIVE));
+        }
         let drawn = match wish.each_mode && draft.structure.is_ok() {
             true => Drawn::each_mode(draft, when, error)?,
             false => Drawn::partial(draft, when, error),
@@ -80,9 +96,31 @@ impl Drawn {
     }
 
     fn with_unknown_traces(mut self, wish: &PictureOptions) -> Drawn {
-        let (_, unknown) = traced(&self.mechanism, wish);
+        let unknown = RequestedPoints::of(&self.mechanism, wish).unknown;
         self.fault = Error::all(self.fault.take().into_iter().chain(unknown));
         self
+    }
+
+    /// The same mechanism, with the groups of the structure in which the first drive moves `joint`.
+    pub(crate) fn with_structure(self, (joint, structure): (JointId, Structure)) -> Drawn {
+        let headline = sentences::driven_at_joint(&self.headline, &self.mechanism.joints()[joint].name);
+        Drawn { headline, structure: Some(structure), ..self }
+    }
+
+    /// Structural formula and class, for a picture of the groups.
+    pub(super) fn formula(&self) -> Option<String> {
+        let structure = self.structure.as_ref()?;
+        let formula = structure.numbered_formula(&self.mechanism).replace("->", "→");
+        Some(sentences::formula_and_class(&formula, &roman(structure.class())))
+    }
+
+    /// Number of cells in a picture that does not move.
+    pub(super) fn count(&self, wish: &PictureOptions) -> usize {
+        match &self.structure {
+            Some(structure) if wish.groups => structure.leading().count() + structure.groups.len(),
+            _ if wish.each_mode => self.shots.len(),
+            _ => 1 + self.positions.count(),
+        }
     }
 
     /// The cells of all frames; `room` is the size of the area (mm).
@@ -90,9 +128,16 @@ impl Drawn {
         let Drawn { mechanism, drives, loads, gravity, .. } = self;
         let subject = DrawnSubject { mechanism, drives, loads, gravity: *gravity };
         let extras = Extras { loads: wish.loads, dimensions: wish.dimensions, is_moving: medium.moves() };
-        let mut all = cells(&subject, &self.shots, &self.travels, &self.traces, extras, room);
+        if let (true, Some(structure), [shot, ..]) = (wish.groups, &self.structure, &self.shots[..]) {
+            return group_cells(mechanism, structure, drives, &shot.laid.places, room);
+        }
+        let motion =
+            ShownMotion { travels: &self.travels, traces: &self.traces, series: self.positions.series.as_ref() };
+        let mut all = cells(&subject, &self.shots, motion, extras, room);
         for (index, cell) in all.iter_mut().enumerate() {
-            cell.heading = self.headings.get(index).cloned().unwrap_or_default();
+            let own = self.headings.get(index).cloned().unwrap_or_default();
+            cell.heading = own.into_iter().chain(std::mem::take(&mut cell.heading)).collect();
+            cell.heading.extend(self.positions.scale(cell));
             let faults = self.shots[index].laid.faults.iter().map(|fault| fault.message().to_string());
             cell.faults = match &self.fault {
                 Some(fault) if self.has_mistakes => mistakes(fault),
@@ -103,6 +148,7 @@ impl Drawn {
                 cell.faults.push(fault.message().to_string());
             }
         }
+        all.extend(self.positions.cells(room));
         all
     }
 
@@ -112,7 +158,7 @@ impl Drawn {
         let input = (!draft.is_fixed()).then(|| format!(", {}", draft.input().marked(crank)));
         let headline = draft.name.clone() + &input.unwrap_or_default();
         let drives = if draft.is_driven_by_guess { Vec::new() } else { draft.drives };
-        let Draft { name, title, mechanism, loads, gravity, .. } = draft;
+        let Draft { name, title, mechanism, structure, loads, gravity, .. } = draft;
         let mut travels = Travels::none(&mechanism);
         for shot in &shots {
             travels.take_in(&mechanism, |link, local| shot.laid.places[link].pose().map(|pose| pose.point(local)));
@@ -129,6 +175,8 @@ impl Drawn {
             headings: Vec::new(),
             travels,
             traces: Vec::new(),
+            positions: DrawnPositions::default(),
+            structure: structure.ok(),
             fault: None,
             has_mistakes,
             note: None,
@@ -138,12 +186,20 @@ impl Drawn {
     /// The mechanism at an instant, or its motion.
     fn whole(scenario: Scenario, when: When, wish: &PictureOptions, medium: Medium) -> Result<Drawn> {
         let (frames, solver) = (medium.frames(wish), wish.solver.solver());
-        let (points, _) = traced(&scenario.case.mechanism, wish);
-        let is_motion_seen = frames > 1 || !points.is_empty();
+        let points = RequestedPoints::of(&scenario.case.mechanism, wish);
+        let course = wish.course().map(|count| Course::of(&scenario.case, solver, count));
+        let is_motion_seen = course.is_none() && (frames > 1 || !points.traced.is_empty());
         let own = if is_motion_seen { swung(&scenario.case, solver) } else { None };
+        let free = scenario.case.clone();
         let scenario = scenario.nominal();
         let case = &scenario.case;
-        let first = match state_at(case, solver, when) {
+        // A time within a free motion selects an instant of this motion. The position drawn fully then lies among the
+        // positions of the series.
+        let shown = match (&course, when) {
+            (Some(Ok(course)), When::Time(_)) if course.is_timed => &free,
+            _ => case,
+        };
+        let first = match state_at(shown, solver, when) {
             Ok(state) => state,
             Err(error) if error.kind() == ErrorKind::Input => return Err(error),
             Err(error) => {
@@ -152,7 +208,9 @@ impl Drawn {
                 return Ok(Drawn { travels, ..Drawn::partial(draft_of(&scenario), when, Some(error)) });
             }
         };
-        let (states, travels) = own.map_or_else(|| turned(case, solver), |states| with_travels(case, states));
+        let course = course.transpose()?;
+        let states = course.as_ref().map(|course| course.states.clone()).or(own);
+        let (states, travels) = states.map_or_else(|| turned(case, solver), |states| with_travels(case, states));
         let sketch = Sketch::of_case(case, &travels, unit(&case.mechanism));
         let shot = |state: &State| Shot {
             laid: Laid::whole(poses(state)),
@@ -165,9 +223,16 @@ impl Drawn {
                 (0..frames).filter_map(|k| states.get(row(k))).map(shot).collect()
             }
         };
-        let path = |link: LinkId, local: Vec2| states.iter().map(|state| state.motions[link].point(local)).collect();
-        let traces = points.iter().map(|&(link, local)| (link, path(link, local))).collect();
-        let mut drawn = Drawn { traces, ..Drawn::new(draft_of(&scenario), when, shots) };
+        let path = |at: JointSide| states.iter().map(|state| state.motions[at.link].point(at.local)).collect();
+        let is_series = wish.positions.is_some();
+        // With several positions, the numbered paths of the positions replace the plain paths.
+        let traced = points.traced.iter().filter(|_| !is_series).map(|point| point.side);
+        let traces = traced.map(|side| (side.link, path(side))).collect();
+        let positions = course.map_or_else(DrawnPositions::default, |course| {
+            DrawnPositions::of(case, &course, &first, points, is_series)
+        });
+        let headings = if positions.heading.is_empty() { Vec::new() } else { vec![positions.heading.clone()] };
+        let mut drawn = Drawn { traces, positions, headings, ..Drawn::new(draft_of(&scenario), when, shots) };
         let own = std::mem::replace(&mut drawn.travels, travels);
         // A single picture shows the requested instant, which lies between two instants of the computed path.
         // The travels are therefore widened by the pose at this instant.
@@ -289,32 +354,6 @@ fn draft_of(scenario: &Scenario) -> Draft {
     }
 }
 
-fn poses(state: &State) -> Vec<LinkPose> {
-    let pose = |(motion, &angle): (&linkage::math::Motion, &f64)| LinkPose { origin: motion.origin, angle };
-    state.motions.iter().zip(&state.angles).map(pose).collect()
-}
-
-/// The points whose paths are requested, each with its link, and an error for each unknown point.
-fn traced(mechanism: &Mechanism, wish: &PictureOptions) -> (Vec<(LinkId, Vec2)>, Vec<Error>) {
-    let points: Vec<_> = mechanism.moving_points().collect();
-    let is_joint = |link, local| mechanism.joints().iter().any(|joint| joint.on(link) == Some(local));
-    let free = points.iter().filter(|(_, side)| wish.all_traces && !is_joint(side.link, side.local));
-    let mut found: Vec<(LinkId, Vec2)> = free.map(|(_, side)| (side.link, side.local)).collect();
-    let mut unknown = Vec::new();
-    for name in &wish.traces {
-        match points.iter().find(|(own, _)| own == name) {
-            Some((_, side)) => found.push((side.link, side.local)),
-            None => {
-                let names: Vec<&str> = points.iter().map(|(own, _)| *own).collect();
-                let message = sentences::no_point_that_moves_is_called(&name);
-                let error = Error::new(ErrorKind::Input, message).help(sentences::name_one_of(&names.join(", ")));
-                unknown.push(error.key(wish.traces_key.unwrap_or("traces")));
-            }
-        }
-    }
-    (found, unknown)
-}
-
 /// The modes of a configuration: values for the key `mode`, or the number if the modes have no names.
 fn heading(mechanism: &Mechanism, structure: &Structure, laid: &Laid, own: &Laid) -> Vec<String> {
     let line = |&GroupPlacement { group, mode, number }: &GroupPlacement| {
@@ -331,15 +370,7 @@ fn heading(mechanism: &Mechanism, structure: &Structure, laid: &Laid, own: &Laid
     if lines.is_empty() {
         lines.push(sentences::THE_ONLY_CONFIGURATION.into());
     }
-    let near = |(a, b): (&drawing::picture::LinkPlacement, &drawing::picture::LinkPlacement)| match (a.pose(), b.pose())
-    {
-        (Some(a), Some(b)) => {
-            let size = mechanism.size();
-            (a.origin - b.origin).norm() < 1e-6 * size && ((a.angle - b.angle) / 2.0).sin().abs() < 1e-6
-        }
-        _ => false,
-    };
-    let is_own = own.is_whole() && laid.places.iter().zip(&own.places).all(near);
+    let is_own = own.is_whole() && is_same_pose(mechanism, &laid.places, &own.places);
     let remark = match laid.is_whole() {
         _ if is_own => sentences::AS_IN_THE_FILE,
         true => "",

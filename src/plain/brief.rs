@@ -14,9 +14,9 @@ use prover::run::{EngineInfo, Proof};
 const WORST: usize = 3;
 
 /// The verdict in one line: scenario, verdict, how much was judged, and the step.
-/// Each channel of the scenario counts once, whatever the number of engines.
-/// Forces that are judged twice also count once.
-/// The count of numbers covers everything that was judged.
+/// Each channel of the scenario counts once, even if there are several engines or if a force is judged twice: computed
+/// from the motion, and exerted by the engine.
+/// In contrast, the number of results includes everything that was judged.
 #[must_use]
 pub fn verdict_line(proof: &Proof) -> String {
     let (checks, all) = (proof.all_checks().count(), judged::of(proof).len());
@@ -99,7 +99,7 @@ pub fn worst(proof: &Proof, width: Option<usize>, text: &mut String) {
         let (factor, unit) = read(kind.unit);
         let [difference, bound] = [factor * residual.max, factor * channel.bound];
         let value = |side: &Trajectory| at(side, &residual.channel, residual.worst_time).map(|value| factor * value);
-        // Every judged channel has a value on both sides, so no judged channel is skipped.
+        // Reference and engine have a value of every judged channel, so no judged channel is skipped.
         let found = engine.trajectory.as_ref().and_then(value);
         let (Some(right), Some(found)) = (value(&proof.reference_trajectory), found) else { continue };
         // An angle may differ by whole revolutions, which do not count as a difference, so they are subtracted.

@@ -13,8 +13,8 @@ use linkage::math::statistics::distinct;
 use linkage::mechanism::is_unseen;
 
 /// A text for a snippet, in which positions are counted in bytes.
-/// Every invisible character is replaced by a visible sign of the same number of bytes.
-/// The renderer itself replaces invisible ASCII characters.
+/// Every invisible character that is not ASCII is replaced by a visible character of the same number of bytes.
+/// The library that renders the snippet replaces invisible ASCII characters.
 fn of_same_length(text: &str) -> Cow<'_, str> {
     let is_hidden = |letter: char| !letter.is_ascii() && is_unseen(letter);
     if !text.contains(is_hidden) {

@@ -155,7 +155,7 @@ pub fn unproven(proof: &Proof) -> Vec<(String, &Verdict)> {
     all
 }
 
-/// All channels of all engines: those that disagree, those that are open, those that agree.
+/// All channels of all engines: first those that disagree, then those that are open, then those that agree.
 /// Each of these three sets is sorted by descending ratio of error to bound.
 pub fn ranked(proof: &Proof) -> Vec<(&EngineProof, &ChannelProof)> {
     let engines = proof.engines.iter();

@@ -61,7 +61,7 @@ fn at_rest(proof: &Proof, width: Option<usize>, text: &mut String) {
     if case.is_free() {
         return;
     }
-    // The sides have already solved all rows, so an error is not expected and is ignored.
+    // The analytic sides have already solved all rows, so an error is not expected and is ignored.
     let Some(all) = case.has_friction().then(|| rows_at_rest(case).ok()).flatten() else { return };
     let count = reference.times().len();
     for (friction, rows) in case.frictions().zip(all) {

@@ -4,7 +4,7 @@ use crate::sentences;
 use serde_json::{Value, json};
 
 use super::pretty::{list, pretty};
-use super::table_csv::csv;
+use super::table_csv::as_csv;
 use crate::plain::cells::table;
 use lab::bench::{Bench, BenchOutcome, BenchPoint, CostAxis, Errors, MethodOwner, front};
 use linkage::error::Result;
@@ -153,7 +153,7 @@ pub(crate) fn rows(bench: &Bench, machine: &Machine) -> Result<String> {
         });
         rows.push(row);
     }
-    Ok(text + &csv(rows)?)
+    Ok(text + &as_csv(rows)?)
 }
 
 /// Names of all counts of the points (such as evaluations), in the order of their first appearance.

@@ -118,7 +118,7 @@ fn motor_of(motor: &Motor) -> Value {
 }
 
 /// The value of a load over the motion: a number if it is constant.
-/// For a table, only the table's kind: its period in turns, or that it is over a slide.
+/// A table is not written. An object states its period in turns, or that its variable is a slide.
 fn course(course: &Course) -> Value {
     match course {
         Course::Constant(value) => json!(value),

@@ -19,9 +19,9 @@ pub(super) const SMALL: f64 = 3.0;
 pub(super) enum Filling {
     /// The mark is filled with its colour.
     Full,
-    /// Not at all.
+    /// The mark is an outline, filled with white.
     Hollow,
-    /// With a cross.
+    /// The mark is an outline with a cross in it.
     Crossed,
     /// A cross is drawn instead of the mark.
     Cross,

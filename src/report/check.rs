@@ -11,7 +11,7 @@ use crate::plain::Tell;
 use crate::plain::cells::{counted, flush, trimmed};
 use crate::plain::judged::Grade;
 use crate::plain::style::{self, wrapped};
-use prover::bounds::Verdict;
+use prover::bounds::{Verdict, place_of_finding};
 use prover::check::{CUT, FormulaAtInstant, FormulaCause, FormulaOutcome, JudgedFormula, Missing, Term, WORDS};
 use prover::numbers::{beside, error, fixed, input_told, with_unit};
 use prover::run::Reference;
@@ -26,10 +26,15 @@ const INDENT: usize = 9;
 /// Grade of a claim.
 fn grade(judged: &JudgedFormula) -> Grade {
     match judged.outcome() {
-        FormulaOutcome::Right => Grade::Agree,
+        FormulaOutcome::Right | FormulaOutcome::Expected { .. } => Grade::Agree,
         FormulaOutcome::Open { .. } => Grade::Open,
         FormulaOutcome::Wrong => Grade::Disagree,
     }
+}
+
+/// Whether a formula is wrong, as a finding says.
+fn is_expected(judged: &JudgedFormula) -> bool {
+    matches!(judged.outcome(), FormulaOutcome::Expected { .. })
 }
 
 /// One claim, judged by value or by a derivative, and the side that the claim fits worse.
@@ -80,7 +85,8 @@ pub fn verdict_line(scenario: &Scenario, claimed: &Claimed) -> String {
 pub fn brief(scenario: &Scenario, claimed: &Claimed, tell: Tell, width: usize) -> String {
     let lines = lines(scenario, claimed);
     let wrong = wrong_values(&lines);
-    let is_told = |line: &&Line| line.judged.worst.is_some() && !is_consequence(&wrong, line);
+    let is_told =
+        |line: &&Line| line.judged.worst.is_some() && !is_consequence(&wrong, line) && !is_expected(line.judged);
     let mut worst: Vec<(&Line, FormulaAtInstant)> =
         lines.iter().filter(is_told).filter_map(|line| Some((line, line.judged.worst?))).collect();
     worst.sort_by(|(_, a), (_, b)| b.used().total_cmp(&a.used()));
@@ -113,7 +119,8 @@ pub fn text(scenario: &Scenario, claimed: &Claimed, tell: Tell, width: usize) ->
             |at: FormulaAtInstant| [fixed(at.input.shown(at.crank), 1), error(at.difference.abs()), error(at.bound)];
         let [at, off, bound] = line.judged.worst.map(numbers).unwrap_or_default();
         let claim = if line.judged.order == 0 { line.judged.claim.clone() } else { String::new() };
-        let word = line.grade.of(["right", "undecided", "WRONG"]);
+        let right = if is_expected(line.judged) { "wrong as expected" } else { "right" };
+        let word = line.grade.of([right, "undecided", "WRONG"]);
         [line.name(), claim, at, off, bound, word.into()]
     }));
     let mut text = format!("{}\n\n{}\n", verdict_line(scenario, claimed), trimmed(&table));
@@ -133,7 +140,8 @@ fn wrong_values<'a>(lines: &[Line<'a>]) -> BTreeSet<&'a str> {
     lines.iter().filter(is_wrong_value).map(|line| line.judged.name.as_str()).collect()
 }
 
-/// Whether a derivative is wrong only because the value of its formula is wrong; it is then not reported.
+/// Whether a derivative is wrong only because the value of its formula is wrong; such a derivative is not
+/// reported.
 fn is_consequence(wrong: &BTreeSet<&str>, of: &Line) -> bool {
     of.judged.order > 0 && wrong.contains(of.judged.name.as_str())
 }
@@ -141,12 +149,12 @@ fn is_consequence(wrong: &BTreeSet<&str>, of: &Line) -> bool {
 /// Faults and open points, with their reasons.
 fn reasons(lines: &[Line], claimed: &Claimed, tell: Tell, width: usize, text: &mut String) {
     let wrong = wrong_values(lines);
-    let told = |line: &&Line| line.grade != Grade::Agree && !is_consequence(&wrong, line);
+    let told = |line: &&Line| (line.grade != Grade::Agree || is_expected(line.judged)) && !is_consequence(&wrong, line);
     let causes = causes(claimed);
     for line in lines.iter().filter(told) {
         say!(text, "\n{}", wrapped(&reason(line, tell), Some(width), INDENT));
         let name = &line.judged.name;
-        if line.judged.order > 0 {
+        if line.judged.order > 0 || line.judged.finding.is_some() {
             continue;
         }
         let mut below = |told: &str| say!(text, "{}", wrapped(told, Some(width), INDENT));
@@ -192,7 +200,12 @@ fn sentence(lines: &[Line], claimed: &Claimed) -> String {
     names.dedup();
     match &claimed.verdict {
         Verdict::Agree { .. } | Verdict::Expected { .. } => {
-            let (claims, instants) = (counted(claims, "formula"), counted(instants, "instant"));
+            let expected = lines.iter().filter(|line| is_expected(line.judged)).count();
+            let (right, instants) = (counted(claims - expected, "formula"), counted(instants, "instant"));
+            let claims = match expected {
+                0 => sentences::all_right(&right),
+                _ => sentences::and_wrong_as_printed(&right, &expected),
+            };
             sentences::at_and(&claims, &instants, &first, &second)
         }
         Verdict::Disagree { .. } if names.is_empty() => sentences::and_contradict_each_other(&first, &second),
@@ -206,6 +219,13 @@ fn reason(line: &Line, tell: Tell) -> String {
     let of = of(*order);
     match line.judged.outcome() {
         FormulaOutcome::Right => String::new(),
+        FormulaOutcome::Expected { finding } => {
+            sentences::is_wrong_as_the_finding_says(&line.judged.name, &tell(&place_of_finding(&finding)))
+        }
+        FormulaOutcome::Wrong if line.judged.since.is_none() => {
+            let finding = line.judged.finding.as_deref().unwrap_or_default();
+            sentences::agrees_although_the_finding(&line.judged.name, &tell(&place_of_finding(finding)))
+        }
         FormulaOutcome::Open { reason, advice } => {
             let advice: Vec<String> = advice.iter().map(tell).collect();
             format!("{of}{}: {reason}; {}", line.judged.name, advice.join(", or "))
@@ -293,12 +313,13 @@ pub fn json(scenario: &Scenario, claimed: &Claimed, tell: Tell) -> String {
     };
     let row = |side: Reference, judged: &JudgedFormula| {
         let formula = formulas.get(judged.name.as_str());
-        let verdict = grade(judged).of(["agree", "inconclusive", "disagree"]);
+        let agree = if is_expected(judged) { "expected" } else { "agree" };
+        let verdict = grade(judged).of([agree, "inconclusive", "disagree"]);
         json!({
             "side": side.name(), "formula": judged.name, "expression": formula.map(|formula| formula.text.as_str()),
             "source": formula.and_then(|formula| formula.source.as_deref()), "claim": judged.claim,
             "unit": judged.unit, "derivative": judged.order, "claimed_error": formula.and_then(|own| own.error),
-            "verdict": verdict, "cause": causes.get(judged.name.as_str()).copied().flatten().map(cause_json),
+            "verdict": verdict, "finding": judged.finding, "cause": causes.get(judged.name.as_str()).copied().flatten().map(cause_json),
             "search_cut": claimed.judgement.unsought.contains(&judged.name), "no_value": no_value(judged),
             "judged": judged.judged, "lost": judged.lost, "undefined": judged.undefined, "scale": judged.scale,
             "first": judged.since.as_ref().map(at), "worst": judged.worst.as_ref().map(at),

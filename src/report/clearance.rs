@@ -4,7 +4,7 @@ use crate::sentences;
 use serde_json::{Value, json};
 
 use super::pretty::{list, pretty};
-use super::table_csv::csv;
+use super::table_csv::as_csv;
 use crate::plain::cells::{at_column, fitted, trimmed};
 use design::clearance::{ClearanceResult, ClearanceWork, DistanceCurve, Meeting, PairClearance, RangeVariable};
 use linkage::error::{Error, Result};
@@ -197,5 +197,5 @@ pub(crate) fn distances(
         let values = [*t, *crank].into_iter().chain(row.iter().copied());
         values.map(|value| format!("{value:.16e}")).collect()
     });
-    csv([header.collect::<Vec<_>>()].into_iter().chain(rows))
+    as_csv([header.collect::<Vec<_>>()].into_iter().chain(rows))
 }

@@ -51,7 +51,7 @@ impl Closing {
 /// Name of the item with the largest ratio of error to bound, and this ratio.
 /// If all channels agree but a check disagrees or is open, the item is this check; otherwise the item is a channel.
 /// Checks that agree are ignored. The bound of a published number is half a unit of its last digit, so the ratio of
-/// such a check is usually near 1 and says nothing.
+/// such a check is usually near 1 and gives no information.
 fn worst(proof: &Proof) -> [String; 2] {
     let channel = ranked(proof).into_iter().next().map(|(_, channel)| channel);
     let check = proof.all_checks().filter(|check| grade(&check.verdict) != Grade::Agree);

@@ -227,7 +227,8 @@ fn cause_of(explained: &Explained) -> Option<String> {
     terms.or_else(|| explained.diagnosis.cause.as_ref().map(diagnosis::cause))
 }
 
-/// The cause of a difference in words. If no cause was found, a description of the error; `None` if that fails too.
+/// The cause of a difference in words. If no cause was found, the text describes the error; `None` if the error has no
+/// description either.
 #[must_use]
 pub fn why(explained: &Explained) -> Option<String> {
     cause_of(explained).or_else(|| explained.diagnosis.nature.map(diagnosis::nature))

@@ -3,14 +3,16 @@
 use crate::sentences;
 use serde_json::{Value, json};
 
-use super::pretty::pretty;
+use super::pretty::{list, pretty};
 use crate::plain::cells::{table, trimmed};
+use crate::plain::style::wrapped;
 use analytic::reduced::means::Means;
 use analytic::reduced::{RunUp, RunUpEnd};
 use analytic::steady::course::{Extremes, ReducedRow};
 use analytic::steady::regime::SpeedAtCrank;
 use analytic::steady::{Averaged, Regime};
 use design::drive::flywheel::Flywheel;
+use design::drive::motor::{LARGEST_BREAKDOWN, MotorLimit};
 use prover::numbers::{error, fixed, fixed_in, quantity};
 use scenario::Scenario;
 
@@ -29,12 +31,14 @@ pub(crate) struct Found {
     pub(crate) steady: Option<([f64; 2], Regime)>,
     /// The averaged model, if it has a closed form.
     pub(crate) averaged: Option<Averaged>,
+    /// The limits of the motor's law that the steady motion exceeds.
+    pub(crate) limits: Vec<MotorLimit>,
     /// The required coefficient of non-uniformity, and the flywheel for it.
     pub(crate) flywheel: Option<(f64, Flywheel)>,
 }
 
 /// The drive as text; with `by_angle` also the table by crank angle.
-pub(crate) fn text(scenario: &Scenario, found: &Found, by_angle: bool) -> String {
+pub(crate) fn text(scenario: &Scenario, found: &Found, by_angle: bool, width: usize) -> String {
     let mut text = format!("{}: {}\n\n", scenario.name, scenario.title);
     let names = [(sentences::REDUCED_MOMENT_OF_INERTIA, "kg m^2"), (sentences::REDUCED_MOMENT_OF_RESISTANCE, "N m")];
     let means = [found.means.inertia, found.means.resistance * scenario.case.crank().sense()];
@@ -56,6 +60,7 @@ pub(crate) fn text(scenario: &Scenario, found: &Found, by_angle: bool) -> String
             let none = sentences::NONE_THE_MOTOR_LAW_IS_NOT_ONE_STRAIGHT;
             say!(text, sentences::time_constant(&constant.as_deref().unwrap_or(none)));
             say!(text, sentences::steady_motion(&of_regime(regime)));
+            text += &told(&found.limits, width);
         }
     }
     if let Some((wanted, flywheel)) = &found.flywheel {
@@ -66,6 +71,42 @@ pub(crate) fn text(scenario: &Scenario, found: &Found, by_angle: bool) -> String
         say!(text, "\n{}", angles(found));
     }
     text
+}
+
+/// A sentence for each limit that the motor exceeds, in lines of at most `width` columns.
+pub(crate) fn told(limits: &[MotorLimit], width: usize) -> String {
+    let mut text = String::new();
+    for limit in limits {
+        let sentence = match limit {
+            MotorLimit::AboveSynchronous { speed, synchronous } => {
+                sentences::the_motor_turns_faster_than(&quantity(*speed, "rad/s"), &quantity(*synchronous, "rad/s"))
+            }
+            MotorLimit::BeyondBreakdown { speed, torque, share } => {
+                let [speed, torque] = [quantity(*speed, "rad/s"), quantity(*torque, "N m")];
+                sentences::the_linear_law_asks_for(&torque, share, &speed, &LARGEST_BREAKDOWN)
+            }
+            MotorLimit::BelowBreakdown { speed, breakdown } => {
+                sentences::the_motor_turns_below_breakdown(&quantity(*speed, "rad/s"), &quantity(*breakdown, "rad/s"))
+            }
+        };
+        say!(text, "{}", wrapped(&sentence, Some(width), 2));
+    }
+    text
+}
+
+/// The limits as JSON.
+pub(crate) fn limits_json(limits: &[MotorLimit]) -> Value {
+    list(limits, |limit| match limit {
+        MotorLimit::AboveSynchronous { speed, synchronous } => {
+            json!({"kind": "above_synchronous", "motor_rad_s": speed, "synchronous_rad_s": synchronous})
+        }
+        MotorLimit::BeyondBreakdown { speed, torque, share } => {
+            json!({"kind": "beyond_breakdown", "motor_rad_s": speed, "torque_N_m": torque, "share_of_rated": share})
+        }
+        MotorLimit::BelowBreakdown { speed, breakdown } => {
+            json!({"kind": "below_breakdown", "motor_rad_s": speed, "breakdown_rad_s": breakdown})
+        }
+    })
 }
 
 fn of_regime(regime: &Regime) -> String {
@@ -129,6 +170,7 @@ pub(crate) fn json(scenario: &Scenario, found: &Found) -> String {
             json!({"non_uniformity": wanted, "inertia_kg_m2": wheel.inertia, "steady": regime(&wheel.regime)})
         }),
         "by_angle": by_angle,
+        "motor_limits": limits_json(&found.limits),
     });
     if found.steady.is_none() {
         value["steady_absent"] = Value::from(sentences::THE_SCENARIO_HAS_NO_MOTOR);
@@ -136,8 +178,8 @@ pub(crate) fn json(scenario: &Scenario, found: &Found) -> String {
     pretty(&value)
 }
 
-/// The end of a run-up as text, with an empty line after it.
-pub(crate) fn run_up(run_up: &RunUp) -> String {
+/// The end of a run-up as text, the limits of the motor's law that the run-up exceeds, and an empty line.
+pub(crate) fn run_up(run_up: &RunUp, limits: &[MotorLimit], width: usize) -> String {
     let degrees = |crank: f64| fixed_in(crank.to_degrees(), 6, "deg");
     let mut text = match run_up.end {
         RunUpEnd::Reached => sentences::RUN_UP_FOLLOWED_TO_ITS_END.to_string(),
@@ -147,6 +189,8 @@ pub(crate) fn run_up(run_up: &RunUp) -> String {
     if let Some(residual) = run_up.power_residual() {
         put!(text, sentences::motor_against_reactions_of_the_largest(&error(residual)));
     }
-    text.push_str("\n\n");
+    text.push('\n');
+    text += &told(limits, width);
+    text.push('\n');
     text
 }

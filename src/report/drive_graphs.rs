@@ -6,6 +6,7 @@ use analytic::steady::Regime;
 use analytic::steady::course::{Extremes, ReducedRow};
 use design::diagram::{CrankGraph, GraphPoint, Graphs};
 use design::draw;
+use drawing::paper::document::Drawing;
 use linkage::math::KeepNan;
 use scenario::Scenario;
 
@@ -21,8 +22,8 @@ pub(crate) struct Curves {
     pub(crate) steady: Option<Regime>,
 }
 
-/// The graphs as an SVG document.
-pub(crate) fn draw(scenario: &Scenario, found: &Found, curves: &Curves) -> String {
+/// The graphs as a drawing.
+pub(crate) fn draw(scenario: &Scenario, found: &Found, curves: &Curves) -> Drawing {
     draw::graphs(&graphs(scenario, found, curves), &scenario.name)
 }
 

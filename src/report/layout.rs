@@ -1,4 +1,4 @@
-//! A layout for Foxglove and Lichtblick: the mechanism from above, beside plots of both sides and of their errors.
+//! A layout for Foxglove and Lichtblick: the mechanism from above, beside plots of reference, engine and errors.
 //! The function `film` gives the same content as JSON, for programs that convert a recording for other viewers.
 
 use serde_json::{Map, Value, json};

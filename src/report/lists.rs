@@ -35,7 +35,7 @@ pub(crate) fn channels() -> String {
         let name = Channel { of: of.into(), kind }.to_string();
         say!(text, "{name:40} {:8} {:26} stage \"{}\"", kind.unit, kind.quantity, kind.stage.name());
     }
-    text
+    text + sentences::COMPUTED_FROM_CHANNELS
 }
 
 /// Every channel of a case with its unit, its meaning and its stage of computation.
@@ -52,7 +52,7 @@ pub(crate) fn channels_of(case: &Case) -> String {
     for [own, unit, what, stage] in &rows {
         say!(text, "{own:name$}  {unit:8} {what:meaning$}  stage \"{stage}\"");
     }
-    text
+    text + sentences::COMPUTED_FROM_CHANNELS
 }
 
 /// Meaning of a channel of a case, in words.

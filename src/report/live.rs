@@ -2,7 +2,7 @@
 //!
 //! Foxglove has renamed its protocol, but has not changed the messages that this server uses.
 //! Only viewers that offer the new name support playback control.
-//! Numbers are little-endian; a binary message begins with the number of its kind.
+//! Numbers are little-endian; a binary message begins with its opcode.
 
 use crate::sentences;
 use base64::Engine;

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 
 use serde_json::json;
 
+use super::drive::{limits_json, told};
 use super::pretty::pretty;
 use design::drive::motor::MotorChoice;
 use linkage::drive::MotorLaw;
@@ -24,7 +25,7 @@ fn line(choice: &MotorChoice) -> [f64; 2] {
 }
 
 /// The choice as text, with the `[motor]` section for the scenario.
-pub(crate) fn text(scenario: &Scenario, choice: &MotorChoice) -> String {
+pub(crate) fn text(scenario: &Scenario, choice: &MotorChoice, width: usize) -> String {
     let (motor, geared) = (&choice.motor, &choice.geared);
     let [at_rest, slope] = line(choice);
     let mut text = format!("{}: {}\n\n", scenario.name, scenario.title);
@@ -56,12 +57,21 @@ pub(crate) fn text(scenario: &Scenario, choice: &MotorChoice) -> String {
     let [off_averaged, off_mean, unrest] = [off(averaged), off(mean), choice.regime.non_uniformity()];
     say!(text, sentences::steady_speed_averaged_crank_rad(&averaged, &off_averaged, &geared_up));
     say!(text, sentences::periodic_crank_rad_non_uniformity(&mean, &off_mean, &unrest));
+    match motor.rotor {
+        Some(rotor) => say!(text, sentences::rotor_inertia(&quantity(rotor, "kg m^2"))),
+        None => say!(text, sentences::ROTOR_WITHOUT_INERTIA),
+    }
+    text += &told(&choice.limits(), width);
     say!(text, "\nFor the scenario:\n\n[motor] # {name}, {kilowatts} kW, {rated:.0} rpm\nlaw = \"linear\"");
     say!(text, "torque_at_rest_N_m = {at_rest:?}\nslope_N_m_s = {slope:?}");
     say!(
         text,
         sentences::ratio_efficiency(&format_args!("{:?}", geared.ratio), &format_args!("{:?}", geared.efficiency))
     );
+    say!(text, "rated_torque_N_m = {torque:?}");
+    if let Some(rotor) = motor.rotor {
+        say!(text, "rotor_inertia_kg_m2 = {rotor:?}");
+    }
     text
 }
 
@@ -76,11 +86,13 @@ pub(crate) fn json(scenario: &Scenario, choice: &MotorChoice) -> String {
         "motor": {
             "name": motor.name, "power_W": motor.power, "rated_rad_s": motor.rated_speed,
             "synchronous_rad_s": motor.synchronous_speed, "rated_N_m": motor.rated_torque(), "breakdown_ratio": motor.breakdown,
+            "rotor_inertia_kg_m2": motor.rotor,
             "torque_at_rest_N_m": at_rest, "slope_N_m_s": slope,
         },
         "ratio": geared.ratio, "efficiency": geared.efficiency,
         "shaft_mean_N_m": choice.mean_torque(), "shaft_peak_N_m": choice.peak_torque(),
         "averaged_crank_rad_s": choice.averaged, "averaged_motor_rad_s": choice.averaged * geared.ratio,
+        "motor_limits": limits_json(&choice.limits()),
         "steady_mean_rad_s": choice.regime.mean_speed, "non_uniformity": choice.regime.non_uniformity(),
     }))
 }

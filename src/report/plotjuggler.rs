@@ -1,4 +1,4 @@
-//! A layout for PlotJuggler, which reads the recording by itself: plots of both sides and of their errors.
+//! A layout for PlotJuggler, which loads the recording: plots of reference, engine and errors.
 
 use std::path::Path;
 

@@ -6,9 +6,11 @@ use serde_json::json;
 use super::pretty::{list, pretty};
 use crate::plain::cells::table;
 use design::diagram::timing::{Stretch, TimingDiagram};
+use design::draw;
 use design::synthesize::achieved::{BAND, PhaseDone};
 use design::synthesize::task::{OutputQuantity, Phase, Sense, Task};
 use design::synthesize::{Achieved, SearchResult};
+use drawing::paper::document::Drawing;
 use prover::numbers;
 
 /// A task, its result, and the search that found it.
@@ -22,7 +24,7 @@ pub(crate) struct Story<'a> {
 }
 
 /// The stroke with its unit.
-fn stroke(task: &Task, achieved: &Achieved) -> String {
+pub(super) fn stroke(task: &Task, achieved: &Achieved) -> String {
     match task.output {
         OutputQuantity::Angle { .. } => numbers::fixed_in(achieved.stroke.to_degrees(), 4, "deg"),
         OutputQuantity::Coordinate { .. } => numbers::fixed_in(achieved.stroke * 1e3, 4, "mm"),
@@ -100,16 +102,17 @@ pub(crate) fn json(story: &Story) -> String {
     }))
 }
 
+/// Required and achieved motion as a picture.
+pub(crate) fn picture(story: &Story) -> Drawing {
+    draw::timing(&diagram(story), &story.task.title)
+}
+
 /// Data of the picture: a point for every half degree, and the required curve at the angles where the task states it.
 pub(crate) fn diagram(story: &Story) -> TimingDiagram {
     let (task, achieved) = (story.task, story.achieved);
     let rows = (0..achieved.turns.len()).step_by((achieved.turns.len() / 720).max(1));
-    let share = |crank: f64| {
-        let row = achieved.turns.iter().position(|&turn| turn >= crank);
-        achieved.shares[row.unwrap_or(achieved.shares.len() - 1)]
-    };
     let stretch = |(phase, done): (&Phase, &PhaseDone)| {
-        let (start, moves) = (share(phase.from), format!("{:+.1} %", 100.0 * done.displacement));
+        let (start, moves) = (achieved.share(phase.from), format!("{:+.1} %", 100.0 * done.displacement));
         let (way, figure) = match phase.sense {
             Sense::Dwell => (0.0, format!("moves {:.2} %", 100.0 * done.motion)),
             Sense::Forward => (phase.least, moves),
@@ -119,7 +122,7 @@ pub(crate) fn diagram(story: &Story) -> TimingDiagram {
             from: phase.from,
             to: phase.to,
             word: phase.sense.name(),
-            rests: phase.sense == Sense::Dwell,
+            sign: phase.sense.sign(),
             figure,
             least: [start, phase.level.unwrap_or(start + way)],
         }

@@ -12,7 +12,9 @@ use linkage::trajectory::Trajectory;
 ///
 /// # Errors
 /// [`Io`](linkage::error::ErrorKind::Io) if the table cannot be written.
-pub(crate) fn csv<R: IntoIterator<Item = String>>(rows: impl IntoIterator<Item = R>) -> linkage::error::Result<String> {
+pub(crate) fn as_csv<R: IntoIterator<Item = String>>(
+    rows: impl IntoIterator<Item = R>,
+) -> linkage::error::Result<String> {
     let failed = |error: csv::Error| {
         linkage::error::Error::new(linkage::error::ErrorKind::Io, sentences::the_table_cannot_be_written(&error))
     };
@@ -27,7 +29,7 @@ pub(crate) fn csv<R: IntoIterator<Item = String>>(rows: impl IntoIterator<Item =
 /// # Errors
 /// The errors of [`cam::table`], and [`Io`](linkage::error::ErrorKind::Io) if the table cannot be written.
 pub(crate) fn cams(case: &Case) -> linkage::error::Result<String> {
-    csv(cam::table(case)?)
+    as_csv(cam::table(case)?)
 }
 
 /// Writes time, crank angle, then all channels of a solution.

@@ -8,8 +8,16 @@ linkage::sentences! {
     THE_STRUCTURE_DOES_NOT_MOVE = "the file has no drive, so nothing moves";
     MODES_LISTS_THEM = "`--modes` lists them, `linkproof draw --each-mode` draws them\n";
     TAKE_IT_OUT_OR_ADD_A_DRIVE = "leave the option out, or add a `[drive]`";
-    there_is_no_joint_called(name) = "there is no joint \"{name}\"";
-    give_one_of_the_joints(names) = "give one of {names}, or `all`";
+    there_is_no_link_or_joint_called(name) = "there is no link or joint \"{name}\"";
+    did_you_mean(near) = "did you mean \"{near}\"? ";
+    give_a_driving_link_or_a_joint(links, joints) = "give a link on the ground ({links}), a joint ({joints}), or `all`";
+    THE_GROUND_IS_NO_DRIVING_LINK = "the ground stands still, so it cannot be the driving link";
+    the_link_has_no_joint_with_the_ground(name) = "\"{name}\" has no joint with the ground, so it cannot be the driving link";
+    give_a_link_on_the_ground_or_a_joint(links, joints) = "give a link on the ground ({links}); or drive it relative to a neighbour, at one of its joints ({joints})";
+    another_drive_moves_the_joint(joint) = "another drive already moves the joint \"{joint}\"";
+    GIVE_A_JOINT_WITHOUT_A_FURTHER_DRIVE = "only the first drive is replaced: give a joint that no further drive moves";
+    A_DRAWING_SHOWS_THE_GROUPS = "a drawing shows the groups of one structure";
+    LEAVE_IT_OUT_OR_WRITE_JSON = "leave it out or give one link, or write a .json";
     // cli/advice.rs
     such_as(name, to) = ", such as {name} {to}";
     ALL_OF_THEM_WITH_JSON = "-o FILE.json lists all of them";
@@ -51,8 +59,8 @@ linkage::sentences! {
     comparing_rows(rows) = "comparing {rows} rows";
     the_table(path) = "the table {path}";
     LEAVE_IT_OUT = "leave it out";
-    LEAVE_IT_OUT_OR_ADD_MODES = "leave it out, or add --modes";
-    ONLY_MODES_HAS_AN_INSTANT = "only --modes lists configurations at an instant";
+    LEAVE_IT_OUT_OR_ADD_MODES = "leave it out, add --modes, or write a drawing";
+    ONLY_MODES_HAS_AN_INSTANT = "only --modes and drawings show an instant";
     NEITHER_OF_THE_TWO_IS_A_RECORDING = "neither A nor B is a recording";
     BOTH_ARE_SCENARIOS_WHICH_ARE_SOLVED = "A and B are scenarios: each is solved at the requested instants, so interpolation is not needed";
     MAP_IS_FOR = "use --map for B";
@@ -68,7 +76,7 @@ linkage::sentences! {
     // cli/draw.rs
     each_mode_draws_all_configurations(own) = "{own}: --each-mode draws all configurations, with their names";
     LEAVE_IT_OUT_OR_WRITE_A_PNG = "leave it out, or write a .png, .gif or .webp";
-    AN_SVG_HAS_NO_PIXELS = "an SVG has no pixels";
+    AN_SVG_HAS_NO_PIXELS = "an SVG or a PDF has no pixels";
     WRITE_AN_SVG_OR_A_PNG = "write an SVG or a PNG";
     AN_ANIMATION_SHOWS_ONE_CONFIGURATION = "an animation shows one configuration, but all of them are requested";
     LEAVE_IT_OUT_OR_WRITE_A_GIF = "leave it out, or write a .gif or a .webp";
@@ -84,6 +92,11 @@ linkage::sentences! {
     step_deg_is(step_deg) = "--step-deg is {step_deg}";
     // cli/engine_section.rs
     CHECK_THAT_THE_FILE_MAY_BE_WRITTEN = "check that the file is writable, or copy the section by hand";
+    // cli/graph.rs
+    TWO_LENGTHS_WITH_A_COMMA = "two lengths in millimetres with a comma, such as 160,70";
+    expected_a_size(least, most) = "expected a width and a height from {least} to {most} mm, such as 160,70";
+    is_an_analytic_side_and_no_engine(side) = "the solver {side} is an analytic side, but the second party must be an engine";
+    name_an_engine_or_leave_with_out(engines) = "name an engine by --with ({engines}), or leave --with out";
     // cli/grid.rs
     is_not_a_number(part, expected) = "\"{part}\" is not a number; {expected}";
     is_not_finite(part, expected) = "\"{part}\" is not finite; {expected}";
@@ -112,9 +125,9 @@ linkage::sentences! {
     live_shows_one_scenario_but_are_given(files) = "--live shows one scenario, but {files} are given";
     // cli/live/server.rs
     ctrl_cannot_be_waited_for(found) = "cannot wait for Ctrl-C: {found}";
-    live_lichtblick_or_foxglove_open(address, pace, layout) = "\nlive       {address}{pace}\n           Lichtblick or Foxglove: Open connection, Foxglove WebSocket, this address;\n           Foxglove directly: https://app.foxglove.dev/?ds=foxglove-websocket&ds.url={address}\n           {layout}\n           Ctrl-C ends it\n";
+    live_lichtblick_or_foxglove_open(address, pace, layout) = "\nlive       {address}{pace}\n           Lichtblick or Foxglove: choose Open connection > Foxglove WebSocket, and enter this address;\n           Foxglove directly: https://app.foxglove.dev/?ds=foxglove-websocket&ds.url={address}\n           {layout}\n           Ctrl-C ends it\n";
     A_LAYOUT_IS_WRITTEN_BESIDE = "no layout: a layout is written beside a recording, but --no-record is set";
-    then_layouts_import_from_file(layout) = "then Layouts, Import from file: {layout}";
+    then_layouts_import_from_file(layout) = "then choose Layouts > Import from file: {layout}";
     NAME_ANOTHER_ADDRESS_AS_LIVE = "name another address as --live=HOST:PORT; with port 0 the program takes a free port";
     viewers_cannot_be_served_at(address, found) = "viewers cannot be served at {address}: {found}";
     // cli/live/viewer.rs
@@ -165,11 +178,15 @@ linkage::sentences! {
     expected_found(expected, found) = "expected {expected}; found {found}";
     is_standard_output_as(form) = " `-` writes {form} to standard output; `-.ENDING` writes another form to it.";
     write_to_a_file_by_its_ending(contents, standard) = "Write results to a file, by its ending: {contents}.{standard} May be given several times";
+    // cli/outputs.rs: forms of drawings
+    SVG_PDF_OR_PNG = ".svg, .pdf or .png";
     // cli/plan.rs
+    LEAVE_OUT_CENTRES = "leave out --centres";
+    has_links_and_centres_are_shown_for(name, links, most) = "{name} has {links} links with the ground, but instant centres are shown for at most {most}";
     LEAVE_OUT_POINTS_THAT_THE_PLAN = "leave out points that the plan does not need; `linkproof solve` gives the numbers of all points";
-    has_points_and_a_plan_has_a_vector(name, count, points) = "{name} has {count} points, but a plan can have at most {points}: it has a vector for every pair of points";
+    has_points_and_a_plan_has_a_vector(name, count, points) = "link {name} has {count} points, but a link in a plan can have at most {points}: the plan has a vector for every pair of them";
     // cli/record_args.rs
-    it_is_large_record_hz_would(fewer, files) = "\n           it is large; --record-hz {fewer} would reduce it to about {files}";
+    it_is_large_record_hz_would(fewer, files) = "\n           the recording is large; --record-hz {fewer} would reduce it to about {files}";
     THE_ENGINE_IS_AT_WORK_ITS_SIDE = "the engine is running; its results appear when the proof is done";
     it_is_kept_linkproof_view(why, path) = "\n           {why}: it is not overwritten;\n           linkproof view {path} --with foxglove -o OTHER.json writes a new one";
     mcap_is_of_another_run_and_is_kept(scenario, found) = "\n           {scenario}.mcap belongs to another run and is kept: {found}";
@@ -185,7 +202,10 @@ linkage::sentences! {
     // cli/man.rs
     NAME_ANOTHER_DIRECTORY_WITH = "name another directory with -o";
     the_manual_cannot_be_written(to, error) = "the manual cannot be written to {to}: {error}";
-    // cli/solve.rs
+    // cli/sensitivity.rs
+    the_tolerance_is_not_above_zero(key, limit) = "the tolerance of `{key}` must be above zero; found {limit}";
+    is_left_out_because(key, part) = "`{key}` is left out: `{part}` has no known derivative by it";
+    // cli/solving.rs
     leave_out_or_solve_with_one_of(option, name) = "leave out {option}, or solve --with one of: {name}";
     is_a_setting_of_an_engine(option, solver) = "{option} is an engine setting, but {solver} is an analytic solver";
     // cli/stress.rs
@@ -201,18 +221,34 @@ linkage::sentences! {
     linkproof_synthesize_crank_rocker_crank(crank_pivot_mm, crank_pivot_mm_2, pivot_mm, pivot_mm_2, rocker_mm, extreme_deg, swing_deg) = "linkproof synthesize crank-rocker --crank-pivot-mm {crank_pivot_mm},{crank_pivot_mm_2} --pivot-mm {pivot_mm},{pivot_mm_2} --rocker-mm {rocker_mm} --extreme-deg {extreme_deg} --swing-deg {swing_deg}";
     TWO_NUMBERS_WITH_A_COMMA = "two numbers separated by a comma, such as 150,15";
     // cli/synthesize/search.rs
-    CHECK_A_SCENARIO_WITH_THE_SAME = "check a scenario with the same links in the same order, such as one that `linkproof synthesize search` wrote";
-    has_another_structure_than_the_drawing(scenario, args) = "{scenario} does not have the structure of the scenario that {args} names";
     found_by(command, report) = "Found by: {command}\n{report}";
     linkproof_synthesize_search_seed_candidates(args, seed, candidates, refined, evaluations) = "linkproof synthesize search {args} --seed {seed} --candidates {candidates} --refined {refined} --evaluations {evaluations}";
     // cli/synthesize/target.rs
     NAME_ANOTHER_FILE = "name another file";
-    the_scenario_found_would_overwrite(source) = "the scenario found would overwrite its source, {source}";
+    the_scenario_found_would_overwrite(source) = "the new scenario would overwrite {source}, from which it is made";
     // cli/view.rs
     layout_plotjuggler_file_file_being(to) = "layout     {to}\nplotjuggler -l FILE, with the layout above as FILE: the layout loads the recording.\n";
-    layout_open_in_foxglove_or_lichtblick(to, args) = "layout     {to}\n1. Open {args} in Foxglove or Lichtblick (open local file).\n2. Layouts, import from file: the layout above. The mechanism then moves beside its plots.\n";
+    layout_open_in_foxglove_or_lichtblick(to, args) = "layout     {to}\n1. Open {args} in Foxglove or Lichtblick (open local file).\n2. Choose Layouts > Import from file, and open the layout above. The mechanism then moves beside its plots.\n";
     OPEN_THE_FILE_FROM_RERUN = "open the file in Rerun; the file contains the whole scene";
     rerun_viewer_has_not_shown(to, found) = "Rerun's viewer did not show {to}: {found}";
     PYTHON3_PIP_INSTALL_RERUN_SDK = "`python3 -m pip install rerun-sdk`, or use --python to name a Python installation that has rerun-sdk";
     cannot_be_written_by(to, python, found) = "{to} cannot be written by `{python}`: {found}";
+    // cli/exercise.rs
+    EXPECTED_A_SHARE_SUCH_AS = "expected a fraction below 1, such as 5% or 0.05, or `digits`";
+    expected_one_of(words) = "expected {words}";
+    EXPECTED_AT_MOST_50_PER_CENT = "expected at most 50 per cent";
+    EXPECTED_AN_ANGLE_BELOW_90 = "expected an angle below 90 deg";
+    sheets_are_in(count, directory) = "{count} sheets are in {directory}: give out tasks/ and answers/, keep teacher/.\nnext: linkproof mark {directory}\n";
+    GIVE_EVERY_SCENARIO_A_NAME = "give every scenario a unique name, or leave one of the two out";
+    // cli/mark.rs
+    NAME_THE_DIRECTORY_OF_THE_EXERCISE = "name the directory that `linkproof exercise` has written, or tables of answers in its directory `answers`";
+    there_is_no_key_of_a_class(path, key) = "{path} does not belong to an exercise: there is no {key}";
+    a_directory_and_other_paths(directory) = "{directory} is the directory of a whole class, but further paths are given";
+    is_no_sheet_of_this_class(path, key) = "{key} has no sheet with the name of {path}";
+    its_sheets_are(names) = "the first sheets of this class are {names}";
+    // cli/sweep.rs
+    the_proof_of_a_case_disagrees(case, file, sets) =
+        "case {case}: the proof disagrees. The sweep has stopped; its finished parts are stored.\n\
+         Repeat the proof of this case: linkproof run {file}{sets}";
+    repeat_a_case(file, sets) = "next  linkproof run {file}{sets}";
 }

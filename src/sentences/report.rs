@@ -2,8 +2,26 @@
 
 linkage::sentences! {
     // draw/media.rs
-    EXPECTED_A_FILE_THAT_ENDS = "expected a file that ends in .svg, .png, .gif or .webp, or `-`";
-    no_pictures_end_in_expected(other) = "unknown picture type .{other}; expected .svg, .png, .gif or .webp";
+    EXPECTED_A_FILE_THAT_ENDS = "expected a file that ends in .svg, .pdf, .png, .gif or .webp, or `-`";
+    no_pictures_end_in_expected(other) = "unknown picture type .{other}; expected .svg, .pdf, .png, .gif or .webp";
+    AN_ANIMATION_SHOWS_ONE_POSITION = "an animation shows one position at a time";
+    GROUPS_ARE_DRAWN_AT_ONE_INSTANT = "groups are drawn apart at one instant, without paths and loads";
+    ALL_CONFIGURATIONS_HAVE_ONE_INSTANT = "all configurations are drawn as a whole, at one instant";
+    MAKE_TWO_PICTURES = "make two pictures";
+    positions_are_requested(count) = "{count} positions are requested";
+    give_positions_between(least, most) = "give a number from {least} to {most}";
+    // draw/motion.rs
+    THE_GRID_HAS_ONE_INSTANT = "the driving link does not turn fully, and the grid has only one instant";
+    GIVE_A_GRID_OVER_THE_MOTION = "give a grid that covers the motion";
+    // draw.rs
+    formula_and_class(formula, class) = "{formula}, class {class}";
+    // draw/positions.rs
+    positions_apart(count, apart, from) = "{count} positions, {apart} apart, from {from}";
+    position_drawn_fully(number) = "position {number} drawn fully";
+    position_number(number) = "position {number}";
+    path_of_a_point(name, ratio) = "path of {name}, scale {ratio}";
+    the_scale_is(ratio) = "scale {ratio}";
+    wide_and_high(wide, high) = "{wide} mm wide, {high} mm high";
     // draw/subject.rs
     DOES_NOT_CLOSE = " (does not close)";
     AS_IN_THE_FILE = " (as in the file)";
@@ -13,7 +31,39 @@ linkage::sentences! {
     no_drive_could_be_read_drawn(draft, link) = "{draft}: no drive could be read; drawn with \"{link}\" as the driven link";
     and_more(more) = "and {more} more";
     only_the_first_configurations_are_drawn(most) = "only the first {most} configurations are drawn";
+    driven_at_joint(headline, joint) = "{headline}, driven at {joint}";
     joint_stays_open_by_mm(name, significant) = "joint {name} stays open by {significant} mm";
+    // graph.rs
+    GIVE_A_NAME_FOR_EACH_CURVE = "give a name for each curve, in the order of the charts, or leave the names out";
+    names_are_given_for_curves(names, curves) = "{names} names are given, but {curves} curves are drawn";
+    // graph/ask.rs
+    is_a_chart_of_its_kind(word) = "the chart \"{word}\" cannot have further curves";
+    ASK_FOR_IT_ALONE = "ask for it in a separate chart";
+    A_PATTERN_SUCH_AS_JOINT_F_N = "a pattern has a name's ending, such as joint.*.f_N or link.*.omega_rad_s";
+    no_channel_fits(pattern) = "no channel fits the pattern {pattern}";
+    is_one_number_and_no_curve(name) = "{name} is one number for the whole mechanism, not a curve";
+    NAME_CHANNELS_THAT_CHANGE = "name channels, which change during the motion";
+    there_is_no_vector(name) = "there is no vector {name}";
+    // graph/curve.rs
+    the_horizontal_axes_differ(one, unit, other, other_unit) = "the horizontal axes differ: {one}, {unit} and {other}, {other_unit}";
+    DRAW_OVER_TIME_OR_EACH_ALONE = "draw over the time, or draw each scenario alone";
+    // graph/curves.rs
+    minus(one, other) = "{one} minus {other}";
+    formula(name) = "formula {name}";
+    MECHANISM = "mechanism";
+    A_DIFFERENCE_HAS_NO_HODOGRAPH = "a difference has no hodograph";
+    DRAW_BOTH_OR_THE_COMPONENTS = "draw both parties, or the difference of the components";
+    // graph/under_motor.rs
+    has_no_motor(name) = "{name} has no motor, so nothing runs up";
+    ADD_A_MOTOR_TO_THE_DRIVE = "add a motor to the drive of the scenario";
+    there_is_no_averaged_curve(name) = "{name}: no averaged curve, because the motor's law is not a straight line, or the motor cannot start against the mean resistance";
+    EXACT_MODEL = "equation of motion";
+    AVERAGED_MODEL = "averaged, closed form";
+    ANGULAR_VELOCITY_OF_THE_CRANK_2 = "angular velocity of the crank";
+    ANGULAR_VELOCITY_OF_THE_MOTOR = "angular velocity of the motor";
+    has_no_balancing_moment_of_one_drive(name) = "{name} does not have exactly one drive with a balancing moment";
+    TAKE_A_SCENARIO_WITH_ONE_DRIVE_2 = "draw it for a scenario with one driven crank or slide";
+    RELATIVE_DIFFERENCE_OF_THE_BALANCING_MOMENT = "relative difference of the balancing moment";
     // testing.rs
     GIVE_EVERY_INSTANT_ONCE_CRANK = "give every instant only once, as a crank angle (rad) or as a time (s)";
     the_grid_cannot_be(message) = "invalid grid: {message}";
@@ -82,21 +132,21 @@ linkage::sentences! {
     zero_instead_of(of) = "zero instead of {of}";
     half_the_values_of(of) = "half the values of {of}";
     twice_the_values_of(of) = "twice the values of {of}";
-    half_turns_too_much_or_too(of) = "half turns too much or too little in {of}, as an arc tangent of a quotient gives";
-    whole_turns_too_much_or_too(of) = "whole turns too much or too little in {of}";
+    half_turns_too_much_or_too(of) = "half turns too many or too few in {of}, as from an arc tangent of a quotient";
+    whole_turns_too_much_or_too(of) = "whole turns too many or too few in {of}";
     the_opposite_sign_of(of) = "the opposite sign of {of}";
     times_the_values_of(number, of) = "{number} times the values of {of}";
     less_and_more_in_place_of_counted(first, second, amount, of) = "{first} minus {second} plus {amount} instead of {of}: measured from another link";
     less_in_place_of_counted(first, second, of) = "{first} minus {second} instead of {of}: measured from another link";
     and_exchanged_2(one, other) = "{one} and {other} exchanged";
-    the_clock_of_all_rows_is_too(how, by) = "the clock of all rows runs too {how}: the time of a row is {by} times the time of its values";
+    the_clock_of_all_rows_is_too(how, by) = "the clock runs too {how}: in every row, the stated time is {by} times the time at which the values occur";
     another_unit_of_time_times(told, number) = "time in another unit: {told}, {number} times the time of a row";
     one_row_alone_at_in_an_outlier(number, of) = "one row alone, at t = {number} s, in {of}: an outlier";
     about_instead_of(of, to, from) = "{of} taken about {to} instead of {from}";
     about_instead_of_the_origin(of, to) = "{of} taken about {to} instead of the origin";
     about_another_point_by_away(of, number, number_2) = "{of} taken about another point, ({number}, {number_2}) m away";
     the_coriolis_acceleration_of_the_block(joint, of) = "the Coriolis acceleration of the block at {joint} is missing in {of}";
-    differences_of_over_or_such_of_its_like(order, other, over, of) = "{order}finite differences of {other} (or of the corresponding channel) over {over} instead of {of}: use a finer row spacing";
+    differences_of_over_or_such_of_its_like(order, other, over, of) = "{order}finite differences, such as those of {other}, over {over} instead of {of}: use a finer row spacing";
     the_magnitude_of_and_in_place(one, other, of) = "the magnitude of {one} and {other} instead of {of}";
     the_values_of_with_the_opposite(other, of) = "the values of {other} with the opposite sign instead of {of}";
     the_values_of_in_place_of(other, of) = "the values of {other} instead of {of}";
@@ -110,7 +160,7 @@ linkage::sentences! {
     nobody_stand_against(one, other) = "no single party: the parties {one} disagree with {other}";
     all_others_agree_with_each(name) = "{name}; all others agree with each other";
     NOBODY_EACH_IS_WITHIN_THE_BOUNDS = "no party: any two parties agree within their bounds";
-    which_explains_as_much(cause) = "{cause}; this explains equally much";
+    which_explains_as_much(cause) = "{cause}: an equally good explanation";
     no_single_one_a_part_is_explained(cause) = "no single cause found; this cause explains a part of the difference: {cause}";
     that_explains_all_to_within(cause, wrong) = "{cause}; this explains all {wrong} to within their bounds";
     nothing_simple_changed_cases_and_all(solved) = "not found: neither {solved} modified cases nor any simple slip explains the difference";
@@ -122,8 +172,8 @@ linkage::sentences! {
     THE_ENGINE_MOTION_AND_THE_FORCES_THAT_IT_EXERTS = "The engine's motion and the forces that it exerts agree. The forces computed from this motion with the Newton-Euler equations are wrong.";
     channels_at_most(own, own_2, numbers) = "{own} channels {own_2}, the worst: {numbers}";
     of_in(error, bound, channel) = "{error} with a bound of {bound} in {channel}";
-    in_channels_no_single_one_stands(count, channel, pairs) = "In {count} channels no single party can be blamed, first in {channel}: {pairs} differ.";
-    the_odd_one_out_in_channels(alone, party, channel) = "The odd one out in {alone} channels is {party}, first in {channel}.";
+    in_channels_no_single_one_stands(count, channel, pairs) = "In {count} channels the disagreement cannot be assigned to one party. In the first, {channel}, {pairs} differ.";
+    the_odd_one_out_in_channels(alone, party, channel) = "{party} alone disagrees with all others in {alone} channels, first in {channel}.";
     NO_TWO_OF_THEM_DIFFER_BY_MORE = "Any two of these parties differ by at most the sum of their bounds.";
     // plain/judged.rs
     THE_ENGINE_OWN_FORCES = "the forces that the engine itself exerts";
@@ -185,7 +235,7 @@ linkage::sentences! {
     IT_COUNTS_NONE_OF_THESE = "; does not report this cost";
     BALANCING_MOMENT_SHAKING_FORCE_AND_MOMENT = "balancing moment, shaking force and moment";
     NO_SETTING_THAT_ANSWERED_COUNTS = "no successful setting reports this cost";
-    SWEEPS_FACTORISATIONS_ITERATIONS_OR_GROUPS = "sweeps, factorisations, iterations or groups";
+    SWEEPS_FACTORISATIONS_ITERATIONS_OR_GROUPS = "sweeps, factorisations, iterations or placed groups";
     EVALUATIONS_OR_STEPS_AND_PROBES = "evaluations, or steps and probes, or poses";
     TIME_OVER_THAT_OF_SIDE_ASSUR = "time relative to side 1 (assur)";
     error_against(name, axis, about) = "{name}: error against {axis}. {about}";
@@ -199,10 +249,14 @@ linkage::sentences! {
     formula_mechanism(word, place, found, right) = "\n  {word:6} {place}: formula {found}, mechanism {right}";
     at_instant(at, fixed) = "{at}, t = {fixed} s";
     is_not(of, judged, formula, claim, side) = "{of}{judged} = {formula}\n  is not {of}{claim} ({side})";
+    is_wrong_as_the_finding_says(name, place) = "{name}: wrong as printed, see {place}";
+    agrees_although_the_finding(name, place) = "{name} agrees with the mechanism, although {place} calls it wrong: correct the finding or the formula";
+    and_wrong_as_printed(right, wrong) = "{right} right and {wrong} wrong as printed";
     SOMETHING_IS_OPEN = "not all formulas could be decided";
     of_wrong(names, counted) = "{names} of {counted} wrong";
     and_contradict_each_other(first, second) = "{first} and {second} disagree with each other";
-    at_and(claims, instants, first, second) = "{claims} right at {instants} ({first}, {second})";
+    at_and(claims, instants, first, second) = "{claims} at {instants} ({first}, {second})";
+    all_right(claims) = "{claims} right";
     CAUSE_NONE_THAT_IS_SIMPLE = "  cause  not found: no single slip, offset, factor or missing term explains it.";
     cause_not_found(cut) = "  cause  not found: {cut}.";
     cause_with_that_nothing_is_left(found) = "  cause  {found}.\n         This explains the whole difference.";
@@ -214,7 +268,7 @@ linkage::sentences! {
     not_proven_from_to(from, to, why) = "not proven from {from} to {to}: {why}";
     THE_MECHANISM_IS_SINGULAR_THERE = "the mechanism is singular there, or the work limit was reached";
     the_area_of_is_known_to_only_the_work(name, numbers) = "the area of {name} is known only to {numbers}: the work limit was reached";
-    no_distance_is_smaller_by_more(numbers) = "true distances are smaller by at most {numbers} mm";
+    no_distance_is_smaller_by_more(numbers) = "the true distances are smaller than these by at most {numbers} mm";
     NO_TWO_BODIES_CAN_MEET_ALL = "no two bodies can meet: all links are joined, and there is no housing\n";
     clearance_over_to(scenario, scenario_2, noun, from, to) = "{scenario}: {scenario_2}\n\nclearance over {noun}s {from} to {to}\n";
     // report/closed_form.rs
@@ -229,6 +283,9 @@ linkage::sentences! {
     crank_oa_coupler_ab_rocker(crank, coupler, rocker) = "  crank OA      {crank:.6} m\n  coupler AB    {coupler:.6} m\n  rocker CB     {rocker:.6} m";
     CRANK_ROCKER_FROM_TWO_EXTREME_POSITIONS = "crank-rocker from two extreme positions\n";
     // report/diagram.rs
+    construction_scale_of_time(sort, scale) = "\nconstruction by {sort}   mu_t = {scale} s/mm";
+    rays_from_the_pole(method, from, given, unit, to, pole, scale, unit_2) = "\n{method}   mu_{from} = {given} {unit}, pole distance H = {pole} mm, mu_{to} = {scale} {unit_2}";
+    areas_of_width(method, from, given, unit, to, pole, scale, unit_2) = "\n{method}   mu_{from} = {given} {unit}, 1 mm of ordinate for {pole} mm², mu_{to} = {scale} {unit_2}";
     orders_of_the_rms_error_from_to_and_from_to_divisions(n, n_2, n_3, n_4) = "\norder: observed order of convergence of the rms error, from {n} to {n_2} and from {n_3} to {n_4} divisions";
     OF_HALF_RANGE = "of half range";
     half_range(channel, half, unit) = "  {channel:28} half range {half:>10} {unit}";
@@ -284,9 +341,20 @@ linkage::sentences! {
     class_order_mode(links, class, order, pairs, mode) = "{links}: class {class}, order {order}, {pairs}, mode {mode}";
     BASIS_OF_THE_BOUND = "basis of the bound";
     // report/drivers.rs
-    STRUCTURE_FOR_OTHER_DRIVEN_JOINTS = "structure for each joint, if the first drive moves it\n";
-    driven_at(joint, class, formula) = "  {joint:14} class {class}: {formula}";
-    not_driven_at(joint, why) = "  {joint:14} not possible: {why}";
+    STRUCTURE_FOR_OTHER_DRIVEN_JOINTS = "structure for each driven joint in place of the first drive\n";
+    a_drawing_shows_one_driver(count) = "the link has {count} joints with the ground, but a drawing shows the groups for one driven joint";
+    GIVE_THE_JOINT_INSTEAD = "give the joint instead of the link";
+    COLUMNS_OF_DRIVERS = "driving link, joint, class, structure";
+    driver_at(links, joint, kind) = "driver     {links} at joint {joint} ({kind})\n";
+    not_possible(why) = "not possible: {why}\n";
+    A_CHAIN_OF_DYADS = ", a chain of dyads";
+    driven_in_the_file(joint, class) = "; driven at joint {joint} as in the file: class {class}";
+    class_of_the_mechanism(class, dyads, before) = "class      {class}{dyads}{before}\n";
+    structure_and_numbers(formula, numbered, numbers) = "structure  {formula}\n           {numbered}\nlinks      {numbers}\n";
+    GROUPS_IN_THE_ORDER_OF_SOLUTION = "\ngroups in the order of solution\n";
+    a_group(bodies, class, order, pairs, inner, outer) = "  {bodies}: class {class}, order {order}, {pairs}; inner joints {inner}; outer joints {outer}\n";
+    chains_of_dyads(joints) = "a chain of dyads if driven at {joints}\n";
+    numbers_of_links(numbers) = "links: {numbers}\n";
     // report/inspect.rs
     from_the_rough_place_the_next(mm, mm_2) = ", {mm} from the approximate position in the file, the next configuration {mm_2}";
     from_the_rough_place(mm) = ", {mm} from the approximate position in the file";
@@ -314,6 +382,14 @@ linkage::sentences! {
     on_link(quantity, case) = "{quantity} on link {case}";
     on_the_frame(quantity) = "{quantity} on the frame";
     in_on(quantity, of, joint, joint_2) = "{quantity} in {of}, {joint} on {joint_2}";
+    COMPUTED_FROM_CHANNELS = "
+Computed from channels, for formulas and tables:
+  drive.reduced_inertia_kg_m2, drive.reduced_moment_N_m  reduced to the crank
+  link.NAME.dangle_dphi, link.NAME.d2angle_dphi2         transfer functions
+  point.NAME.dx_dphi_m, point.NAME.d2x_dphi2_m           of points, also of links
+  centre.NAME.NAME.x_m, centre.NAME.NAME.y_m             instant centre of two links
+  pole.NAME.x_m, pole.NAME.y_m                           acceleration pole of a link
+";
     of_link(quantity, of) = "{quantity} of link {of}";
     no_scenario_files_toml_in(directory) = "no scenario files (.toml) in {directory}";
     cannot_be_read_3(error) = "cannot be read: {error}";
@@ -335,6 +411,11 @@ linkage::sentences! {
     // report/motor_choice.rs
     ratio_efficiency(ratio, efficiency) = "ratio = {ratio}\nefficiency = {efficiency}";
     periodic_crank_rad_non_uniformity(mean, off_mean, unrest) = "  periodic  crank {mean:.6} rad/s ({off_mean:+.2} %), non-uniformity {unrest:.4}";
+    rotor_inertia(rotor) = "  rotor     {rotor}";
+    ROTOR_WITHOUT_INERTIA = "  rotor     without inertia: the catalogue has no rotor_inertia_kg_m2";
+    the_motor_turns_faster_than(speed, synchronous) = "note: the motor reaches {speed}, above its no-load speed {synchronous}: there it brakes the mechanism as a generator";
+    the_linear_law_asks_for(torque, share, speed, most) = "note: at {speed} of the motor, the linear law gives {torque}, {share:.1} times the rated torque; the breakdown torque of induction motors is at most {most} times the rated torque: the law describes the stable branch only";
+    the_motor_turns_below_breakdown(speed, breakdown) = "note: the motor falls to {speed}, below its breakdown speed {breakdown}: there it stalls under a constant load";
     steady_speed_averaged_crank_rad(averaged, off_averaged, geared_up) = "steady speed\n  averaged  crank {averaged:.6} rad/s ({off_averaged:+.2} % from the required speed), motor {geared_up:.4} rad/s";
     breakdown_of_it(breakdown, breakdown_2, holds) = "  breakdown {breakdown}, {breakdown_2} times the rated torque: {holds}";
     ABOVE_THE_PEAK = "above the peak";
@@ -345,23 +426,32 @@ linkage::sentences! {
     asked_kw_with_an_efficiency(asked, efficiency) = "  required  {asked} at an efficiency of {efficiency}";
     power_peak_at_times_rad_kw(peak, at, wanted, power) = "power\n  peak      {peak} at {at}; multiplied by the required speed of {wanted:.6} rad/s: {power}";
     // report/mutate.rs
-    OPEN_IN_THE_TRUNK = "Not found in the part that all parties share (trunk):";
+    OPEN_IN_THE_TRUNK = "Not found in the code and data that all parties share:";
     NOT_FOUND_IN_ONE_PARTY = "Not found in one party:";
     the_formula_for(formula, wrong, right) = "the formula {formula}, `{wrong}` instead of `{right}`";
     EVERY_COMPARISON_AGREES = "every comparison agrees";
     of_found_inconclusive_escaped_change(found, real, what, part, inconclusive, escaped, equivalent) = "{found} of {real} {what} found ({part}), {inconclusive} inconclusive, {escaped} escaped; {equivalent} without effect";
-    in_the_trunk_of_kinds_are_found(found, all, percent) = "; in the part that all parties share (trunk) {found} of {all} kinds are found by outside references ({percent})";
+    in_the_trunk_of_kinds_are_found(found, all, percent) = "; in the code and data that all parties share, independent evidence finds {found} of {all} kinds of fault ({percent})";
     FAULTS_IN_ONE_PARTY = "faults in one party";
     NOTHING_PLANTED_NO_FAULT_OF_THE_KINDS = "NOTHING PLANTED  no fault of the requested kinds changes a result, so detection is not tested";
     LEAST_MARGIN_DIFFERENCE_OVER_ITS_BOUND = "least margin: the smallest ratio of difference to bound over all found faults of a kind in one party or formula; for each fault the channel or check with the largest ratio counts.
 found down to: faults larger than this are found in every scenario, to a factor of two; relative sizes, angles in rad.";
-    no_fault_of_the_kinds_asked(name, instead, formulas) = "{name}: no fault of the requested kinds changes a result; kinds that do: {instead}{formulas}\n";
+    no_fault_of_the_kinds_asked(name, instead, formulas) = "{name}: no fault of the requested kinds changes a result; kinds that change one: {instead}{formulas}\n";
     NO_FORMULA_OF_IT_CLAIMS_AN_EXACT = "; no formula of the scenario claims an exact value, so formula faults cannot be planted";
     // report/plan.rs
     omega_rad_alpha_rad(link, name, omega, alpha) = "  {link} {name:14} omega {omega:>10} rad/s   alpha {alpha:>10} rad/s²";
-    a_on_the_first_on_the_second(shown, shown_2) = "  a_S {shown} m/s² on the first base link, {shown_2} m/s² on the second";
-    on_both_base_links(shown) = "  v_S {shown} m/s on both base links";
-    singular_point_of_the_class(point, shown) = "\nsingular point of the class IV group   S = {point} at {shown} m";
+    a_on_the_first_on_the_second(shown, shown_2) = "  a_Σ {shown} m/s² on the first base link, {shown_2} m/s² on the second";
+    on_both_base_links(shown) = "  v_Σ {shown} m/s on both base links";
+    on_the_base_link(velocity, acceleration) = "  v_Σ {velocity} m/s, a_Σ {acceleration} m/s² on the base link";
+    false_position(link, alpha, at) = "  false position for alpha of link {link} = {alpha} rad/s²: a_Σ {at} m/s²";
+    lines_of_positions_meet(at, link, alpha) = "  line of false positions and line of true positions meet at {at} m/s²: alpha of link {link} = {alpha} rad/s²";
+    turned_by_deg_on_paper(sense) = "on paper turned by 90 deg {sense}, against the driving link; x and y are not turned";
+    INSTANT_CENTRES_OF_ALL_PAIRS = "\ninstant centres P of all pairs of links (0 is the ground), acceleration centres π";
+    NOWHERE = "nowhere: it translates";
+    EVERYWHERE = "everywhere: no motion";
+    acceleration_centre_of_link(link) = "acceleration centre of link {link}";
+    largest_relative_velocity_at_a_centre(velocity) = "largest difference of the solved velocities of both links at their centre: {velocity} m/s";
+    singular_point_of_the_class(class, point, shown) = "\nsingular point of the class {class} group   Σ = {point} at {shown} m";
     singular_point(error) = "\nsingular point: {error}";
     plan_pole_mu_mm(word, plan, symbol, scale, unit) = "\n{word} plan   pole {plan}, mu_{symbol} = {scale} ({unit})/mm";
     kinematic_diagram_mu_mm(scale) = "kinematic diagram   mu_l = {scale} m/mm";
@@ -378,6 +468,23 @@ found down to: faults larger than this are found in every scenario, to a factor 
     frame_driving_link_coupler_output(frame, driver, coupler, output) = "           frame {frame:.6} m, driving link {driver:.6} m, coupler {coupler:.6} m, output link {output:.6} m";
     // report/schema.rs
     SCENARIO_OF_LINKPROOF = "Scenario of linkproof";
+    // report/sensitivity.rs
+    KINK = "kink";
+    per_unit(number, unit) = "{number} per {unit}";
+    figure_over_all_instants(figure, value) = "{figure} = {value}, over all instants";
+    figure_at_instants(figure, value, instants) = "{figure} = {value} at {instants}";
+    another_extreme_is_as_large(instant) = "kink: {instant} has an equal extreme, so the derivatives hold only for changes after which the first instant still has the extreme";
+    THE_FIGURE_HAS_A_KINK = "kink: the figure is an absolute value or a magnitude at zero, so it has no derivatives";
+    further_keys(count) = "{count} further keys: a table (.csv) contains all";
+    INSTANTS_KEEP_THEIR_INPUTS = "derivatives at constant inputs of the instants";
+    INSTANTS_KEEP_THEIR_TIMES = "derivatives at constant times of the instants";
+    worst_case_and_root_sum_square(worst, root) = "tolerances: worst case {worst}, root of the sum of squares {root}";
+    deviations(sampled, linear, count, seed) = "standard deviation {sampled} of {count} random mechanisms (seed {seed}), {linear} by linear theory";
+    sampled_shift_and_ends(shift, least, greatest) = "random mechanisms: mean shifted by {shift}, from {least} to {greatest}";
+    mechanisms_cannot_be_solved(unsolved, count) = "{unsolved} of {count} random mechanisms cannot be solved and are left out";
+    linear_theory_holds_below(multiple) = "linear theory holds (to 10 % of the standard deviation) below {multiple} times the tolerances";
+    linear_theory_holds_until_unsolved(multiple) = "linear theory holds as far as all random mechanisms can be solved: below {multiple} times the tolerances";
+    linear_theory_holds_beyond(multiple) = "linear theory holds (to 10 % of the standard deviation) up to {multiple} times the tolerances, the largest multiple tried";
     // report/stress/map.rs
     NO_SOLVER_AND_NO_ENGINE_HAS_NUMBERS = "no solver and no engine gives numbers here";
     error_over_the_scale(group) = "{group}: error divided by the channel's scale";
@@ -385,6 +492,29 @@ found down to: faults larger than this are found in every scenario, to a factor 
     no_mechanism_at(at, why) = "  not a valid mechanism at {at}: {why}";
     points_of_results_agree_are_inconclusive(points, silent, panics, verdicts, agree, open, against, fails, refused) = "{points} points: {silent}, {panics}; of {verdicts} results {agree} agree, {open} are inconclusive, {against} disagree, {fails} fail with a reason; {refused} points gave no results, each with its reason";
     NO_SILENT_WRONG_NUMBER = "no silent wrong number";
+    // report/comparison.rs
+    link_with_point(link, point) = "{link}, point {point}";
+    DEVIATION_OF_EXTREMES = "deviation of extreme positions";
+    DWELL_TOO_SHORT = "dwells too short by at most";
+    LARGEST_DWELL_MOTION = "largest motion in a dwell";
+    PERCENT_OF_STROKE = "% of stroke";
+    LARGEST_WRONG_MOTION = "largest motion in the wrong sense";
+    PEAK_ANGULAR_ACCELERATION = "largest angular acceleration of the output";
+    PEAK_POINT_ACCELERATION = "largest acceleration of the output point";
+    DIVIDED_BY_SPEED_SQUARED = "acceleration divided by speed squared";
+    SMALLEST_TRANSMISSION_ANGLE = "smallest transmission angle";
+    LARGEST_REACTION = "largest reaction in a joint";
+    IN_JOINT = "in joint";
+    LARGEST_SHAKING_FORCE = "largest shaking force";
+    LARGEST_DRIVING_TORQUE = "largest driving torque";
+    task_at_one_speed(task, rpm, speed) = "Task {task}: all mechanisms at {rpm} rpm ({speed} rad/s)";
+    outputs_compared(outputs) = "Outputs: {outputs}.";
+    MASSES_OF_EACH_FILE = "Reactions, shaking forces and torques depend on the masses in each scenario.";
+    THE_BEST_OF_A_ROW_IS_MARKED = "* best value of the row";
+    // report/cyclogram.rs
+    drive_of_an_organ(name, stroke, unrest, late) = "drive {name}, stroke {stroke}, motion in dwells up to {unrest:.2} % of the stroke, extremes within {late:.2} deg";
+    MOMENTS_OF_THE_CYCLE = "Moments: the shaft angles at which every organ is in a phase that belongs to the moment.";
+    required_of(name) = "{name}, required";
     // report/synthesize.rs
     a_dwell_ends_where_the_output(value) = "A dwell ends when the output is {value} % of the stroke away from the middle of its extremes. A motion ends at its extreme position.";
     random_candidates_of_them_assembled(drawn, assembled, cost, refined, worst) = "{drawn} random candidates, of which {assembled} can be assembled over the whole turn and nearly keep the limits; best cost {cost}, after refinement {refined} (worst refined candidate {worst})\n";
@@ -426,7 +556,7 @@ found down to: faults larger than this are found in every scenario, to a factor 
     a_proof_at_these_settings_agrees_at_with_sweeps(name, step, sweeps) = "A proof at these settings agrees. {name} at {step} with {sweeps} sweeps meets the error for ";
     error_measured_against_the_reference(engine, error, expected, runs) = "{engine}: error {error} measured against the reference, {expected} expected from its own runs; {runs} runs.";
     costs_more_than_the_cheapest(name) = "{name} costs more than the cheapest engine.";
-    does_not_run_it_with_any(name, hints) = "{name} cannot run this scenario at any settings: {hints} says why.";
+    does_not_run_it_with_any(name, hints) = "{name} cannot run this scenario at any settings; {hints} gives the reason.";
     does_not_meet_it_its_smallest(name, numbers) = "{name} does not reach this error: its smallest error was {numbers}.";
     the_cheapest_settings_within_of_every_channel(within, table) = "The cheapest settings within {within} of every channel's scale:\n{table}\n";
     // report/compare.rs
@@ -445,7 +575,11 @@ found down to: faults larger than this are found in every scenario, to a factor 
     the_input_and_of_channels(noun, disagree, all) = "the {noun} and {disagree} of {all} channels";
     the_input_and_none(noun, all) = "the {noun} disagrees; all {all} channels agree";
     all_channels(agree) = "all {agree} channels agree";
-    THE_REST_IS_OFF_BY_LESS_THAN_A_FIFTIETH = "The other differences are below 2 % of their scale, as an integration method or its time step can cause. Bounds cover only rounding of the data and the uncertainty of the analytic sides: state how accurate the other party is.";
+    THE_REST_IS_OFF_BY_LESS_THAN_A_FIFTIETH = "The other differences are below 2 % of their scale; an integration method or its time step can cause differences of this size. Bounds cover only rounding of the data and the uncertainty of the analytic sides: state how accurate the other party is.";
     ALL_WITHIN_THEIR_BOUNDS = ", all within their bounds";
     and_more_6(more, is_fine) = "\nand {more} more{is_fine}";
+    // report/exercise/key.rs
+    is_not_the_key_of_a_class(place, why) = "{place} is not the key of a class: {why}";
+    expected_format_found(expected, found) = "expected format {expected}, found {found}";
+    is_no_name_of_a_sheet(name) = "\"{name}\" is not a valid name of a sheet";
 }

@@ -70,7 +70,7 @@ impl Folder {
     }
 
     /// Marks tests as ignored: they run only if ignored tests are requested.
-    /// The names are those of the files, without `.toml`.
+    /// `names` are names of scenario files, without `.toml`.
     pub fn ignored<N: Into<String>>(mut self, names: impl IntoIterator<Item = N>) -> Self {
         self.ignored.extend(names.into_iter().map(Into::into));
         self

@@ -126,7 +126,7 @@ def check_keys(tab, count):
         tab.keyboard.press("Space")
         need(playing() == "true", "Space does not play")
         tab.wait_for_timeout(300)
-        need(at() != min(10, count - 1) or count < 60, "what plays does not move")
+        need(at() != min(10, count - 1) or count < 60, "the picture does not move while it plays")
         tab.keyboard.press("Space")
         need(playing() == "false", "Space does not stop")
     if not tab.locator("#picture").count():
@@ -144,7 +144,7 @@ def check_keys(tab, count):
     tab.keyboard.press("Tab")
     for own in ["play", "back", "on", "slider", "speed", "loop"]:
         at = tab.evaluate("() => document.activeElement.id")
-        need(at == own, f"the tabulator reaches {at} before {own}")
+        need(at == own, f"the tab key reaches {at} instead of {own}")
         tab.keyboard.press("Tab")
 
 
@@ -159,7 +159,7 @@ def check_pointer(tab, count):
     box = chart.bounding_box()
     tab.mouse.move(box["x"] + 0.5 * box["width"], box["y"] + 0.3 * box["height"])
     read = chart.locator("xpath=following-sibling::p").inner_text()
-    need(": " in read, f"a chart tells nothing where it is pointed at: {read}")
+    need(": " in read, f"a chart shows no value under the pointer: {read}")
     tab.mouse.click(box["x"] + 0.5 * box["width"], box["y"] + 0.3 * box["height"])
     row = int(tab.evaluate("() => document.getElementById('slider').value"))
     need(0.05 * count < row < 0.95 * count, f"a click on a chart goes to row {row} of {count}")
@@ -172,18 +172,18 @@ def check_play(browser, path):
     tab = browser.new_page(reduced_motion="no-preference")
     tab.goto(path.as_uri())
     at = lambda: tab.evaluate("() => shown.time")
-    need(tab.locator("#play").get_attribute("aria-pressed") == "true", "it does not play by itself")
+    need(tab.locator("#play").get_attribute("aria-pressed") == "true", "the page does not play by itself")
     tab.evaluate("() => goToTime(time[last] - 1e-3 * duration)")
     tab.wait_for_timeout(500)
-    need(at() < tab.evaluate("() => time[0] + 0.9 * duration"), "it does not begin again at the end")
-    need("1 :" in tab.locator("#speed option:checked").inner_text(), "slow motion is not told")
+    need(at() < tab.evaluate("() => time[0] + 0.9 * duration"), "the page does not begin again at the end")
+    need("1 :" in tab.locator("#speed option:checked").inner_text(), "the page does not state that the motion is slow")
     tab.close()
 
 
 def check_page(browser, linkproof, scenario, path, rows, pictures):
     size = path.stat().st_size
     need(size < MOST_BYTES, f"{size} bytes")
-    need("</script><b>" not in path.read_text(), "a name is markup")
+    need("</script><b>" not in path.read_text(), "a name has become markup")
     said = []
     context = browser.new_context(viewport={"width": 800, "height": 1100}, reduced_motion="reduce", offline=True)
     tab = context.new_page()
@@ -193,9 +193,9 @@ def check_page(browser, linkproof, scenario, path, rows, pictures):
            if request.url != path.as_uri() and not request.url.startswith("data:") else None)
     tab.goto(path.as_uri())
     data = json.loads(tab.evaluate("() => document.getElementById('data').textContent"))
-    need(tab.locator("#play").get_attribute("aria-pressed") == "false", "it plays for who asked for less motion")
+    need(tab.locator("#play").get_attribute("aria-pressed") == "false", "the page plays although reduced motion is requested")
     agrees = tab.locator("#verdict .agree").count() == 1
-    need(agrees == (tab.locator("#why p").count() == 0), "the head of the page does not say why")
+    need(agrees == (tab.locator("#why p").count() == 0), "the head of the page does not give the reasons")
     worst = check_motion(tab, data, rows)
     if rows:
         check_loads(tab, data, scenario, rows)
@@ -210,13 +210,13 @@ def check_page(browser, linkproof, scenario, path, rows, pictures):
     tab.evaluate("() => window.scrollTo(0, 0)")
     tab.wait_for_timeout(50)
     tab.evaluate(GO_TO, tab.evaluate("() => time.length") // 3)
-    need(tab.pdf()[:4] == b"%PDF", "it cannot be printed")
+    need(tab.pdf()[:4] == b"%PDF", "the page cannot be printed")
     told = tab.evaluate("() => [...document.querySelectorAll('#plan-list .card > .numbers')].map((own) => own.textContent === atInstant())")
     need(all(told), "plans are printed at another instant")
     drawn = tab.locator("#charts svg").count()
     need(drawn == len(data["channels"]), f"{drawn} of {len(data['channels'])} channels are drawn when printed")
     unnamed = tab.evaluate(UNNAMED)
-    need(not unnamed, f"nothing tells what this is: {unnamed}")
+    need(not unnamed, f"visible elements without a name: {unnamed}")
     for own in ["#engine", "#magnify", "#over"]:
         if tab.locator(own).count():
             for index in reversed(range(tab.locator(f"{own} option").count())):
@@ -229,7 +229,7 @@ def check_page(browser, linkproof, scenario, path, rows, pictures):
             tab.goto(path.as_uri())
             tab.evaluate(GO_TO, max(1, len(rows or []) // 5))
             wide = tab.evaluate(TOO_WIDE)
-            need(wide <= 0, f"at {width} pixels it is {wide} too wide")
+            need(wide <= 0, f"in a window of {width} pixels, the page is {wide} pixels too wide")
             pale = tab.evaluate(PALE) if width == WIDTHS[0] else []
             need(not pale, f"too pale ({scheme}): {'; '.join(pale)}")
             tab.screenshot(path=path.with_name(f"{path.stem}-{width}-{scheme}.png"))

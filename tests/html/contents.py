@@ -160,7 +160,7 @@ def check_loads(tab, data, scenario, rows):
             corners = list(zip(told[::2], told[1::2]))
             own = [(corners[0][axis] + corners[6][axis]) / 2 for axis in (0, 1)]
             off = math.hypot(own[0] * unit - foot[0], -own[1] * unit - foot[1])
-            need(off <= WITHIN * size, f"{name} begins {off:.1e} m beside its place at row {at}")
+            need(off <= WITHIN * size, f"{name} begins {off:.1e} m away from its point at row {at}")
             apart = [(corners[3][0] - own[0]) / scale - force[0], -(corners[3][1] - own[1]) / scale - force[1]]
             need(math.hypot(*apart) <= WITHIN * largest, f"{name} is off by {math.hypot(*apart):.1e} N at row {at}")
         torque = float(row.get("drive.torque_N_m", "nan"))
@@ -176,7 +176,7 @@ def check_loads(tab, data, scenario, rows):
             turns = [math.atan2(-(y + where[1] / unit), x - where[0] / unit) for x, y in (start, end)]
             turn = (turns[1] - turns[0]) % math.tau if clockwise == 0 else -((turns[0] - turns[1]) % math.tau)
             apart = turn - SWEEP * torque / moment
-            need(abs(apart) <= 1e-4, f"{name} goes {turn:.6f} rad around, not {SWEEP * torque / moment:.6f}")
+            need(abs(apart) <= 1e-4, f"the arc of {name} has {turn:.6f} rad instead of {SWEEP * torque / moment:.6f}")
         told = dict(tab.evaluate("() => [...document.querySelectorAll('#force-rows tr')].map((own) => [own.cells[0].textContent, own.cells[1].textContent])"))
         for name, force in springs_of(row, given).items():
             met += 1

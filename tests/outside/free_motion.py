@@ -207,7 +207,8 @@ class Motion:
             if np.max(np.abs(step)) < 1e-14 * max(1.0, np.max(np.abs(q))):
                 break
         else:
-            assert np.max(np.abs(step)) < 1e-12, step
+            if not np.max(np.abs(step)) < 1e-12:
+                raise ArithmeticError(f"no pose closes the joints at {t} s: the step is too long, or the mechanism is torn")
         v = np.linalg.solve(full, np.concatenate([np.zeros(len(value)), [own[1] for own in drives]]))
         return q, v
 

@@ -2,7 +2,7 @@
 
 Wheels turn relative to their carrier. Equal arcs roll off on both pitch circles, which is one more equation for the
 pose. The transmitted force is one more unknown: a tangential force at the pitch point with the radial force of the
-loaded flank, or the tension of the tight strand. The sign of the force tells which flank or strand is loaded.
+loaded flank, or the tension of the tight strand. The sign of the force selects the loaded flank or strand.
 """
 
 from mpmath import mp, mpf

@@ -21,10 +21,15 @@ const CRATES: &[(&str, &str, &str, &str)] = &[
     (
         "design",
         "crates/design",
-        "analytic drawing files linkage scenario",
+        "analytic drawing files formula linkage precise scenario",
         "chacha20 cobyla parry2d-f64 quick-xml toml_edit",
     ),
-    ("drawing", "crates/drawing", "linkage", "gif image-webp svg tiny-skia ttf-parser"),
+    (
+        "drawing",
+        "crates/drawing",
+        "linkage",
+        "gif image-webp pdf-writer plotters plotters-backend svg tiny-skia ttf-parser",
+    ),
     ("files", "crates/files", "linkage", "tempfile"),
     ("formula", "crates/formula", "", "winnow"),
     (
@@ -40,15 +45,27 @@ const CRATES: &[(&str, &str, &str, &str)] = &[
         "analytic columns files formula linkage rapier-twin scenario simbody-twin",
         "csv flate2 parquet",
     ),
+    (
+        "python",
+        "crates/python",
+        "analytic columns design formula linkage linkproof prover scenario sweep",
+        "arrow-array arrow-buffer arrow-schema base64 pyo3 pyo3-arrow",
+    ),
     ("rapier_twin", "crates/rapier-twin", "linkage", "parry2d parry2d-f64 rapier2d rapier2d-f64"),
     ("recording", "crates/recording", "drawing files linkage", "mcap prost prost-types"),
     ("scenario", "crates/scenario", "columns files formula linkage", "csv parry2d-f64 strsim toml toml_edit"),
+    (
+        "sweep",
+        "crates/sweep",
+        "analytic files formula linkage prover scenario",
+        "chacha20 parquet serde serde_json statrs",
+    ),
     ("linkproof_simbody", "crates/simbody", "", ""),
     ("simbody_twin", "crates/simbody-twin", "linkage simbody", ""),
     (
         "linkproof",
         "",
-        "analytic columns design drawing files formula lab linkage prover recording scenario",
+        "analytic columns design drawing files formula lab linkage prover recording scenario sweep",
         "annotate-snippets anstream anstyle base64 clap clap_complete clap_mangen comfy-table csv ctrlc include_dir indicatif libtest-mimic quick-xml serde serde_json terminal_size textwrap tungstenite",
     ),
 ];
@@ -80,10 +97,12 @@ const ROOMS: &[(&str, &str)] = &[
     ("design::bearings", ""),
     ("design::clearance", ""),
     ("design::diagram", ""),
-    ("design::draw", "clearance diagram plan"),
+    ("design::draw", "clearance diagram plan sensitivity"),
     ("design::drive", ""),
+    ("design::exercise", ""),
     ("design::export", ""),
     ("design::plan", ""),
+    ("design::sensitivity", ""),
     ("design::synthesize", ""),
     ("lab::bench", "steps"),
     ("lab::mutate", ""),
@@ -98,13 +117,15 @@ const ROOMS: &[(&str, &str)] = &[
     ("prover::compare", "bounds check diagnosis run tables tolerance"),
     ("prover::diagnosis", "bounds"),
     ("prover::engines", ""),
+    ("prover::mark", "diagnosis"),
     ("prover::numbers", ""),
     ("prover::run", "bounds check diagnosis engines numbers tolerance"),
     ("prover::tables", ""),
     ("prover::tolerance", ""),
     ("linkproof::check", ""),
-    ("linkproof::cli", "check draw plain report shipped"),
+    ("linkproof::cli", "check draw graph plain report shipped"),
     ("linkproof::draw", ""),
+    ("linkproof::graph", ""),
     ("linkproof::plain", ""),
     ("linkproof::report", "plain"),
     ("linkproof::shipped", ""),
@@ -150,14 +171,14 @@ const HOMES: &[(&str, &str)] = &[
     // In the command line, `Command` is the command type of clap; `testing` uses only the exit code from `process`.
     ("Command", "linkproof::cli lab::outside"),
     ("process", "linkproof::cli lab::outside linkproof::testing"),
-    ("serde", "lab::stress linkproof::report"),
-    ("base64", "linkproof::report"),
+    ("serde", "lab::stress linkproof::report sweep"),
+    ("base64", "linkproof::report python::draw"),
     ("strsim", "scenario"),
-    ("serde_json", "lab::outside linkproof::report"),
+    ("serde_json", "lab::outside linkproof::report sweep"),
     // `scenario` reads tables of published numbers, `outside` reads tables of peers, and `tables` reads any table.
     // `report` writes tables.
     ("csv", "lab::outside linkproof::report scenario prover::tables"),
-    ("parquet", "prover::tables"),
+    ("parquet", "prover::tables sweep"),
     ("flate2", "prover::tables"),
     ("anstream", "linkproof::cli"),
     ("anstyle", "linkproof::plain"),
@@ -178,25 +199,28 @@ const HOMES: &[(&str, &str)] = &[
     ("SystemTime", "linkproof::cli"),
     ("stdout", "linkproof::cli"),
     ("stderr", "linkproof::cli"),
-    // The command line only writes files; `files`, `outside`, `recording`, `scenario` and `tables` read files.
-    ("fs", "linkproof::cli files lab::outside recording scenario prover::tables"),
-    ("File", "files lab::outside recording prover::tables"),
+    // The command line only writes files; `files`, `outside`, `recording`, `scenario`, `sweep` and `tables` read files.
+    ("fs", "linkproof::cli files lab::outside recording scenario sweep prover::tables"),
+    ("File", "files lab::outside recording sweep prover::tables"),
     ("OpenOptions", ""),
     ("read_to_string", "files lab::outside scenario"),
-    ("read_dir", "files scenario"),
+    ("read_dir", "files scenario sweep"),
     ("tempfile", "files lab::outside"),
-    ("read", "lab::outside recording scenario prover::tables"),
+    ("read", "lab::outside recording scenario sweep prover::tables"),
     ("nalgebra", "linkage::math"),
     ("petgraph", "linkage::mechanism"),
     ("differential_equations", "analytic::motion analytic::reduced"),
     ("num_integer", "analytic::reduced"),
     ("pulp", "analytic::assur"),
     ("cobyla", "design::synthesize"),
-    ("chacha20", "lab::specimens design::synthesize"),
+    ("chacha20", "lab::specimens design::exercise design::sensitivity design::synthesize sweep::design"),
     ("parry2d_f64", "design::clearance rapier_twin::double scenario::clearance"),
     ("svg", "drawing::paper"),
-    ("tiny_skia", "drawing::bitmap"),
-    ("ttf_parser", "drawing::bitmap"),
+    ("tiny_skia", "drawing::bitmap drawing::paths drawing::pdf"),
+    ("ttf_parser", "drawing::paths"),
+    ("pdf_writer", "drawing::pdf"),
+    ("plotters", "drawing::plot"),
+    ("plotters_backend", "drawing::plot"),
     ("gif", "drawing::bitmap"),
     ("image_webp", "drawing::bitmap"),
     ("quick_xml", "design::export linkproof::report"),
@@ -291,7 +315,8 @@ fn dependencies(manifest: &Path) -> BTreeSet<String> {
 #[test]
 fn manifests_have_exactly_the_dependencies_of_the_table() {
     for (name, directory, own, foreign) in CRATES {
-        let own = own.split_whitespace().map(|own| format!("linkproof-{own}"));
+        let package = |own| if own == "linkproof" { String::from(own) } else { format!("linkproof-{own}") };
+        let own = own.split_whitespace().map(package);
         let allowed: BTreeSet<String> = own.chain(foreign.split_whitespace().map(String::from)).collect();
         assert_eq!(dependencies(&top().join(directory).join("Cargo.toml")), allowed, "{name}: not what the table says");
     }

@@ -100,7 +100,7 @@ fn regress_numbers_of_extreme_size_are_refused() {
 }
 
 /// Symptoms: 1e18 rpm ended in DISAGREE; with lengths of 1e12 m, a pose was called singular.
-/// Cause: one limit of 1e30 for every quantity, far beyond what the sides and an engine can resolve.
+/// Cause: one limit of 1e30 for every quantity, far beyond what the analytic sides and an engine can resolve.
 #[test]
 fn regress_values_beyond_any_machine_are_refused() {
     assert_all_refused(&[
@@ -350,7 +350,7 @@ fn first_pose() {
         bad!("x_mm = 347" => "x_mm = 47", ErrorKind::Geometry, at "[[start.groups]]", key GROUP,
             ["cannot be assembled", "check the lengths"]),
         bad!("mode = \"left\"" => "near = { point = \"B\", x_mm = 90, y_mm = 10 }", ErrorKind::Geometry,
-            at "[[start.groups]]", key GROUP, ["does not distinguish them"]),
+            at "[[start.groups]]", key GROUP, ["it decides for neither"]),
         bad!("mode = \"left\"" => "mode = \"right\"\nnear = { point = \"B\", x_mm = 200, y_mm = 260 }", ErrorKind::Geometry,
             at "[[start.groups]]", key GROUP, ["nearer to another configuration"]),
         bad!("mode = \"left\"\n" => "", INPUT, at "[[start.groups]]", key GROUP, ["neither an assembly mode"]),

@@ -2,8 +2,9 @@
 //! Up to rounding, the numbers of a batch equal those of a pose-by-pose solution, and both report the same errors.
 //! The bits of a pose do not depend on its position in the series.
 
-use linkage::math::{KeepNan, Motion};
-use linkage::mechanism::{GroupKind, LinkPose, Pose};
+use linkage::math::KeepNan;
+use linkage::math::tally::Tally;
+use linkage::mechanism::{GroupKind, Pose};
 use std::cell::Cell;
 use std::f64::consts::TAU;
 
@@ -11,13 +12,13 @@ use crate::common::higher::{Among, FAMILIES, mechanism};
 use crate::common::random::{for_each, within};
 use crate::common::sketch::RandomSource;
 use crate::common::{assert_within, shipped};
-use analytic::PoseSolver;
-use analytic::assur::batch::{Batch, Poses};
+use analytic::assur::batch::{Batch, CaseBatch, PoseQuantity, PoseTally, Poses};
 use analytic::range::conditions;
+use analytic::{AssurSolver, PoseSolver};
 use linkage::Result;
-use linkage::case::Case;
-use linkage::solver::State;
-use linkage::trajectory::Stage;
+use linkage::case::{Case, Grid};
+use linkage::solver::{Solver, State};
+use linkage::trajectory::{OfPoint, Stage};
 
 /// Bound on the differences, as a fraction of the largest value of the same kind.
 /// The bound allows about 900 rounding errors of 1.1e-16, from the crank to the last dyad and back.
@@ -93,11 +94,7 @@ fn turn(case: &Case, count: usize) -> Vec<f64> {
 
 /// The largest condition number of a group at the poses of `states`.
 fn condition(case: &Case, states: &[State]) -> f64 {
-    let pose = |state: &State| {
-        let link =
-            |motion: &Motion| LinkPose { origin: motion.origin, angle: motion.direction.y.atan2(motion.direction.x) };
-        Pose(state.motions.iter().map(link).collect())
-    };
+    let pose = |state: &State| Pose::of(&state.motions);
     let conditions = |state| conditions(&case.mechanism, &case.structure.groups, &pose(state));
     states.iter().flat_map(conditions).fold(1.0, f64::larger)
 }
@@ -264,4 +261,76 @@ fn an_empty_batch_gives_no_poses() {
     let (poses, outcome) = at_once(case, &[], Stage::BalancingMoment);
     outcome.unwrap();
     assert!(poses.is_empty());
+}
+
+/// The statistics of a case batch equal, bit by bit, those of `solve`, also after a change of its numbers.
+#[test]
+fn a_case_batch_has_the_bits_of_the_pose_solver() {
+    for (name, links) in [("crank_rocker", 3), ("ov7_base", 7)] {
+        let case = &shipped(&format!("{name}.toml")).case;
+        let times = (0..361).map(|row| f64::from(row) * TAU / 360.0 / case.crank().at(0.0).rate.abs()).collect();
+        let case = case.with(|parts| parts.loads.clear()).unwrap();
+        let case = case.on(Grid::of_times(case.crank(), times)).unwrap();
+        let mut all = Vec::new();
+        for (point, side) in case.mechanism.moving_points() {
+            let words = ["x_m", "y_m", "vx_m_s", "vy_m_s", "ax_m_s2", "ay_m_s2"];
+            let readings = [OfPoint::X, OfPoint::Y, OfPoint::VelocityX, OfPoint::VelocityY];
+            let readings = readings.into_iter().chain([OfPoint::AccelerationX, OfPoint::AccelerationY]);
+            let points = &case.mechanism.links()[side.link].points;
+            let index = points.iter().position(|own| own.name == point).unwrap();
+            let of =
+                |(reading, word)| (PoseQuantity::Point(side.link, index, reading), format!("point.{point}.{word}"));
+            all.extend(readings.zip(words).map(of));
+        }
+        for (id, link) in case.mechanism.links().entries().skip(1) {
+            let own = |word: &str| format!("link.{}.{word}", link.name);
+            all.push((PoseQuantity::Angle(id), own("angle_rad")));
+            all.push((PoseQuantity::Omega(id), own("omega_rad_s")));
+            all.push((PoseQuantity::Alpha(id), own("alpha_rad_s2")));
+            all.push((PoseQuantity::Centre(id, OfPoint::VelocityY), own("vy_m_s")));
+        }
+        for (id, joint) in case.mechanism.joints().entries() {
+            all.push((PoseQuantity::ForceX(id), format!("joint.{}.fx_N", joint.name)));
+            all.push((PoseQuantity::ForceY(id), format!("joint.{}.fy_N", joint.name)));
+        }
+        all.push((PoseQuantity::Torque(0), "drive.torque_N_m".into()));
+        let column = |(quantity, _): &(PoseQuantity, String)| PoseTally::of(*quantity, 1.0, Tally::Column(Vec::new()));
+        let mut tallies: Vec<PoseTally> = all.iter().map(column).collect();
+        let mut batch = CaseBatch::of(&case).unwrap();
+        let mut same = |batch: &mut CaseBatch| {
+            assert!(batch.solve(Stage::BalancingMoment, &mut tallies), "{name}");
+            let expected = AssurSolver.solve(batch.case()).unwrap();
+            for (tally, (_, channel)) in tallies.iter().zip(&all) {
+                let expected = expected.named(channel).unwrap_or_else(|| panic!("{channel}"));
+                assert_eq!(tally.tally, Tally::Column(expected.to_vec()), "{name}, {channel}");
+            }
+        };
+        same(&mut batch);
+        batch.renumber(|all, _| all[1..=links].iter_mut().for_each(|link| link.mass *= 1.7));
+        same(&mut batch);
+    }
+}
+
+/// A parallelogram passes a dead point between two instants; the pose solver refuses it there.
+#[test]
+fn a_case_batch_leaves_dead_points_to_the_pose_solver() {
+    let case = shipped("crank_rocker.toml").case;
+    let case = case.with(|parts| parts.loads.clear()).unwrap();
+    let times = (0..120).map(|row| f64::from(row) * TAU / 120.0 / case.crank().at(0.0).rate.abs()).collect();
+    let case = case.on(Grid::of_times(case.crank(), times)).unwrap();
+    let mut batch = CaseBatch::of(&case).unwrap();
+    assert!(batch.solve(Stage::Positions, &mut []));
+    // The coupler becomes so long that the dyad cannot be assembled everywhere.
+    batch.renumber(|links, joints| {
+        let stretch = |place: &mut linkage::math::Vec2| *place *= 3.0;
+        links[2].points.iter_mut().for_each(|point| stretch(&mut point.local));
+        for joint in joints {
+            for side in [&mut joint.first, &mut joint.second] {
+                if side.link.index() == 2 {
+                    stretch(&mut side.local);
+                }
+            }
+        }
+    });
+    assert!(!batch.solve(Stage::Positions, &mut []));
 }

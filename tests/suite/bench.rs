@@ -50,7 +50,8 @@ fn engine_errors_are_well_above_the_floor() {
                 assert!(errors.max >= CLEAR * floor && !errors.is_limited, "{name} {stage:?}: {errors:?} {floor:e}");
                 assert!(errors.rms <= errors.max, "{name} {stage:?}: {errors:?}");
             }
-            // The errors of the sides are at the error floor, so their points are marked as limited by this floor.
+            // The errors of the analytic sides are at the error floor, so their points are marked as limited by this
+            // floor.
             let sides = found.points.iter().filter(|point| point.party == MethodOwner::Side && point.is_usual);
             assert!(sides.filter_map(|point| point.error(stage)).all(|errors| errors.is_limited), "{name} {stage:?}");
             let best =
@@ -147,7 +148,7 @@ fn invalid_answers_are_failures_with_a_reason() {
     };
     let whole: [(Change, &str); 6] = [
         (Box::new(|answer| answer.columns.clear()), "no column t_s"),
-        (Box::new(|answer| answer.columns.truncate(1)), "none of the requested channels"),
+        (Box::new(|answer| answer.columns.truncate(1)), "no requested channel"),
         (of("t_s", |times| times[3] += 1e-3), "row 4 of the answer"),
         (of("t_s", |times| times[0] = f64::NAN), "row 1 of the answer"),
         (of("t_s", |times| times.truncate(2)), "2 instants"),

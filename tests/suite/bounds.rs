@@ -93,7 +93,7 @@ type Numbers = BTreeMap<(String, String), Vec<f64>>;
 /// Engine, for each quantity: the widest parts, as fractions of the channel's scale, and the largest number of omitted
 /// instants.
 /// Reference, for each quantity: the widest bound.
-/// Checks, for each family or formula: the narrowest and the widest bound of both sides.
+/// Checks, for each family or formula: the narrowest and the widest bound of both analytic sides.
 fn parts(sample: &Sample, proof: &Proof, all: &mut Numbers) {
     let mut widen = |what: String, values: &[f64]| {
         let own = all.entry((sample.0.into(), what)).or_insert_with(|| vec![0.0; values.len()]);

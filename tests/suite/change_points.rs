@@ -81,7 +81,7 @@ fn no_step_passes_over_the_change_point_of_a_four_bar() {
                     if defect > 0.0 {
                         let directions = found.unwrap_or_else(|error| panic!("{what}: {error}"));
                         let begun = end(&case, 0.0, 1, deepest).unwrap();
-                        assert_eq!(side(&directions), side(&begun), "{what}: the other branch");
+                        assert_eq!(side(&directions), side(&begun), "{what}: the run ends on the other branch");
                     } else {
                         let error = found.expect_err(&what);
                         let at = error.input().unwrap_or_else(|| panic!("{what}: {error}")).value;

@@ -87,7 +87,7 @@ fn at(case: &Case, cranks: &[f64]) -> Vec<State> {
     states(&NewtonSolver, case, &times).unwrap()
 }
 
-/// A question about all links and a housing of pins and plates.
+/// A clearance task: all links, and a housing of pins and plates.
 /// The outlines of the links have random widths; about every third outline is a random polygon.
 fn asked(random: &mut RandomSource, case: &Case) -> ClearanceQuestion {
     let mechanism = &case.mechanism;
@@ -139,8 +139,8 @@ struct Seen {
 }
 
 /// Checks that in every sample the bodies are at least as far apart as the proven distance.
-/// Also checks that the reported distances and meetings exist, and that no bodies meet before the reported first
-/// meeting.
+/// Also checks that the reported distances and contacts exist, and that no bodies touch before the reported first
+/// contact.
 fn check(case: &Case, asked: &ClearanceQuestion, found: &ClearanceResult, seen: &mut Seen, name: &str) {
     assert!(found.open.is_empty(), "{name}: {:?}", found.open);
     let ([from, to], size) = (found.range, case.mechanism.size());

@@ -5,6 +5,7 @@ mod answers;
 mod bench;
 mod clearance;
 mod drive;
+mod drivers;
 mod encodings;
 mod engines;
 mod export;

@@ -1,5 +1,7 @@
 //! `linkproof draw`: positions, partial assemblies, configurations, bitmaps, wrong input.
 
+mod groups;
+mod positions;
 mod unfinished;
 
 use std::fs;
@@ -117,7 +119,7 @@ fn a_loop_that_cannot_close_is_drawn_with_its_gap() {
         .into_iter()
         .find_map(|text| text.trim().strip_prefix("gap ")?.strip_suffix(" mm")?.parse::<f64>().ok());
     assert_within!(written.unwrap() - gap, 0.01);
-    assert!(text.contains("stroke-dasharray=\"2 1.4\""), "links without a place are dashed");
+    assert!(text.contains("stroke-dasharray=\"2 1.4\""), "links without a definite position are dashed");
 }
 
 /// A crank and a rocker without the coupler between them.
@@ -163,8 +165,8 @@ fn an_incomplete_mechanism_is_drawn() {
     let text = String::from_utf8(out).unwrap();
     let document = roxmltree::Document::parse(&text).unwrap();
     assert_eq!(pins(&document).len(), 2, "both pivots");
-    assert!(text.contains("stroke-dasharray=\"2 1.4\""), "the rocker has no certain place");
-    assert!(texts(&document).iter().any(|text| text.contains("mobility")), "the picture says why");
+    assert!(text.contains("stroke-dasharray=\"2 1.4\""), "the rocker has no definite position");
+    assert!(texts(&document).iter().any(|text| text.contains("mobility")), "the picture states the reason");
 }
 
 /// The picture has a cell for every configuration, with the names that `mode` accepts.
@@ -267,14 +269,14 @@ fn paths_of_swinging_links_are_no_full_circles() {
 fn wrong_input_is_refused_with_a_remedy() {
     let own = file("crank_rocker");
     for (arguments, told) in [
-        (vec![own.as_str(), "-o", "x.bmp"], ".svg, .png, .gif or .webp"),
-        (vec![own.as_str(), "-o", "picture"], ".svg, .png, .gif or .webp"),
+        (vec![own.as_str(), "-o", "x.bmp"], ".svg, .pdf, .png, .gif or .webp"),
+        (vec![own.as_str(), "-o", "picture"], ".svg, .pdf, .png, .gif or .webp"),
         (vec![own.as_str(), "-o", "/nowhere/at/all/x.svg"], "nowhere"),
         (vec![own.as_str(), "-o", "-", "--crank-deg", "nan"], "finite"),
         (vec![own.as_str(), "-o", "-", "--crank-deg", "1e300"], "--crank-deg"),
         (vec![own.as_str(), "-o", "x.png", "--width", "0"], "100..=4000"),
         (vec![own.as_str(), "-o", "x.gif", "--each-mode"], "--each-mode"),
-        (vec![own.as_str(), "-o", "x.svg", "--width", "300"], "`--width`: an SVG has no pixels"),
+        (vec![own.as_str(), "-o", "x.svg", "--width", "300"], "`--width`: an SVG or a PDF has no pixels"),
         (vec![own.as_str(), "-o", "x.png", "--frames", "3"], "`--frames`: the picture is not animated"),
         (vec![own.as_str(), "-o", "-", "--seconds", "3"], "`--seconds`: the picture is not animated"),
         (vec![own.as_str(), "-o", "scenarios/x.toml"], "scenario file"),
@@ -355,7 +357,8 @@ fn numbers_move_with_links_in_an_animation() {
     };
     let extras = drawing::view::Extras { is_moving: true, ..Default::default() };
     let travels = drawing::Travels::none(&case.mechanism);
-    let cells = drawing::view::cells(&subject, &shots, &travels, &[], extras, Vec2::new(150.0, 120.0));
+    let motion = drawing::view::ShownMotion { travels: &travels, traces: &[], series: None };
+    let cells = drawing::view::cells(&subject, &shots, motion, extras, Vec2::new(150.0, 120.0));
     for cell in cells {
         let text = drawing::paper::document::document(&cell.figure, [200.0, 200.0], "frame");
         let words = texts(&roxmltree::Document::parse(&text).unwrap());

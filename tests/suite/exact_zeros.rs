@@ -38,8 +38,8 @@ fn regress_equal_cranks_agree_though_the_rocker_has_no_acceleration() {
     let proof = proven(&scenario("parallel_cranks.toml"));
     assert_eq!(proof.verdict.word(), "agree", "{:?}", proof.verdict);
     let alpha = of(&proof, "link.rocker.alpha_rad_s2");
-    // The acceleration is zero because of the lengths, not because of the structure, so the sides compute rounding
-    // errors instead of exact zeros.
+    // The acceleration is zero because of the lengths, not because of the structure, so the analytic sides compute
+    // rounding errors instead of exact zeros.
     assert!(alpha.bound < 1e-3 * alpha.residual.scale, "{alpha:?}");
 }
 
@@ -85,7 +85,7 @@ fn alone(centre: Vec2) -> Spec {
     spec
 }
 
-/// Symptom: for a balanced rotor without gravity, ten numbers were open, "of scale: inf".
+/// Symptom: for a balanced rotor without gravity, ten numbers were inconclusive, "of scale: inf".
 /// Cause: all forces and moments of the rotor are zero, and the motion gave no scale for them.
 /// Now the mass and the speed of the rotor give the scale.
 #[test]
@@ -102,7 +102,7 @@ fn regress_a_balanced_rotor_agrees_without_any_force() {
     }
 }
 
-/// Symptom: 31 of the 54 numbers of pendulums hanging at rest were open.
+/// Symptom: 31 of the 54 numbers of pendulums hanging at rest were inconclusive.
 /// Cause: without any motion, the scale was only rounding.
 /// Now the nominal speed in the file gives the scale.
 #[test]

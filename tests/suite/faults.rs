@@ -40,10 +40,13 @@ fn is_found(wrong: &str, may: impl Fn(&str, Stage) -> bool, must: &[&str]) {
     assert_eq!(proof.verdict.word(), "disagree");
     let found = found(&proof);
     for (name, stage) in &found {
-        assert!(may(name, *stage), "{name} must not notice this fault");
+        assert!(may(name, *stage), "this fault must not affect {name}");
     }
     for name in must {
-        assert!(found.iter().any(|(own, _)| own == name), "{name} must notice this fault, but only {found:?} do");
+        assert!(
+            found.iter().any(|(own, _)| own == name),
+            "this fault must be found in {name}, but is found only in {found:?}"
+        );
     }
 }
 
@@ -185,7 +188,7 @@ fn small_faults_are_found() {
             size /= 2.0;
         }
         println!("{what}: {smallest:.1e} by {by}");
-        assert!(smallest <= enough, "{what}: only {smallest:e} is found");
+        assert!(smallest <= enough, "{what}: the smallest fault found is {smallest:e}");
     }
 }
 

@@ -67,7 +67,7 @@ fn val_ov7_base_every_printed_number_by_both_sides() {
             "rad" => 0.005f64.to_radians(),
             _ => 0.005,
         };
-        // The factor 1 + 1e-6 allows for the rounding errors of the sides.
+        // The factor 1 + 1e-6 allows for the rounding errors of the analytic sides.
         assert!(check.bound <= half_unit * (1.0 + 1e-6), "{}", check.name());
     }
 }
@@ -244,7 +244,7 @@ fn val_crank_rocker_steady_speed() {
 }
 
 /// The headings of the findings as anchors.
-fn anchors() -> Vec<String> {
+pub(crate) fn anchors() -> Vec<String> {
     let text = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/findings.md")).unwrap();
     let anchor = |heading: &str| {
         let kept = |c: &char| c.is_alphanumeric() || " -_".contains(*c);
@@ -256,7 +256,7 @@ fn anchors() -> Vec<String> {
 #[test]
 fn every_expected_disagreement_has_its_finding() {
     let anchors = anchors();
-    for (name, numbers) in [("crank_rocker", 4), ("ov7_new", 2), ("ov7_new_tabulated", 12)] {
+    for (name, numbers) in [("crank_rocker", 6), ("ov7_new", 5), ("ov7_new_tabulated", 19)] {
         let degrees: f64 = match name {
             "crank_rocker" | "ov7_base" => 0.78,
             "fourth_class" => 0.25,

@@ -1,6 +1,7 @@
 //! Formulas: the library of textbook results is right, corrupted formulas are found and explained, and errors help the
 //! user.
 
+mod authors;
 mod diagnosis;
 mod errors;
 mod fixed;
@@ -9,6 +10,7 @@ mod limits;
 mod parameters;
 mod planted;
 mod reduced;
+mod transfer;
 mod undefined;
 mod wrong_input;
 

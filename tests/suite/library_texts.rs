@@ -16,7 +16,7 @@ fn sources() -> Vec<PathBuf> {
     let of_command_line = [COMMAND_LINE, "src/sentences/command.rs"].map(|place| top.join(place));
     files.retain(|file| !of_command_line.iter().any(|place| file.starts_with(place)));
     files.sort();
-    assert!(files.len() > 150, "the sources are not found any more: {}", files.len());
+    assert!(files.len() > 150, "the sources are not found: {}", files.len());
     files
 }
 

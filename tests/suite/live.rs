@@ -43,7 +43,7 @@ impl Served {
     /// Returns the exit code.
     fn end(&mut self) -> i32 {
         let mut lines = BufReader::new(self.child.stdout.as_mut().unwrap()).lines();
-        assert!(lines.any(|line| line.unwrap().contains("Ctrl-C")), "it ends by itself");
+        assert!(lines.any(|line| line.unwrap().contains("Ctrl-C")), "the server ends before Ctrl-C");
         let ended = Command::new("kill").args(["-INT", &self.child.id().to_string()]).status().unwrap();
         assert!(ended.success());
         self.child.wait().unwrap().code().expect("an exit code")
@@ -142,7 +142,7 @@ impl Viewer {
     }
 }
 
-/// Number of the channel of a topic.
+/// Identifier of the WebSocket channel of a topic.
 fn channel(channels: &[(String, u64)], topic: &str) -> u64 {
     channels.iter().find(|(own, _)| own == topic).unwrap_or_else(|| panic!("no {topic}")).1
 }
@@ -173,11 +173,11 @@ fn every_live_turn_repeats_the_recording() {
                 }
                 Said::Message { number, time, data } => {
                     if turns.len() > 1 {
-                        assert_eq!(time, now, "viewers date messages by the clock");
+                        assert_eq!(time, now, "the log time of a message equals the clock");
                     }
                     turns.last_mut().unwrap().push((channels[number as usize].0.clone(), time, data));
                 }
-                Said::State { .. } => assert_eq!(name, NEW, "older viewers stumble over it"),
+                Said::State { .. } => assert_eq!(name, NEW, "viewers of the older protocol do not know this message"),
                 Said::Text(text) => panic!("{text}"),
             }
         }
@@ -199,7 +199,9 @@ fn late_viewers_get_one_time_messages_and_may_unsubscribe() {
     let first = loop {
         match viewer.hear() {
             Said::Message { number, time, data } => break (number, time, data),
-            Said::Clock(time) => assert!(time > 0, "it is told at once, not in the next turn"),
+            Said::Clock(time) => {
+                assert!(time > 0, "the message comes at once, not in the next pass through the motion")
+            }
             other => panic!("{other:?}"),
         }
     };
@@ -213,7 +215,7 @@ fn late_viewers_get_one_time_messages_and_may_unsubscribe() {
                 turns += usize::from(time < now);
                 now = time;
             }
-            Said::Message { .. } => assert_eq!(turns, 0, "one that was under way may still come"),
+            Said::Message { .. } => assert_eq!(turns, 0, "only a message that was already sent may still come"),
             other => panic!("{other:?}"),
         }
     }
@@ -230,11 +232,11 @@ fn the_reference_is_first_and_channel_numbers_are_unique() {
             "serverInfo" => assert!(sessions.insert(text["sessionId"].to_string()), "{text}"),
             "unadvertise" => {
                 for id in text["channelIds"].as_array().unwrap() {
-                    assert!(here.remove(&id.as_u64().unwrap()), "{id} was not there");
+                    assert!(here.remove(&id.as_u64().unwrap()), "{id} was not advertised");
                 }
             }
             "advertise" => {
-                assert!(here.is_empty(), "{here:?} are still there");
+                assert!(here.is_empty(), "{here:?} are still advertised");
                 let channels = text["channels"].as_array().unwrap();
                 for own in channels {
                     let id = own["id"].as_u64().unwrap();
@@ -283,7 +285,7 @@ fn pause_and_seek_affect_only_their_own_viewer() {
     }
     let mut frames = recorded(&served.place).into_iter();
     let (.., frame) = frames.rfind(|(topic, time, _)| topic == "/tf" && *time <= wanted).unwrap();
-    assert_eq!(shown.unwrap(), frame, "the pose of that time");
+    assert_eq!(shown.unwrap(), frame, "the viewer gets the frame of the requested time");
     // The viewer that did not pause continues to play, into the next pass through the motion.
     let mut now = 0;
     loop {

@@ -8,6 +8,7 @@
 )]
 
 mod architecture;
+mod authors;
 mod bad_scenarios;
 mod batch;
 mod bench;
@@ -23,10 +24,12 @@ mod drawings;
 mod dynamics;
 mod engine;
 mod exact_zeros;
+mod exercise;
 mod export;
 mod faults;
 mod figures;
 mod formulas;
+mod graphs;
 mod higher_groups;
 mod invariants;
 mod key_tables;
@@ -50,6 +53,7 @@ mod scenario_docs;
 mod scenes;
 mod schema;
 mod security;
+mod sensitivity;
 mod setting_off;
 mod settling;
 #[cfg(feature = "simbody")]
@@ -61,6 +65,7 @@ mod specimens;
 mod start;
 mod stories;
 mod stress;
+mod sweep;
 mod synthesize;
 mod testing;
 mod testing_docs;

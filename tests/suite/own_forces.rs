@@ -17,7 +17,7 @@ fn proven(scenario: &Scenario, options: &Options) -> Proof {
 }
 
 fn own(proof: &Proof) -> &EngineProof {
-    proof.engine().own_forces.as_ref().expect("own forces are judged")
+    proof.engine().own_forces.as_ref().expect("the exerted forces are judged")
 }
 
 #[test]

@@ -2,9 +2,13 @@
 //! claim.
 //! The chord method has its known error, and the published graphical figures are reproduced.
 
+mod centres;
+mod constructions;
 mod drawings;
 mod graphs;
 mod motion;
+mod scales;
+mod singular;
 mod sliders;
 
 use crate::common::assert_within;
@@ -14,10 +18,9 @@ use std::path::Path;
 
 use analytic::{AssurSolver, NewtonSolver};
 use design::plan::state_at;
-use design::plan::{Plans, SingularPoint, TipKind, Vector, VectorKind, VectorPlan};
+use design::plan::{Plans, TipKind, Vector, VectorKind, VectorPlan};
 use linkage::case::{Case, When};
 use linkage::math::{KeepNan, Vec2, rotated, unit};
-use linkage::mechanism::GroupId;
 use linkage::solver::Solver;
 use scenario::Scenario;
 
@@ -108,7 +111,7 @@ fn contours(plan: &VectorPlan) -> (usize, f64) {
             (None, end) => drop(reached.insert(from, end.unwrap() - vector.value)),
         }
     }
-    assert!(used.iter().all(|&used| used), "a vector hangs in the air");
+    assert!(used.iter().all(|&used| used), "a vector is not connected to the pole");
     (closed, gap)
 }
 
@@ -227,52 +230,6 @@ fn both_solvers_draw_the_same_plans() {
                 assert_eq!(x.name, y.name);
                 assert_within!((x.value - y.value).norm(), 1e-11 * longest(a), "{name} {}", x.name);
             }
-        }
-    }
-}
-
-/// The method through the singular point is exact: it gives the same values as both solvers.
-#[test]
-fn the_singular_point_gives_the_solvers_velocities_and_accelerations() {
-    let case = scenario("fourth_class").case;
-    let group = &case.structure.groups[GroupId(0)];
-    for solver in [&AssurSolver as &dyn Solver, &NewtonSolver] {
-        for degrees in 0..72 {
-            let state =
-                design::plan::state_at(&case, solver, When::Crank((5.0 * f64::from(degrees)).to_radians())).unwrap();
-            let point = SingularPoint::of(&case, group, &state.motions).unwrap().unwrap();
-            assert_eq!(point.lines(), "BD x CE");
-            // The farther S is from the group, the more digits cancel.
-            // `far` measures the cancellation: `far` grows with the distance of S divided by the size of the group.
-            let far = 1.0 + point.at.norm() / 0.1;
-            for (link, omega, alpha) in point.links {
-                let motion = &state.motions[link];
-                assert_within!(
-                    (omega - motion.omega).abs(),
-                    1e-12 * 100.0 * far,
-                    "{degrees}: {omega} {}",
-                    motion.omega
-                );
-                assert_within!((alpha - motion.alpha).abs(), 1e-12 * 1e4 * far, "{degrees}: {alpha} {}", motion.alpha);
-            }
-            for (side, link) in [point.links[0].0, point.links[1].0].into_iter().enumerate() {
-                let motion = &state.motions[link];
-                let local = rotated(Vec2::new(motion.direction.x, -motion.direction.y), point.at - motion.origin);
-                let speed = point.velocity.norm().larger(1.0);
-                assert_within!((motion.point_velocity(local) - point.velocity).norm(), 1e-12 * speed * far);
-                let strong = point.accelerations[side].norm().larger(100.0);
-                assert_within!(
-                    (motion.point_acceleration(local) - point.accelerations[side]).norm(),
-                    1e-12 * strong * far
-                );
-            }
-        }
-    }
-    for name in ["crank_rocker", "ov7_new"] {
-        let case = scenario(name).case;
-        let state = design::plan::state_at(&case, &AssurSolver, When::Crank(0.3)).unwrap();
-        for group in &case.structure.groups {
-            assert_eq!(SingularPoint::of(&case, group, &state.motions).unwrap(), None, "{name}");
         }
     }
 }

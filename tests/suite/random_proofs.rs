@@ -18,7 +18,7 @@ use scenario::{EngineSetting, EngineSettings, Scenario};
 
 /// Symptom: correct mechanisms disagree in their velocities, by up to twice the bound.
 /// Cause: with too few sweeps, the velocities have an error of first order.
-/// The bound comes from differences of runs, in which this error cancels against the error of second order.
+/// In the differences between runs, from which the bound is estimated, this error and the error of second order cancel.
 /// A run with fewer sweeps reveals the error.
 #[test]
 fn regress_random_chains_of_rrr_dyads_never_disagree() {
@@ -64,7 +64,7 @@ fn never_disagree(sorts: &[[bool; 3]], count: usize) {
                 proptest::prop_assert!(
                     says("loop has opened")
                         || says("in one step")
-                        || says("arrived at its start")
+                        || says("arrived at the start of the grid")
                         || says("another assembly mode"),
                     "{}",
                     error
@@ -76,7 +76,7 @@ fn never_disagree(sorts: &[[bool; 3]], count: usize) {
     });
     println!("{} agree, {} inconclusive, {} refused", proven.get(), open.get(), refused.get());
     let (proven, open) = (proven.get(), open.get());
-    assert!(2 * proven >= count, "only {proven} of {count} mechanisms are proven, {open} are left open");
+    assert!(2 * proven >= count, "only {proven} of {count} mechanisms are proven, {open} are inconclusive");
 }
 
 /// Mechanisms with the drive at any other joint: slides, and angles between moving links.
@@ -146,7 +146,7 @@ fn regress_random_higher_groups_never_disagree() {
                     }
                     proof.verdict.word()
                 }
-                // The sides or the engine cannot reach a pose of this mechanism, so it counts as refused.
+                // The analytic sides or the engine cannot reach a pose of this mechanism, so it counts as refused.
                 Err(_) => "refused",
             };
             *counts.entry(word).or_insert(0) += 1;

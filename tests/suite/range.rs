@@ -365,7 +365,7 @@ fn an_unreachable_angle_is_refused_with_the_reachable_range() {
         // The limits in the message are rounded inwards at the sixth decimal.
         assert!((0.0..=1.001e-6).contains(&(low - from)) && (0.0..=1.001e-6).contains(&(to - high)), "{who}: {text}");
         for end in [low, high] {
-            assert!(AssurSolver.solve(&asked(&case, end)).is_ok(), "{end} was said to be reached");
+            assert!(AssurSolver.solve(&asked(&case, end)).is_ok(), "{end} is reported as reachable");
         }
     };
     for degrees in [to + 10.0, from - 10.0] {

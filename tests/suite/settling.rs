@@ -152,7 +152,7 @@ fn regress_the_first_step_of_a_start_from_rest_is_left_out() {
 }
 
 /// A free motion over five seconds.
-/// The sides differ by more than the rounding of a pose, but by less than their integration error.
+/// The analytic sides differ by more than the rounding of a pose, but by less than their integration error.
 /// A run with a tighter accuracy shows the integration error.
 #[test]
 fn regress_a_long_run_up_is_bounded_by_its_integration_error() {

@@ -191,7 +191,7 @@ fn the_noise_bound_covers_the_effect_of_an_open_joint() {
             let what = (kind.stage, kind.unit.symbol());
             let expected = felt[&what] * Simbody::TOLERANCE * reach / OPEN;
             let bound = default().noise(&case, kind);
-            assert_within!(expected, bound, "{lengths:?} {what:?}: an open joint is felt more");
+            assert_within!(expected, bound, "{lengths:?} {what:?}: an open joint has a larger effect than the bound");
             if is_narrow {
                 assert_within!(bound, ABOVE * expected, "{lengths:?} {what:?}: the bound is too wide");
             }
@@ -366,7 +366,7 @@ fn a_dead_point_is_an_error_with_time_crank_angle_and_joint() {
         for accuracy in [1e-2, Simbody::ACCURACY, 1e-11] {
             let error = Simbody::new(accuracy).solve(&case).unwrap_err();
             assert_eq!(error.kind(), ErrorKind::Numeric, "{error}");
-            let (_, rest) = error.message().split_once("crank angle ").expect("the crank angle is told");
+            let (_, rest) = error.message().split_once("crank angle ").expect("the message states the crank angle");
             let crank: f64 = rest.split_once(" deg").unwrap().0.parse().unwrap();
             let dead = (0.0475_f64 / 0.24).acos().to_degrees();
             assert_within!((crank - dead).abs(), 0.01, "{crank} instead of {dead}: {error}");

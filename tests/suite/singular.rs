@@ -1,4 +1,5 @@
-//! Singular poses and their neighbourhood: both sides report an error with the crank angle, and never answer silently.
+//! Singular poses and their neighbourhood: both analytic sides report an error with the crank angle, and never answer
+//! silently.
 
 use std::path::Path;
 

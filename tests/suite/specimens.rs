@@ -13,7 +13,7 @@ use crate::common::specimens::specimen;
 
 /// Tests one specimen of every shape.
 /// The same seed gives the same text, and another seed a different text.
-/// Both sides solve each specimen, unless they report that they do not support its motion.
+/// Both analytic sides solve each specimen, unless they report that they do not support its motion.
 #[test]
 fn specimens_follow_from_their_seed_and_can_be_solved() {
     let (mut free, mut sorts) = (0, BTreeSet::new());

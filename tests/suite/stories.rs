@@ -30,7 +30,7 @@ fn texts(directory: &str, extension: &str) -> Vec<(PathBuf, String)> {
 /// Adds a story, which must not be present yet.
 fn add(stories: &mut BTreeMap<u32, Place>, number: u32, place: Place) {
     let other = stories.insert(number, place.clone());
-    assert_eq!(other, None, "story {number} is told twice, the second time by {place:?}");
+    assert_eq!(other, None, "story {number} has two tests, the second in {place:?}");
 }
 
 /// Stories of a test file: a doc comment that starts with `Story NN.` and the function that follows it.
@@ -89,12 +89,12 @@ fn the_index_lists_exactly_the_stories_of_the_tests() {
     let index = index();
     for (number, (file, test)) in &stories {
         let Some((listed, name)) = index.get(number) else { panic!("docs/stories.md lacks story {number}, {test}") };
-        assert_eq!(name, test, "docs/stories.md: the test of story {number}");
+        assert_eq!(name, test, "docs/stories.md: wrong test of story {number}");
         // A path in the index may leave out leading directories.
         assert!(Path::new(file).ends_with(listed), "docs/stories.md: story {number} is in {file}, not in {listed}");
     }
     for number in index.keys() {
-        assert!(stories.contains_key(number), "docs/stories.md names story {number}, which no test tells");
+        assert!(stories.contains_key(number), "docs/stories.md lists story {number}, which no test has");
     }
 }
 

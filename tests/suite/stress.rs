@@ -1,5 +1,5 @@
 //! Numerical stability.
-//! The double-double reference is compared with closed forms, and the sides with the double-double reference.
+//! The solution in double-double is compared with closed forms, and both analytic sides with this solution.
 //! Further tests cover faults that `stress` has found.
 
 mod precise;
@@ -29,7 +29,7 @@ fn family_names_are_unique_and_quick_points_valid() {
     }
 }
 
-/// After 1e4 revolutions, rounding the crank angle to a double costs five digits before a side starts its computation.
+/// After 1e4 revolutions, rounding the crank angle to a double costs five digits before either analytic side starts.
 /// Both sides once agreed without a warning, although their error was 3.6 times the bound.
 #[test]
 fn the_rounding_of_a_large_crank_angle_is_in_the_bound() {
@@ -52,7 +52,8 @@ fn the_rounding_of_a_large_crank_angle_is_in_the_bound() {
     }
 }
 
-/// Symptom: at a gear ratio of 1000, the sides differed by 5e-9 of the angular accelerations; the bound was 1e-11.
+/// Symptom: at a gear ratio of 1000, angular accelerations of the analytic sides differed by 5e-9 of their size.
+/// The bound was 1e-11.
 /// Cause: in a fast wheel, terms of the size omega^2 cancel, and the bound did not contain the rounding error of these
 /// terms.
 #[test]
@@ -67,8 +68,8 @@ fn the_sides_agree_on_gears_friction_cylinders_and_cams() {
     }
 }
 
-/// Symptom: near a change point both sides were within their double-double bounds, but disagreed with each other.
-/// Cause: the condition number was measured only at poses with an unusually large difference of the sides.
+/// Symptom: near a change point both analytic sides agreed with the solution in double-double, but not with each other.
+/// Cause: the condition number was measured only at poses with an unusually large difference between the sides.
 #[test]
 fn regress_the_condition_of_a_pose_is_in_the_bound_between_the_sides() {
     for gap in [1e-12, 3e-11, 1e-10, 1e-6] {
@@ -115,7 +116,7 @@ fn work_per_four_bar_does_not_grow_with_the_chain() {
 }
 
 /// If solvers refuse a case, the result of the case contains the reason.
-/// The sides are accurate up to a hundredth of a degree from a dead point.
+/// At a smallest transmission angle of 0.01 deg, both analytic sides still agree and are accurate.
 #[test]
 fn refused_points_are_results_with_a_reason() {
     let redundant = run(named("redundant").unwrap(), 2.0, 0, 1);
@@ -132,9 +133,9 @@ fn refused_points_are_results_with_a_reason() {
     assert!(near.parties.iter().any(|party| party.verdict == PointEnd::Fails));
 }
 
-/// The reference has one length that is wrong by a millionth.
-/// Both sides contradict this reference, while they agree with each other.
-/// A wrong number that both sides share without a warning would show in the same way.
+/// In the reference, one length is wrong by a millionth.
+/// Both analytic sides contradict this reference, while they agree with each other.
+/// A wrong number that both sides share would show in the same way.
 #[test]
 fn a_wrong_number_that_both_sides_share_is_counted() {
     let four_bar = |coupler: f64| {

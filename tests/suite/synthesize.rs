@@ -5,3 +5,4 @@ mod closed_form;
 mod drives;
 mod motor;
 mod search;
+mod sheet;

@@ -197,8 +197,8 @@ fn an_invalid_ci_file_is_refused() {
     ];
     for (file, edits) in blocks(PAGE, "yaml").iter().zip(edits) {
         for (old, new) in edits {
-            assert!(file.contains(old), "{old} is not there any more");
-            assert!(checked(&file.replacen(old, new, 1)).is_err(), "`{new}` is not seen");
+            assert!(file.contains(old), "the page does not contain {old}");
+            assert!(checked(&file.replacen(old, new, 1)).is_err(), "the checks do not find the fault `{new}`");
         }
     }
 }

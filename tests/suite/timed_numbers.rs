@@ -1,4 +1,4 @@
-//! Numbers of an `[[oracle]]` at a time of the motion: they are read and compared with both sides.
+//! Numbers of an `[[oracle]]` at a time of the motion: they are read and compared with both analytic sides.
 //! If the motion starts differently, the numbers are not valid and are omitted.
 
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! docs/tutorial.md and docs/machines.md, followed word for word.
+//! docs/tutorial.md, docs/machines.md and docs/course.md, followed word for word.
 //! The commands of a page run in an empty directory; their output must equal the text below them on the page.
 
 use std::path::Path;
@@ -123,6 +123,11 @@ fn the_tutorial_of_machines_runs_as_written() {
     assert_runs_as_written("machines.md");
 }
 
+#[test]
+fn the_course_project_runs_as_written() {
+    assert_runs_as_written("course.md");
+}
+
 /// `INSTA_UPDATE=always` writes outputs and pictures anew, as it does with snapshots.
 fn assert_runs_as_written(page: &str) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs").join(page);
@@ -141,7 +146,7 @@ fn assert_runs_as_written(page: &str) {
     }
     for name in pictures(&page) {
         let is_same = fs::read(kept.join(name)).unwrap() == fs::read(place.path().join(name)).unwrap();
-        assert!(is_same, "{name} is drawn otherwise now");
+        assert!(is_same, "the picture {name} has changed");
     }
     assert_eq!(text.lines().count(), page.lines().count(), "INSTA_UPDATE=always ... --test suite tutorial");
     let differing = text.lines().zip(page.lines()).find(|(new, old)| !are_alike(new, old));

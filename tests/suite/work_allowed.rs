@@ -1,4 +1,4 @@
-//! Allowed work: every costly operation counts, and a search that cannot decide ends early.
+//! Work limits: every costly operation counts as work, and a search without progress ends early.
 
 use std::path::Path;
 
@@ -22,7 +22,7 @@ fn proven(scenario: &Scenario, options: &Options) -> (Proof, Work) {
     counted(|| prove(scenario, options).unwrap_or_else(|error| panic!("{error}")))
 }
 
-/// Asserts that no step of an engine was run, and that the verdict states how much work would be needed.
+/// Asserts that no step of an engine was run, and that the verdict states how much work the first runs would take.
 fn assert_refused((proof, work): &(Proof, Work)) {
     let reason = proof.verdict.reason(Advice::to_string).unwrap_or_default();
     assert_eq!((proof.verdict.word(), work.of(Count::Steps)), ("inconclusive", 0), "{reason}");
@@ -45,15 +45,14 @@ fn regress_work_per_step_grows_with_the_mechanism() {
     let case = (chain.setup)(100.0, 0, 0).unwrap().case;
     let large = Scenario::of_case("chain", case).unwrap();
     assert_refused(&proven(&large, &Options::default().budget(1e4)));
-    // A run stays within the allowed work, whatever the mechanism.
-    // This mechanism has 21 moving links.
+    // The limit also holds for a mechanism with 21 moving links.
     let (proof, work) = proven(&scenario("n_four_bar_10.toml"), &Options::default().budget(1e6));
     assert_eq!(proof.verdict.word(), "inconclusive");
     assert!(work.of(Count::Sweeps) < 3_000_000, "{work:?}");
 }
 
 /// Symptom: the range of a hundred four-bars was computed without end.
-/// Cause: the poses of a range did not count as work, although each pose needs systems of all links.
+/// Cause: the poses of a range did not count as work, although each pose solves the equations of all links.
 #[test]
 fn regress_computing_a_range_counts_as_work() {
     let chain = named("chain").expect("there are chains");
@@ -61,11 +60,11 @@ fn regress_computing_a_range_counts_as_work() {
     let (found, is_over) = limited(1e5, || Range::of(&large));
     let error = found.expect_err("a hundred four-bars are more than 1e5 steps");
     assert!(is_over && error.message().contains("1.0e5 steps") && !error.advice().is_empty(), "{error}");
-    // A single four-bar needs so little work that its range is found within the limit that is too small for the chain.
+    // The limit that is too small for the chain is enough for a single four-bar.
     let small = shipped("crank_rocker.toml").case;
     let (found, is_over) = limited(1e5, || Range::of(&small));
     assert!(found.is_ok_and(|range| range.links.len() == 3) && !is_over);
-    // If the work does not suffice to find the range, the error says that the range is not known.
+    // If the work limit ends the computation of the range, the error says that the range is not known.
     let out_of_reach = || Error::new(ErrorKind::Geometry, "the poses end").out_of_reach();
     let (told, _) = limited(10.0, || explained(&small, out_of_reach()));
     assert!(told.message().contains("are not known") && told.message().contains("1.0e1 steps"), "{told}");
@@ -82,8 +81,7 @@ fn regress_planting_faults_keeps_to_the_work_limit() {
     let error = found.err().expect("600 faults in 100 four-bars are too many");
     assert!(error.message().contains("planting") && error.message().contains("the work limit is 1.0e5"), "{error}");
     assert!(error.advice().iter().any(|own| own.to_string().contains("some kinds")), "{error}");
-    // The counted work covers the solutions of both sides without a fault, and the exact answers of side 1.
-    // No step of an engine was run.
+    // Counted are the fault-free solutions of both analytic sides and the exact answers of side 1, but no engine step.
     assert!(work.of(Count::Groups) < 1_000_000 && work.of(Count::Steps) == 0, "{work:?}");
     let few = MutationPlan { kinds: vec!["gravity-sign".into()], parties: vec![FaultyParty::Assur], ..asked };
     assert_eq!(mutate(&large, &few, &mut |_| {}).unwrap().mutants.len(), 1);
@@ -102,8 +100,8 @@ fn regress_forces_without_progress_are_given_up_early() {
     assert!(work.of(Count::Sweeps) < 5_000_000, "{work:?}");
 }
 
-/// The work for the forces that the engine itself exerts has a limit.
-/// If the motion alone exceeds this limit, the search for the settings of the forces does not begin.
+/// The work for a proof of the engine's own forces has a limit.
+/// If the motion alone exceeds this limit, the settings of the forces are not searched for.
 /// Before the limit existed, the four-bar of this test took 118 million sweeps.
 #[test]
 fn regress_forces_are_skipped_if_the_motion_used_their_work() {

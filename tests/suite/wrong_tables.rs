@@ -20,7 +20,7 @@ use prover::tables::{Held, load};
 use scenario::Scenario;
 use scenario::mapping::{Allowed, Mapped, Mapping, Size};
 
-/// How a table is made wrong.
+/// The change that makes a table wrong.
 enum Make {
     /// Passages of the scenario's text and their replacements.
     Text(&'static [(&'static str, &'static str)]),

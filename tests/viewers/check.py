@@ -88,10 +88,10 @@ def check_numbers(schemas, messages, slow):
     check("log times ascend in every topic", not disorder, ", ".join(disorder))
 
     sides = [t.split("/")[1] for t in messages if t.endswith("/grid") and t.count("/") == 2]
-    check("there is a side", sides, ", ".join(sides))
+    check("the recording has a side", sides, ", ".join(sides))
     for side in sides:
         counts = {t: len(ms) for t, ms in messages.items() if t.startswith(f"/{side}/")}
-        check(f"{side}: all topics have as many messages", len(set(counts.values())) == 1, sorted(set(counts.values())))
+        check(f"{side}: all topics have the same number of messages", len(set(counts.values())) == 1, sorted(set(counts.values())))
         grid = [values(m) for _, _, m in messages[f"/{side}/grid"]]
         inputs = ({"t_s", own, "row"} for own in ("crank_rad", "joint_rad", "slide_m"))
         check(f"{side}: the grid has time, input and row", any(all(set(g) == own for g in grid) for own in inputs))
@@ -100,7 +100,7 @@ def check_numbers(schemas, messages, slow):
         stamps = np.array([m[0] for m in messages[f"/{side}/grid"]]) * 1e-9 / slow
         apart = np.ptp(stamps - times)
         check(f"{side}: log times are {slow:g} times the times", apart < 2e-9, f"within {apart:.1e} s")
-        check(f"{side}: every row once", sorted(g.get("row") for g in grid) == list(range(len(grid))))
+        check(f"{side}: every row occurs once", sorted(g.get("row") for g in grid) == list(range(len(grid))))
         ragged = [t for t in counts if len({tuple(values(m)) for _, _, m in messages[t]}) != 1]
         check(f"{side}: every message of a topic has the same fields", not ragged, ", ".join(ragged))
     own = [t for t, s in schemas.items() if s.startswith("linkproof.")]
@@ -120,16 +120,16 @@ def check_scene(path, schemas, messages, sides):
     """Checks frames, links, and the messages for other viewers."""
     if "/tf" not in messages:
         positions = [t for t in messages if "/link/" in t and "x_m" in values(messages[t][0][2])]
-        check("there is no scene only where there are no positions", not positions)
+        check("the scene is missing only if positions are missing", not positions)
         return
     links = [e for _, _, m in messages["/mechanism/links"] for e in m.entities]
     check("links are drawn once", len(messages["/mechanism/links"]) == 1, f"{len(links)} entities")
     framed = [e for e in links if e.frame_id != "world"]
-    check("links are locked to frames and stay", all(e.frame_locked and not e.HasField("lifetime") for e in links))
+    check("links are fixed to frames and do not expire", all(e.frame_locked and not e.HasField("lifetime") for e in links))
     wanted = {e.frame_id for e in framed}
     sets = [{t.child_frame_id for t in m.transforms} for _, _, m in messages["/tf"]]
     check("every link has its frame at every time", all(s == wanted for s in sets), ", ".join(sorted(wanted)))
-    check("frames hang on the world", all(t.parent_frame_id == "world" for _, _, m in messages["/tf"] for t in m.transforms))
+    check("the parent of every frame is the world", all(t.parent_frame_id == "world" for _, _, m in messages["/tf"] for t in m.transforms))
     norms = [math.hypot(t.rotation.z, t.rotation.w) for _, _, m in messages["/tf"] for t in m.transforms]
     check("rotations are unit quaternions", max(abs(n - 1.0) for n in norms) < DRAWING)
 
@@ -144,7 +144,7 @@ def check_scene(path, schemas, messages, sides):
             if "x_m" in track.get(time, {}):
                 gap = placed(transform, local) - np.array([track[time]["x_m"], track[time]["y_m"]])
                 worst, compared = max(worst, float(np.abs(gap).max())), compared + 1
-    check("lettered points are drawn where the numbers say", worst < 4 * DRAWING * max(size, 1.0), f"{compared} compared, {worst:.1e} m")
+    check("named points are drawn at their recorded positions", worst < 4 * DRAWING * max(size, 1.0), f"{compared} compared, {worst:.1e} m")
 
     sliding = sorted({t.split("/", 3)[3] for t, s in schemas.items() if s in ("linkproof.Slider", "linkproof.RubbingSlider")})
     if sliding:
@@ -158,7 +158,7 @@ def check_scene(path, schemas, messages, sides):
     parts = {link.get("name"): len(link.findall("visual")) for link in robot.iter("link")}
     check("the robot's description has every link, with parts", parts.keys() == wanted | {"world"} and all(parts.values()), parts)
     boxes = [[float(n) for n in box.get("size").split()] for box in robot.iter("box")]
-    check("its parts have sizes", boxes and all(math.isfinite(n) and n > 0.0 for size in boxes for n in size), f"{len(boxes)} boxes")
+    check("the parts of the robot's description have sizes", boxes and all(math.isfinite(n) and n > 0.0 for size in boxes for n in size), f"{len(boxes)} boxes")
     check_layout(path, schemas, messages, wanted)
 
 
@@ -172,9 +172,9 @@ def check_layout(path, schemas, messages, frames):
     panels = layout["configById"]
     paths = [own["value"].replace('"', "").rsplit(".", 1) for name, panel in panels.items() if name.startswith("Plot") for own in panel["paths"]]
     lost = [f"{topic}.{field}" for topic, field in paths if field not in (values(messages[topic][0][2]) if topic in messages else {})]
-    check("every plot has its numbers", paths and not lost, ", ".join(lost) or f"{len(paths)} lines")
+    check("every plotted number is recorded", paths and not lost, ", ".join(lost) or f"{len(paths)} lines")
     scene = panels["3D!mechanism"]
-    check("its topics are there", all(topic in schemas for topic in scene["topics"]))
+    check("the topics of the layout are recorded", all(topic in schemas for topic in scene["topics"]))
     hidden = {name.removeprefix("frame:") for name, own in scene["transforms"].items() if not own["visible"]}
     check("frames' axes are hidden", hidden == frames | {"world"})
     camera = scene["cameraState"]
@@ -224,11 +224,11 @@ def check_file(path):
     try:
         schemas, messages, attachments, metadata = load(path)
     except Exception as error:  # any error of a foreign reader is a finding
-        check("the Python reader opens it", False, repr(error))
+        check("the Python reader opens the file", False, repr(error))
         return
-    check("the Python reader opens it", messages, f"{sum(map(len, messages.values()))} messages")
+    check("the Python reader opens the file", messages, f"{sum(map(len, messages.values()))} messages")
     check("the scenario is attached", attachments.get("scenario.toml"), f"{len(attachments.get('scenario.toml', b''))} bytes")
-    check("metadata tells the scenario", metadata.get("linkproof", {}).get("scenario"), metadata.get("linkproof"))
+    check("the metadata name the scenario", metadata.get("linkproof", {}).get("scenario"), metadata.get("linkproof"))
     sides = check_numbers(schemas, messages, float(metadata["linkproof"].get("slow", "nan")))
     check_scene(path, schemas, messages, sides)
     check_forces(messages, metadata)

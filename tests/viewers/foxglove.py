@@ -201,7 +201,7 @@ def shown(viewer, source, recording, out):
     Path(out).write_bytes(png)
     good = seen(canvas, pixels(png), camera, wanted) if canvas else []
     missed = [name for name, own in good if not own]
-    print(f"{out}: {len(good) - len(missed)} of {len(wanted)} places on links are seen where the numbers say")
+    print(f"{out}: {len(good) - len(missed)} of {len(wanted)} points on links have the colour of their link at the computed pixel")
     sys.exit(0 if good and not missed else 1)
 
 

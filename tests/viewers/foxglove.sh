@@ -8,7 +8,7 @@ packages="$here/../../target/foxglove"
 pictures=$1
 shift
 if ! command -v npm >/dev/null || ! { command -v chromium || command -v google-chrome; } >/dev/null; then
-    echo "Foxglove Studio is left out: npm and chromium are not installed"
+    echo "Foxglove Studio is skipped: npm and chromium are not installed"
     exit 0
 fi
 if [ ! -e "$packages/node_modules/@foxglove/studio-base/assets/index.js" ]; then

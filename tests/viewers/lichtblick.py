@@ -25,7 +25,7 @@ def page(web, layout):
                 (root / file.name).symlink_to(file)
         text = (Path(web) / "index.html").read_text()
         if PLACE not in text:
-            sys.exit(f"{web}/index.html is no page of Lichtblick: it has no place for a layout")
+            sys.exit(f"{web}/index.html is not a page of Lichtblick: the placeholder for a layout is missing")
         (root / "index.html").write_text(text.replace(PLACE, json.dumps(layout)))
         return "index.html"
 

@@ -49,7 +49,7 @@ def serving(linkproof, out, *options):
         else:
             told = child.stderr.read()
             if "cargo feature" in told:
-                print(f"run --live is left out: {linkproof} is built without it")
+                print(f"run --live is skipped: {linkproof} is built without the feature `live`")
                 sys.exit(0)
             sys.exit(f"no live server: {told}")
     finally:
@@ -116,7 +116,7 @@ def same_as_recorded(address, recording):
         assert {channel["topic"] for channel in channels.values()} == set(kinds)
         assert all(clock == at for _, at, _, clock in messages), "viewers date messages by the clock"
         assert sorted(own[:3] for own in messages) == sorted(expected), f"{name}: {len(messages)} messages, not {len(expected)}"
-        print(f"  ok     {name}: {len(messages)} messages of {len(channels)} topics, as they are recorded")
+        print(f"  ok     {name}: {len(messages)} messages of {len(channels)} topics, equal to those of the recording")
     return channels, messages
 
 
@@ -143,7 +143,7 @@ def where_solve_has_it(linkproof, channels, messages):
     allowed = {"reference": 1e-12, "engine": 1e-5, "frames": 1e-5}
     told = ", ".join(f"{what} to {own:.1e}" for what, own in most.items())
     assert count > 1000 and all(own <= allowed[what] for what, own in most.items()), f"{count} numbers: {told}"
-    print(f"  ok     {count} numbers of links are what solve has: {told}")
+    print(f"  ok     {count} numbers of links equal those of `solve`: {told}")
 
 
 async def two_pictures(port, page, judge):
@@ -175,7 +175,7 @@ def in_studio(address, recording, packages, pictures):
         out = Path(pictures) / f"live_{number}.foxglove.png"
         out.write_bytes(png)
         times = ", ".join(f"{at * 1e-9:.4f}" for at in sorted(found)) or "none"
-        print(f"  {'ok    ' if found else 'FAILED'} {out}: poses of the recording that it shows, by their times in s: {times}")
+        print(f"  {'ok    ' if found else 'FAILED'} {out}: times (s) of the shown poses in the recording: {times}")
     assert all(found for _, found in shown) and not shown[0][1] & shown[1][1], "Studio does not show the motion"
 
 
@@ -191,7 +191,7 @@ def main(linkproof, pictures, packages=None):
             if packages and (Path(packages) / "node_modules/@foxglove/studio-base").exists():
                 in_studio(address, recording, packages, pictures)
             else:
-                print("  Foxglove Studio is left out: it is not installed")
+                print("  Foxglove Studio is skipped: it is not installed")
 
 
 main(*sys.argv[1:])

@@ -292,15 +292,15 @@ def check_file(scenario):
     mujoco.mj_forward(model, data)
     gap = np.abs(data.efc_pos[: data.ne]).max(initial=0.0) / scenario.size()
     slip = np.abs(data.efc_vel[: data.ne]).max(initial=0.0) / (abs(scenario.speed) * scenario.size())
-    check("loops are closed in the keyframe, and stay so at its speeds", gap < 1e-14 and slip < 1e-12, f"{gap:.1e}, {slip:.1e}")
-    check("the start pose is the one that is shown before a keyframe is loaded", np.array_equal(model.qpos0, model.key("start").qpos))
+    check("loops are closed in the keyframe, and its speeds keep them closed", gap < 1e-14 and slip < 1e-12, f"{gap:.1e}, {slip:.1e}")
+    check("the pose before a keyframe is loaded is the start pose", np.array_equal(model.qpos0, model.key("start").qpos))
     scene, camera, options = mujoco.MjvScene(model, 1000), mujoco.MjvCamera(), mujoco.MjvOption()
     mujoco.mjv_defaultFreeCamera(model, camera)
     mujoco.mjv_updateScene(model, data, options, None, camera, mujoco.mjtCatBit.mjCAT_ALL, scene)
     eye = scene.camera[0]
     check("the viewer looks from above, y up", np.allclose(eye.forward, [0, 0, -1], atol=1e-6) and np.allclose(eye.up, [0, 1, 0], atol=1e-6))
     drawn = {scenario.model.geom_bodyid[g.objid] for g in scene.geoms[: scene.ngeom] if g.objtype == mujoco.mjtObj.mjOBJ_GEOM}
-    check("every link is drawn, and nothing touches", set(range(1, model.nbody)) <= drawn and data.ncon == 0, f"{len(drawn)} bodies")
+    check("every link is drawn, and no bodies touch", set(range(1, model.nbody)) <= drawn and data.ncon == 0, f"{len(drawn)} bodies")
 
 
 def check_scenario(linkproof, path, singular):
@@ -310,12 +310,12 @@ def check_scenario(linkproof, path, singular):
     scenario = Scenario(linkproof, path)
     check_file(scenario)
     judgement = Judgement(scenario, scenario.model)
-    check("MuJoCo warns of nothing", not warnings, "; ".join(warnings[:3]))
+    check("MuJoCo gives no warning", not warnings, "; ".join(warnings[:3]))
     if not singular:
         check_promises(judgement)
     for order, what in ((POSITION, "positions"), (FORCE, "forces extrapolated")):
         beyond = [f"{c} beyond {judgement.estimates[c]:.1e}" for c in judgement.beyond(order)]
-        check(f"{what} are off by no more than MuJoCo's own error", not beyond, ", ".join(beyond) or f"{len(judgement.of(order))} channels")
+        check(f"errors of {what} are at most MuJoCo's own error", not beyond, ", ".join(beyond) or f"{len(judgement.of(order))} channels")
 
     def longer(model):
         """Displaces a site of a loop joint along both axes, because a displacement along a guide has no effect. Without a loop, displaces the last body."""
@@ -354,17 +354,17 @@ def check_promises(judgement):
     for order, what in ((POSITION, "positions"), (FORCE, "forces")):
         row = " ".join(f"{judgement.worst(order, run)[0]:.1e}" for run in range(len(STEPS)))
         error, channel = judgement.worst(order)
-        check(f"{what} are as good as promised", error <= PROMISED[what], f"{row}, worst in {channel}")
+        check(f"errors of {what} are within their limits", error <= PROMISED[what], f"{row}, worst in {channel}")
     orders = {c: order for c, order in judgement.orders.items() if order is not None}
     off = [f"{channel} {order:.2f}" for channel, order in orders.items() if not abs(order - POSITION) <= ORDER]
     if orders:
         check("positions are of second order", not off, ", ".join(off) or f"{min(orders.values()):.3f} to {max(orders.values()):.3f}")
     else:
         # In a train of wheels at constant speed, positions have no truncation error.
-        check("positions are too exact for an order", judgement.worst(POSITION)[0] <= PROMISED["positions extrapolated"], f"{judgement.worst(POSITION)[0]:.1e}")
+        check("errors of positions are too small to show an order", judgement.worst(POSITION)[0] <= PROMISED["positions extrapolated"], f"{judgement.worst(POSITION)[0]:.1e}")
     for order, what in ((POSITION, "positions extrapolated"), (FORCE, "forces extrapolated")):
         error, channel = max((judgement.extrapolated[channel], channel) for channel in judgement.of(order))
-        check(f"{what} are as good as promised", error <= PROMISED[what], f"{error:.1e}, worst in {channel}")
+        check(f"errors of {what} are within their limits", error <= PROMISED[what], f"{error:.1e}, worst in {channel}")
 
 
 def main(arguments):

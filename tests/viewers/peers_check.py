@@ -30,7 +30,7 @@ REACTIONS = {"scenarios/pendulum.toml": 1e-10, "scenarios/double_pendulum.toml":
 def main(linkproof):
     installed = [name for name in ("mujoco", "exudyn") if importlib.util.find_spec(name)]
     for name in {"mujoco", "exudyn"} - set(installed):
-        print(f"  SKIPPED: {name} is not installed, nothing is known of its peer")
+        print(f"  SKIPPED: {name} is not installed, so its peer is not tested")
     failed = 0
     for scenario, expected in EXPECTED.items():
         peers = [name for name in installed if name in expected]
@@ -51,7 +51,7 @@ def main(linkproof):
             if peer == "mujoco" and scenario in REACTIONS:
                 passed &= min(point["errors"]["reactions"]["max"] for point in own) <= REACTIONS[scenario]
             failed += not passed
-            print(f"  {'ok    ' if passed else 'FAILED'} {peer} comes to our motion of {scenario}: {min(errors, default=float('inf')):.1e}")
+            print(f"  {'ok    ' if passed else 'FAILED'} {peer} converges to the analytic motion of {scenario}: {min(errors, default=float('inf')):.1e}")
     sys.exit(1 if failed else 0)
 
 

@@ -115,7 +115,7 @@ def main(plotjuggler, linkproof, recording, out):
             display.wait()
     picture.save(out)
     good = [part > 0.95 for _, part in found]
-    print(f"{out}: {sum(good)} of {len(good)} curves run where the numbers say")
+    print(f"{out}: {sum(good)} of {len(good)} curves are drawn at the recorded values")
     for name, part in found:
         print(f"  {name}: {part:.0%}")
     sys.exit(0 if good and all(good) else 1)

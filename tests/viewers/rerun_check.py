@@ -84,7 +84,7 @@ def photograph(rrd, picture):
         timeout=300,
     )
     if not picture.exists():
-        check("the viewer makes a picture", False, " / ".join(done.stderr.splitlines()[-3:]))
+        check("the viewer draws a picture", False, " / ".join(done.stderr.splitlines()[-3:]))
         return
     pixels = np.asarray(Image.open(picture).convert("RGB")).astype(int)
     left = pixels[:, : pixels.shape[1] * 3 // 5]
@@ -108,12 +108,12 @@ def main(linkproof, pictures, *files):
         verified = subprocess.run(["rerun", "rrd", "verify", rrd], capture_output=True)
         check("rerun rrd verify", verified.returncode == 0)
         (times, poses), (own_times, own_poses) = recorded(file), shown(rrd)
-        check("every frame is there", set(poses) == set(own_poses), ", ".join(sorted(own_poses)))
+        check("every frame is in the .rrd", set(poses) == set(own_poses), ", ".join(sorted(own_poses)))
         late = max(np.abs(own - times).max() for own in own_times.values())
         check("times are simulated seconds", late < 2e-9, f"within {late:.1e} s")
         gap = lambda name: np.abs(np.angle(np.exp(1j * (poses[name] - own_poses[name])))).max()
         worst = max(gap(name) for name in poses)
-        check("links are where the recording has them", worst < 1e-6, f"{worst:.1e} m or rad")
+        check("poses of links equal those of the recording", worst < 1e-6, f"{worst:.1e} m or rad")
         photograph(rrd, pictures / f"{file.stem}.rerun.png")
     sys.exit(1 if failed else 0)
 

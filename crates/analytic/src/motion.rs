@@ -1,4 +1,4 @@
-//! The integrator that both sides share, for any equations of motion.
+//! The integrator that both analytic sides share, for any equations of motion.
 //! See docs/numerics/forces.md.
 
 pub(crate) mod flow;

@@ -136,9 +136,11 @@ pub fn reachable(case: &Case) -> Result<Extent> {
 }
 
 /// Explains an error of a solver on this case. This function is for code that combines solvers and range analysis.
-/// If the error [reports a pose out of reach](Error::is_out_of_reach), its message is extended by the reachable crank
-/// angles, or by the reason why they are unknown.
-/// Any other error stays unchanged.
+/// If the error [reports a pose out of reach](Error::is_out_of_reach) and the crank cannot turn fully, the reachable
+/// crank angles are added to its message.
+/// If the crank angles are unknown because the start pose is singular or the allowed work is used up, this reason is
+/// added instead.
+/// An error that does not report a pose out of reach stays unchanged.
 /// The solvers must not share the range analysis, so they do not call this function themselves.
 pub fn explained(case: &Case, error: Error) -> Error {
     if !error.is_out_of_reach() {

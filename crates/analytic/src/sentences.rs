@@ -1,4 +1,4 @@
-//! All sentences that this crate can show, collected in one list.
+//! All messages that this crate can show, in one file, so that they can be read as a list.
 
 linkage::sentences! {
     // reduced/means.rs
@@ -8,7 +8,7 @@ linkage::sentences! {
     DRIVE_THE_MECHANISM_AT_A_CRANK = "drive a link that is hinged to the ground, or claim `drive.reduced_mass_kg` and `drive.reduced_force_N` as formulas";
     // range/tracking.rs
     the_slide_has_no_limit(at) = "the mechanism can be followed up to {at} without reaching a limit";
-    THE_MECHANISM_MOVES_OVER = "the grid of the file may lie anywhere on this side of the start";
+    THE_MECHANISM_MOVES_OVER = "no limit was found in this direction from the start, so the grid may contain any input in this direction";
     ONE_OF_SEVERAL_DRIVES_CHANGES = "the range of motion is a curve only if all drives have constant speeds, and one of several drives changes its speed";
     GIVE_THE_DRIVES_CONSTANT_SPEEDS = "give all drives constant speeds";
     // assur/passing.rs
@@ -45,7 +45,7 @@ linkage::sentences! {
     // motion/flow.rs
     GIVE_THE_MOTOR_MORE_TORQUE = "give the motor more torque or the mechanism more speed, or end the grid before this instant";
     link_at_rest_at(what, name, x) = "{what} link \"{name}\" at rest at t = {x:.6} s";
-    ITS_RESISTANCE_HOLDS = "its resistance holds";
+    ITS_RESISTANCE_HOLDS = "a resistance holds";
     FRICTION_HOLDS = "friction holds";
     THE_LOSSES_OF_THE_REDUCER = "the losses of the reducer hold";
     // motion/free.rs
@@ -57,7 +57,7 @@ linkage::sentences! {
     PRESCRIBE_THE_MOTION_OF_SOME = "prescribe the motion of some of them";
     driving_links_are_free_at_most(free, most_freedoms) = "{free} driving links move freely, but at most {most_freedoms} can be solved";
     // motion/march.rs
-    IT_RUNS_AWAY_OR_A_LOAD_TURNS = "the motion runs away, or a load reverses all the time: check loads and motor, or end the grid earlier";
+    IT_RUNS_AWAY_OR_A_LOAD_TURNS = "the speed grows without bound, or a load reverses again and again: check loads and motor, or end the grid earlier";
     of_the_motion_has_gone_in_pieces(last, x, value) = "the motion had to be divided into {value} pieces within the first {x:.9} s of {last} s";
     NO_STEP_REACHES_ITS_BOUND = "no time step can be made to end where a load or the motor's law changes";
     ITS_STEPS_BECOME_TOO_SMALL = "the time steps become too small, as at a singular pose (dead point or change point)";
@@ -67,7 +67,7 @@ linkage::sentences! {
     THE_EQUATIONS_OF_MOTION_ARE_SINGULAR = "the equations of motion are singular: a degree of freedom has no inertia at this pose";
     // motion/step.rs
     WHERE_MASSES_NEARLY_VANISH_AT_A_CRANK = "the equation is stiff where the inertia nearly vanishes at a crank angle: give the crank or the rotor a moment of inertia";
-    the_equation_of_motion_cannot(x, why) = "the equation of motion cannot be integrated beyond {x:.9}: {why}";
+    the_equation_of_motion_cannot(x, why) = "the equation of motion cannot be integrated beyond {x:.9} (time in s; crank angle in rad in a steady motion): {why}";
     A_STEP_ONTO_A_KINK_WAS_REFUSED = "a step that ends at a kink was refused";
     // newton/free.rs
     THE_SOLUTION_HAS_JUMPED_TO_ANOTHER = "the solution has jumped to another branch";
@@ -78,7 +78,7 @@ linkage::sentences! {
     VELOCITIES_JUMP_THERE_CHANGE_POINT = "velocities jump there (change point)";
     THERE_ARE_TWO_CHANGE_POINTS = "two change points are close together";
     LET_THE_GRID_END_BEFORE = "end the grid before this point";
-    beside_this_change_point_the_branch(at, why) = "{at}: the branch with continuous velocities is not clear beside this change point{why}";
+    beside_this_change_point_the_branch(at, why) = "{at}: the branch with continuous velocities cannot be determined near this change point{why}";
     // newton/steps.rs
     THE_POSE_IS_SINGULAR_THERE = "the pose is singular there (dead point or change point)";
     THE_MECHANISM_HAS_PASSED_A_DEAD = "the mechanism has passed a dead point before this instant";

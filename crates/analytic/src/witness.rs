@@ -1,4 +1,4 @@
-//! Independent methods that check the results of the two sides. No other result depends on these methods.
+//! Independent methods that check the results of the two analytic sides. No other result depends on these methods.
 
 pub mod momentum;
 pub mod power;

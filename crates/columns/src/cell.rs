@@ -110,7 +110,7 @@ impl TableCell {
 /// The trailing zeros then count as digits lost in rounding, unless the numbers count as exact: see [`chosen`].
 ///
 /// Numbers in single precision are printed with up to nine digits but have fewer significant digits.
-/// The shortest text for a number in single precision may lie half way to the neighbouring number.
+/// The shortest text of such a number may differ from it by almost half the distance to the neighbouring number.
 /// A number in single precision is therefore converted to single precision again.
 pub fn numbers(cells: &[TableCell]) -> Vec<Rounded> {
     numbers_as(cells, Precision::of(cells))
@@ -154,8 +154,7 @@ const FEW: usize = 2;
 /// By chance, about one in five decimal numbers with eight digits is the shortest text of such a number.
 const TELLING: usize = 8;
 
-/// Precision of the numbers of a column before the numbers were printed. In the order of the variants, single precision
-/// comes first.
+/// Precision of the numbers of a column before the numbers were printed, coarsest precision first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Precision {
     /// Single: each number has just enough digits to be distinguished from its neighbours.

@@ -12,8 +12,8 @@ const SINGLE: u16 = 7;
 /// For a column of zeros, the result also depends on `others`, the columns of the file other than this column.
 ///
 /// A constant column does not show its format.
-/// A `0` printed by `%g`, Python and similar formats is an exact zero. A `0` printed by `%.0f` may be any number below
-/// a half.
+/// A `0` printed by `%g`, Python and similar formats is an exact zero. A `0` printed by `%.0f` may be any number
+/// whose absolute value is at most a half.
 /// A file usually has one format. If this format omits trailing zeros, both the number of decimals and the number of
 /// significant digits vary from cell to cell in a column that is not constant.
 /// If both numbers vary in every column of `others`, the zeros have at least the decimals and digits of the coarsest of

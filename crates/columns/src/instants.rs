@@ -20,7 +20,7 @@ pub fn chosen(values: &[Rounded]) -> bool {
 }
 
 /// Whether printed instants in degrees are exact values that someone chose, and not rounded values.
-/// Whole degrees at equal steps always count as chosen.
+/// Whole degrees at equal steps count as chosen if the first one is a multiple of the step.
 /// Whole degrees at unequal steps, such as 0, 30, 45, 60 and 90, count as chosen if they have a common divisor that
 /// whole numbers rarely have by chance.
 /// All other instants are judged as by [`chosen`].

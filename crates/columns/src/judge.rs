@@ -13,7 +13,7 @@ pub struct RowPair {
     pub time: f64,
     /// Crank angle (rad, in the scenario's convention); NaN if unknown.
     pub crank: f64,
-    /// Values of the first and the second party, in the unit of the claim. NaN if a party has no number.
+    /// Values of the first and the second party, in the unit of the columns. NaN if a party has no number.
     pub values: [f64; 2],
     /// Second value minus first value. For angles, whole turns are removed.
     pub difference: f64,
@@ -55,18 +55,18 @@ pub struct Beside<'a> {
     pub turn: Option<f64>,
     /// Difference that is allowed in addition to the known part of the bound.
     pub allowance: Allowance,
-    /// Selects which of the two columns is the reference.
+    /// The reference of the two columns.
     pub measure: ScaleColumn,
 }
 
-/// Selects the reference of two columns.
-/// The second column is the reference if only this column comes from an analytic side, otherwise the first.
+/// The reference of two columns.
+/// The second column is the reference if only the second column comes from an analytic side. Otherwise the first column
+/// is the reference.
 #[derive(Clone, Copy, Debug)]
 pub struct ScaleColumn {
     /// Index of the reference column: 0 or 1.
     pub party: usize,
-    /// Whether the reference comes from an analytic side. If an analytic side has no number in a row, no number is
-    /// expected.
+    /// Whether the reference comes from an analytic side. A row in which this side has no number is not judged.
     pub is_analytic: bool,
 }
 
@@ -82,7 +82,8 @@ impl ScaleColumn {
 pub struct JudgedColumns {
     /// Number of rows compared.
     pub judged: usize,
-    /// Number of rows without a measurement, or in which no number is expected.
+    /// Number of rows that are not judged: nothing was measured, the reference from an analytic side has no number, or
+    /// neither party has a number.
     pub missing: usize,
     /// Root mean square of the differences, over all rows in which both values are numbers.
     pub rms: f64,

@@ -2,6 +2,7 @@
 //! Loops over rows are in this crate, because this crate is compiled with optimisation.
 //!
 //! - [`read`]: a text with separated columns as a [`TextTable`].
+//! - [`CellTable`]: the cells of a table as written.
 //! - [`Records`]: the rows of a table whose cells are not all numbers.
 //! - [`TableCell`] and [`numbers`]: the numbers of a column, each with the uncertainty caused by the printing of its
 //!   digits.
@@ -11,6 +12,7 @@
 //! - [`judge`]: comparison of two columns.
 
 mod cell;
+mod cells;
 mod constant;
 mod instants;
 mod judge;
@@ -19,6 +21,7 @@ mod sentences;
 mod text;
 
 pub use cell::{MISSING, TableCell, UNDEFINED, is_missing, numbers};
+pub use cells::CellTable;
 pub use constant::numbers_beside;
 pub use instants::{chosen, degrees_chosen, drift};
 pub use judge::{Allowance, Beside, JudgedColumns, RowPair, ScaleColumn, judge};

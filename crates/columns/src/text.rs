@@ -57,6 +57,14 @@ pub struct TableFault {
     pub help: String,
 }
 
+impl TableFault {
+    /// The fault of a text that has only blank lines and comments.
+    pub(crate) fn empty() -> TableFault {
+        let [message, help] = [sentences::THE_TABLE_IS_EMPTY, sentences::GIVE_A_TABLE_WITH_A_HEADER].map(String::from);
+        TableFault { at: 0..0, message, help }
+    }
+}
+
 /// Two columns with the same name. The pair can be displayed as a message.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Twice {
@@ -103,17 +111,16 @@ pub fn bytes(text: &str) -> f64 {
 ///
 /// # Errors
 /// A line whose number of cells differs from that of the header, or a cell that is not a number.
-/// Two columns with the same name, or a text without any line, are errors too.
+/// Two columns with the same name, or a text that has only blank lines and comments, are errors too.
 pub fn read(text: &str) -> Result<TextTable, TableFault> {
     let wrong = |start: usize, message: String, help: &str| {
         let length = text[start..].find(['\r', '\n']).unwrap_or(text.len() - start);
         TableFault { at: start..start + length, message, help: help.into() }
     };
-    let separator =
-        lines(text).last().and_then(|(_, line)| ['\t', ';', ','].into_iter().find(|sign| line.trim().contains(*sign)));
+    let separator = separator(text);
     let mut rows = lines(text).peekable();
     let Some(&(header_at, first)) = rows.peek() else {
-        return Err(wrong(0, sentences::THE_TABLE_IS_EMPTY.into(), sentences::GIVE_A_TABLE_WITH_A_HEADER));
+        return Err(TableFault::empty());
     };
     let mut first_cells = Vec::new();
     divide(first, separator, &mut |cell| first_cells.push(cell.trim().to_string()));
@@ -157,16 +164,21 @@ pub fn read(text: &str) -> Result<TextTable, TableFault> {
     Ok(TextTable { names, columns, lines: places })
 }
 
+/// The character that separates the cells of the last line; `None` if blanks separate them.
+pub(crate) fn separator(text: &str) -> Option<char> {
+    lines(text).last().and_then(|(_, line)| ['\t', ';', ','].into_iter().find(|sign| line.trim().contains(*sign)))
+}
+
 /// The number in a cell. A decimal comma is accepted.
 /// If commas separate the cells, only a cell in quotes can contain a decimal comma.
-fn number(cell: &str) -> Option<TableCell> {
+pub(crate) fn number(cell: &str) -> Option<TableCell> {
     TableCell::parse(cell)
         .or_else(|| (cell.matches(',').count() == 1).then(|| TableCell::parse(&cell.replace(',', ".")))?)
 }
 
 /// The lines that are neither blank nor comments, each with the position of its first byte.
 /// Trailing tabs stay, because they may separate empty cells.
-fn lines(text: &str) -> impl DoubleEndedIterator<Item = (usize, &str)> {
+pub(crate) fn lines(text: &str) -> impl DoubleEndedIterator<Item = (usize, &str)> {
     let begin = text.as_ptr() as usize;
     let all = text.strip_prefix('\u{feff}').unwrap_or(text).split('\n');
     all.map(move |line| (line.as_ptr() as usize - begin, line.trim_matches([' ', '\r'])))

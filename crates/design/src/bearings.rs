@@ -21,12 +21,12 @@ const SAMPLE_STEP: f64 = PI / 360.0;
 /// The factor allows for rounding errors of both sums.
 const ROUNDING: f64 = 1.0 + 1e-9;
 
-/// Largest value of a quantity over a range of crank angles, with the crank angle where it occurs.
+/// Largest magnitude of a quantity over a range of crank angles, and the crank angle of this magnitude.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Peak {
     /// Largest magnitude (N; N m for a moment).
     pub value: f64,
-    /// Crank angle of the largest value (rad, as the scenario defines it).
+    /// Crank angle of the largest magnitude (rad, as the scenario defines it).
     pub crank: f64,
 }
 
@@ -62,7 +62,7 @@ pub struct FrictionLoss {
     pub is_force: bool,
     /// Largest friction (N m or N). For a transmission: the largest moment on its first member.
     pub largest: f64,
-    /// Work that the friction takes over the range (J), not negative.
+    /// Work lost by the friction over the range (J), not negative.
     pub work: f64,
     /// Largest product of the normal force and the sliding speed of the contact (W).
     /// Divided by the bearing area, this value is the product of bearing pressure and speed.
@@ -71,7 +71,7 @@ pub struct FrictionLoss {
 
 impl Peaks {
     /// Efficiency over the range: the fraction of the drives' work that is not lost by friction.
-    /// `None` without friction, and if the drives do less work than friction takes.
+    /// `None` without friction, and if the work of the drives does not exceed the work lost by friction.
     pub fn efficiency(&self) -> Option<f64> {
         let lost: f64 = self.frictions.iter().map(|own| own.work).sum();
         (lost > 0.0 && self.drive_work > ROUNDING * lost).then(|| 1.0 - lost / self.drive_work)

@@ -118,7 +118,7 @@ pub struct ClearanceResult {
     /// Swept areas of the question's moving bodies: index of the body and area.
     pub swept: Vec<(usize, Area)>,
     /// Parts of the range (rad) for which no bound could be proven.
-    /// These parts lie around singular poses, or remain when the limit of the work is reached.
+    /// These parts lie around singular poses, or remain when the work limit is reached.
     pub open: Vec<[f64; 2]>,
     /// Error bound of the smallest distances (m).
     pub tolerance: f64,

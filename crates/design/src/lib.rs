@@ -1,12 +1,15 @@
 //! Design of a mechanism from results that other crates have proven. This crate is not part of the proof.
-//! The crate covers bearings, clearance, diagrams, export, flywheel, motor choice, plans and synthesis.
+//! The crate covers bearings, clearance, diagrams, exercises, export, flywheel, motor choice, plans,
+//! sensitivities and synthesis.
 
 pub mod bearings;
 pub mod clearance;
 pub mod diagram;
 pub mod draw;
 pub mod drive;
+pub mod exercise;
 pub mod export;
 pub mod plan;
+pub mod sensitivity;
 mod sentences;
 pub mod synthesize;

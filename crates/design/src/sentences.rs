@@ -26,10 +26,30 @@ linkage::sentences! {
     perpendicular_to(pair) = ", perpendicular to {pair}";
     of_the_point_of_link_under(word, under, guide, named, direction) = "{word} of {under}, the point of link {guide} under {named}{direction}";
     of_the_mass_centre_of_link(word, number, link, guide) = "{word} of the mass centre of link {number} ({link}){guide}";
+    // sensitivity.rs
+    NAME_A_KEY = "name a number of the file, such as `links.crank.mass_kg`";
+    THE_CASE_DEPENDS_ON_NO_KEY = "no parameter, dimension, mass, or number of a law or load has a known effect on the figures";
+    no_number_of_the_file_is_called(name) = "no number of the file is called `{name}`";
+    no_derivative_is_known(name, part) = "no derivative by `{name}` is known, because `{part}` depends on it without a known derivative";
+    COMPARE_WITH_A_SWEEP = "instead, compare two values of the number in a sweep";
+    a_reduced_quantity_is_not_differentiated(text) = "{text} uses masses as plain numbers, so no derivative of it is known";
+    the_two_solutions_differ(figure, one, other) = "{figure}: analytic side 1 gives {one}, but the solution in dual numbers gives {other}";
+    TAKE_ANOTHER_INSTANT = "the pose may be near a dead point; leave this instant out of the grid";
+    // sensitivity/instants.rs
+    no_sensitivities(reason) = "sensitivities cannot be computed: {reason}";
+    A_LAW_BY_TABLE_KEEPS_NO_INPUT = "sensitivities cannot be computed: the motion law is a table or formula, and the grid is given by inputs; give the grid by times";
+    NO_DERIVATIVE_IN_THIS_POSE = "no derivative exists: the pose is singular, or the input stands still";
+    // sensitivity/tolerance.rs
+    a_tolerance_has_no_derivative(key) = "`{key}` has a tolerance, but no known derivative";
+    no_sampled_mechanism_can_be_solved(count) = "at most one of {count} random mechanisms can be solved";
+    GIVE_SMALLER_TOLERANCES = "give smaller tolerances or more samples";
     // draw/clearance_sheet.rs
     smallest_distance_at(distance, names, crank) = "smallest distance {distance}: {names} at {crank}";
     first_collision_at(names, crank) = "first collision: {names} at {crank}";
     swept_by(body) = "swept by {body}";
+    // draw/cyclogram_sheet.rs
+    MOMENT_THAT_ALL_PHASES_ALLOW = "moment: the shaft angles at which every organ is in a phase that belongs to it";
+    MAIN_SHAFT = "main shaft";
     // draw/graph_sheet.rs
     CRANK_ANGLE_DEG_2 = "crank angle φ, deg";
     scale_factor(graph, symbol, unit, scale, per) = "{graph} {symbol}, {unit}; scale factor {scale} {per}";
@@ -39,10 +59,25 @@ linkage::sentences! {
     EXACT_BY_THE_SOLVER = "exact, by the solver";
     scale_factor_2(channel, sub, scale, per) = "{channel}, scale factor μ{sub} = {scale} {per}";
     chord_method_and_graphical_integration(divisions) = "chord method and graphical integration, {divisions} divisions; errors as fractions of half the range of the exact curve";
+    // draw/construction_sheet.rs
+    construction_with_divisions(sort, divisions) = "construction by {sort}, {divisions} divisions; grey: the exact curve";
+    scale_factor_of_time(sub, scale) = "scale factor of time μ{sub} = {scale} s/mm";
+    pole_distance(name, pole) = "{name} = {pole} mm";
+    the_curve_and_its(sort) = "the curve and its {sort}";
+    GIVEN_EXACT_CURVE = "given: the exact curve";
+    given_exact_curve_with_areas(pole) = "given: the exact curve; areas of the strips in mm² of the sheet, 1 mm of ordinate for {pole} mm²";
+    found_with_largest_error(name, error, unit, share) = "{name}: largest error {error} {unit}, {share:.2} % of half the range";
     // draw/plan_sheet.rs
+    INSTANT_CENTRES = "Instant centres and acceleration centres";
+    turned_by(scale, sense) = "{scale}; turned by 90 deg {sense}, against the driving link";
     FROM_TO = "from → to";
     scale_factor_3(symbol, sub, scale, scripted) = "scale factor {symbol}{sub} = {scale} {scripted}";
+    // draw/tornado_sheet.rs
+    EFFECT_OF_ONE_PER_CENT = "change of the figure (%) if the number grows by 1 %";
+    EFFECT_OF_THE_TOLERANCE = "change of the figure if the number grows by its tolerance";
+    figure_with_its_value(figure, value, unit) = "{figure} = {value} {unit}";
     // draw/timing_sheet.rs
+    WANTED_CURVE_REST_OR_AT_LEAST_SO = "required: cycloidal curve, rest, or at least this displacement";
     WANTED_REST_OR_AT_LEAST_SO = "required: rest, or at least this displacement";
     ACHIEVED_SHARE_OF_THE_STROKE = "achieved, share of the stroke";
     // diagram/motion.rs
@@ -64,7 +99,46 @@ linkage::sentences! {
     give_a_number_in(noun, unit) = "give a {noun} in {unit}, such as 70 or -30; or a time in s";
     name_some_of(all) = "name one or several of {all}";
     no_point_and_no_link_is_called(name) = "no point or link is called \"{name}\"";
+    // plan/centre_sheet.rs
+    pin(name) = "pin {name}";
+    across_the_guide(name) = "across the guide {name}";
+    both_centres_with_link_coincide(third) = "both centres with link {third} are this point";
+    FROM_THE_VELOCITIES = "from the velocities: fewer than two lines through it are known";
+    line_of_action_of(name) = "line of action of {name}";
+    // draw/assur_figure.rs
+    acceleration_of_by_its_leads(name, lines) = "Acceleration of the singular point {name} = {lines}";
+    acceleration_of_by_false_positions(name, lines) = "Acceleration of {name} = {lines} by two false positions";
+    NORMAL_PARTS_ALONG = "normal parts: ω² l of the lead, then that of the base link";
+    TANGENTIAL_PARTS_ACROSS = "tangential parts, across the leads";
+    LINE_OF_FALSE_POSITIONS = "line of false positions";
+    LINE_OF_TRUE_POSITIONS = "line of true positions, across the arm from the outer joint to the point";
+    acceleration_of(name) = "acceleration of {name}";
+    false_position_for_alpha(link, alpha) = "false position, for alpha of link {link} = {alpha} rad/s²";
+    acceleration_of_with_alphas(name, link, alpha, other, beta) = "acceleration of {name}; alpha of link {link} = {alpha}, of link {other} = {beta} rad/s²";
+    // draw/centre_figure.rs
+    AT_INFINITY = "at infinity";
+    NOWHERE = "nowhere: it translates";
+    EVERYWHERE = "everywhere: no motion";
+    acceleration_centre_of_link(link) = "acceleration centre of link {link}";
+    // plan/vectors.rs
+    of_the_singular_point(quantity, name, lines) = "{quantity} of the singular point {name} = {lines}";
+    // plan/scales.rs
+    EXPECTED_TWO_NUMBERS_SUCH_AS = "expected two numbers greater than zero, such as 1:2";
+    EXPECTED_A_SCALE = "expected a scale factor such as mu_v=0.02, the length of a vector on paper such as pa=100mm, 1:2, or crank";
+    expected_a_scale_factor(name, unit) = "expected a scale factor greater than zero, such as {name}=0.02 in {unit}";
+    expected_a_length_on_paper(name) = "expected a length greater than zero in mm, such as {name}=100mm";
+    THE_CRANK_DOES_NOT_TURN_SO_ITS_SCALE = "the scale of the crank needs a crank that turns; here, the driving link does not turn";
+    GIVE_A_SCALE_FACTOR_OR_A_LENGTH = "give a scale factor such as mu_v=0.02, or the length of a vector such as v_B=100mm";
+    no_vector_and_no_side_is_called(name) = "no vector and no distance of two points is called \"{name}\"";
+    name_a_vector_or_a_side(names) = "name a vector of the table, such as v_B, a distance of two points, such as OA, or one of {names}";
+    is_given_twice(symbol) = "{symbol} is given twice";
+    GIVE_ONE_SCALE_FOR_EACH_DRAWING = "give one scale for each drawing; `crank` sets mu_v and mu_a";
+    has_no_length_here(name, mm) = "{name} is zero at this instant, so no scale makes it {mm} mm long";
+    NAME_ANOTHER_VECTOR_OR_INSTANT = "name another vector, or choose another instant";
+    the_drawing_would_be_mm_large(symbol, scale, paper) = "at {symbol} = {scale}, the drawing would be {paper:.4} mm large";
+    give_a_scale_factor_from_to(symbol, from, to) = "give a {symbol} from {from} to {to}: drawings are 1 to 2000 mm large";
     // plan/singular.rs
+    all_leads_meet_in_the_singular_point(names) = "all three leads meet in the singular point {names}: a dead point";
     TAKE_A_CRANK_ANGLE_A_LITTLE = "choose a slightly different crank angle";
     the_singular_point_lies_in_line(names) = "the singular point {names} lies in line with the outer joints: a dead point";
     the_leads_are_parallel_their(names) = "the leads {names} are parallel: their singular point lies at infinity";
@@ -108,7 +182,7 @@ linkage::sentences! {
     GIVE_A_NUMBER_ABOVE_ZERO = "give a number above zero, such as 0.02";
     a_coefficient_of_non_uniformity(wanted) = "a coefficient of non-uniformity of {wanted} is requested";
     // drive/motor.rs
-    GIVE_A_CATALOGUE_WITH_STRONGER = "use a catalogue with stronger motors, or lower the peak; a flywheel on the crank carries the mechanism over a peak";
+    GIVE_A_CATALOGUE_WITH_STRONGER = "use a catalogue with stronger motors, or lower the peak of the resistance; a flywheel on the crank carries the mechanism over a peak";
     the_drive_asks_for_kw_the_strongest(asked, strongest) = "the drive needs {asked:.4} kW, but the strongest motor has {strongest:.4} kW";
     GIVE_THE_SCENARIO_THE_LOADS = "give the scenario the loads that the drive works against";
     the_greatest_moment_of_resistance(greatest) = "the greatest moment of resistance is {greatest:.6} N·m: no motor is needed";
@@ -166,24 +240,47 @@ linkage::sentences! {
     A_SMALLEST_TRANSMISSION_ANGLE_IS_ASKED = "a smallest transmission angle is required, but higher groups have no transmission angle";
     NOTHING_MAY_VARY = "no dimension may vary";
     ADD_A_TABLE_VARY_FOR_EACH = "add a table `[[vary]]` for each length or pivot to be found";
+    NAME_THE_WORKING_POINT_OF_THE_OUTPUT = "name the working point of the output link: `working_point = \"8\"` in `[output]`";
+    AN_ACCELERATION_IS_LIMITED_BUT_NO_POINT = "an acceleration is limited, but the output has no point";
     TAKE_A_SCENARIO_WITH_ONE_DRIVE = "use a scenario with one `[drive]`";
     THE_MECHANISM_HAS_SEVERAL_DRIVES = "the mechanism has several drives, but a timing belongs to one crank";
     // synthesize/task/timing.rs
     GIVE_EVERY_MOVING_PHASE_ITS_LEVEL = "give every moving phase its `level`, or leave out `follow`";
-    THE_CURVE_IS_TO_BE_FOLLOWED = "the curve is to be followed, but some levels are not given";
+    THE_CURVE_IS_TO_BE_FOLLOWED = "the output must follow the curve, but some levels are not given";
     AN_OUTPUT_THAT_ROCKS_GOES = "an output that rocks goes forward and back in every turn";
     no_phase_goes_the_output(sense) = "no phase moves {sense}: the output would not return";
     LET_IT_END_AT_DEG = "let the last phase end at 360 deg";
     the_last_phase_ends_at_deg(to_degrees) = "the last phase ends at {to_degrees:.6} deg, not after a whole turn";
     GIVE_A_NUMBER_FROM_TO_BELOW = "give a number of at least 0 and below 1";
-    THE_LEAST_DISPLACEMENT_IS_A_SHARE = "the least displacement is a share of the stroke";
+    THE_LEAST_DISPLACEMENT_IS_A_SHARE = "the least displacement is a fraction of the stroke";
     GIVE_A_NUMBER_FROM_TO = "give a number from 0 to 1";
-    A_LEVEL_IS_A_SHARE_OF_THE_STROKE = "a level is a share of the stroke";
+    A_LEVEL_IS_A_SHARE_OF_THE_STROKE = "a level is a fraction of the stroke";
     LET_CRANK_ANGLES_ASCEND_FROM_PHASE = "let crank angles ascend from phase to phase; the first begins at 0";
     the_phase_leads_from_to_deg(phase, phase_2) = "the phase runs from {phase:.6} to {phase_2:.6} deg";
     JOIN_PHASES_OF_ONE_SENSE = "merge successive phases of the same sense";
     found_phases_more_than(phases, most_phases) = "found {phases} phases, more than {most_phases}";
     found_phases_but_a_motion(phases) = "found {phases} phases, but a motion has at least two";
+    // synthesize/machine_file.rs
+    CHECK_THE_NUMBERS_OF_THE_PHASES = "check the numbers of the phases; the first phase of a task has the number 1";
+    the_phases_of_the_moment_have_nothing_in_common(name) = "no shaft angle lies in the given phases of all organs of the moment \"{name}\"";
+    give_numbers_from_to(count) = "give numbers from 1 to {count}";
+    the_organ_has_no_phase(key, number) = "\"{key}\" has no phase {number}";
+    no_organ_is_called(key) = "no organ is called \"{key}\"";
+    NAME_THE_SCENARIO_BESIDE = "name the scenario of the drive, relative to the directory of this file";
+    NAME_THE_SYNTHESIS_FILE_BESIDE = "name the synthesis file of the organ, relative to the directory of this file";
+    GIVE_EVERY_ORGAN_ANOTHER_NAME = "give every organ a different name";
+    two_organs_are_called(name) = "two organs are called \"{name}\"";
+    give_from_to_of_them(least, most, key) = "give {least} to {most} tables `[[{key}]]`";
+    the_machine_has_so_many(count, key) = "found {count} {key}";
+    GIVE_THE_PATH_OF_A_MACHINE_FILE = "give the path of a machine file, such as machine.toml";
+    // synthesize/target.rs
+    has_several_drives(name) = "{name} has several drives, but a task has one crank";
+    TAKE_A_SCENARIO_WITH_A_CRANK = "choose a scenario whose first drive turns a crank";
+    drives_a_slide(name) = "the drive of {name} is a slide, but phases are given over the angle of a crank";
+    no_output_link_is_called(name, own) = "{name} has no link \"{own}\", and its last group does not have just one rocker";
+    name_the_output_link(names) = "name the output link; the moving links are {names}";
+    no_output_point_is_called(name, own) = "{name} has no point \"{own}\", and not just one point without a joint";
+    name_the_output_point(names) = "name the output point; the points of moving links are {names}";
     // synthesize/task_file.rs
     NOTHING_ABOUT_THIS_POINT_VARIES = "no property of this point varies";
     PUT_ALL_THAT_VARIES_ABOUT = "put everything that varies about a point into one table";
@@ -206,5 +303,14 @@ linkage::sentences! {
     is_no_sense_of_a_phase(word) = "\"{word}\" is not a sense of a phase";
     NAME_THE_SCENARIO_FILE_OF_THE_DRAWING = "name the scenario file of the drawing, in the directory of this file";
     GIVE_THE_PATH_OF_A_SYNTHESIS = "give the path of a synthesis file, such as sinker_task.toml";
-    the_synthesis_file_cannot_be_read(path, error) = "the synthesis file {path} cannot be read: {error}";
+    the_synthesis_file_cannot_be_read(path, error) = "the file {path} cannot be read: {error}";
+    // exercise.rs
+    the_motion_of_is_not_one_of_a_crank(name) = "{name} does not have exactly one drive whose motion follows from the crank angle alone";
+    GIVE_A_SCENARIO_WITH_ONE_PRESCRIBED_DRIVE = "give a scenario with one prescribed drive at constant speed; a motion under forces has no answers by crank angle";
+    no_numbers_of_of_this_sort(name, sorts) = "{name} has no {sorts} that can be changed";
+    WRITE_THE_NUMBERS_AS_NUMBERS = "write them as numbers, or name them in `[parameters]`; sheets with the numbers of the files do not change any number";
+    none_of_draws_of_keeps_the_range(draws, name) = "none of {draws} draws of numbers for {name} keeps its range of motion";
+    DRAW_CLOSER_TO_THE_NUMBERS = "draw closer to the numbers of the file, or allow a smaller transmission angle; dimensions that must be equal belong in `[parameters]`";
+    has_too_few_poses_for_positions(name, count) = "{name} has fewer than {count} whole degrees whose transmission angles are large enough";
+    ASK_FOR_FEWER_POSITIONS = "ask for fewer positions, or allow a smaller transmission angle";
 }

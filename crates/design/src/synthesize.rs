@@ -5,10 +5,12 @@ pub mod achieved;
 pub mod crank_rocker;
 pub mod draft;
 mod evaluate;
+pub mod machine_file;
 mod rating;
 pub mod redraw;
 pub mod search;
 pub mod slider_crank;
+pub mod target;
 pub mod task;
 pub mod task_file;
 

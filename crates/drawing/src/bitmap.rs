@@ -3,7 +3,6 @@
 
 mod canvas;
 mod encode;
-mod glyphs;
 
 pub use canvas::{Bitmap, bitmap};
 pub use encode::{to_gif, to_png, to_webp};

@@ -21,13 +21,18 @@
 mod acting;
 pub mod bitmap;
 mod body;
+pub mod groups;
 mod guide;
 pub mod lay;
 mod mark;
 pub mod palette;
 pub mod paper;
+mod paths;
+pub mod pdf;
 pub mod picture;
 mod pins;
+pub mod plot;
+pub mod positions;
 mod sentences;
 pub mod sheet;
 mod sign;
@@ -38,6 +43,7 @@ mod travel;
 pub mod view;
 
 pub use acting::{Acting, Tension, Weight, acting, tensions, weights};
+pub use guide::inside;
 pub use mark::{Fill, Ink, Layer, Look, Mark, MarkRole, MarkShape};
 pub use sign::{LoadSign, arrow, turning};
 pub use sketch::{Lettering, LinkMarks, Sketch, SketchLabel, unit};

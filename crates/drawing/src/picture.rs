@@ -4,7 +4,7 @@ use super::acting::Acting;
 use super::mark::{Fill, Ink, Layer, Look, Mark, MarkRole, MarkShape};
 use super::palette::LOAD;
 use super::paper::figure::{DrawnFigure, Style, Tint, Type, solid, sub, words};
-use super::paper::labels::{self, LETTER, Obstacles, label_size, letter, place_among};
+use super::paper::labels::{self, LETTER, Obstacles, label_size, letter, lettering, place_among};
 use super::paper::style::{BLACK, GREY, colour, significant};
 use super::sign::{arrow, turning};
 use super::sketch::{Lettering, Sketch, SketchLabel};
@@ -15,6 +15,8 @@ use linkage::mechanism::{GROUND, LinkId, LinkPose, Mechanism};
 /// Radius (mm) of the disc around a link's number, and of the area covered by a pin.
 const NUMBER: f64 = 2.3;
 const CLEAR: f64 = 1.4;
+/// Radius (mm) above which a circle has space for labels inside.
+const WHEEL: f64 = 6.0;
 /// If points are closer to each other on paper than this distance (mm), they share one label.
 const ONE: f64 = 0.7;
 /// Dimensions of arrows (mm): `FORCE` is the length for the largest force, and `GRAVITY` the length for gravity.
@@ -61,10 +63,10 @@ impl LinkPlacement {
 
 /// A picture under construction; the world's origin is the figure's origin.
 pub struct Picture<'a> {
-    sketch: &'a Sketch,
+    pub(super) sketch: &'a Sketch,
     places: &'a [LinkPlacement],
     /// Length in the world that corresponds to a millimetre on paper (m).
-    scale: f64,
+    pub(super) scale: f64,
     /// The figure so far.
     pub figure: DrawnFigure,
     /// Elements that labels must not touch.
@@ -77,7 +79,7 @@ struct Written {
     sort: Sort,
     label: labels::PlacedLabel,
     text: String,
-    paint: &'static str,
+    set: Type,
 }
 
 /// Kind of a text. Numbers are placed first.
@@ -181,8 +183,8 @@ impl<'a> Picture<'a> {
             if let Some(at) = self.at(label.at.link, label.at.local) {
                 let size = Vec2::new(2.0 * NUMBER, 2.0 * NUMBER);
                 let place = labels::PlacedLabel { anchor: at, away: Vec2::zeros(), size, clear: 0.3 };
-                let (text, paint) = (label.text.clone(), colour(label.at.link));
-                self.written.push(Written { sort: Sort::Number, label: place, text, paint });
+                let (text, set) = (label.text.clone(), lettering(colour(label.at.link)));
+                self.written.push(Written { sort: Sort::Number, label: place, text, set });
             }
         }
     }
@@ -198,8 +200,13 @@ impl<'a> Picture<'a> {
     /// Adds a text at a point on paper, in a preferred direction from the point. If the direction is zero, any
     /// direction may be chosen.
     pub fn letters(&mut self, anchor: Vec2, away: Vec2, clear: f64, text: String, paint: &'static str) {
-        let label = labels::PlacedLabel { anchor, away, size: label_size(&text), clear };
-        self.written.push(Written { sort: Sort::Letters, label, text, paint });
+        self.set_letters(anchor, away, clear, text, lettering(paint));
+    }
+
+    /// Adds a text at a point on paper like [`Picture::letters`], but in the type `set`.
+    pub(super) fn set_letters(&mut self, anchor: Vec2, away: Vec2, clear: f64, text: String, set: Type) {
+        let label = labels::PlacedLabel { anchor, away, size: label_size(&text, set.size), clear };
+        self.written.push(Written { sort: Sort::Letters, label, text, set });
     }
 
     /// Draws arrows of forces and moments, each with its value. The largest force is 22 mm long.
@@ -219,6 +226,17 @@ impl<'a> Picture<'a> {
                 let beside = Vec2::new(0.0, MOMENT * own.moment.signum());
                 self.letters(at + beside, beside, 0.8, format!("{} N m", short(own.moment.abs())), LOAD.light);
             }
+        }
+    }
+
+    /// Allows labels inside large circles, such as wheels. Only the circumferences of these circles remain obstacles.
+    pub fn open_wheels(&mut self) {
+        let (wheels, discs): (Vec<_>, Vec<_>) = self.obstacles.discs.drain(..).partition(|&(_, radius)| radius > WHEEL);
+        self.obstacles.discs = discs;
+        for (centre, radius) in wheels {
+            let corners = MarkShape::Circle { centre, radius }.points();
+            let next = corners.iter().cycle().skip(1);
+            self.obstacles.segments.extend(corners.iter().zip(next).map(|(&a, &b)| [a, b]));
         }
     }
 
@@ -246,7 +264,7 @@ impl<'a> Picture<'a> {
         }
     }
 
-    /// Writes beside each side of each link its length in mm.
+    /// Writes the length of each side of each link beside the side, in mm.
     pub fn draw_lengths(&mut self, mechanism: &Mechanism) {
         for link in mechanism.links().ids().skip(1) {
             let places = super::body::corners(mechanism, link);
@@ -288,10 +306,10 @@ impl<'a> Picture<'a> {
         self.written.sort_by_key(|own| own.sort);
         let boxes: Vec<labels::PlacedLabel> = self.written.iter().map(|own| own.label).collect();
         let places = place_among(&boxes, &self.obstacles, drawings);
-        for (Written { sort, label, text, paint }, at) in self.written.into_iter().zip(places) {
+        for (Written { sort, label, text, set }, at) in self.written.into_iter().zip(places) {
             match sort {
-                Sort::Number => draw_number(&mut self.figure, at, text, paint),
-                Sort::Letters => letter(&mut self.figure, &label, at, &text, paint),
+                Sort::Number => draw_number(&mut self.figure, at, text, set.colour),
+                Sort::Letters => letter(&mut self.figure, &label, at, &text, set),
             }
         }
         self.figure
@@ -310,7 +328,7 @@ pub fn millimetres(length: f64) -> String {
 }
 
 /// Four significant digits, without trailing zeros.
-fn short(value: f64) -> String {
+pub fn short(value: f64) -> String {
     let digits = significant(value);
     match digits.contains('.') && !digits.contains('e') {
         true => digits.trim_end_matches('0').trim_end_matches('.').to_string(),

@@ -10,6 +10,23 @@ linkage::sentences! {
     a_gif_has_at_most_pixels(width) = "a GIF has at most 65535 pixels in a row, but {width} are requested";
     IT_HAS_NO_PIXELS = "it has no pixels";
     could_not_be_made(what, error) = "{what} could not be created: {error}";
+    // groups.rs
+    driving_link(name) = "driving link {name}";
+    group_of_class(class, order, letters, bodies) = "class {class}, order {order}{letters}: {bodies}";
+    hangs_by(joints) = "outer joints {joints}";
+    joint_on_link(joint, link) = "{joint} on {link}";
+    inner_joints(joints) = "; inner joints {joints}";
+    coupled_by(name) = "coupled by {name}";
+    NO_DEFINITE_POSITION = "the position of some links is not determined";
+    // positions.rs
+    THE_OTHER_POSITIONS = "the other positions";
+    // view.rs
+    paths_without_numbers(names) = "paths too small for numbers: {names}";
+    // paths/glyphs.rs
+    the_font_lacks_the_letter(sign, code, text) = "the bundled font has no letter \"{sign}\" (U+{code}) for the text \"{text}\"";
+    USE_LATIN_GREEK_OR_CYRILLIC = "write Latin, Greek or Cyrillic letters, or write an SVG, whose letters come from the viewer";
+    // plot/panel.rs
+    the_chart_cannot_be_drawn(error) = "the chart cannot be drawn: {error}";
     // paper/document.rs
     LIBERATION_SANS_ARIAL_HELVETICA_SANS = "Liberation Sans, Arial, Helvetica, sans-serif";
 }

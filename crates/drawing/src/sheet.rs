@@ -45,6 +45,13 @@ pub fn fit(extent: Vec2, room: Vec2) -> f64 {
     format!("{rounded:.1e}").parse().unwrap_or(rounded)
 }
 
+/// The smallest round scale (m/mm) at which an extent (m) fits into the available size (mm).
+/// The ratio between a length on paper and the length itself is then a round number or the inverse of one.
+pub fn round_fit(extent: Vec2, room: Vec2) -> f64 {
+    let least = (extent.x / room.x).larger(extent.y / room.y);
+    if least > 0.0 { 1e-3 * round_up(1e3 * least) } else { 1e-3 }
+}
+
 /// Number of columns for this number of cells.
 pub fn columns(cells: usize) -> usize {
     cells.clamp(1, 2)
@@ -112,7 +119,7 @@ fn scale(sheet: &mut DrawnFigure, at: Vec2, scale: f64) {
 }
 
 /// A text broken into lines of at most `wide` (mm), at the font size `size` (mm).
-fn wrapped(text: &str, size: f64, wide: f64) -> Vec<String> {
+pub(crate) fn wrapped(text: &str, size: f64, wide: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {
         match lines.last_mut() {

@@ -3,7 +3,7 @@
 use super::mark::{Mark, MarkRole, MarkShape};
 use linkage::drive::{Drive, Load, On};
 use linkage::math::{KeepNan, Vec2, turned, unit};
-use linkage::mechanism::{GROUND, JointSide, LinkId, Mechanism};
+use linkage::mechanism::{GROUND, JointId, JointSide, LinkId, Mechanism};
 use std::f64::consts::{PI, TAU};
 
 /// Arrow of a drive's direction: its radius, the angle that it spans (rad), and the angle from the driven link to the
@@ -58,8 +58,8 @@ fn place_between(mechanism: &Mechanism, links: [LinkId; 2]) -> JointSide {
     }
 }
 
-/// The arrow of a load. `None` for friction, and for springs and dampers between points or links, which have symbols
-/// instead of arrows.
+/// The arrow of a load. `None` for friction, and for springs and dampers between points or links.
+/// These springs and dampers have symbols instead of arrows.
 pub fn of_load(mechanism: &Mechanism, number: usize, load: &Load) -> Option<LoadSign> {
     match load.nature().on {
         On::Link(link) => Some(LoadSign { load: number, at: JointSide { link, local: place_of(mechanism, link) } }),
@@ -95,28 +95,33 @@ pub fn twisted(mechanism: &Mechanism, load: &Load, u: f64) -> Option<(LinkId, Ve
 
 /// The arrow in the direction of a drive and the circle of the drive's motor, in the frame of the driven link.
 pub fn of_drive(mechanism: &Mechanism, drive: &Drive, u: f64) -> Vec<Mark> {
-    let Some(pin) = mechanism.joints()[drive.joint].on(drive.link) else { return Vec::new() };
-    let places = super::body::places(mechanism, drive.link);
-    let arm = places.iter().map(|at| at - pin).max_by(|a, b| a.norm().total_cmp(&b.norm()));
-    let arm = arm.unwrap_or_else(|| Vec2::new(1.0, 0.0));
-    let sense = drive.sense();
-    let mut marks = Vec::new();
-    let joint = &mechanism.joints()[drive.joint];
-    if let Some(axis) = joint.axis_on(drive.link).filter(|_| drive.has_moment()) {
-        // The arrow is beside the joint and points in the direction in which the slide moves the link.
-        let sign = if joint.second.link == drive.link { sense } else { -sense };
-        let marked = arrow(axis * (sign * 2.0 * DRIVE * u), u);
-        let beside = pin + turned(axis) * (BESIDE * u) - axis * (sign * DRIVE * u);
-        let roles = [MarkRole::Drive, MarkRole::DriveHead];
-        marks.extend(marked.into_iter().zip(roles).map(|(mark, role)| moved(mark, role, beside)));
-    } else if drive.has_moment() {
-        let [arc, head] = turning(sense, DRIVE * u, arm.y.atan2(arm.x) + sense * AHEAD, u);
-        marks.extend([moved(arc, MarkRole::Drive, pin), moved(head, MarkRole::DriveHead, pin)]);
-    }
-    if drive.motor().is_some() {
+    let mut marks = match drive.has_moment() {
+        true => of_driven(mechanism, drive.joint, drive.link, drive.sense(), u),
+        false => Vec::new(),
+    };
+    if let (Some(_), Some(pin)) = (drive.motor(), mechanism.joints()[drive.joint].on(drive.link)) {
         marks.push(Mark::circle(MarkRole::Motor, pin, MOTOR * u));
     }
     marks
+}
+
+/// The arrow at a driven joint, in the frame of the driven link. `sense` is 1 or -1, as [`Drive::sense`].
+pub fn of_driven(mechanism: &Mechanism, joint: JointId, link: LinkId, sense: f64, u: f64) -> Vec<Mark> {
+    let joint = &mechanism.joints()[joint];
+    let Some(pin) = joint.on(link) else { return Vec::new() };
+    if let Some(axis) = joint.axis_on(link) {
+        // The arrow is beside the joint and points in the direction in which the slide moves the link.
+        let sign = if joint.second.link == link { sense } else { -sense };
+        let marked = arrow(axis * (sign * 2.0 * DRIVE * u), u);
+        let beside = pin + turned(axis) * (BESIDE * u) - axis * (sign * DRIVE * u);
+        let roles = [MarkRole::Drive, MarkRole::DriveHead];
+        return marked.into_iter().zip(roles).map(|(mark, role)| moved(mark, role, beside)).collect();
+    }
+    let places = super::body::places(mechanism, link);
+    let arm = places.iter().map(|at| at - pin).max_by(|a, b| a.norm().total_cmp(&b.norm()));
+    let arm = arm.unwrap_or_else(|| Vec2::new(1.0, 0.0));
+    let [arc, head] = turning(sense, DRIVE * u, arm.y.atan2(arm.x) + sense * AHEAD, u);
+    vec![moved(arc, MarkRole::Drive, pin), moved(head, MarkRole::DriveHead, pin)]
 }
 
 fn moved(mark: Mark, role: MarkRole, by: Vec2) -> Mark {

@@ -67,7 +67,7 @@ pub struct SketchLabel {
     pub text: String,
     /// What the label names.
     pub names: Lettering,
-    /// The place.
+    /// The point that the label names.
     pub at: JointSide,
 }
 

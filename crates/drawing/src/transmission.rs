@@ -15,10 +15,12 @@ const CORNERS: usize = 360;
 
 /// All marks of transmissions: the link that each mark belongs to, and the mark.
 pub fn marks(mechanism: &Mechanism, travels: &Travels) -> Vec<(LinkId, Mark)> {
-    mechanism.transmissions().entries().flat_map(|(index, own)| of(mechanism, travels, index, own)).collect()
+    mechanism.transmissions().ids().flat_map(|index| of(mechanism, travels, index)).collect()
 }
 
-fn of(mechanism: &Mechanism, travels: &Travels, index: TransmissionId, own: &Transmission) -> Vec<(LinkId, Mark)> {
+/// The marks of one transmission.
+pub fn of(mechanism: &Mechanism, travels: &Travels, index: TransmissionId) -> Vec<(LinkId, Mark)> {
+    let own = &mechanism.transmissions()[index];
     let mut marks = Vec::new();
     for member in own.members.iter().filter(|member| member.radius > 0.0) {
         let (at, radius) = (member.local, member.radius);

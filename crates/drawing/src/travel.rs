@@ -1,5 +1,5 @@
-//! Travel of blocks on their guides, which sets the drawn length of the guides.
-//! Also one pose of the members of every transmission; this pose sets the profiles of cams.
+//! Travel of blocks on their guides, and one pose of the members of every transmission.
+//! The travel sets the drawn length of the guides; the pose sets the profiles of cams.
 
 use linkage::math::{KeepNan, Motion, Vec2};
 use linkage::mechanism::{JointId, LinkId, Mechanism, TransmissionId};

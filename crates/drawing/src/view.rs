@@ -5,15 +5,21 @@ use super::lay::Laid;
 use super::mark::MarkRole;
 use super::paper::figure::DrawnFigure;
 use super::picture::{AROUND, Picture};
+use super::positions::Series;
 use super::sheet::{SheetCell, fit};
 use super::sketch::{Lettering, Sketch};
 use super::travel::Travels;
+use crate::sentences;
 use linkage::drive::{Drive, Load};
 use linkage::math::{KeepNan, Vec2, corners};
 use linkage::mechanism::{GROUND, LinkId, Mechanism};
 
-/// If the distance between two joints of a link is below this (mm), the link has no space for its number.
+/// If the size of a plate, or the longest piece of a bar between two points, is below this (mm), the link has no space
+/// for its number.
 const FREE: f64 = 11.0;
+
+/// In a picture with numbered positions, the work allowed for placing labels is divided by this number.
+const NUMBERED: usize = 5;
 
 /// What is drawn.
 #[derive(Clone, Copy, Debug)]
@@ -52,41 +58,58 @@ pub struct Shot {
 /// The path of a point: its link, and its positions in the world (m).
 pub type Trace = (LinkId, Vec<Vec2>);
 
-/// The shots as figures at one scale. Each figure fits into the size `room` (mm) and has no heading.
+/// Motion that a picture shows besides the pose at one instant.
+#[derive(Clone, Copy, Debug)]
+pub struct ShownMotion<'a> {
+    /// Travels of the blocks on their guides.
+    pub travels: &'a Travels,
+    /// Paths of points.
+    pub traces: &'a [Trace],
+    /// Further positions, with numbered paths.
+    pub series: Option<&'a Series>,
+}
+
+/// The shots as figures at one scale. Each figure fits into the size `room` (mm).
+/// A figure has a heading only if some of its paths are too small for numbers.
 pub fn cells(
     subject: &DrawnSubject,
     shots: &[Shot],
-    travels: &Travels,
-    traces: &[Trace],
+    motion: ShownMotion,
     extras: Extras,
     room: Vec2,
 ) -> Vec<SheetCell> {
-    let [low, high] = corners(extent(subject, shots, travels, traces));
+    let [low, high] = corners(extent(subject, shots, motion));
     let scale = fit(high - low, room - Vec2::repeat(2.0 * AROUND));
-    let sketch = Sketch::of(subject.mechanism, travels, scale)
+    let sketch = Sketch::of(subject.mechanism, motion.travels, scale)
         .with_drives(subject.mechanism, subject.drives)
         .with_loads(subject.mechanism, subject.loads);
     let sketch = if extras.loads { sketch } else { sketch.without(&[MarkRole::MassCentre, MarkRole::MassQuarter]) };
     let figures: Vec<_> =
-        shots.iter().map(|shot| figure(subject, &sketch, shot, traces, extras, scale, shots.len())).collect();
-    let bounds = corners(figures.iter().flat_map(DrawnFigure::bounds));
-    let cell = |figure| SheetCell { heading: Vec::new(), figure, bounds, scale, faults: Vec::new() };
+        shots.iter().map(|shot| figure(subject, &sketch, shot, motion, extras, scale, shots.len())).collect();
+    let bounds = corners(figures.iter().flat_map(|(figure, _)| figure.bounds()));
+    let cell = |(figure, heading)| SheetCell { heading, figure, bounds, scale, faults: Vec::new() };
     figures.into_iter().map(cell).collect()
 }
 
+/// The figure of a shot, and its heading.
 fn figure(
     subject: &DrawnSubject,
     sketch: &Sketch,
     shot: &Shot,
-    traces: &[Trace],
+    motion: ShownMotion,
     extras: Extras,
     scale: f64,
     drawings: usize,
-) -> DrawnFigure {
+) -> (DrawnFigure, Vec<String>) {
     let laid = &shot.laid;
     let mut picture = Picture::of(sketch, &laid.places, scale);
-    for (link, path) in traces {
+    for (link, path) in motion.traces {
         picture.draw_trace(path, *link);
+    }
+    let mut small: Vec<&str> = Vec::new();
+    if let Some(series) = motion.series {
+        picture.draw_thin(&series.thin);
+        small.extend(series.paths.iter().filter(|path| !picture.draw_numbered(path)).map(|path| path.name.as_str()));
     }
     for (index, (centre, radius)) in laid.reaches.iter().enumerate() {
         // The arc lies towards the other circle of the same dyad. If the dyad has only one circle, the arc lies along
@@ -95,6 +118,9 @@ fn figure(
         picture.draw_reach(*centre, *radius, other);
     }
     picture.draw_marks();
+    if motion.series.is_some() {
+        picture.open_wheels();
+    }
     for (_, ends) in &laid.gaps {
         picture.draw_gap(*ends);
     }
@@ -126,16 +152,21 @@ fn figure(
     if extras.loads {
         picture.draw_gravity(subject.gravity);
     }
-    picture.finish(drawings)
+    let heading = (!small.is_empty()).then(|| sentences::paths_without_numbers(&small.join(", ")));
+    // A picture has many numbers of positions, but they lie apart from each other: less work is enough to place them.
+    let share = if motion.series.is_some() { NUMBERED } else { 1 };
+    (picture.finish(share * drawings), heading.into_iter().collect())
 }
 
 /// All points that the picture must contain (m).
-fn extent(subject: &DrawnSubject, shots: &[Shot], travels: &Travels, traces: &[Trace]) -> Vec<Vec2> {
+fn extent(subject: &DrawnSubject, shots: &[Shot], motion: ShownMotion) -> Vec<Vec2> {
     let mechanism = subject.mechanism;
-    let mut points: Vec<Vec2> = traces.iter().flat_map(|(_, path)| path.iter().copied()).collect();
+    let mut points: Vec<Vec2> = motion.traces.iter().flat_map(|(_, path)| path.iter().copied()).collect();
     points.extend(mechanism.links()[GROUND].points.iter().map(|point| point.local));
-    for shot in shots {
-        let pose = |link: LinkId| shot.laid.places[link].pose();
+    points.extend(motion.series.iter().flat_map(|series| &series.paths).flat_map(|own| own.path.iter().copied()));
+    let thin = motion.series.iter().flat_map(|series| &series.thin).map(|(places, _)| places);
+    for places in shots.iter().map(|shot| &shot.laid.places).chain(thin) {
+        let pose = |link: LinkId| places[link].pose();
         for link in mechanism.links().ids().skip(1) {
             let places = super::body::places(mechanism, link);
             points.extend(pose(link).into_iter().flat_map(|pose| places.iter().map(|&local| pose.point(local))));
@@ -143,7 +174,7 @@ fn extent(subject: &DrawnSubject, shots: &[Shot], travels: &Travels, traces: &[T
         for (index, joint) in mechanism.joints().entries() {
             let Some([guide, _]) = mechanism.guide_and_block(joint) else { continue };
             if let (Some(pose), Some(axis), Some(travel)) =
-                (pose(guide.link), joint.axis_on(guide.link), travels.of(index))
+                (pose(guide.link), joint.axis_on(guide.link), motion.travels.of(index))
             {
                 points.extend(travel.map(|way| pose.point(guide.local + axis * way)));
             }

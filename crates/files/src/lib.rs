@@ -30,18 +30,39 @@ use temporary::{clear, create, directory_of};
 /// The errors of `fill` and of the file system.
 /// [`io::ErrorKind::AlreadyExists`] if an existing file may not be replaced. The existing file then stays unchanged.
 pub fn replace<E: From<io::Error>>(target: &OutputTarget, fill: impl FnOnce(&File) -> Result<(), E>) -> Result<(), E> {
+    written(target, fill, true)
+}
+
+/// Like [`replace`], for one of many files that can be made again: nothing waits for the device, and temporary files of
+/// killed runs stay. After a loss of power, the file may be incomplete.
+///
+/// # Errors
+/// The errors of [`replace`].
+pub fn put<E: From<io::Error>>(target: &OutputTarget, fill: impl FnOnce(&File) -> Result<(), E>) -> Result<(), E> {
+    written(target, fill, false)
+}
+
+fn written<E: From<io::Error>>(
+    target: &OutputTarget,
+    fill: impl FnOnce(&File) -> Result<(), E>,
+    is_lasting: bool,
+) -> Result<(), E> {
     let (place, old) = match target.place()? {
         Place::Open(path) => return fill(&File::options().write(true).open(path)?),
         Place::File(place, old) => (place, old),
     };
     let directory = directory_of(&place);
-    clear(directory);
+    if is_lasting {
+        clear(directory);
+    }
     let temporary = create(directory)?;
     if let Some(old) = &old {
         temporary.as_file().set_permissions(old.permissions())?;
     }
     fill(temporary.as_file())?;
-    temporary.as_file().sync_all()?;
+    if is_lasting {
+        temporary.as_file().sync_all()?;
+    }
     // The rule for replacing an existing file is checked again, because the file may have appeared since the first
     // check.
     target.place()?;

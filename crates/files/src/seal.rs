@@ -9,8 +9,8 @@ const MARK: &str = sentences::MADE_BY_LINKPROOF_SEAL;
 const DIGITS: usize = 16;
 
 /// Returns a text with its seal, in a comment or key that the file format allows.
-/// The formats with such a comment or key are JSON, HTML, SVG, other XML, manual pages, and tables whose first lines
-/// may begin with `#`.
+/// The formats with such a comment or key are JSON, HTML, SVG, other XML, manual pages, scenarios, and tables whose
+/// first lines may begin with `#`.
 /// In any other format the seal is the last line.
 pub fn sealed(text: &str, place: &Path) -> String {
     let blank = format!("{MARK}{}", "0".repeat(DIGITS));
@@ -18,7 +18,7 @@ pub fn sealed(text: &str, place: &Path) -> String {
         "json" => text.replacen('{', &format!("{{\n  \"made_by\": \"{blank}\","), 1),
         "html" | "svg" | "xml" => format!("{}\n<!-- {blank} -->\n", text.trim_end()),
         "1" => format!(".\\\" {blank}\n{text}"),
-        "csv" => {
+        "csv" | "toml" => {
             let lines = text.split_inclusive('\n').take_while(|line| line.starts_with('#'));
             let (head, rows) = text.split_at(lines.map(str::len).sum());
             format!("{head}# {blank}\n{rows}")
@@ -65,6 +65,7 @@ mod tests {
             ("a.svg", "<svg><title>made by linkproof, seal 0123</title></svg>\n"),
             ("a.1", ".TH b\n"),
             ("a.csv", "# cpu: b\nx,y\n"),
+            ("a.toml", "# b\nx = 1\n"),
             ("a.txt", "b\n"),
         ] {
             let own = sealed(text, Path::new(name));

@@ -6,7 +6,7 @@ linkage::sentences! {
     // target.rs
     cannot_be_written(what, why, needs) = "{what} cannot be written: {why}{needs}";
     are_needed(size) = "; {size} are needed";
-    RAISE_THE_LIMIT_ON_THE_SIZE = "raise the limit on the size of files, or ask for fewer instants or channels";
+    RAISE_THE_LIMIT_ON_THE_SIZE = "raise the limit on the size of files, or request fewer instants or channels";
     RENAME_OR_REMOVE_WHAT_IS_THERE = "rename or remove the existing entry, or choose another path";
     MAKE_ROOM_THERE_OR_WRITE = "free space there, or write to another device";
     A_FILE_OF_THIS_SIZE_IS_NOT_ALLOWED = "a file of this size is not allowed";

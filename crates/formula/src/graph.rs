@@ -230,8 +230,8 @@ impl FormulaGraph {
     }
 
     /// All nodes on which the given nodes depend, including the given nodes, arguments first.
-    /// A node is left out if `is_done` is true for it, or if only nodes that are left out need it.
-    /// Common parts of formulas are therefore visited once.
+    /// A node for which `is_done` is true is left out. Its arguments are left out too, unless another node needs them.
+    /// A common part of several formulas is visited once.
     pub(crate) fn needed_but(&self, nodes: &[NodeId], is_done: &dyn Fn(NodeId) -> bool) -> Vec<NodeId> {
         let mut needed: BTreeSet<NodeId> = nodes.iter().copied().filter(|id| !is_done(*id)).collect();
         let mut next: Vec<NodeId> = needed.iter().copied().collect();

@@ -2,9 +2,10 @@
 //! - [`FormulaTree`]: a formula as written, with the position of every part.
 //! - [`FormulaGraph`]: many formulas in one graph, which contains each common part only once. The graph also forms
 //!   derivatives.
-//! - [`Program`]: the part of a graph that some of the graph's nodes need, to be run for many inputs.
+//! - [`Program`]: the part of a graph on which the requested nodes depend, evaluated for many inputs.
 //! - [`Rounded`]: a number with a bound on its error.
-//! - [`DerivationSheet`]: a derivation part by part, to search for its errors; [`Products`]: numbers as products.
+//! - [`DerivationSheet`]: a derivation stored part by part, to search for its errors.
+//! - [`Products`]: products of powers of known quantities, to recognise a number by its value.
 
 mod derivative;
 mod domain;

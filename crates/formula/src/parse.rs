@@ -17,7 +17,7 @@ const DEEPEST: usize = 200;
 
 type Input<'a> = LocatingSlice<&'a str>;
 
-/// A fault found while the text was parsed. If the fault is empty, the parser may try another alternative.
+/// A fault found while the text was parsed; `None` if the parser may try another alternative.
 #[derive(Debug)]
 struct Found(Option<FormulaFault>);
 

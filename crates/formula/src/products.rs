@@ -16,7 +16,8 @@ pub struct Product {
     pub value: f64,
     /// Whether the product is negative.
     pub is_negative: bool,
-    /// Complexity of the product. A quantity adds 2, the square of a quantity adds 3.
+    /// Complexity of the product. A quantity or its reciprocal adds 2, a square or its reciprocal 3, and the numeric
+    /// factor 0 to 5.
     pub weight: usize,
     /// The numeric factor.
     pub number: f64,

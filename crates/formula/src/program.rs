@@ -1,4 +1,4 @@
-//! The part of a graph that some of the graph's nodes need, to be run for many inputs.
+//! The part of a graph on which the requested nodes depend, evaluated for many inputs.
 
 use crate::graph::{FormulaGraph, Node, NodeId};
 use crate::rounded::Rounded;

@@ -101,7 +101,7 @@ impl Rounded {
         }
     }
 
-    /// Result of a function of its arguments.
+    /// Result of a function for these arguments.
     pub fn call(function: Function, arguments: [Self; 2]) -> Self {
         let [x, other] = arguments;
         if !x.value.is_finite() || !other.value.is_finite() {

@@ -21,7 +21,7 @@ sentences! {
     ASIN_AND_ACOS_TAKE_A_NUMBER = "asin and acos take a number from -1 to 1";
     SQRT_TAKES_ZERO_OR_A_POSITIVE = "sqrt takes zero or a positive number";
     LN_TAKES_A_POSITIVE_NUMBER = "ln takes a positive number";
-    A_NEGATIVE_BASE_TAKES_A_WHOLE = "a negative base needs a whole exponent, and a base of zero an exponent that is not negative";
+    A_NEGATIVE_BASE_TAKES_A_WHOLE = "a negative base needs a whole exponent, and a base of zero needs an exponent that is not negative";
     A_DIVISOR_MUST_NOT_BE_ZERO = "a divisor must not be zero";
     ITS_PARTS_MUST_HAVE_VALUES = "every part of it must have a value";
     is_undefined(what) = "{what} is undefined";

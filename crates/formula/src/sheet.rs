@@ -29,7 +29,7 @@ pub struct DerivationSheet {
     /// Values after a change, each with the number of the change for which it was calculated.
     changed: Vec<(u32, Rounded)>,
     change: u32,
-    /// Number of evaluations so far, counted per part and instant. Work outside the sheet may be added.
+    /// Number of evaluations so far, counted per part and instant. Callers also add the work that they do themselves.
     pub operations: u64,
 }
 

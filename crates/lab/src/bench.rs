@@ -35,7 +35,7 @@ pub struct Bench {
     pub span: [f64; 2],
     /// Whether the motion is free, that is, determined by forces.
     pub is_free: bool,
-    /// Stages that were wanted.
+    /// Stages that were requested.
     pub stages: Vec<Stage>,
     /// The reference, and its error.
     pub floor: Floor,

@@ -3,7 +3,7 @@
 //!
 //! A fault is a wrapper around a solver or an engine. Apart from this wrapper, the proof is the one that a user would
 //! run.
-//! If one analytic side has the fault and the second analytic side contradicts it, the verdict needs no engine run.
+//! If the fault is in one analytic side and the other side contradicts that side, the verdict needs no engine run.
 //! Proofs in which the engine has no fault share the same engine runs.
 //! New engine runs would give the same verdicts, because an engine's runs do not depend on the data with which they are
 //! compared.

@@ -7,7 +7,7 @@ linkage::sentences! {
     // bench/measure.rs
     NO_REASON_WAS_GIVEN = "no reason was given";
     and_more(more) = " and {more} more";
-    THE_ANSWER_HAS_NONE_OF_THE_WANTED = "the answer has none of the requested channels";
+    THE_ANSWER_HAS_NONE_OF_THE_WANTED = "the answer contains no requested channel";
     THE_ANSWER_HAS_NO_TIME_ABOVE = "the answer has no time above 0 s";
     row_of_the_answer_is_at_and_is_wanted(row, times, wanted) = "row {row} of the answer is at {times} s; expected {wanted} s";
     the_answer_has_instants_and_are_wanted(times, wanted) = "the answer has {times} instants; expected {wanted}";
@@ -33,10 +33,10 @@ linkage::sentences! {
     row_of_is(row, name, chars) = "row {row} of {name}: expected a number, found \"{chars}\"";
     row_of_its_table(row, error) = "row {row} of its table: {error}";
     its_table(twice) = "its table: {twice}";
-    its_table_has_columns_and_at_most(header, columns) = "its table has {header} columns, but at most {columns} are read";
+    its_table_has_columns_and_at_most(header, columns) = "its table has {header} columns, but at most {columns} are allowed";
     its_table_cannot_be_read(error) = "its table cannot be read: {error}";
-    its_count_of_is_which_is_no_whole(name, times) = "its count of {name} is not a whole number: {times}";
-    it_counts_things_and_at_most(all, counted) = "it reports {all} counts, but at most {counted} are shown";
+    its_count_of_is_which_is_no_whole(name, times) = "the count of {name} is not a whole number: {times}";
+    it_counts_things_and_at_most(all, counted) = "it reports {all} counts, but at most {counted} are allowed";
     ITS_WORK_IS_NO_JSON_OBJECT = "its \"work\" is not a JSON object";
     its_time_is_and_to_can_be_measured(value, least, most) = "its time is {value}; expected {least} s to {most} s";
     ITS_ANSWER_HAS_NO_SECONDS = "its answer has no \"seconds\"";

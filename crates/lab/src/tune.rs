@@ -29,7 +29,7 @@ use prover::numbers::significant;
 use prover::run::{Options, memory};
 use scenario::Scenario;
 
-/// Work allowed by default, in steps without sweeps.
+/// Work allowed by default. The unit is a step without sweeps.
 /// At an allowed error of 1e-7 of the scale, the shipped mechanisms need only a small fraction of this work.
 const BUDGET: f64 = 5e6;
 

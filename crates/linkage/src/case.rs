@@ -5,6 +5,7 @@ mod check;
 mod driven_at;
 mod friction;
 mod grid;
+mod numbers;
 mod only;
 mod parts;
 mod scene;
@@ -19,12 +20,13 @@ use crate::drive::load::sense_of;
 use crate::drive::{Action, Course, Drive, InputState, Load, LoadState, Motor, Senses, Wrench};
 use crate::input::{Input, InputValue};
 use crate::math::{KeepNan, Motion, Vec2};
-use crate::mechanism::{GROUND, JointId, JointSide, LinkId};
+use crate::mechanism::{GROUND, Joint, JointId, JointSide, Link, LinkId};
 use crate::trajectory::{CHANNELS, Channel, ChannelSubject, OfLink, Reading, Stage};
 
 pub use builder::CaseBuilder;
 pub use friction::{Friction, FrictionSeat, JointReactions};
 pub use grid::{Grid, When};
+pub use numbers::CaseNumber;
 pub use parts::{CaseParts, Wanted};
 pub use scene::{LeftOut, Scene};
 pub use seats::{Seat, Seats};
@@ -41,8 +43,7 @@ const STANDSTILL: f64 = 1e-12;
 pub struct Case {
     parts: CaseParts,
     /// For every link: the representative of the link's class.
-    /// A class contains the links whose angles differ only by
-    /// constants.
+    /// A class contains the links whose angles differ only by constants.
     classes: Vec<LinkId>,
     /// Speed below which a joint counts as standing still (rad/s): the rounding error of the drives' top speeds.
     standstill: f64,
@@ -115,6 +116,13 @@ impl Case {
         Case::new(parts)
     }
 
+    /// Changes the numbers of links, and the positions of joints on links, without any check.
+    /// Names, kinds and order must remain. The start pose is not changed, so it may no longer fit the mechanism.
+    pub fn renumber(&mut self, change: impl FnOnce(&mut [Link], &mut [Joint])) {
+        self.parts.mechanism.renumber(change);
+        self.standstill = STANDSTILL * self.parts.drives.top_speed(self.parts.mechanism.size());
+    }
+
     /// Returns this case with the grid `grid`.
     ///
     /// # Errors
@@ -130,8 +138,8 @@ impl Case {
         self.of_parts(CaseParts { wanted, only: None, ..self.parts.clone() })
     }
 
-    /// Returns this case with its requested channels reduced to `channels`. Channels that the case does not have are
-    /// ignored.
+    /// Returns this case with a request for `channels` only, whatever this case requests. Channels that the case does
+    /// not have are ignored.
     #[must_use]
     pub fn wanting_only(&self, channels: &[Channel]) -> Case {
         let stages: Vec<Stage> = channels.iter().map(|channel| channel.kind.stage).collect();
@@ -307,6 +315,7 @@ impl Case {
 
     /// Whether the mechanism continues through change points: see [`Drive::passes`].
     /// Near a change point, reactions and friction grow without bound, so a mechanism with friction does not continue.
+    /// A mechanism with several drives does not continue either.
     #[must_use]
     pub fn passes(&self) -> bool {
         self.drives.further().is_empty() && self.crank().passes() && !self.has_friction()
@@ -479,7 +488,8 @@ impl Case {
     /// `way` returns this direction (unit vector, or zero) for each load that depends on the direction.
     /// `way` receives the number of the load and the point's velocity (m/s).
     /// If the velocity is only rounding error, `way` receives zero.
-    /// Tables are read at the crank angle limited to `piece` (rad), so that loads do not jump within a piece.
+    /// Tables are read at the crank angle limited to the interval `piece` (rad), so that no load jumps at an end of the
+    /// interval.
     #[inline]
     pub fn loads_along(
         &self,
@@ -521,7 +531,7 @@ impl Case {
     }
 }
 
-/// A piece that does not limit the crank angle (rad).
+/// An interval that does not limit the crank angle (rad).
 pub const ANY_CRANK: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
 /// Largest absolute angular velocity of the links (rad/s).

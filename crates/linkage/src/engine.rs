@@ -59,7 +59,7 @@ pub trait Engine: Solver {
     fn own_routes(&self, case: &Case) -> &'static [Route];
 
     /// Smallest and largest useful number of sweeps for a case; `None` for an engine that does not iterate.
-    /// Smallest and largest number are 1 if one sweep already solves the case.
+    /// Both numbers are 1 if one sweep already solves the case.
     fn sweeps(&self, case: &Case) -> Option<[usize; 2]>;
 
     /// Returns a function that computes reactions and balancing moments from a motion, by the engine's method.

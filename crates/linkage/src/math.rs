@@ -2,6 +2,7 @@
 //! interpolation, splines, zeros and extremes.
 
 pub mod angle;
+pub mod centre;
 pub mod curve;
 pub mod dense;
 pub mod extremum;
@@ -10,9 +11,11 @@ pub mod interpolate;
 pub mod keep_nan;
 pub mod motion;
 pub mod piecewise;
+pub mod projective;
 pub mod quadrature;
 pub mod root;
 pub mod statistics;
+pub mod tally;
 
 pub use curve::{Curve, FormulaCurve, Smooth};
 pub use keep_nan::{KeepNan, largest_size};

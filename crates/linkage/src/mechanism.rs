@@ -24,7 +24,7 @@ pub use parts::{GROUND, Guise, Joint, JointKind, JointSide, Link, Point};
 pub use placing::Handle;
 pub use pose::{LinkPose, Pose};
 pub use spanning_tree::{SpanningTree, TreeBranch};
-pub use structure::{DrivenJoint, DrivingLink, Group, GroupKind, Structure};
+pub use structure::{DrivenJoint, DrivingLink, Group, GroupKind, Structure, roman};
 pub use transmission::{Coordinate, Losses, Transmission, TransmissionDesign, TransmissionKind};
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -42,14 +42,19 @@ pub struct Mechanism {
     /// Joints on every link, in order.
     on: PerLink<Vec<JointId>>,
     /// For every joint: index of the joint's first equation in the list of all joints' equations.
-    /// The last entry is the total
-    /// number of equations.
+    /// The last entry is the total number of equations.
     rows: Vec<usize>,
     /// Size of the mechanism (m), used in the computation of every pose.
     /// The size is computed only once, because the computation compares the distances between all pairs of points of a
     /// link.
     /// On a link with many points, the number of pairs is large.
     size: f64,
+}
+
+/// Size of a mechanism (m): the largest extent of a link, 1 if all links are points.
+fn size_of(links: &[Link]) -> f64 {
+    let size = links.iter().map(Link::extent).fold(0.0, f64::larger);
+    if size > 0.0 { size } else { 1.0 }
 }
 
 impl Mechanism {
@@ -80,7 +85,7 @@ impl Mechanism {
     #[must_use]
     pub fn unchecked(links: Vec<Link>, joints: Vec<Joint>) -> Self {
         let (links, joints) = (PerLink::from(links), PerJoint::from(joints));
-        let size = links.iter().map(Link::extent).fold(0.0, f64::larger);
+        let size = size_of(&links);
         let mut on = PerLink::from(vec![Vec::new(); links.len()]);
         for (index, joint) in joints.entries() {
             for side in [joint.first, joint.second] {
@@ -94,8 +99,13 @@ impl Mechanism {
             *next += joint.kind.equations();
             Some(*next)
         }));
-        let size = if size > 0.0 { size } else { 1.0 };
         Mechanism { links, joints, transmissions: PerTransmission::default(), on, rows, size }
+    }
+
+    /// Changes the numbers of links, and the positions of joints on links, without any check.
+    pub(crate) fn renumber(&mut self, change: impl FnOnce(&mut [Link], &mut [Joint])) {
+        change(&mut self.links, &mut self.joints);
+        self.size = size_of(&self.links);
     }
 
     /// This mechanism with its transmissions replaced by the given transmissions.
@@ -212,7 +222,7 @@ impl Mechanism {
             .then(|| if is_cylinder || size(first) >= size(second) { [first, second] } else { [second, first] })
     }
 
-    /// Points of moving links, each name once.
+    /// Points of moving links, each name once. Names of points of the ground are left out.
     /// Each entry has the first link that carries the point, and the position of the point on that link.
     pub fn moving_points(&self) -> impl Iterator<Item = (&str, JointSide)> {
         let mut seen: BTreeSet<&str> = self.links[GROUND].points.iter().map(|point| point.name.as_str()).collect();

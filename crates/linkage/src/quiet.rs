@@ -2,6 +2,7 @@
 //! The panic hook is global to the process, so this library sets no hook.
 //! The program's panic hook can call `is_guarded` to find out whether a panic will become an error.
 
+use std::any::Any;
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::thread;
@@ -32,6 +33,12 @@ pub fn guarded<R>(action: impl FnOnce() -> R) -> thread::Result<R> {
     let outcome = catch_unwind(AssertUnwindSafe(action));
     GUARDED.set(before);
     outcome
+}
+
+/// The message of a caught panic; `None` if its payload is not a text.
+#[must_use]
+pub fn panic_text(panic: &(dyn Any + Send)) -> Option<&str> {
+    panic.downcast_ref::<&str>().copied().or_else(|| panic.downcast_ref::<String>().map(String::as_str))
 }
 
 #[cfg(test)]

@@ -27,7 +27,7 @@ crate::sentences! {
     it_acts_on_link_but_there(link, count) = "it acts on link {link}, but there are {count} links";
     joint_drives_link_not(name, turned, said) = "joint \"{name}\" drives link \"{turned}\", not \"{said}\"";
     TAKE_STRUCTURE_OF_THE_MECHANISM = "use `Structure::of` with the mechanism and its driven joints";
-    the_structure_of_parts_is_not_that_of_mechanism(given, own) = "the structure, of {given} parts, does not match mechanism and drives, which give {own} parts";
+    the_structure_of_parts_is_not_that_of_mechanism(given, own) = "the structure has {given} parts, but mechanism and drives give a structure of {own} parts";
     has_a_motor_but_only_the_crank(names) = "{names} has a motor, but only the crank may have a motor";
     hangs_on_a_moving_link_but_the_motion(names) = "{names} is attached to a moving link, but the motion is prescribed";
     GIVE_THE_CRANK_ANGLE_OF_THE_START = "give the crank angle of the start within a turn";
@@ -48,7 +48,7 @@ crate::sentences! {
     the_grid_leads_turns_away(most, value) = "the grid extends to {most} turns from zero; the limit is {value}";
     the_grid_leads_to_but_the_drive(t, name, end) = "the time {t} s is requested, but the drive's law \"{name}\" is defined from 0 to {end} s";
     the_grid_leads_to_but_drive(t, number, name, end) = "the time {t} s is requested, but the law \"{name}\" of drive {number} is defined from 0 to {end} s";
-    the_drive_law_does_not_come(name, drive) = "the drive's law \"{name}\" does not reach a requested {drive} at exactly one time";
+    the_drive_law_does_not_come(name, drive) = "the drive's law \"{name}\" reaches a requested {drive} never or more than once; expected exactly one time";
     THE_MOTION_IS_FREE_WHEN_THE_CRANK = "the motion is free: the time at which the input reaches a value depends on the forces";
     // engine/bodies.rs
     GIVE_EVERY_LINK_BOTH = "give every link a mass and a moment of inertia";
@@ -61,7 +61,7 @@ crate::sentences! {
     the_run_stands_up_to_2(t) = "the results are valid up to t = {t:.6} s";
     // error/advice.rs
     THE_COMPLETE_RESULTS_HAVE_ALL = "the complete results list all of them";
-    ASK_FOR_A_LARGER_ERROR_OTHER = "ask for a larger error, other channels or more engines";
+    ASK_FOR_A_LARGER_ERROR_OTHER = "allow a larger error, request other channels, or admit more engines";
     name_a_channel_of_the_solution(groups) = "name a channel of the solution, such as joint.A.fx_N, or a group: {groups}";
     READ_THEM_OFF_A_TABLE_OF_THE_SOLUTION = "take the values from a table of the solution instead";
     THE_RANGE_OF_MOTION_SHOWS = "the range of motion shows what limits the crank and which links turn fully";
@@ -114,7 +114,7 @@ crate::sentences! {
     CHECK_ITS_COORDINATES_AND_THEIR = "check its coordinates and their unit";
     from_the_nearest_configuration_farther(rough_places, first) = "{rough_places} {first:.4} m from the nearest configuration, more than the length of the longest link";
     A_PLACE_NEARER_TO_THE_CONFIGURATION = "a position nearer to the intended configuration, or its mode";
-    from_the_and_from_the_configuration(rough_places, first, named, second, named_2) = "{rough_places} {first:.4} m from the {named} and {second:.4} m from the {named_2} configuration: this does not distinguish them";
+    from_the_and_from_the_configuration(rough_places, first, named, second, named_2) = "{rough_places} {first:.4} m from the {named} and {second:.4} m from the {named_2} configuration: it decides for neither";
     CORRECT_THE_MODE_OR_THE_ROUGH = "correct the mode or the approximate position; the wrong branch is never chosen silently";
     nearer_to_another_configuration_than_to_mode(rough_places, mode) = "{rough_places} nearer to another configuration than to mode {mode}";
     THE_ROUGH_PLACE_IS = "the approximate position is";
@@ -147,7 +147,7 @@ crate::sentences! {
     the_configuration_found_from_the_rough(point, distance, half) = "in the configuration found from the approximate positions, point \"{point}\" is {distance:.4} m from its approximate position, more than half a link ({half:.4} m)";
     NO_CONFIGURATION_OF_THE_GROUP = "no configuration of the group is found from the approximate positions";
     // mechanism/structure.rs
-    THE_DRIVEN_JOINT_TURNS_LINKS_WITH_KEPT_ANGLES = "the driven joint gives the angle between two links that other drives and prismatic joints already fix";
+    THE_DRIVEN_JOINT_TURNS_LINKS_WITH_KEPT_ANGLES = "the driven joint gives an angle between two links, but other drives and prismatic joints already fix this angle";
     DRIVE_ANOTHER_JOINT = "drive another joint, or make one of the prismatic joints revolute";
     the_mobility_is_but_the_number(n, p, mobility, drives) = "the mobility is W = 3*{n} - 2*{p} = {mobility}, but the number of drives is {drives}";
     the_mobility_with_transmissions_is(n, p, t, mobility, drives) = "the mobility is W = 3*{n} - 2*{p} - {t} = {mobility}, with {t} transmissions, but the number of drives is {drives}";
@@ -186,7 +186,7 @@ crate::sentences! {
     MOVE_THE_AXLES_APART = "check the positions of the axles, the numbers of teeth and the radii";
     THE_MEMBERS_CANNOT_TOUCH = "the members cannot touch: the axles coincide, or the wheels overlap";
     THE_FLAT_FOLLOWER_DOES_NOT_SLIDE = "no prismatic joint connects the flat follower with the carrier";
-    JOIN_THE_FOLLOWER = "join follower and carrier by a prismatic joint, or take a roller";
+    JOIN_THE_FOLLOWER = "join follower and carrier by a prismatic joint, or use a roller";
     JOIN_THE_RACK = "join rack and carrier by a prismatic joint";
     THE_RACK_DOES_NOT_SLIDE = "no prismatic joint connects the rack, the second link, with the carrier";
     JOIN_THE_MEMBER_TO_THE_CARRIER = "join the wheel to the carrier by a revolute joint, or to a third link that is joined to the carrier at the same point";

@@ -20,10 +20,10 @@ pub fn cores() -> usize {
 /// After `hear` returns a break, no work is started for further indices.
 /// The [counts](work) of the work done on the threads are added to the counts of the calling thread.
 ///
-/// If `threads` is 1, or if the system cannot start a thread, the calling thread does the work.
+/// If `threads` is at most 1, or if the system cannot start a thread, the calling thread does the work.
 ///
 /// # Panics
-/// If `work` panics. All started work is finished before the panic is passed on.
+/// If `work` panics. The other threads finish their work before the panic is passed on.
 pub fn side_by_side<M: Send>(
     count: usize,
     threads: usize,

@@ -132,6 +132,14 @@ impl Trajectory {
     pub fn iter(&self) -> impl Iterator<Item = (&Channel, &[f64])> {
         self.channels.iter().zip(self.columns.iter().map(Vec::as_slice))
     }
+
+    /// Takes the trajectory apart, so that its numbers need not be copied: times (s), values of the input (SI), then the
+    /// values of each channel in its SI unit, in the order of [`Trajectory::channels`].
+    #[must_use]
+    pub fn into_columns(mut self) -> Vec<Vec<f64>> {
+        self.columns.splice(..0, [self.times, self.inputs]);
+        self.columns
+    }
 }
 
 /// Whether all numbers are finite.

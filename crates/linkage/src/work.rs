@@ -1,4 +1,4 @@
-//! Exact counts of what solvers and engines do.
+//! Exact counts of the work of solvers and engines.
 //! Solvers and engines count their work in a [`WorkTally`]. A caller obtains the counts from [`counted`].
 //! Counts show the cost of a run independently of the machine. Counts never affect a result.
 
@@ -49,13 +49,13 @@ impl Work {
     /// No work.
     pub const NONE: Work = Work([0; Count::ALL.len()]);
 
-    /// The value of the count `what`.
+    /// The number for the variant `what`.
     #[must_use]
     pub fn of(&self, what: Count) -> u64 {
         self.0[what as usize]
     }
 
-    /// All counts above zero, with their numbers.
+    /// Every variant of `Count` whose number is above zero, with this number.
     pub fn iter(&self) -> impl Iterator<Item = (Count, u64)> + '_ {
         Count::ALL.into_iter().map(|what| (what, self.of(what))).filter(|(_, times)| *times > 0)
     }

@@ -12,10 +12,15 @@ use linkage::mechanism::{Group, GroupKind, JointId, JointSide, LinkId};
 use linkage::trajectory::Trajectory;
 
 use super::Long;
+use super::equations::Whole;
 use super::frame::{Frame, Snapshot};
+use super::numbers::CaseNumbers;
 use super::readings::trajectory;
+use super::scalar::angle_of;
 use super::task::{Task, at_start, stuck};
-use super::vector::Vector;
+use super::vector::Vector as AnyVector;
+
+type Vector = AnyVector<Long>;
 
 /// A dyad: its inner joint, and for each of its two links the outer joint.
 struct Dyad {
@@ -30,12 +35,13 @@ struct Dyad {
     is_left: bool,
 }
 
-/// Does the same as [`solve`](super::solve), for a mechanism of dyads with three revolute pairs.
+/// Like [`solve`](super::solve), for a mechanism of dyads with three revolute pairs.
 ///
 /// # Errors
 /// The errors of [`solve`](super::solve), and [`ErrorKind::Unsupported`] if the mechanism has a group of another kind.
 pub fn solve(case: &Case) -> Result<Trajectory> {
     let task = Task::of(case)?;
+    let numbers = CaseNumbers::of(case)?;
     let start = at_start(case);
     let dyads: Vec<Dyad> =
         case.structure.groups.iter().map(|group| dyad(case, &start, group)).collect::<Result<_>>()?;
@@ -47,13 +53,15 @@ pub fn solve(case: &Case) -> Result<Trajectory> {
         for dyad in &dyads {
             dyad.place(&mut instant.frames).ok_or_else(|| stuck(case, row, sentences::A_DYAD_CANNOT_BE_ASSEMBLED))?;
         }
-        forces(case, &task, &dyads, &mut instant);
+        let angle = |frame: &Frame<Long>| angle_of([frame.direction.x, frame.direction.y], 0.0);
+        instant.angles = instant.frames.iter().map(angle).collect();
+        forces(case, &numbers, &task, &dyads, &mut instant);
         instants.push(instant);
     }
-    trajectory(case, &instants)
+    trajectory(&Whole::new(case, &numbers), &instants)
 }
 
-fn dyad(case: &Case, start: &[Frame], group: &Group) -> Result<Dyad> {
+fn dyad(case: &Case, start: &[Frame<Long>], group: &Group) -> Result<Dyad> {
     let (GroupKind::Rrr, [one, two], &[inner]) = (group.kind, group.links.as_slice(), group.inner.as_slice()) else {
         let message = sentences::NO_CLOSED_FORM_IN_FULL_PRECISION;
         return Err(Error::new(ErrorKind::Unsupported, message).of_group(group.names(&case.mechanism)));
@@ -64,15 +72,15 @@ fn dyad(case: &Case, start: &[Frame], group: &Group) -> Result<Dyad> {
     let bases = [0, 1].map(|k| joints[outer[k]].other(links[k]));
     let local = |joint: JointId, link: LinkId| joints[joint].on(link).expect("the joint is on the link");
     let locals = [0, 1].map(|k| [local(outer[k], links[k]), local(inner, links[k])]);
-    let [a, b] = bases.map(|side| start[side.link].point(side.local));
-    let c = start[links[0]].point(locals[0][1]);
+    let [a, b] = bases.map(|side| start[side.link].point(Vector::of(side.local)));
+    let c = start[links[0]].point(Vector::of(locals[0][1]));
     Ok(Dyad { links, outer, inner, bases, locals, is_left: (b - a).cross(c - a) > Long::ZERO })
 }
 
 impl Dyad {
     /// Places both links; `None` if the circles do not intersect.
-    fn place(&self, frames: &mut [Frame]) -> Option<()> {
-        let [a, b] = self.bases.map(|side| frames[side.link].point(side.local));
+    fn place(&self, frames: &mut [Frame<Long>]) -> Option<()> {
+        let [a, b] = self.bases.map(|side| frames[side.link].point(Vector::of(side.local)));
         let rods = self.locals.map(|[outer, inner]| Vector::of(inner) - Vector::of(outer));
         let (base, half) = (b - a, Long::of(0.5));
         let square = base.dot(base);
@@ -86,13 +94,13 @@ impl Dyad {
         let across = if self.is_left { across.sqrt() } else { -across.sqrt() };
         let inner = a + base * along + base.turned() * across;
         let arms = [inner - a, inner - b];
-        let velocities = self.bases.map(|side| frames[side.link].point_velocity(side.local));
+        let velocities = self.bases.map(|side| frames[side.link].point_velocity(Vector::of(side.local)));
         let width = arms[0].cross(arms[1]);
         let projected = |gap: Vector| [1, 0].map(|k: usize| gap.dot(arms[k]) / width);
         let omegas = projected(velocities[1] - velocities[0]);
         let carried = [0, 1].map(|k| {
             let side = self.bases[k];
-            frames[side.link].point_acceleration(side.local) - arms[k] * (omegas[k] * omegas[k])
+            frames[side.link].point_acceleration(Vector::of(side.local)) - arms[k] * (omegas[k] * omegas[k])
         });
         let alphas = projected(carried[1] - carried[0]);
         for k in 0..2 {
@@ -101,7 +109,7 @@ impl Dyad {
             let direction = arms[k].rotated_back(rods[k]);
             let direction = direction * (Long::ONE / direction.norm());
             let to_origin = -Vector::of(self.locals[k][0]).rotated(direction);
-            let accelerated = frames[self.bases[k].link].point_acceleration(self.bases[k].local);
+            let accelerated = frames[self.bases[k].link].point_acceleration(Vector::of(self.bases[k].local));
             frames[self.links[k]] = Frame {
                 origin: [a, b][k] + to_origin,
                 direction,
@@ -116,18 +124,18 @@ impl Dyad {
 }
 
 /// Reactions and torque from the equilibrium of every dyad, starting with the last dyad.
-fn forces(case: &Case, task: &Task, dyads: &[Dyad], instant: &mut Snapshot) {
+fn forces(case: &Case, numbers: &CaseNumbers<Long>, task: &Task, dyads: &[Dyad], instant: &mut Snapshot<Long>) {
     // The force on every link from weight, inertia and later groups, and its moment about the world's origin.
     let mut acting: Vec<(Vector, Long)> =
-        case.mechanism.links().ids().map(|link| instant.inertia(case, link)).collect();
+        case.mechanism.links().ids().map(|link| instant.inertia(numbers, link)).collect();
     let joints = case.mechanism.joints();
     // Converts the force that a joint exerts on a link to the force that the joint's first link exerts on its second
     // link.
     let told =
         |joint: JointId, link: LinkId, force: Vector| if joints[joint].second.link == link { force } else { -force };
     for dyad in dyads.iter().rev() {
-        let [a, b] = dyad.bases.map(|side| instant.frames[side.link].point(side.local));
-        let c = instant.frames[dyad.links[0]].point(dyad.locals[0][1]);
+        let [a, b] = dyad.bases.map(|side| instant.frames[side.link].point(Vector::of(side.local)));
+        let c = instant.frames[dyad.links[0]].point(Vector::of(dyad.locals[0][1]));
         let [one, two] = dyad.links.map(|link| acting[link]);
         let about = |place: Vector, (force, moment): (Vector, Long)| moment - place.cross(force);
         // The force in the second outer joint follows from two moment equations:
@@ -145,7 +153,7 @@ fn forces(case: &Case, task: &Task, dyads: &[Dyad], instant: &mut Snapshot) {
         instant.forces[dyad.inner] = told(dyad.inner, dyad.links[0], inner);
     }
     let (force, moment) = acting[task.link];
-    let place = instant.frames[task.link].point(joints[task.joint].on(task.link).unwrap_or_default());
+    let place = instant.frames[task.link].point(Vector::of(joints[task.joint].on(task.link).unwrap_or_default()));
     instant.forces[task.joint] = told(task.joint, task.link, -force);
-    instant.torque = place.cross(force) - moment;
+    instant.efforts[0] = place.cross(force) - moment;
 }

@@ -2,41 +2,70 @@
 //!
 //! [`solve`] solves dyads of revolute pairs in closed form ([`dyads`]). It solves every other mechanism from all
 //! equations of the mechanism at once ([`whole`]).
-//! Neither of the two methods shares an equation or code with the analytic sides. The case is the only common input.
+//! The second method accepts any [`Scalar`]: with [`Dual`] numbers it gives the exact derivatives of every channel with
+//! respect to the [`CaseNumbers`] of the case.
+//! Neither method shares equations or code with the analytic sides; only the case is common.
 //! The crank angle is computed from the time of the instant in full precision: start + speed t.
 
+mod dual;
 pub mod dyads;
+mod eliminated;
+mod equations;
+mod forces;
 mod frame;
+mod law;
+mod load_numbers;
+mod loads;
 mod long;
+mod numbers;
 mod readings;
+mod scalar;
 mod sentences;
 mod task;
+#[cfg(test)]
+mod tests;
 mod vector;
 pub mod whole;
 
+pub use dual::Dual;
+pub use equations::Whole;
+pub use frame::Snapshot;
 pub use long::Long;
+pub use numbers::CaseNumbers;
+pub use readings::Readings;
+pub use scalar::{Lift, LiftTable, Scalar};
 
 use linkage::case::Case;
 use linkage::error::Result;
+use linkage::input::Input;
 use linkage::mechanism::GroupKind;
 use linkage::trajectory::Trajectory;
 
 /// Name of the method that computed the numbers, in words.
 pub fn method(case: &Case) -> &'static str {
-    if are_all_rrr(case) { sentences::CLOSED_FORM_IN_DOUBLE_DOUBLE } else { sentences::ALL_EQUATIONS_IN_DOUBLE_DOUBLE }
+    if has_closed_form(case) {
+        sentences::CLOSED_FORM_IN_DOUBLE_DOUBLE
+    } else {
+        sentences::ALL_EQUATIONS_IN_DOUBLE_DOUBLE
+    }
 }
 
 /// All channels of a case on its grid, rounded to doubles at the end.
 ///
 /// # Errors
-/// [`Unsupported`](linkage::ErrorKind::Unsupported) for a case with several drives, loads, transmissions, instants
-/// before t = 0, a drive that may pass change points, or a drive other than a crank at constant speed.
+/// [`Unsupported`](linkage::ErrorKind::Unsupported) for a case with friction, transmissions, instants before t = 0, a
+/// free motion, or a drive that may pass change points.
 /// [`Geometry`](linkage::ErrorKind::Geometry) if the mechanism cannot be assembled or is singular. The error contains
 /// the crank angle.
 pub fn solve(case: &Case) -> Result<Trajectory> {
-    if are_all_rrr(case) { dyads::solve(case) } else { whole::solve(case) }
+    if has_closed_form(case) { dyads::solve(case) } else { whole::solve(case) }
 }
 
-fn are_all_rrr(case: &Case) -> bool {
-    case.structure.groups.iter().all(|group| group.kind == GroupKind::Rrr && group.is_rigid())
+/// Whether the mechanism consists of dyads of revolute pairs, is driven by a crank at constant speed, and has no loads
+/// except weights.
+fn has_closed_form(case: &Case) -> bool {
+    let drive = case.crank();
+    let is_plain = case.drives.len() == 1 && case.loads.is_empty() && !case.is_free() && drive.input == Input::Angle;
+    let are_dyads = case.structure.groups.iter().all(|group| group.kind == GroupKind::Rrr && group.is_rigid());
+    is_plain && drive.constant_speed().is_some() && are_dyads
 }

@@ -29,6 +29,8 @@ impl Long {
     pub const ZERO: Long = Long(0.0, 0.0);
     /// Half a turn (rad).
     const PI: Long = Long(PI, 1.224_646_799_147_353_2e-16);
+    /// A full turn (rad).
+    pub const TURN: Long = Long(2.0 * PI, 2.0 * 1.224_646_799_147_353_2e-16);
     /// 1.
     pub const ONE: Long = Long(1.0, 0.0);
 

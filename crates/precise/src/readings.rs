@@ -5,29 +5,35 @@ use std::f64::consts::TAU;
 
 use linkage::case::Case;
 use linkage::error::Result;
+use linkage::input::Input;
 use linkage::math::angle::wrapped;
-use linkage::mechanism::{GROUND, Joint, JointId, JointSide, LinkId};
+use linkage::mechanism::{JointId, JointSide, LinkId};
 use linkage::trajectory::{
     Channel, OfDrive, OfFrame, OfFriction, OfJoint, OfLink, OfPoint, OfSlider, OfTransmission, Reading, Trajectory,
 };
 
-use super::Long;
-use super::frame::{Frame, Snapshot};
+use super::equations::Whole;
+use super::frame::{Frame, Snapshot, slide};
+use super::scalar::Scalar;
 use super::vector::Vector;
 
 /// The trajectory of a case from its instants, one for each row of the grid.
-pub(crate) fn trajectory(case: &Case, instants: &[Snapshot]) -> Result<Trajectory> {
-    let places = Places::of(case);
+pub(crate) fn trajectory<S: Scalar>(whole: &Whole<S>, instants: &[Snapshot<S>]) -> Result<Trajectory> {
+    let case = whole.case;
+    let readings = Readings::of(*whole);
     let channels = case.channels();
     let column = |channel: &Channel| {
-        let mut values: Vec<f64> = instants.iter().map(|instant| places.read(case, instant, channel)).collect();
+        let read = |instant| readings.read(instant, channel).map_or(f64::NAN, S::value);
+        let mut values: Vec<f64> = instants.iter().map(read).collect();
         if channel.kind.periodic {
+            values.iter_mut().for_each(|angle| *angle = within_half_a_turn(channel, case, *angle));
             keep_turns(&mut values);
         }
         values
     };
     let columns = channels.iter().map(column).collect();
-    Trajectory::new(case.grid.times.clone(), case.grid.inputs.clone(), channels, columns)
+    let found = Trajectory::new(case.grid.times.clone(), case.grid.inputs.clone(), channels, columns)?;
+    Ok(found.of_input(case.crank().input))
 }
 
 /// Adds whole turns to the values of an angle. Afterwards the angle changes by less than half a turn from one instant
@@ -42,86 +48,103 @@ fn keep_turns(values: &mut [f64]) {
     }
 }
 
-/// Links, points and joints by name.
-struct Places<'a> {
+/// The angle of a link, reduced to within half a turn; [`keep_turns`] continues the angle from this value.
+/// The angle of the crank keeps its turns.
+fn within_half_a_turn(channel: &Channel, case: &Case, angle: f64) -> f64 {
+    let crank = case.crank();
+    let is_crank = crank.input == Input::Angle && case.mechanism.links()[crank.link].name == channel.of;
+    if is_crank { angle } else { wrapped(angle) }
+}
+
+/// Reads the channels of a mechanism from its states.
+#[derive(Debug)]
+pub struct Readings<'a, S> {
+    whole: Whole<'a, S>,
     links: BTreeMap<&'a str, LinkId>,
-    points: BTreeMap<&'a str, JointSide>,
+    /// Links and indices of points.
+    points: BTreeMap<&'a str, (LinkId, usize)>,
     joints: BTreeMap<&'a str, JointId>,
 }
 
-impl<'a> Places<'a> {
-    fn of(case: &'a Case) -> Self {
-        let (links, joints) = (case.mechanism.links(), case.mechanism.joints());
-        Places {
-            links: links.entries().map(|(index, link)| (link.name.as_str(), index)).collect(),
-            points: case.mechanism.moving_points().collect(),
-            joints: joints.entries().map(|(index, joint)| (joint.name.as_str(), index)).collect(),
+impl<'a, S: Scalar> Readings<'a, S> {
+    /// The channels of a mechanism.
+    #[must_use]
+    pub fn of(whole: Whole<'a, S>) -> Self {
+        let mechanism = &whole.case.mechanism;
+        let place = |(name, side): (&'a str, JointSide)| {
+            let index = mechanism.links()[side.link].points.iter().position(|own| own.name == name)?;
+            Some((name, (side.link, index)))
+        };
+        Readings {
+            whole,
+            links: mechanism.links().entries().map(|(index, link)| (link.name.as_str(), index)).collect(),
+            points: mechanism.moving_points().filter_map(place).collect(),
+            joints: mechanism.joints().entries().map(|(index, joint)| (joint.name.as_str(), index)).collect(),
         }
     }
 
-    fn read(&self, case: &Case, instant: &Snapshot, channel: &Channel) -> f64 {
+    /// The value of a channel in a state; `None` for a channel that the mechanism does not have.
+    #[must_use]
+    pub fn read(&self, instant: &Snapshot<S>, channel: &Channel) -> Option<S> {
         let of = channel.of.as_str();
-        match channel.kind.reading {
+        let (case, numbers) = (self.whole.case, self.whole.numbers);
+        Some(match channel.kind.reading {
             Reading::Link(reading) => {
-                let link = self.links[of];
+                let link = *self.links.get(of)?;
                 let frame = &instant.frames[link];
+                let crank = &numbers.drives[0];
                 match reading {
-                    OfLink::Angle if link == case.crank().link => instant.crank.rounded(),
-                    OfLink::Angle => angle(frame.direction),
-                    OfLink::Omega => frame.omega.rounded(),
-                    OfLink::Alpha => frame.alpha.rounded(),
-                    OfLink::Centre(reading) => of_point(frame, case.mechanism.links()[link].mass_centre, reading),
+                    OfLink::Angle if crank.input == Input::Angle && link == crank.link => instant.crank,
+                    OfLink::Angle => instant.angles[link],
+                    OfLink::Omega => frame.omega,
+                    OfLink::Alpha => frame.alpha,
+                    OfLink::Centre(reading) => of_point(frame, numbers.links[link].centre, reading),
                 }
             }
             Reading::Point(reading) => {
-                let side = self.points[of];
-                of_point(&instant.frames[side.link], side.local, reading)
+                let (link, index) = *self.points.get(of)?;
+                of_point(&instant.frames[link], numbers.links[link].points[index], reading)
             }
             Reading::Joint(reading) => {
-                let force = instant.forces[self.joints[of]];
+                let force = instant.forces[*self.joints.get(of)?];
                 match reading {
-                    OfJoint::ForceX => force.x.rounded(),
-                    OfJoint::ForceY => force.y.rounded(),
+                    OfJoint::ForceX => force.x,
+                    OfJoint::ForceY => force.y,
                 }
             }
             Reading::Slider(reading) => {
-                let joint = self.joints[of];
-                let [slide, speed, acceleration] = slide(instant, &case.mechanism.joints()[joint]);
+                let joint = *self.joints.get(of)?;
+                let own = &case.mechanism.joints()[joint];
+                let [slide, speed, acceleration] = slide(instant, own, &numbers.joints[joint]);
                 match reading {
-                    OfSlider::Slide => slide.rounded(),
-                    OfSlider::Speed => speed.rounded(),
-                    OfSlider::Acceleration => acceleration.rounded(),
-                    OfSlider::Moment => instant.moments[joint].rounded(),
+                    OfSlider::Slide => slide,
+                    OfSlider::Speed => speed,
+                    OfSlider::Acceleration => acceleration,
+                    OfSlider::Moment => instant.moments[joint],
                 }
             }
-            Reading::Journal(OfFriction::Effort) | Reading::Guide(OfFriction::Effort) => {
-                unreachable!("loads are refused")
-            }
-            Reading::Transmission(OfTransmission::Force) => unreachable!("transmissions are refused"),
+            Reading::Journal(OfFriction::Effort)
+            | Reading::Guide(OfFriction::Effort)
+            | Reading::Transmission(OfTransmission::Force) => return None,
             Reading::Frame(reading) => {
-                let (force, moment) = shaking(case, instant);
+                let (force, moment) = self.whole.shaking(instant);
                 match reading {
-                    OfFrame::ForceX => force.x.rounded(),
-                    OfFrame::ForceY => force.y.rounded(),
-                    OfFrame::Moment => moment.rounded(),
+                    OfFrame::ForceX => force.x,
+                    OfFrame::ForceY => force.y,
+                    OfFrame::Moment => moment,
                 }
             }
-            Reading::Drive(OfDrive::Effort)
-            | Reading::Motor(OfDrive::Effort)
-            | Reading::Thrust(OfDrive::Effort)
-            | Reading::FurtherThrust(OfDrive::Effort) => instant.torque.rounded(),
-        }
+            Reading::Drive(OfDrive::Effort) | Reading::Thrust(OfDrive::Effort) => *instant.efforts.first()?,
+            Reading::Motor(OfDrive::Effort) | Reading::FurtherThrust(OfDrive::Effort) => {
+                let joint = *self.joints.get(of)?;
+                let drive = numbers.drives.iter().position(|drive| drive.joint == joint)?;
+                instant.efforts[drive]
+            }
+        })
     }
 }
 
-/// Angle of a direction (rad), within half a turn: an approximate angle in doubles plus the remainder.
-fn angle(direction: Vector) -> f64 {
-    let rough = direction.y.rounded().atan2(direction.x.rounded());
-    let rest = direction.rotated_back(Vector::unit(Long::of(rough)));
-    wrapped((Long::of(rough) + rest.y).rounded())
-}
-
-fn of_point(frame: &Frame, local: linkage::math::Vec2, reading: OfPoint) -> f64 {
+fn of_point<S: Scalar>(frame: &Frame<S>, local: Vector<S>, reading: OfPoint) -> S {
     match reading {
         OfPoint::X => frame.point(local).x,
         OfPoint::Y => frame.point(local).y,
@@ -130,38 +153,4 @@ fn of_point(frame: &Frame, local: linkage::math::Vec2, reading: OfPoint) -> f64 
         OfPoint::AccelerationX => frame.point_acceleration(local).x,
         OfPoint::AccelerationY => frame.point_acceleration(local).y,
     }
-    .rounded()
-}
-
-/// Slide along the first link's axis, with the first and second derivative of the slide.
-/// The slide is computed from the motion of the second point relative to the rotating first link.
-fn slide(instant: &Snapshot, joint: &Joint) -> [Long; 3] {
-    let [first, second] = [joint.first, joint.second].map(|side| (&instant.frames[side.link], side.local));
-    let axis = first.0.arm(joint.axis_on(joint.first.link).unwrap_or_default());
-    let gap = second.0.point(second.1) - first.0.point(first.1);
-    let gap_rate = second.0.point_velocity(second.1) - first.0.point_velocity(first.1);
-    let gap_second = second.0.point_acceleration(second.1) - first.0.point_acceleration(first.1);
-    let (omega, alpha, two) = (first.0.omega, first.0.alpha, Long::of(2.0));
-    // The axis rotates with the first link, so the derivatives of axis . gap also contain the rates of the axis.
-    let turned = axis.turned();
-    let second_rate =
-        axis.dot(gap_second) + two * omega * turned.dot(gap_rate) + (turned * alpha - axis * (omega * omega)).dot(gap);
-    [axis.dot(gap), axis.dot(gap_rate) + omega * turned.dot(gap), second_rate]
-}
-
-/// Force that joints and drive exert on the ground, and the moment of this force about the origin.
-fn shaking(case: &Case, instant: &Snapshot) -> (Vector, Long) {
-    let (mut force, mut moment) = (Vector::ZERO, -instant.torque);
-    for (index, joint) in case.mechanism.joints().entries() {
-        let sign = match (joint.first.link, joint.second.link) {
-            (GROUND, _) => -Long::ONE,
-            (_, GROUND) => Long::ONE,
-            _ => continue,
-        };
-        let place = instant.frames[joint.second.link].point(joint.second.local);
-        let own = instant.forces[index] * sign;
-        force = force + own;
-        moment = moment + place.cross(own) + instant.moments[index] * sign;
-    }
-    (force, moment)
 }

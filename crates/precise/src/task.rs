@@ -44,9 +44,7 @@ impl Task {
         if !case.mechanism.transmissions().is_empty() {
             return refused(sentences::THERE_ARE_TRANSMISSIONS);
         }
-        if case.grid.times.iter().any(|&t| t < 0.0) {
-            return refused(sentences::AN_INSTANT_LIES_BEFORE);
-        }
+        check_instants(case)?;
         Ok(Task { joint: drive.joint, link: drive.link, zero: drive.zero, start: drive.start, speed })
     }
 
@@ -56,7 +54,7 @@ impl Task {
     }
 
     /// Frame of the crank at a world angle. The crank is hinged to the ground.
-    pub(crate) fn crank(&self, case: &Case, angle: Long) -> Frame {
+    pub(crate) fn crank(&self, case: &Case, angle: Long) -> Frame<Long> {
         let joint = &case.mechanism.joints()[self.joint];
         let ground = [joint.first, joint.second].into_iter().find(|side| side.link == GROUND);
         let place = Vector::of(ground.map_or(joint.other(self.link).local, |side| side.local));
@@ -74,14 +72,25 @@ impl Task {
     }
 }
 
+/// Refuses a case with an instant before t = 0, because the motion is followed from t = 0.
+pub(crate) fn check_instants(case: &Case) -> Result<()> {
+    match case.grid.times.iter().any(|&t| t < 0.0) {
+        true => {
+            let message = sentences::no_precise_numbers(&sentences::AN_INSTANT_LIES_BEFORE);
+            Err(Error::new(ErrorKind::Unsupported, message))
+        }
+        false => Ok(()),
+    }
+}
+
 /// An error at an instant of the grid.
 pub(crate) fn stuck(case: &Case, row: usize, what: &str) -> Error {
     Error::new(ErrorKind::Geometry, sentences::no_precise_numbers(&what)).at_input(case.told(case.grid.inputs[row]))
 }
 
 /// Frames of the start pose.
-pub(crate) fn at_start(case: &Case) -> Vec<Frame> {
-    let frame = |pose: &linkage::mechanism::LinkPose| Frame {
+pub(crate) fn at_start(case: &Case) -> Vec<Frame<Long>> {
+    let frame = |pose: &linkage::mechanism::LinkPose| Frame::<Long> {
         origin: Vector::of(pose.origin),
         direction: Vector::unit(Long::of(pose.angle)),
         ..Frame::REST

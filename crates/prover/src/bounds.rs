@@ -10,4 +10,4 @@ pub use linkage::math::statistics::{differences, largest_difference};
 pub use other_sweeps::OtherSweeps;
 pub(crate) use residual::{Built, magnitudes_by, scales_beyond};
 pub use residual::{Residual, difference, magnitudes, residuals, residuals_on, scales};
-pub use verdict::{Check, Verdict, overall};
+pub use verdict::{Check, Verdict, overall, place_of_finding};

@@ -62,7 +62,7 @@ impl ComparedParty {
         ComparedParty::table_within(path, mapping, &|_, _| Ok(()))
     }
 
-    /// As [`ComparedParty::table`], but calls `may` before memory is allocated.
+    /// Like [`ComparedParty::table`], but calls `may` before memory is allocated.
     ///
     /// # Errors
     /// The errors of [`ComparedParty::table`], and those of `may`.
@@ -73,7 +73,7 @@ impl ComparedParty {
     }
 }
 
-/// A scenario. It is solved at the instants of the other party.
+/// A scenario as a party. The scenario is solved at the instants of the other party.
 impl From<Scenario> for ComparedParty {
     fn from(scenario: Scenario) -> ComparedParty {
         ComparedParty { name: scenario.path.display().to_string(), holds: Holds::Scenario(Box::new(scenario)) }

@@ -27,3 +27,4 @@ pub use diagnose::{Diagnosis, Since, diagnose, since};
 pub use knobs::{at_speed, changed, driven, recoupled, remade};
 pub use nature::ErrorNature;
 pub use question::{DiagnosisInput, SuspectChannel};
+pub use whole::without_inertia_forces;

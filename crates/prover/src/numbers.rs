@@ -102,7 +102,7 @@ pub fn fixed(value: f64, decimals: usize) -> String {
     }
 }
 
-/// As `fixed`, with the unit.
+/// Like `fixed`, with the unit.
 #[must_use]
 pub fn fixed_in(value: f64, decimals: usize, unit: &str) -> String {
     with_unit(&fixed(value, decimals), unit)
@@ -114,7 +114,7 @@ pub fn input_in(at: InputValue, decimals: usize) -> String {
     fixed_in(at.input.shown(at.value), decimals, at.input.shown_in().0)
 }
 
-/// As `input_in`, with the name of the input: `crank angle 41.000 deg`, `slide 300.000 mm`.
+/// Like `input_in`, with the name of the input: `crank angle 41.000 deg`, `slide 300.000 mm`.
 #[must_use]
 pub fn input_told(at: InputValue, decimals: usize) -> String {
     format!("{} {}", at.input.noun(), input_in(at, decimals))

@@ -148,7 +148,7 @@ pub fn prove(scenario: &Scenario, options: &Options) -> Result<Proof> {
     prove_with(scenario, options, &mut |_| {})
 }
 
-/// As [`prove`]. Calls `progress` with the finished fraction of the work, from 0 to 1.
+/// Like [`prove`], but calls `progress` with the finished fraction of the work, from 0 to 1.
 ///
 /// # Errors
 /// The errors of [`prove`].
@@ -156,7 +156,7 @@ pub fn prove_with(scenario: &Scenario, options: &Options, progress: Progress) ->
     joined(scenario, &scenario.case, options, progress).map_err(|error| explained(&scenario.case, error))
 }
 
-/// As [`prove`], but the engines solve `engine_case` at the scenario's instants.
+/// Like [`prove`], but the engines solve `engine_case` at the scenario's instants.
 /// A fault planted in `engine_case` shows which faults a proof can find.
 ///
 /// # Errors
@@ -184,7 +184,7 @@ pub fn solve(case: &Case) -> Result<Trajectory> {
     Reference::Assur.solver().solve(case).map_err(|error| explained(case, error))
 }
 
-/// As `prove_with`, but with a separate case for the engines. Errors of the solvers are returned unchanged.
+/// Like `prove_with`, but with a separate case for the engines. Errors of the solvers are returned unchanged.
 fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: Progress) -> Result<Proof> {
     let scene = scenario.case.scene()?;
     let (whole, case) = (&scenario.case, &scene.case);

@@ -2,21 +2,21 @@
 
 linkage::sentences! {
     // accept.rs
-    TOO_LITTLE_IS_KNOWN_NOW_OR_WHEN = "bounds are too wide to compare, now or when the figures were accepted";
+    TOO_LITTLE_IS_KNOWN_NOW_OR_WHEN = "agreement with the accepted figures proves nothing: a bound is too wide, one of the two proofs does not agree, or there is no channel";
     NOT_AS_ACCEPTED = "differs from the accepted figures";
     // check/cause.rs
     THE_SEARCH_ENDED_AT_ITS_LIMIT = "the search reached its work limit before all slips and terms were tried";
     for_the_most_part_with_that_of_the_difference(cause, left) = "for the most part {cause}; {left:.2} % of the difference remains";
-    no_single_slip_or_term_it_is_right(significant, significant_2) = "no single slip or missing term explains the difference; the formula is right to {significant} % of the largest value, as an approximation or a rounded number would be: `error = {significant_2}` declares it as one";
-    IT_IS_A_CONSTANT_AND_WHAT = "it is a constant, but the claimed quantity changes with the crank";
-    another_quantity_is_claimed_it_is(channel) = "it gives another quantity: {channel}";
+    no_single_slip_or_term_it_is_right(significant, significant_2) = "no single slip or missing term explains the difference; the formula is right to {significant} % of the largest value, as an approximation or a formula with rounded numbers would be; for such a formula, state `error = {significant_2}`";
+    IT_IS_A_CONSTANT_AND_WHAT = "the formula is constant, but the claimed quantity changes with the crank";
+    another_quantity_is_claimed_it_is(channel) = "the formula gives another quantity: {channel}";
     or_more(more) = "; or {more} more";
     one_of_several_that_fit_equally(told) = "one of several that fit equally: {told}";
-    another_branch_it_is_right(after, before) = "another branch: it is right up to {after}, but wrong at {before}; atan2 instead of acos, asin or atan follows the branch";
+    another_branch_it_is_right(after, before) = "another branch: the formula is right up to {after}, but wrong at {before}; atan2 instead of acos, asin or atan follows the branch";
     A_MISSING_TERM = "a missing term";
     a_missing_in(noun, formula, what, beside) = "a missing {noun}, in {formula}: `{what}`{beside}";
     DIVISOR_OR_A_FACTOR_TOO_MANY = "divisor, or a factor too many";
-    too_large_by_the_factor_everywhere(significant) = "too large by a factor of {significant} everywhere";
+    too_large_by_the_factor_everywhere(significant) = "{significant} times the right value everywhere";
     too_little_everywhere(significant) = "too small by {significant} everywhere";
     too_much_everywhere(significant) = "too large by {significant} everywhere";
     in_instead_of(kind, formula, right, written, wherever) = "{kind}, in {formula}: `{right}` instead of `{written}`{wherever}";
@@ -43,6 +43,7 @@ linkage::sentences! {
     // bounds/verdict.rs
     is_beyond_the_bound(error_in, error_in_2) = "{error_in} is beyond the bound {error_in_2}";
     neither_the_printed_number_nor(finding, place) = "the printed number and the correction in finding \"{finding}\" are both wrong: {place}";
+    the_finding_calls_the_formula(finding) = "the finding \"{finding}\" says that the formula is wrong, but the formula agrees with the mechanism: correct the finding or the formula";
     the_finding_says_that_the_printed(finding) = "the finding \"{finding}\" says that the printed number is wrong, but the number agrees with the mechanism: correct the finding or the number";
     MOST_OF_IT_IS_THE_REFERENCE = "; most of it is the error of the reference";
     MOST_OF_IT_IS_LEFT_BY_THE_SWEEPS = "; most of it is iteration error: too few sweeps";
@@ -187,11 +188,11 @@ linkage::sentences! {
     NAME_A_LINK_POINT_OR_JOINT = "name a link, point or joint of this scenario";
     oracle_there_is_no_channel(oracle, channel) = "oracle {oracle}: there is no channel {channel}";
     PRINT_THE_INSTANTS_WITH_MORE = "print the instants with more digits, including trailing zeros";
-    at_the_rounding_of_the_instant(at) = "at {at} the number deviates by more than a hundredth of the channel's scale; this is within the bound only because the instant is rounded";
+    at_the_rounding_of_the_instant(at) = "at {at} the number deviates by more than a hundredth of the channel's scale; this deviation is within the bound only because the instant is rounded";
     // run/order.rs
     the_runs_converge_with_order(order, error, error_2, formal) = "the runs converge with order {order:.2} at all five steps from {error} to {error_2} s, but the method has order {formal}: the values read or computed are not those of the method";
     // run/own_forces.rs
-    the_motion_has_taken_the_work(error, error_2) = "the motion cost {error} steps, and the forces that the engine exerts need at least as many; {error_2} are allowed for them";
+    the_motion_has_taken_the_work(error, error_2) = "the motion cost {error} steps; the forces that the engine exerts need at least as many steps, but the limit for these forces is {error_2} steps";
     // run/planted.rs
     VALUE_DIGITS = "value = 0.26, digits = 2";
     VALUE_DIGITS_2 = "value = 0.25, digits = 2";
@@ -241,7 +242,7 @@ linkage::sentences! {
     MAP_A_COLUMN_TO_TIME_TIME = "map a column to time_s, time_ms, crank_deg, joint_deg or slide_mm, such as time=time_s";
     nothing_says_where_the_rows(some) = "the table has no column of times or crank angles; its columns are {some}";
     TAKE_THE_ROW_OUT_OR_COMPLETE = "remove the row, or complete it";
-    holds_at_no_instant_is_no_number(raw, mapped) = "{raw} has no instant: `{mapped}` is not a number there";
+    holds_at_no_instant_is_no_number(raw, mapped) = "{raw} has no instant: the value of `{mapped}` in this row is not a number";
     MAP_A_TIME = "map a time";
     THIS_IS_NO_INSTANT = "this is not an instant";
     // tables/parquet_file.rs
@@ -320,4 +321,29 @@ linkage::sentences! {
     // compare/pair.rs
     the_inputs_differ_and_neither(noun) = "the {noun}s differ, but neither party is analytic: state the allowed difference of the channel crank";
     BOTH_ARE_SAID_TO_COUNT_THE_CRANK = "both parties are declared to measure the crank angle alike; digits, rounding error and integration error allow this difference";
+    // mark/answers.rs
+    in_the_file(file, message) = "{file}: {message}";
+    the_answers_belong_to_another_sheet(file, found, expected) = "{file} has the answers to sheet {found}; expected sheet {expected}";
+    PUT_THE_ANSWERS_INTO_THE_FILE_OF_THEIR_SHEET = "each exercise and each student has a separate sheet: name the directory of this sheet, or put the answers into the file of this sheet";
+    the_sheet_does_not_ask_for(file, line, column, name) = "{file}, line {line}, column {column}: the sheet does not ask for \"{name}\"";
+    the_column_is_there_twice(file, line, column, name) = "{file}, line {line}, column {column}: the column \"{name}\" occurs twice";
+    LEAVE_ONE_OF_THE_TWO_COLUMNS = "keep one of the two columns";
+    the_first_column_is_not(file, line, expected, found) = "{file}, line {line}, column 1: expected the column \"{expected}\", found \"{found}\"";
+    KEEP_THE_HEADER_OF_THE_SHEET = "keep the header of the answer sheet; the first column has the positions of the crank";
+    the_column_is_missing(file, line, name) = "{file}, line {line}: the column \"{name}\" is missing";
+    KEEP_ALL_COLUMNS_AND_LEAVE_CELLS_EMPTY = "keep all columns of the answer sheet; a cell without an answer stays empty";
+    the_row_has_more_cells(file, line, found, expected) = "{file}, line {line}: the row has {found} cells, but the header has {expected}";
+    SEPARATE_CELLS_BY_SEMICOLONS = "separate the cells by semicolons if decimals have a comma, or write decimals with a point";
+    the_row_is_for_no_position(file, line, found, key) = "{file}, line {line}, column 1 ({key}): the sheet does not ask for the position \"{found}\"";
+    the_sheet_asks_for_the_positions(positions) = "the sheet asks for the positions {positions}; put the answers to another sheet into the file of that sheet";
+    the_position_is_there_twice(file, line, position, first) = "{file}, line {line}: the position {position} occurs twice, first in line {first}";
+    LEAVE_ONE_ROW_FOR_EACH_POSITION = "keep one row for each position";
+    the_cell_is_no_number(file, line, column, name, text) = "{file}, line {line}, column {column} ({name}): expected a number, found \"{text}\"";
+    WRITE_ONE_NUMBER_WITHOUT_ITS_UNIT = "write one number without its unit; leave the cell empty if it has no answer";
+    // mark/question.rs
+    no_answer_is_called(name) = "this mechanism has no answer called \"{name}\"";
+    // mark/sheet.rs
+    AN_ANSWER_IS_MISSING = "an answer is missing in the solution";
+    the_sides_disagree_in(name, by) = "the two analytic sides disagree in {name}, by {by}";
+    PROVE_THE_SCENARIO_FIRST = "prove the scenario first, and ask for positions that are farther from singular poses";
 }

@@ -26,10 +26,10 @@ pub fn load(path: impl AsRef<Path>) -> Result<Raw> {
     load_within(path.as_ref(), &|_, _| Ok(()))
 }
 
-/// As [`load`], but calls `may` before memory is allocated.
+/// Like [`load`], but calls `may` before memory is allocated.
 /// `may` receives the bytes to be allocated and the number of rows.
-/// For a text, `may` is called twice. Before the file is read, it receives the file's size and 0 rows. Before the
-/// values are stored, it receives the bytes of text and cells, and the number of rows.
+/// For a text file, `may` is called twice: before the file is read, with the file's size and 0 rows; and before the
+/// values are stored, with the bytes of text and cells and the number of rows.
 /// For a Parquet file, `may` is called once, before the values are stored.
 ///
 /// # Errors

@@ -42,7 +42,7 @@ impl BoundOrigin {
 /// Basis of a bound.
 #[derive(Clone, Debug, PartialEq)]
 pub enum BoundBasis {
-    /// Chosen for a number that would be zero without rounding. The text states why rounding allows this bound.
+    /// Chosen for a number that would be zero without rounding. The text gives the reason for the size of the bound.
     Wanted(&'static str),
     /// Error of the engine, estimated from runs at three resolutions and from runs with fewer sweeps.
     Truncation {

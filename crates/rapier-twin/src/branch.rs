@@ -90,7 +90,8 @@ impl Branches {
     }
 }
 
-/// The error for an engine that has turned back at a change point.
+/// The error for an engine that has changed to the other branch at a change point: the determinant of the group turned
+/// back before it reached zero.
 fn turned_back(case: &Case, group: GroupId, t: f64) -> Error {
     let names = case.structure.groups[group].names(&case.mechanism);
     let at = case.told(case.crank().at(t).value);

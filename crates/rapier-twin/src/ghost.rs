@@ -14,8 +14,9 @@ use linkage::error::Result;
 use linkage::input::Input;
 use linkage::solver::State;
 
-/// The differences between the engine's world and the case, called stand-ins: masses and moments of inertia that
-/// replace missing ones, flywheels in accelerated motion, and loads that the engine's world lacks.
+/// The differences between the engine's world and the case, called stand-ins.
+/// They are masses and moments of inertia added to links (except in free motion, where loads compensate them),
+/// flywheels (on cranks only in accelerated motion), and the loads of the case, if the engine's world lacks them.
 #[derive(Debug)]
 pub(super) struct Ghost {
     statics: NewtonEuler,

@@ -22,7 +22,7 @@ use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::input::InputValue;
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{JointSide, LinkId, LinkPose};
-use linkage::quiet::guarded;
+use linkage::quiet::{guarded, panic_text};
 use linkage::solver::State;
 use linkage::work::{Count, WorkTally};
 
@@ -295,8 +295,7 @@ impl fmt::Display for Moment {
 }
 
 fn panicked(place: Moment, cause: &(dyn std::any::Any + Send)) -> Error {
-    let words = cause.downcast_ref::<&str>().copied().or_else(|| cause.downcast_ref::<String>().map(String::as_str));
-    let words = words.unwrap_or("no message");
+    let words = panic_text(cause).unwrap_or("no message");
     place.error(sentences::the_engine_has_panicked(&words, &place)).or_help(Advice::OtherEngine)
 }
 

@@ -39,7 +39,7 @@ pub(super) struct Native {
     row: Vec<f64>,
     /// Number of drives, whose moments are the last values of a row.
     drives: usize,
-    /// Lower limit of the step at the centre of the interpolation. Readings before this step are extrapolated.
+    /// Smallest step number for [`Place::from`]. Reactions at earlier instants are extrapolated from later steps.
     lowest: i64,
 }
 

@@ -215,7 +215,7 @@ impl NewtonEuler {
         true
     }
 
-    /// Adds the needs of every link to the needs of the link that carries it. The leaves are treated first.
+    /// Adds the force and moment of every link in `needs` to those of the link that carries it. The leaves come first.
     fn pass_on(&mut self) {
         let width = self.components.len() + 1;
         for (number, limb) in self.tree.iter().enumerate().rev() {
@@ -230,7 +230,8 @@ impl NewtonEuler {
         }
     }
 
-    /// Sets up the needs of every single link, and the contributions of the cut joints.
+    /// Fills `needs` with the force and moment for the motion of every single link, and with the contributions of cut
+    /// joints and transmissions.
     fn begin(&mut self, case: &Case, state: &State) {
         let width = self.components.len() + 1;
         self.stands.clear();

@@ -12,18 +12,18 @@ use linkage::trajectory::{ChannelKind, ChannelSubject, Stage, Unit};
 /// Rounding error of a speed in the solver's sweeps, in units in the last place.
 /// The measured values are 12 on the crank-rocker and 2 on `ov7_base`.
 const SPEED_ULPS: f64 = 20.0;
-/// Rounding error of a second difference before it is divided by the square of the step.
-/// The unit is epsilon times the largest angle.
-/// The difference itself has an error of four half units (12.6 epsilon for a full turn; 11.7 were measured).
-/// For the links behind the crank, this error is doubled.
+/// Rounding error of a second difference, in units of epsilon times the largest angle.
+/// The rounding error is later divided by the square of the step.
+/// A second difference of the crank angle has two such units: 12.6 epsilon for a full turn (measured: 11.7).
+/// The constant is twice as large, to cover the links that the crank moves.
 const DIFFERENCE_ULPS: f64 = 4.0;
-/// The rounding error of a difference is proportional to the largest angle. If the largest angle is smaller than this
-/// angle (rad), this angle is used, because unit vectors and positions are rounded even if a link has hardly turned.
+/// Smallest angle (rad) for [`DIFFERENCE_ULPS`].
+/// A smaller angle has no smaller error, because unit vectors and positions are rounded at any angle.
 /// For a quarter turn and for half a turn, 12.6 epsilon were measured on the crank-rocker and on `quick_return`.
 /// On `ov7_base`, 26 epsilon were measured; 37 epsilon are allowed.
 const LEAST_TURN: f64 = 3.0 * std::f64::consts::PI;
-/// Mean of half a unit in the last place while an angle grows from zero to its present value, in units of epsilon.
-/// The rounding error of a unit vector is up to a whole epsilon, whatever the size of the angle.
+/// Mean rounding error per step of an angle that grows from zero, in units of epsilon times its final value.
+/// Unit vectors are rounded by up to one epsilon, so `bound` uses at least one epsilon.
 const MEAN_HALF_ULP: f64 = 0.25;
 /// Rounding error of the speed change due to an impulse, in units in the last place.
 /// This is the rounding error of a speed times the condition number of the loop that determines the impulse.
@@ -40,8 +40,8 @@ const PROBE_ULPS: f64 = 16000.0;
 ///
 /// An angle is a sum of rounded increments, one for each step.
 /// The error of each increment is at most half a unit in the last place of the angle so far.
-/// As long as the speed and the exponent of the angle do not change, the sign of this error does not change, so the
-/// errors of successive steps add up.
+/// The errors of successive steps add up, because their sign is constant while the speed and the floating-point
+/// exponent of the angle are constant.
 /// The bounds of lengths, forces and moments follow from the bounds of angles, with the mechanism's size and mass.
 pub(super) fn bound(case: &Case, engine: &Rapier, channel: &ChannelKind) -> f64 {
     let (step, epsilon) = (engine.settings.resolution, engine.precision.epsilon());

@@ -1,21 +1,19 @@
-//! The last steps of a run as rows of numbers, and interpolation between them.
+//! Ring buffer of the numbers of the last steps, and interpolation between steps.
 
 use std::ops::Range;
 
 use linkage::math::interpolate::{POINTS, lagrange_weights};
 
-/// Number of stored steps. Six steps are for the interpolation, and one more step on either side is for second
-/// differences.
-/// The remaining steps are for readings that are dated up to two steps late, and for the first steps of a free motion.
+/// Number of stored steps: six for the interpolation, one more at either end for second differences, and the rest for
+/// reactions that the engine reports up to two steps late and for the first steps of a free motion.
 pub(super) const NODES: usize = POINTS + 8;
 
-/// If the distance of an instant from a step is below this fraction of the step size, the instant counts as lying on
-/// the step.
-/// The tolerance is needed because rounding makes instants of the grid differ slightly from instants of steps.
+/// An instant closer to a step than this fraction of the step size counts as that step, because rounding separates
+/// instants of the grid slightly from steps.
 const ON_A_STEP: f64 = 1e-9;
 
-/// An instant between steps: the step at or before it, and the fraction of a step between this step and the instant (0
-/// to 1).
+/// An instant, as a step and the fraction of a step since then.
+/// The step is normally the last one before the instant, so that the fraction is from 0 to 1.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
     pub(super) before: i64,
@@ -35,7 +33,7 @@ impl Place {
         self.before - 2
     }
 
-    /// This instant, counted from step `lowest` or a later step. The fraction since that step may be negative.
+    /// This instant. If the instant lies before step `lowest`, the result is step `lowest` with a negative fraction.
     pub(super) fn from(self, lowest: i64) -> Self {
         let before = self.before.max(lowest);
         Place { before, share: self.share + (self.before - before) as f64 }
@@ -72,7 +70,7 @@ impl Ring {
         self.row_mut(self.newest)
     }
 
-    /// Advances to the next step without writing its row, which keeps the numbers of an earlier step.
+    /// Advances to the next step but leaves its row unchanged, with the numbers of an older step.
     pub(super) fn skip(&mut self) {
         self.newest += 1;
     }
@@ -91,7 +89,7 @@ impl Ring {
         &mut self.rows[at..at + self.width]
     }
 
-    /// Writes to `into` the weighted sum of the part `part` of the rows from step `first` on.
+    /// Writes to `into` the weighted sum of the columns `part`, with one weight for each row from step `first` on.
     pub(super) fn weigh(&self, first: i64, weights: &[f64], part: Range<usize>, into: &mut [f64]) {
         into.fill(0.0);
         for (k, weight) in weights.iter().enumerate().filter(|(_, weight)| **weight != 0.0) {

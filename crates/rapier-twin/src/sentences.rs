@@ -10,8 +10,8 @@ linkage::sentences! {
     CENTRED_SECOND_DIFFERENCES_OF_THE_ENGINE = "centred second differences of the engine's positions";
     READ_AS_THE_BODIES_VELOCITIES = "read as the bodies' velocities, one step old; omega from the rotation in a step; where a drive's speed changes, centred differences of positions";
     READ_AS_GENERALISED_VELOCITIES_ONE_STEP = "read as generalised velocities, one step old, and carried along the tree; where a drive's speed changes, centred differences of positions";
-    THE_ENGINE_IMPULSES_IN_TINY = "the engine's impulses in tiny steps from its own poses";
-    THE_ENGINE_IMPULSES_IN_TINY_STEPS = "the engine's impulses in tiny steps from its own poses; the impulse of each joint is read in a world whose spanning tree is cut at this joint";
+    THE_ENGINE_IMPULSES_IN_TINY = "the engine's impulses in tiny extra steps, each started from a pose of the run";
+    THE_ENGINE_IMPULSES_IN_TINY_STEPS = "the engine's impulses in tiny extra steps, each started from a pose of the run; the impulse of each joint is read in a world whose spanning tree is cut at this joint";
     THE_ENGINE_IMPULSES = "the engine's impulses";
     THE_ENGINE_IMPULSES_EACH_JOINT = "the engine's impulses; the impulse of each joint is read in a world whose spanning tree is cut at this joint";
     NEWTON_EULER_ON_CENTRED_SECOND = "Newton-Euler on centred second differences of the engine's positions";
@@ -26,7 +26,7 @@ linkage::sentences! {
     the_engine_has_panicked(words, place) = "the engine has panicked (\"{words}\"), {place}";
     CHECK_THAT_THE_POSE_CAN_BE_ASSEMBLED = "check that the pose can be assembled there";
     BEGIN_THE_GRID_FARTHER_FROM_THE_DEAD = "begin the grid farther from the dead point";
-    the_engine_ran_up_from_a_few(at, link, far) = "the engine started a few steps before the grid and arrived at its start, {at}, with link \"{link}\" {far} m off: it has passed a dead point";
+    the_engine_ran_up_from_a_few(at, link, far) = "the engine started a few steps before the grid and arrived at the start of the grid, {at}, with link \"{link}\" {far} m off: it has passed a dead point";
     the_engine_loop_has_opened(gap, name, place) = "the engine's loop has opened by {gap} m at joint \"{name}\", {place}";
     the_engine_kinetic_energy_has_grown(growth, place) = "the engine's kinetic energy has grown {growth} times in one step, {place}";
     the_engine_link_has_turned(name, degrees, place) = "the engine's link \"{name}\" has turned by {degrees:.1} deg in one step, {place}";

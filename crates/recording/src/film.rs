@@ -26,7 +26,7 @@ const PARTS: usize = 2_000_000;
 /// A recording as a moving picture. Times are simulated times (s).
 #[derive(Clone, Debug)]
 pub struct Film {
-    /// What to show first.
+    /// Initial display.
     pub view: View,
     /// The drawing of every link, in the link's frame.
     pub parts: Vec<DrawnLink>,
@@ -55,7 +55,7 @@ pub struct DrawnLink {
     pub texts: Vec<([f64; 3], String)>,
 }
 
-/// Content read from a file.
+/// The parts of a recording that a film needs.
 #[derive(Default)]
 struct Found {
     topics: BTreeSet<String>,

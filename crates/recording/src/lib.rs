@@ -1,5 +1,7 @@
 //! Recordings: the results of a run as one MCAP file. Ordinary viewers replay the file, and this crate reads it back.
 //!
+//! In this crate, a side is a recorded trajectory: `reference`, or `engine` (the engine's name if there are several).
+//!
 //! | topic | schema | when |
 //! |---|---|---|
 //! | `/<side>/grid` | `linkproof.Grid` | every sample |
@@ -13,8 +15,8 @@
 //! | `/mechanism/forces` | `foxglove.SceneUpdate` | every frame, if requested |
 //! | `/log` | `foxglove.Log` | verdicts and warnings |
 //!
-//! A message declares only the fields that are computed.
-//! If a message lacks fields, its name contains the numbers of the fields that it has, such as `linkproof.Point_1_2`.
+//! A message type declares only the fields that are computed.
+//! If it lacks fields, its name contains the numbers of the fields that it has, such as `linkproof.Point_1_2`.
 //!
 //! Log times are nanoseconds from the first instant of the recording.
 //! A simulated second takes [`Show::slow`] seconds of log time. The messages of the grid contain the simulated times.
@@ -25,7 +27,7 @@
 //! The metadata record `linkproof` contains versions, settings and the scales of time and of force arrows.
 //!
 //! A recording by a program other than linkproof can also be read.
-//! A recording by another program needs `/<side>/grid` and the topics above in protobuf.
+//! Such a recording needs `/<side>/grid` and the topics above in protobuf.
 //! The names of the protobuf fields must be the suffixes of [`CHANNELS`](linkage::trajectory::CHANNELS).
 //! The field numbers are looked up in the file.
 

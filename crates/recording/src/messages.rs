@@ -57,8 +57,7 @@ fn walk(
             // The summary section after the data is skipped, because it repeats earlier records.
             LinearReadEvent::Record { opcode: op::DATA_END, .. } => is_data = false,
             LinearReadEvent::Record { opcode, data } => {
-                // The total length of the records cannot exceed the decompressed size stated in the file, so a longer
-                // file is refused.
+                // The file states its decompressed size. If its records are longer in total, the file is refused.
                 seen += 9 + data.len() as u64;
                 if seen > told {
                     return Err(McapError::ChunkTooLarge(seen).into());

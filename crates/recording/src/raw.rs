@@ -1,14 +1,14 @@
-//! Finds the raw records of an MCAP file, with checked lengths. These records describe a file before it is read.
+//! Raw records of an MCAP file, with checked lengths, to examine a file before the MCAP library reads it.
 
 use mcap::parse_record;
 use mcap::records::{Metadata, Record, op};
 
-/// Number of decompressed bytes that is allowed for a file of any size.
+/// Decompressed size (bytes) that is always allowed.
 const ANY: u64 = 128 << 20;
-/// Largest allowed ratio of decompressed bytes to file bytes. In recordings of this program the ratio is three.
+/// Largest allowed ratio of decompressed size to file size. In recordings of this program the ratio is three.
 const EACH: u64 = 16;
 
-/// Codes and contents of the outermost records. Reading ends at the first truncated or damaged record.
+/// Codes and contents of the records outside chunks, up to the first truncated or damaged record.
 pub(super) fn records(bytes: &[u8]) -> impl Iterator<Item = (u8, &[u8])> {
     let mut left = bytes.strip_prefix(mcap::MAGIC).unwrap_or_default();
     std::iter::from_fn(move || {
@@ -20,8 +20,7 @@ pub(super) fn records(bytes: &[u8]) -> impl Iterator<Item = (u8, &[u8])> {
     })
 }
 
-/// Size of a file after decompression, as stated in its chunks, and the largest size that is read from a file of this
-/// length.
+/// Decompressed size of a file, as its chunks state it, and the largest size allowed for a file of this length (bytes).
 pub(super) fn expanded(bytes: &[u8]) -> [u64; 2] {
     let chunks = records(bytes).filter(|(code, _)| *code == op::CHUNK);
     // The times of the first and the last message precede the length, so the length begins at byte 16.
@@ -31,7 +30,7 @@ pub(super) fn expanded(bytes: &[u8]) -> [u64; 2] {
     [chunks, ANY.max(length.saturating_mul(EACH))]
 }
 
-/// Whether the header names a library whose name begins with `library`.
+/// Whether the name of the library in the header begins with `library`.
 pub(super) fn is_by(bytes: &[u8], library: &str) -> bool {
     let header = || -> Option<bool> {
         let (_, mut content) = records(bytes).next().filter(|(code, _)| *code == op::HEADER)?;
@@ -41,7 +40,7 @@ pub(super) fn is_by(bytes: &[u8], library: &str) -> bool {
     header().unwrap_or(false)
 }
 
-/// Content of the record if it is the attachment called `name`.
+/// Data of the attachment in a record; `None` if its name is not `name`.
 pub(super) fn attachment<'a>(content: &'a [u8], name: &str) -> Option<&'a [u8]> {
     // Two times precede the name, so the name begins at byte 16.
     let mut left = content.get(16..)?;
@@ -50,7 +49,7 @@ pub(super) fn attachment<'a>(content: &'a [u8], name: &str) -> Option<&'a [u8]> 
     part::<8>(&mut left).filter(|_| own == name.as_bytes())
 }
 
-/// The metadata in a record, if the record is a metadata record.
+/// The metadata in a record; `None` for other records.
 #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the MCAP library")]
 pub(super) fn metadata(content: &[u8]) -> Option<Metadata> {
     match parse_record(op::METADATA, content).ok()? {
@@ -59,7 +58,7 @@ pub(super) fn metadata(content: &[u8]) -> Option<Metadata> {
     }
 }
 
-/// Reads a field of bytes. The length of the field precedes the field, as a number of `N` bytes.
+/// Reads a field that begins with its length, a number of `N` bytes.
 fn part<'a, const N: usize>(left: &mut &'a [u8]) -> Option<&'a [u8]> {
     let (length, rest) = left.split_first_chunk::<N>()?;
     let length = length.iter().rev().fold(0, |number: u64, &byte| number << 8 | u64::from(byte));

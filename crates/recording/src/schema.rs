@@ -25,7 +25,7 @@ pub const fn grid_fields(input: Input) -> [&'static str; 3] {
 pub enum MessageContent {
     /// Values in SI units.
     Values,
-    /// Errors in small units, in single precision, which is enough because people read only three digits.
+    /// Errors in small units such as um, in single precision, which is enough because people read only three digits.
     Errors,
 }
 
@@ -129,10 +129,10 @@ fn kinds(subject: ChannelSubject) -> impl Iterator<Item = &'static ChannelKind> 
     CHANNELS.iter().filter(move |kind| kind.subject == subject || joint && kind.subject == ChannelSubject::Joint)
 }
 
-/// The kind of message for a subject with the channels `own`. The kind is named after the subject. A joint with
-/// friction has a separate kind of message.
-/// If channels are missing, the name also contains the numbers of the present fields.
-/// Without these numbers, viewers would confuse messages with the same name but different fields.
+/// Message type of a subject with the channels `own`.
+/// The name of the type is that of the subject, with the prefix `Rubbing` for a joint with friction.
+/// If channels are missing, the name also contains the numbers of the present fields, because viewers confuse types
+/// with the same name but different fields.
 pub fn of_subject(subject: ChannelSubject, told: MessageContent, own: &[&ChannelKind]) -> MessageKind {
     let word = if subject == ChannelSubject::Slider {
         "slider"
@@ -159,7 +159,7 @@ pub fn of_subject(subject: ChannelSubject, told: MessageContent, own: &[&Channel
     message(&name, fields.into_iter(), number)
 }
 
-/// A kind of message with the given fields, each given by its number and name.
+/// A message type with these fields, each given by number and name.
 fn message(name: &str, fields: impl Iterator<Item = (u32, String)>, kind: Type) -> MessageKind {
     let field: Vec<FieldDescriptorProto> = fields
         .enumerate()

@@ -14,7 +14,7 @@ linkage::sentences! {
     RECORD_THE_SCENARIO_AGAIN_WITH_ITS_POSITIONS = "record the scenario again with its positions";
     the_recording_has_no_picture(path) = "the recording {path} has no picture: no positions were recorded";
     // messages.rs
-    RECORD_IT_AGAIN_OR_SAVE_WHAT = "record it again, or save what remains of it with `pymcap-cli recover`";
+    RECORD_IT_AGAIN_OR_SAVE_WHAT = "record it again, or save its undamaged part with `pymcap-cli recover`";
     the_recording_is_cut_off(path, error) = "the recording {path} is cut off or damaged: {error}";
     // read.rs
     EVERY_TOPIC_OF_A_SIDE_NEEDS = "each topic of a side needs one message for each of its grid messages, with the same sequence number";
@@ -25,7 +25,7 @@ linkage::sentences! {
     the_file(path, what) = "the file {path} {what}";
     IS_NO_RECORDING_IT_DOES_NOT_BEGIN = "is not a recording: it does not start like an MCAP file";
     RECORD_IT_AGAIN_RECORDINGS_OF_THIS_PROGRAM = "record it again: recordings of this program unpack to about three times their size";
-    the_recording_has_and_says(path, length, told, most) = "the recording {path} has {length} and claims to unpack to {told}; at most {most} of such a file are read";
+    the_recording_has_and_says(path, length, told, most) = "the recording {path} has {length} and claims to unpack to {told}; at most {most} are allowed for a file of this size";
     CHECK_THE_PATH = "check the path";
     the_recording_cannot_be_read(path, error) = "the recording {path} cannot be read: {error}";
     IT_IS_NO_REGULAR_FILE = "it is not a regular file";

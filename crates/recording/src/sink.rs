@@ -5,14 +5,14 @@ use mcap::McapResult;
 
 /// Accepts topics and their messages.
 pub trait Sink {
-    /// Registers a topic with this name and kind of message, and returns its number.
+    /// Registers a topic with this name and message type, and returns its number.
     fn topic(&mut self, name: &str, kind: &MessageKind) -> McapResult<u16>;
 
     /// Accepts a message with its log time `time` (ns).
     fn put(&mut self, topic: u16, sequence: u32, time: u64, data: &[u8]) -> McapResult<()>;
 }
 
-/// Kind of the messages of a topic.
+/// Message type of a topic.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MessageKind {
     /// Name of the messages' schema.
@@ -26,7 +26,7 @@ pub struct MessageKind {
 }
 
 impl MessageKind {
-    /// Kind of a protobuf message, from the name and the serialised descriptor set of its schema.
+    /// A protobuf type, from the name and the serialised descriptor set of its schema.
     pub fn protobuf(schema: impl Into<String>, data: impl Into<Vec<u8>>) -> MessageKind {
         MessageKind {
             schema: schema.into(),
@@ -36,7 +36,7 @@ impl MessageKind {
         }
     }
 
-    /// Kind of a message that viewers know.
+    /// A type that viewers know.
     pub fn viewers<M: ViewerMessage>() -> MessageKind {
         MessageKind::protobuf(M::SCHEMA, M::DESCRIPTOR)
     }

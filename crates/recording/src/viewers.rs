@@ -182,11 +182,11 @@ pub enum LineType {
 pub enum LogLevel {
     /// Not stated.
     Unknown = 0,
-    /// What happened.
+    /// For information.
     Info = 2,
     /// A warning.
     Warning = 3,
-    /// What is wrong.
+    /// An error.
     Error = 4,
 }
 

@@ -1,4 +1,4 @@
-//! The requested start, which replaces the start of the file: assembly modes, and the crank angle at t = 0.
+//! The requested start, which replaces the start of the file: assembly modes, and the first drive's input at t = 0.
 
 use super::start::{self, Lists};
 use crate::sentences;
@@ -32,7 +32,8 @@ pub struct StartRequest {
     /// If the caller defines a grid, the case has no instants, and the drive need not reach the instants of the file's
     /// grid.
     pub without_grid: bool,
-    /// Parameters of formulas by their keys. The parameters replace those of the file.
+    /// Parameters, given by their keys, and other numbers, given by their paths such as `links.crank.mass_kg`.
+    /// Each value is in the unit of its key, and replaces the value of the file.
     pub set: Vec<(String, f64)>,
     /// Limit on the memory for the numbers of the file's tables (bytes); `None` for the default limit of a proof.
     pub memory: Option<f64>,
@@ -66,14 +67,15 @@ pub(super) struct Start<'a> {
     pub mechanism: &'a Mechanism,
     pub structure: &'a Structure,
     pub drives: &'a Drives,
-    /// Crank angle at t = 0 that the file states (rad).
+    /// Input of the first drive at t = 0 that the file states (rad or m).
     pub crank: f64,
-    /// What the file requires of each group.
+    /// The start that the file requests for each group.
     pub starts: &'a [StartGroup],
     pub lists: Lists,
 }
 
-/// Upper limit of a crank step when a configuration is followed (rad).
+/// Upper limit of a step of the first drive when a configuration is followed: a rotation (rad), or a slide divided by
+/// the mechanism's size.
 const STEP: f64 = std::f64::consts::PI / 180.0;
 
 /// If a link's unit direction vectors in two poses differ by at most this length, the link has the same direction in
@@ -86,7 +88,7 @@ impl StartRequest {
         self.modes.iter().map(|text| start::asked(text, mechanism, structure)).collect()
     }
 
-    /// The requested input at t = 0 (SI), if the first drive has the kind of input `input`. `None` if no input is
+    /// The requested input at t = 0 (SI); `input` is the kind of input of the first drive. `None` if no input is
     /// requested.
     #[must_use]
     pub fn start(&self, input: Input) -> Option<f64> {
@@ -96,11 +98,11 @@ impl StartRequest {
 
 impl Start<'_> {
     /// Places all groups: the groups in `groups` as requested, all other groups as the file states.
-    /// `crank` is the crank angle at t = 0 (rad).
+    /// `crank` is the input of the first drive at t = 0 (rad or m).
     ///
     /// # Errors
     /// The errors of [`first_choices`], with the group that causes the error.
-    /// [`ErrorKind::Geometry`] if the file's configuration cannot be followed to the crank angle `crank`.
+    /// [`ErrorKind::Geometry`] if the file's configuration cannot be followed to the input `crank`.
     pub fn placed(&self, crank: f64, groups: &[(GroupId, StartGroup)]) -> Result<Placed> {
         let moved = crank != self.crank;
         if groups.is_empty() && !moved {
@@ -136,7 +138,7 @@ impl Start<'_> {
         Ok(placed)
     }
 
-    /// World angles of the driving links at t = 0 with the crank at `crank` (rad).
+    /// Coordinates of all drives at t = 0 (rad or m), with the first drive at the input `crank`.
     fn angles(&self, crank: f64) -> Vec<f64> {
         let angle = |(index, drive): (usize, &linkage::drive::Drive)| {
             drive.coordinate(if index == 0 { crank } else { drive.start })
@@ -144,8 +146,8 @@ impl Start<'_> {
         self.drives.iter().enumerate().map(angle).collect()
     }
 
-    /// Places all groups by the starts `starts`. `crank` is the crank angle (rad).
-    /// If undecided groups are to be listed, each undecided group starts in one of its configurations.
+    /// Places all groups by the starts `starts`. `crank` is the input of the first drive (rad or m).
+    /// If the caller lists undecided groups, each of them starts in one of its configurations.
     /// If all groups are decided, the pose counts as lying on the file's branch.
     fn settled(&self, crank: f64, mut starts: Vec<StartGroup>) -> Result<Placed> {
         let angles = self.angles(crank);
@@ -186,9 +188,9 @@ impl Start<'_> {
         }
     }
 
-    /// The pose of the file's configuration, followed until the crank is at `crank` (rad).
-    /// The direct path is tried first. If the direct path fails, the crank turns to the requested angle in the opposite
-    /// direction.
+    /// The pose of the file's configuration, followed until the first drive is at the input `crank` (rad or m).
+    /// The direct path is tried first. If the direct path fails and the first drive moves a crank, the crank turns to
+    /// the requested angle in the opposite direction.
     /// A dyad keeps its mode; a higher group is followed step by step.
     fn followed(&self, own: &(Pose, Vec<ConfigurationChoice>), crank: f64) -> Option<Pose> {
         let period = self.drives.crank().input.period();

@@ -1,13 +1,19 @@
-//! The claim of a formula: the channel, figure or expression that the formula is said to equal.
+//! The claim of a formula: the channel, figure or expression to which the formula is claimed to be equal.
 
 use super::figure::MechanismFigure;
-use super::printed::PrintedChannel;
-use super::reduced::QUANTITIES;
+use super::parameters::Parameter;
+use super::printed::{PrintedChannel, endings};
+use super::reduced;
+use super::transfer;
 use super::words::nearest;
 use crate::sentences;
-use formula::{FormulaFault, FormulaGraph, FormulaTree, NodeShape, Operator};
+use formula::{FormulaFault, FormulaGraph, FormulaTree, Function, NodeShape, Operator};
 use linkage::case::Case;
 use linkage::trajectory::Channel;
+
+/// Endings of the names of velocities and of accelerations: the ending of the magnitude, and the two parts of the
+/// ending of a component, before and after its letter `x` or `y`.
+const MAGNITUDES: [(&str, &str, &str); 2] = [("v_m_s", "v", "_m_s"), ("a_m_s2", "a", "_m_s2")];
 
 /// A channel, a figure, or an arithmetic expression of channels and figures, in the units of their names.
 #[derive(Clone, Debug)]
@@ -15,7 +21,7 @@ pub struct Claim {
     /// Text of the claim.
     pub text: String,
     /// The text as parsed. Its names denote channels and figures.
-    /// A quantity reduced to the crank is replaced by its arithmetic expression of channels.
+    /// A reduced quantity, transfer function or instant centre is replaced by its arithmetic expression of channels.
     pub tree: FormulaTree,
     /// The channels in the claim, with their names in the expression tree.
     pub channels: Vec<(String, PrintedChannel)>,
@@ -31,7 +37,15 @@ impl Claim {
     /// # Errors
     /// The mistake, with its position in the text.
     pub fn parse(text: &str, case: &Case) -> Result<Claim, FormulaFault> {
-        Claim::read(text, &case.all_channels(), Some(case))
+        Claim::with_parameters(text, case, &[])
+    }
+
+    /// Reads a claim about a case. The names `pi` and those of parameters are replaced by their numbers.
+    ///
+    /// # Errors
+    /// The mistake, with its position in the text.
+    pub fn with_parameters(text: &str, case: &Case, parameters: &[Parameter]) -> Result<Claim, FormulaFault> {
+        Claim::read(text, &case.all_channels(), Some(case), parameters)
     }
 
     /// Reads a claim about the given channels, without a case.
@@ -39,32 +53,50 @@ impl Claim {
     /// # Errors
     /// The mistake, with its position in the text.
     pub fn of_channels(text: &str, all: &[Channel]) -> Result<Claim, FormulaFault> {
-        Claim::read(text, all, None)
+        Claim::read(text, all, None, &[])
     }
 
-    fn read(text: &str, all: &[Channel], case: Option<&Case>) -> Result<Claim, FormulaFault> {
+    /// The names that a claim about a case may contain, without figures and quantities reduced to the crank.
+    /// Channels in every unit and magnitudes of vectors come first, in the order of the channels.
+    /// Then come transfer functions, instant centres and acceleration poles.
+    #[must_use]
+    pub fn names(case: &Case) -> Vec<String> {
+        names(&case.all_channels()).into_iter().chain(transfer::names(case)).collect()
+    }
+
+    fn read(text: &str, all: &[Channel], case: Option<&Case>, parameters: &[Parameter]) -> Result<Claim, FormulaFault> {
+        let number = |name: &str| match name {
+            "pi" => Some(std::f64::consts::PI),
+            _ => parameters.iter().flat_map(Parameter::names).find(|(own, _)| *own == name).map(|(_, own)| own.value),
+        };
         let channel = |name: &str| PrintedChannel::named(name).filter(|found| all.contains(&found.channel));
         // A channel name may contain characters that are operators in an arithmetic expression.
-        let written = match channel(text) {
-            Some(_) => FormulaTree { shape: NodeShape::Name(text.into()), at: 0..text.len() },
-            None => FormulaTree::parse(text)?,
+        let written = match channel(text).is_some() || magnitude(text, all).is_some() {
+            true => FormulaTree { shape: NodeShape::Name(text.into()), at: 0..text.len() },
+            false => FormulaTree::parse(text)?,
         };
         let mut claim =
             Claim { text: text.into(), tree: written.clone(), channels: Vec::new(), figures: Vec::new(), unit: "" };
         for (name, at) in written.names() {
             let fault = |(message, help): (String, String)| FormulaFault { message, at, help };
-            let quantity = case.and_then(|case| Some((QUANTITIES.iter().find(|own| own.name == name)?, case)));
-            let unit = if let Some((quantity, case)) = quantity {
-                claim.tree = claim.tree.with_name(name, &quantity.of(case).map_err(fault)?);
-                quantity.unit
+            let quantity = |case| reduced::named(name, case).or_else(|| transfer::named(name, case));
+            let unit = if let Some(found) = channel(name) {
+                found.unit_symbol()
+            } else if let Some(number) = number(name) {
+                claim.tree = claim.tree.with_name(name, &FormulaTree::number(number));
+                ""
+            } else if let Some((quantity, unit)) = case.and_then(quantity) {
+                claim.tree = claim.tree.with_name(name, &quantity.map_err(fault)?);
+                unit
             } else if let Some(figure) = case.and_then(|case| MechanismFigure::claimed(name, case)) {
                 let figure = figure.map_err(fault)?;
                 claim.figures.push((name.into(), figure));
                 figure.unit()
-            } else if let Some(found) = channel(name) {
-                found.unit_symbol()
+            } else if let Some((tree, unit)) = magnitude(name, all) {
+                claim.tree = claim.tree.with_name(name, &tree);
+                unit
             } else {
-                return Err(fault(unknown(name, all)));
+                return Err(fault(unknown(name, all, case)));
             };
             if matches!(written.shape, NodeShape::Name(_)) {
                 claim.unit = unit;
@@ -92,6 +124,18 @@ impl Claim {
         let names = written.names().into_iter().map(|(name, _)| name).collect::<Vec<&str>>();
         FormulaGraph::new(&names, 0).add_defined(&written)?;
         Ok(claim)
+    }
+
+    /// Whether the claim contains a quantity reduced to the crank, whose expression has masses as plain numbers.
+    #[must_use]
+    pub fn has_masses(&self) -> bool {
+        reduced::names().any(|name| self.text.contains(name))
+    }
+
+    /// The channels of the claim; for a magnitude, the channels of both components.
+    pub fn components(&self) -> impl Iterator<Item = Channel> {
+        let of = |own: &PrintedChannel| [Some(own.channel.clone()), own.other_component()].into_iter().flatten();
+        self.channels.iter().flat_map(move |(_, own)| of(own))
     }
 
     /// Unit of the claim's values; empty for an arithmetic expression.
@@ -122,6 +166,33 @@ impl Claim {
     }
 }
 
+/// The names of channels, in every unit, and of the magnitudes of vectors.
+fn names(all: &[Channel]) -> Vec<String> {
+    let of = |channel: &Channel| {
+        let subject = channel.subject();
+        let own = endings(channel.kind).into_iter().map(|ending| format!("{subject}.{ending}"));
+        let is_first = |(_, start, rest): &&(&str, &str, &str)| channel.kind.suffix == format!("{start}x{rest}");
+        let size = MAGNITUDES.iter().find(is_first).map(|(ending, ..)| format!("{subject}.{ending}"));
+        own.chain(size).collect::<Vec<_>>()
+    };
+    all.iter().flat_map(of).collect()
+}
+
+/// The magnitude of a velocity or acceleration, such as `point.B.v_m_s` or `link.rocker.a_m_s2`, as an expression of
+/// its components, and its unit.
+fn magnitude(name: &str, all: &[Channel]) -> Option<(FormulaTree, &'static str)> {
+    let (ending, start, rest) = MAGNITUDES.iter().find(|(ending, ..)| name.ends_with(&format!(".{ending}")))?;
+    let subject = name.strip_suffix(ending)?;
+    let [x, y] = ["x", "y"].map(|axis| Channel::named(&format!("{subject}{start}{axis}{rest}")));
+    let (x, y) = (x?, y?);
+    let unit = all.iter().find(|own| **own == x)?.kind.unit.symbol();
+    let square = |channel: Channel| {
+        FormulaTree::pair(Operator::Power, FormulaTree::name(channel.to_string()), FormulaTree::number(2.0))
+    };
+    let sum = FormulaTree::pair(Operator::Plus, square(x), square(y));
+    Some((FormulaTree::call(Function::Sqrt, vec![sum]), unit))
+}
+
 /// The channel of the first drive, if `name` contains its joint: `drive.force_N` for `drive.X.force_N`.
 fn of_first_drive<'a>(name: &str, known: &'a [String]) -> Option<&'a str> {
     let (joint, quantity) = name.strip_prefix("drive.")?.split_once('.')?;
@@ -130,11 +201,11 @@ fn of_first_drive<'a>(name: &str, known: &'a [String]) -> Option<&'a str> {
 }
 
 /// The message for an unknown name, and a help text with the known name that is nearest to it.
-fn unknown(name: &str, all: &[Channel]) -> (String, String) {
-    let known: Vec<String> = all.iter().map(Channel::to_string).collect();
-    let reduced = QUANTITIES.iter().map(|own| own.name);
-    let figures: Vec<String> = MechanismFigure::claims().collect();
-    let all = known.iter().chain(&figures).map(String::as_str).chain(reduced);
+fn unknown(name: &str, all: &[Channel], case: Option<&Case>) -> (String, String) {
+    let known = names(all);
+    let derived = reduced::names().map(String::from).chain(case.into_iter().flat_map(transfer::names));
+    let others: Vec<String> = MechanismFigure::claims().chain(derived).collect();
+    let all = known.iter().chain(&others).map(String::as_str);
     let help = match of_first_drive(name, &known).or_else(|| nearest(name, all)) {
         Some(near) => sentences::did_you_mean(&near),
         None => sentences::NAME_ONE_OF_THIS_SCENARIO.into(),

@@ -34,11 +34,11 @@ pub const SECTIONS: &[Section] = &[
         optional("radius", ValueKind::LENGTHS.of(Sign::Positive), "every link needs an entry in `outlines`")
             .means("radius, positive, of the capsules between the points of every link without an entry in `outlines`"),
         optional("wanted", ValueKind::LENGTHS.of(Sign::NotNegative), "none: only collisions count")
-            .means("required clearance: every pair must stay farther apart"),
+            .means("required clearance: the distance of every pair must be larger"),
         optional("tolerance", ValueKind::LENGTHS.of(Sign::Positive), "a millionth of the mechanism's size")
             .means("largest allowed error of a smallest distance"),
         optional("area_rel", ValueKind::Number, "5e-3")
-            .means("largest allowed error of a swept area, as a fraction of the area; from 1e-5 to 1"),
+            .means("largest allowed error of a swept area, as a fraction of the area; at least 1e-5 and below 1"),
         optional("outlines", ValueKind::Table, "capsules between the points").means("outlines of links by name"),
         optional("housing", ValueKind::Tables, "none").means("parts of the housing"),
         optional("ignore", ValueKind::Tables, "none")

@@ -8,7 +8,7 @@ use super::reader::TomlTable;
 use super::source::Source;
 use super::start::Lists;
 use super::stated::FileSections;
-use super::{keys, parameter_table, start};
+use super::{keys, numbers, parameter_table, start};
 use linkage::drive::{Drive, Load, MotionLaw};
 use linkage::error::{Error, Result};
 use linkage::input::Input;
@@ -52,7 +52,8 @@ impl Draft {
     /// Also an error if the format version of the file is not that of this program.
     pub fn parse(text: &str, path: &Path, asked: &StartRequest) -> Result<Draft> {
         let plain = Source::new(path, text);
-        let tree = plain.tree()?;
+        let mut tree = plain.tree()?;
+        numbers::replace(tree.as_mut(), &asked.set)?;
         let table = TomlTable::root(&plain, &tree).optional_table("parameters").unwrap_or_default();
         let (parameters, fault) = parameter_table::read(table, &asked.set, asked.adds_parameters)?;
         let source = plain.with(parameters, keys::rows);

@@ -21,11 +21,11 @@ linkage::words! {
     pub enum EngineName: name {
         /// Rapier in f64, the default: a spanning tree as a multibody, loops closed by impulse joints.
         Rapier = "rapier",
-        /// The engine above, in single precision; needs the feature `f32`.
+        /// The engine `rapier` in single precision; needs the feature `f32`.
         RapierF32 = "rapier-f32",
         /// Rapier in f64, every link as a separate rigid body.
         Impulse = "impulse",
-        /// The engine above, in single precision; needs the feature `f32`.
+        /// The engine `impulse` in single precision; needs the feature `f32`.
         ImpulseF32 = "impulse-f32",
         /// Simbody; needs the feature `simbody`, and the library.
         Simbody = "simbody",
@@ -262,7 +262,8 @@ pub fn read(table: &mut TomlTable, drive: &Drive) -> Result<EngineSettings> {
     }
 }
 
-/// A whole number within `range`. If the range ends at `usize::MAX`, any number from 1 on is allowed.
+/// A whole number within `range`. The end of the range selects the message for a number outside: for `usize::MAX`, an
+/// engine needs at least one; for any other end, the number is one of extrapolations.
 fn whole(table: &mut TomlTable, key: &str, range: RangeInclusive<usize>) -> Result<EngineSetting<usize>> {
     let Some(number) = table.optional_integer(key)? else { return Ok(EngineSetting::Free) };
     if let Some(count) = usize::try_from(number).ok().filter(|count| range.contains(count)) {

@@ -25,28 +25,34 @@ pub const SECTIONS: &[Section] = &[Section::at("formula").with(&[
     ),
     optional("channel", ValueKind::Text, "none: a step of a derivation").means(
         "claimed quantity: a channel, in the unit of its name (`link.rocker.angle_deg`, `point.B.x_mm`, \
-         `joint.B.f_N`), an expression of channels, or a quantity reduced to the crank",
+         `joint.B.f_N`), an expression of channels, a quantity reduced to the crank, a transfer function or an instant \
+         centre",
     ),
     optional("source", ValueKind::Text, "none").means("source of the formula"),
-    optional("from", ValueKind::INPUTS, "the whole run").means("first crank angle for which the formula is claimed"),
-    optional("to", ValueKind::INPUTS, "the whole run").means("last crank angle for which the formula is claimed"),
+    optional("from", ValueKind::INPUTS, "the whole run")
+        .means("first input (crank angle or slide) for which the formula is claimed"),
+    optional("to", ValueKind::INPUTS, "the whole run").means("last input for which the formula is claimed"),
     optional("error", ValueKind::Number, "none: the formula is exact")
         .means("claimed error, in the unit of the channel: for series and approximations"),
+    optional("finding", ValueKind::Text, "none: the formula is right").means(
+        "anchor of the section of `docs/findings.md` that says why the formula is wrong as printed; \
+         such a formula must disagree",
+    ),
 ])];
 
 /// Name of the crank's angular velocity in a diagnosis.
 pub const OMEGA: &str = "omega_crank";
 
-/// The formulas of a scenario. The formulas depend on the parameters, the crank angle and the time.
+/// The formulas of a scenario. The formulas depend on the parameters, the input of the first drive and the time.
 #[derive(Clone, Debug)]
 pub struct Formulas {
     /// Numbers with names.
     pub parameters: Vec<Parameter>,
     /// The formulas, in the order of the file. Each formula may use the formulas before it.
     pub list: Vec<Formula>,
-    /// Graph of all formulas. The named inputs of the graph are the crank angle (rad, as the scenario states it) and
-    /// the time (s).
-    /// Two more inputs have no names: the crank's angular velocity (rad/s) and angular acceleration (rad/s^2).
+    /// Graph of all formulas. The named inputs of the graph are the input of the first drive (rad or m, as the scenario
+    /// states it) and the time (s).
+    /// Two more inputs of the graph have no names: the first and the second derivative of the first drive's input.
     pub graph: FormulaGraph,
 }
 
@@ -65,15 +71,18 @@ pub struct Formula {
     pub claim: Option<Claim>,
     /// Source of the formula.
     pub source: Option<String>,
-    /// First and last crank angle at which the formula is claimed to hold (rad).
+    /// First and last input at which the formula is claimed to hold (rad or m).
     pub valid: [Option<f64>; 2],
     /// Claimed error of the formula, in the unit of the claim; `None` for an exact formula.
     pub error: Option<f64>,
+    /// Anchor of the section of `docs/findings.md` that says why the formula is wrong as printed; `None` for a right
+    /// formula.
+    pub finding: Option<String>,
 }
 
 impl Formula {
-    /// Whether the formula is claimed to hold at a crank angle (rad).
-    /// An angle that exceeds an end of the range only by rounding belongs to the range.
+    /// Whether the formula is claimed to hold at an input of the first drive (rad or m).
+    /// An input that exceeds an end of the range only by rounding belongs to the range.
     #[must_use]
     pub fn holds_at(&self, crank: f64) -> bool {
         let slack = 1e-9 * crank.abs().larger(1.0);
@@ -104,7 +113,8 @@ impl Formulas {
             return Err(self.unknown(name, at));
         }
         let (name, text, id) = (name.to_string(), text.to_string(), self.graph.input(0));
-        self.put(Formula { name, text, tree, id, claim: None, source: None, valid: [None; 2], error: None })?;
+        let (claim, source, finding) = (None, None, None);
+        self.put(Formula { name, text, tree, id, claim, source, valid: [None; 2], error: None, finding })?;
         Ok(self.list.last_mut().expect("just added"))
     }
 
@@ -149,7 +159,7 @@ impl Formulas {
     /// The first operation outside its domain and the index of its formula, if the formula `of` has no value at
     /// `inputs`.
     /// The index is that of `of` or of a formula that `of` uses.
-    /// `inputs` are the crank angle (rad) and the time (s).
+    /// `inputs` are the input of the first drive (rad or m) and the time (s).
     #[must_use]
     pub fn undefined(&self, of: usize, inputs: [Rounded; 2]) -> Option<(usize, FormulaFault)> {
         let places = self.places(of);
@@ -268,7 +278,7 @@ impl Formulas {
     }
 }
 
-/// A mistake in the range (rad) or in the error of a claim: the key `to` or `error`, with message and help.
+/// A mistake in the range (rad or m) or in the error of a claim: the key `to` or `error`, with message and help.
 #[must_use]
 pub fn fault_of_claim(
     valid: [Option<f64>; 2],
@@ -316,21 +326,23 @@ fn formula(table: &mut TomlTable, formulas: &mut Formulas, case: &Case) -> Resul
     let [from, to] = valid;
     let valid = [from?, to?];
     let error = table.optional_number("error")?;
+    let finding = table.optional_string("finding")?;
     if let Some((key, message, help)) = fault_of_claim(valid, error) {
         return table.refuse(key, message, help);
     }
     if claimed.is_none() {
-        let spellings = ["from", "to"].into_iter().flat_map(|key| family.all_keys(key)).chain(["error".to_string()]);
+        let spellings = ["from", "to"]
+            .into_iter()
+            .flat_map(|key| family.all_keys(key))
+            .chain(["error", "finding"].map(String::from));
         if let Some(key) = spellings.into_iter().find(|key: &String| table.has(key)) {
             let message = sentences::belongs_to_a_claim_and_this_formula(&key);
             return table.refuse(&key, message, sentences::ADD_CHANNEL_OR_TAKE_IT_OUT);
         }
     }
+    let claim = claimed.map(|claimed| Claim::with_parameters(&claimed, case, &formulas.parameters));
     let formula = formulas.add(&name, &text).map_err(|fault| table.fault_in("expression", &fault))?;
-    if let Some(claimed) = claimed {
-        let claim = Claim::parse(&claimed, case).map_err(|fault| table.fault_in("channel", &fault))?;
-        formula.claim = Some(claim);
-    }
-    (formula.source, formula.valid, formula.error) = (source, valid, error);
+    formula.claim = claim.transpose().map_err(|fault| table.fault_in("channel", &fault))?;
+    (formula.source, formula.valid, formula.error, formula.finding) = (source, valid, error, finding);
     table.finish()
 }

@@ -73,7 +73,7 @@ pub fn listed(values: Vec<f64>) -> std::result::Result<Vec<f64>, String> {
     }
 }
 
-/// The grid of a scenario, by crank angle or by time: a range or a list.
+/// The grid of a scenario, by input (crank angle or slide) or by time: a range or a list.
 /// If `is_replaced`, the grid is read but not checked against the drive, and the returned grid is empty.
 pub fn read(table: &mut TomlTable, drives: &Drives, is_replaced: bool) -> Result<Grid> {
     let [angles, slides, times] = ["angles", "slides", "times"]

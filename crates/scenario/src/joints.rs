@@ -149,8 +149,8 @@ fn prismatic(table: &mut TomlTable) -> Result<(JointKind, Option<Guise>)> {
     Ok((JointKind::Prismatic { axes: [first, second].map(direction) }, drawn))
 }
 
-/// Unit vector at `angle` (rad). Along the axes of the frame the vector is exact, without the rounding error of pi.
-/// A vertical guide is therefore exactly vertical.
+/// Unit vector at `angle` (rad).
+/// Multiples of a right angle give exact components, so that a vertical guide is exactly vertical.
 fn direction(angle: f64) -> Vec2 {
     let quarters = angle / FRAC_PI_2;
     if (quarters - quarters.round()).abs() > 4.0 * f64::EPSILON * quarters.abs() {

@@ -10,6 +10,7 @@ mod curve;
 mod draft;
 pub mod edit;
 pub mod engine;
+mod family;
 mod figure;
 pub mod formula;
 pub mod grid;
@@ -23,25 +24,31 @@ pub mod mapping;
 mod masses;
 mod motion;
 mod motor;
+mod numbers;
 pub mod oracle;
 mod parameter_table;
 mod parameters;
 mod printed;
 pub mod reader;
 mod reduced;
+mod renumbering;
 mod sentences;
 mod series;
 mod setting;
 mod settings;
+mod slopes;
 pub mod source;
 mod start;
 mod stated;
+mod statistic;
 mod table_file;
 pub mod templates;
 #[cfg(test)]
 mod tests;
+mod transfer;
 mod transmissions;
 pub mod unit;
+pub mod varied;
 pub mod words;
 
 pub use self::claim::Claim;
@@ -49,15 +56,22 @@ pub use self::formula::{Formula, Formulas};
 pub use asked::{StartRequest, Undecided};
 pub use draft::Draft;
 pub use engine::{EngineName, EngineSettings};
+pub use family::ScenarioFamily;
 pub use figure::{FigureValue, MechanismFigure, OracleFigure};
 pub use linkage::case::When;
 pub use oracle::{Oracle, OracleBasis};
 pub use parameters::{INPUTS, Parameter};
 pub use printed::{Printed, PrintedChannel};
+pub use renumbering::Renumbering;
 pub use series::{ExpectedCell, OraclePoint, OracleSeries, within};
 pub use setting::{EngineSetting, SettingOrigin};
+pub use slopes::{CaseKey, CaseSlopes, KeySort, Slope};
+pub use statistic::{FigureGrid, SampledFigure, Statistic, TurnFigure, mean_weights, sampled_values};
 
 use std::path::{Path, PathBuf};
+
+use toml::Spanned;
+use toml::de::DeTable;
 
 use self::clearance::ClearanceQuestion;
 use self::header::{NAME_HELP, is_name};
@@ -167,10 +181,9 @@ impl Scenario {
     ///
     /// Published numbers belong to the file's branch. If the start is on a branch other than the file's branch,
     /// published numbers are left out.
-    /// Numbers that depend on the crank angle at t = 0 are left out too if this angle differs from the angle in the
-    /// file.
+    /// Numbers that depend on the input at t = 0 are left out too if this input differs from the input in the file.
     /// These numbers are distances at t = 0 and values at times.
-    /// Values at crank angles depend on the angle at t = 0 only in three cases:
+    /// Values at crank angles or slides depend on the input at t = 0 only in three cases:
     /// the crank's speed is not constant, there are further drives, or a torsional spring counts turns from the start.
     ///
     /// # Errors
@@ -276,6 +289,17 @@ impl Scenario {
 fn parse(text: &str, path: &Path, asked: &StartRequest, lists: Lists) -> Result<(Scenario, Vec<Undecided>)> {
     let plain = Source::new(path, text);
     let tree = plain.tree()?;
+    of_tree(plain, tree, asked, lists)
+}
+
+/// The scenario of a tree, in which requested numbers and parameters replace those of the file.
+fn of_tree<'a>(
+    plain: Source<'a>,
+    mut tree: Spanned<DeTable<'a>>,
+    asked: &StartRequest,
+    lists: Lists,
+) -> Result<(Scenario, Vec<Undecided>)> {
+    numbers::replace(tree.as_mut(), &asked.set)?;
     let (parameters, fault) = parameter_table::read(
         TomlTable::root(&plain, &tree).optional_table("parameters")?,
         &asked.set,

@@ -46,8 +46,8 @@ pub const SECTIONS: &[Section] = &[
         optional("moment", ValueKind::MOMENTS, "required by the type, or a table")
             .means("moment, counter-clockwise positive; for a resistance its magnitude, not negative"),
         optional("acts", ValueKind::Choice(all_acts), "`\"always\"`").means(
-            "for a moment: the sense of rotation of the link in which the moment acts; for a force on a slide: the sense \
-             of the sliding; for a torsion spring or a spring on a slide: the side of its free angle or free slide",
+            "the load acts only while the link rotates in this sense (moment), while the slide changes in this sense \
+             (force on a slide), or on this side of the free angle or free slide (spring)",
         ),
         optional("x", ValueKind::FORCES, "required by the type, or a table").means("force along x"),
         optional("y", ValueKind::FORCES, "required by the type, or a table").means("force along y"),
@@ -84,12 +84,12 @@ pub const SECTIONS: &[Section] = &[
             .means("turns of the crank after which the table repeats; 2 for a four-stroke engine"),
     ]),
     Section::at("loads.table").with(&[
-        needed("crank", ValueKind::INPUTS).means("crank angle, or slide of the first drive; beyond its ends a table over a slide keeps its values"),
-        optional("moment", ValueKind::MOMENTS, "required for a moment").means("moment at that angle"),
-        optional("thrust", ValueKind::FORCES, "required for a force on a slide").means("force along the axis at that angle"),
-        optional("pressure", ValueKind::PRESSURES, "required with `bore`").means("pressure at that angle"),
-        optional("x", ValueKind::FORCES, "required for a force").means("force along x at that angle"),
-        optional("y", ValueKind::FORCES, "required for a force").means("force along y at that angle"),
+        needed("crank", ValueKind::INPUTS).means("crank angle, or slide of the first drive. Beyond its ends, a table over a slide keeps the values of its ends"),
+        optional("moment", ValueKind::MOMENTS, "required for a moment").means("moment at that input"),
+        optional("thrust", ValueKind::FORCES, "required for a force on a slide").means("force along the axis at that input"),
+        optional("pressure", ValueKind::PRESSURES, "required with `bore`").means("pressure at that input"),
+        optional("x", ValueKind::FORCES, "required for a force").means("force along x at that input"),
+        optional("y", ValueKind::FORCES, "required for a force").means("force along y at that input"),
     ]),
 ];
 
@@ -109,7 +109,7 @@ const SORTS: Words<fn(&mut TomlTable, &Mechanism) -> Result<Load>> = &[
     ("friction", friction),
 ];
 
-/// Upper limit of a coefficient of friction. A larger number is a percentage or a mistake.
+/// Upper limit of a coefficient of friction. A larger number is most likely a percentage or a mistake.
 const MOST_FRICTION: f64 = 10.0;
 
 /// Upper limit of the number of crank turns after which a table repeats.
@@ -250,7 +250,7 @@ fn torsion_damper(table: &mut TomlTable, mechanism: &Mechanism) -> Result<Load> 
     Ok(Load::TorsionDamper { links: pair(table, mechanism, &names)?, damping })
 }
 
-/// Quantities that are constants, or columns of a table over the crank angle.
+/// Quantities that are constants, or columns of a table over the input of the first drive.
 fn courses<const N: usize>(table: &mut TomlTable, names: [&str; N]) -> Result<[Course; N]> {
     let rows = table.tables("table")?;
     let constants = names.map(|name| table.optional_si(name));
@@ -308,7 +308,7 @@ fn courses<const N: usize>(table: &mut TomlTable, names: [&str; N]) -> Result<[C
 }
 
 /// Checks that the last point lies after the point before it and within the period of the table.
-/// Two points with the same crank angle are a jump, which only a table without a spline may have.
+/// Two points with the same input are a jump, which only a table without a spline may have.
 fn check_crank(row: &TomlTable, points: &[(f64, f64)], turns: Option<u32>, smooth: bool) -> Result<()> {
     let (&[(first, _), ..], &[.., (last, _)]) = (points, points) else { return Ok(()) };
     let before = |count: usize| points.len().checked_sub(count + 1).map(|index| points[index].0);

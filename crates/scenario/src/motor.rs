@@ -42,6 +42,10 @@ pub const SECTIONS: &[Section] = &[
             .means("ratio of intermediate-shaft speed to crank speed"),
         optional("output_inertia", ValueKind::INERTIAS.of(Sign::NotNegative), "0")
             .means("moment of inertia of the reducer's output shaft, which rotates with the crank"),
+        optional("rated_torque", ValueKind::MOMENTS.of(Sign::Positive), "unknown").means(
+            "rated torque; with a linear law, the command `drive` then reports a torque above the largest usual \
+             breakdown torque",
+        ),
     ]),
     Section::at("motor.points").with(&[
         needed("speed", ValueKind::SPEEDS).means("speed of the motor"),
@@ -63,8 +67,9 @@ pub fn read(table: &mut TomlTable) -> Result<Motor> {
     }
     let efficiency = efficiency(table)?;
     let inertia = inertia(table)?;
+    let rated_torque = table.optional_si("rated_torque")?;
     table.finish()?;
-    Ok(Motor { law, ratio, efficiency, inertia })
+    Ok(Motor { law, ratio, efficiency, inertia, rated_torque })
 }
 
 /// The key `efficiency`, or 1.

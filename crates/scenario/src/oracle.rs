@@ -22,8 +22,9 @@ const RIGHT: FileKey =
     optional("right", ValueKind::Table, "required with `finding`").means("the correct number, in the printed unit");
 const VALUE: FileKey = needed("value", ValueKind::Number).means("the number, in the unit of the name");
 const DIGITS: FileKey = needed("digits", ValueKind::Integer).means("number of printed decimals");
-const CRANK: FileKey = optional("crank", ValueKind::INPUTS, "a time is given").means("crank angle");
-const AT_TIME: FileKey = optional("time", ValueKind::TIMES, "a crank angle is given").means("time");
+const CRANK: FileKey =
+    optional("crank", ValueKind::INPUTS, "a time is given").means("crank angle, or slide of the first drive");
+const AT_TIME: FileKey = optional("time", ValueKind::TIMES, "an input is given").means("time");
 
 /// Descriptions of the keys that this module reads.
 pub const SECTIONS: &[Section] = &[
@@ -32,8 +33,8 @@ pub const SECTIONS: &[Section] = &[
         optional("name", ValueKind::Text, "none").means("name for reports"),
         optional("basis", ValueKind::Choice(|| OracleBasis::ALL.map(OracleBasis::word).to_vec()), "`\"published\"`")
             .means(
-                "how the numbers were obtained: printed in the source, computed anew from its data, or a \
-             formula from given data",
+                "how the numbers were obtained: printed in the source, recomputed from the data of the source, or \
+                 derived from given data by a formula",
             ),
         optional("values", ValueKind::Tables, "one of `file`, `values` and `figures`").means("numbers at one instant"),
         optional("figures", ValueKind::Tables, "one of `file`, `values` and `figures`")
@@ -42,8 +43,8 @@ pub const SECTIONS: &[Section] = &[
             .means("path of a table, relative to the scenario's directory"),
         CRANK,
         optional("crank", ValueKind::Text, "with `file`: the other column is given").means(
-            "column of the crank angles of the file, as this scenario measures them (ends in `_deg` or \
-             `_rad`)",
+            "column of the inputs of the file, as this scenario measures them: crank angles (ends in `_deg` or \
+             `_rad`), or slides of the first drive (ends in `_m` or `_mm`)",
         ),
         AT_TIME,
         optional("time", ValueKind::Text, "with `file`: the other column is given")
@@ -78,7 +79,7 @@ pub const SECTIONS: &[Section] = &[
         optional("offset", ValueKind::LENGTHS_OR_ANGLES, "0")
             .means("printed = channel + offset; for coordinates and angles"),
         optional("expect", ValueKind::Tables, "none")
-            .means("cells known to be wrong, at crank angles or times, as in the table"),
+            .means("cells known to be wrong, each with the input or the time of its row"),
         FINDING,
         RIGHT,
     ]),
@@ -101,7 +102,7 @@ pub struct Oracle {
     pub source: String,
     /// How the numbers are known.
     pub basis: OracleBasis,
-    /// Values of channels at crank angles or times.
+    /// Values of channels at inputs (crank angles or slides) or at times.
     pub series: Vec<OracleSeries>,
     /// Figures of the mechanism.
     pub figures: Vec<OracleFigure>,
@@ -121,15 +122,15 @@ linkage::words! {
 }
 
 impl Oracle {
-    /// The part of the oracle that stays valid if the case starts at a crank angle other than that of the file, on the
-    /// branch of the file's start.
+    /// The part of the oracle that stays valid if the first drive starts at an input other than that of the file, on
+    /// the branch of the file's start.
     /// `None` if no part is valid.
     pub(super) fn at_another_start(mut self, case: &Case) -> Option<Oracle> {
         self.figures.retain(|figure| !matches!(figure.figure, MechanismFigure::Distance(_)));
-        // If the start angle differs from that of the file, the motion is a different function of time, so values at
+        // If the input at t = 0 differs from that of the file, the motion is a different function of time, so values at
         // times are removed.
         self.series.retain(|series| series.instants().all(|at| at.time().is_none()));
-        // Values at crank angles are removed if they also depend on the time or on the turns since the start.
+        // Values at inputs are removed if they also depend on the time or on the turns since the start.
         // A further drive or a changing speed makes values depend on the time.
         // A torsional spring makes values depend on the turns since the start.
         let winds = |load: &linkage::drive::Load| load.nature().twist.is_some();

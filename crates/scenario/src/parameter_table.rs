@@ -1,5 +1,6 @@
 //! `[parameters]`: parameters as a file states them.
 
+use super::numbers::is_path;
 use super::parameters::{Parameter, Parameters, fault_of_name};
 use super::reader::TomlTable;
 use super::words::suggestion;
@@ -23,7 +24,13 @@ pub(super) fn read(
     if let Some(mut table) = table {
         for key in table.keys() {
             match own(&mut table, &key, &parameters) {
-                Ok(parameter) => parameters.push(parameter),
+                Ok(parameter) => {
+                    parameters.push(parameter);
+                    // The new value must be set here, because later parameters may be computed from this parameter.
+                    set.iter().filter(|(own, _)| *own == key).for_each(|(_, value)| {
+                        parameters.set(&key, *value);
+                    });
+                }
                 Err(error) => first = first.or(Some(error)),
             }
         }
@@ -31,7 +38,7 @@ pub(super) fn read(
             first = Some(error);
         }
     }
-    for (key, value) in set {
+    for (key, value) in set.iter().filter(|(key, _)| !is_path(key)) {
         let wrong = |message: String| Error::new(ErrorKind::Input, message).key("parameters");
         let parameter = Parameter::new(key, *value);
         if let Some((message, help)) = parameter.names().find_map(|(name, _)| fault_of_name(name)) {

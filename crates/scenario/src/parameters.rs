@@ -3,8 +3,8 @@
 use super::unit::{self, NamedUnit};
 use super::words::suggestion;
 use crate::sentences;
-use formula::{FormulaFault, FormulaTree, Function, Rounded};
-use std::collections::BTreeMap;
+use formula::{FormulaFault, FormulaGraph, FormulaTree, Function, NodeId, Rounded};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A number with a name.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,6 +14,21 @@ pub struct Parameter {
     /// The number as it was given, in the unit of the key.
     pub given: f64,
     unit: Option<&'static NamedUnit>,
+}
+
+/// A conversion of units, which is a factor: the number for 1 is the derivative.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Conversion {
+    /// `None` for a number that stays.
+    from: Option<&'static NamedUnit>,
+    /// The wanted unit in SI.
+    to: f64,
+}
+
+impl Conversion {
+    pub(super) fn of(self, given: f64) -> f64 {
+        self.from.map_or(given, |unit| unit.to_si(given) / self.to)
+    }
 }
 
 impl Parameter {
@@ -46,7 +61,25 @@ impl Parameter {
         self.short().unwrap_or(&self.key)
     }
 
-    /// The names of the parameter, each with the number that it denotes.
+    /// The number that a name of the parameter denotes in an expression for a key with the unit `wanted`.
+    pub(super) fn denoted(&self, name: &str, wanted: Option<&'static NamedUnit>) -> f64 {
+        self.conversion(name, wanted).of(self.given)
+    }
+
+    /// The conversion from the number of the parameter to the number that its name denotes in a key with the unit
+    /// `wanted`. The short name denotes the value in this unit if parameter and key measure the same quantity,
+    /// otherwise in SI.
+    pub(super) fn conversion(&self, name: &str, wanted: Option<&'static NamedUnit>) -> Conversion {
+        let unit = self.unit.filter(|_| self.short() == Some(name));
+        let wanted = wanted.filter(|wanted| unit.is_some_and(|unit| unit::alike(unit, wanted)));
+        // If the parameter is given in the key's unit, its number is used without conversion.
+        Conversion {
+            from: unit.filter(|unit| wanted != Some(*unit)),
+            to: wanted.map_or(1.0, |wanted| wanted.to_si(1.0)),
+        }
+    }
+
+    /// The names of the parameter, each with the number that it denotes in a formula.
     pub fn names(&self) -> impl Iterator<Item = (&str, Rounded)> {
         let plain = Rounded::decimal(self.given);
         let si = self.unit.map(|unit| match unit.to_si(1.0) {
@@ -92,6 +125,28 @@ impl Parameters {
     }
 }
 
+/// The graph of an expression of parameters.
+pub(super) struct ParameterGraph<'t> {
+    /// The names in the expression, in the order of the graph's inputs, each with the index of its parameter.
+    pub(super) names: Vec<(usize, &'t str)>,
+    pub(super) graph: FormulaGraph,
+    pub(super) node: NodeId,
+}
+
+impl<'t> ParameterGraph<'t> {
+    /// `None` if the tree contains a name that is not the name of a parameter.
+    pub(super) fn of(tree: &'t FormulaTree, parameters: &Parameters) -> Option<ParameterGraph<'t>> {
+        let words: BTreeSet<&str> =
+            tree.names().into_iter().map(|(name, _)| name).filter(|name| *name != "pi").collect();
+        let words: Vec<&str> = words.into_iter().collect();
+        let named = |word: &&'t str| Some((*parameters.places.get(*word)?, *word));
+        let names = words.iter().map(named).collect::<Option<_>>()?;
+        let mut graph = FormulaGraph::new(&words, 0);
+        let node = graph.add(tree).ok()?;
+        Some(ParameterGraph { names, graph, node })
+    }
+}
+
 /// The number that `text` gives for a key. The text is an arithmetic expression of numbers and parameters.
 /// A parameter's short name denotes its value in the key's unit, if parameter and key measure the same quantity
 /// (`length_mm = "2 * a"`).
@@ -102,18 +157,7 @@ impl Parameters {
 pub(super) fn arithmetic(text: &str, key: &str, parameters: &Parameters) -> std::result::Result<f64, FormulaFault> {
     let tree = FormulaTree::parse(text)?;
     let wanted = unit::ending(key).map(|(_, unit)| unit);
-    let of = |name: &str| {
-        let own = parameters.called(name)?;
-        let (_, number) = own.names().find(|(own, _)| *own == name)?;
-        let is_short = own.short() == Some(name);
-        let of_key = wanted.filter(|wanted| is_short && own.unit.is_some_and(|unit| unit::alike(unit, wanted)));
-        // If the parameter is given in the key's unit, its number is used without conversion.
-        Some(Rounded::exact(match of_key {
-            Some(unit) if Some(unit) == own.unit => own.given,
-            Some(unit) => number.value / unit.to_si(1.0),
-            None => number.value,
-        }))
-    };
+    let of = |name: &str| Some(Rounded::exact(parameters.called(name)?.denoted(name, wanted)));
     let of = |name: &str| if name == "pi" { Some(Rounded::nearly(std::f64::consts::PI)) } else { of(name) };
     if let Some((name, at)) = tree.names().into_iter().find(|(name, _)| of(name).is_none()) {
         let help = match parameters.list.is_empty() {

@@ -51,6 +51,9 @@ const MAGNITUDE: &str = "f_N";
 /// Ending of the name of the channel that represents the magnitude: the channel of the x component.
 const X_OF_MAGNITUDE: &str = "fx_N";
 
+/// Ending of the name of the channel of the y component.
+const Y_OF_MAGNITUDE: &str = "fy_N";
+
 /// The units in which a channel may be printed. `None` if it is printed only in its SI unit.
 fn family(unit: trajectory::Unit) -> Option<&'static UnitFamily> {
     match unit {
@@ -91,7 +94,7 @@ pub struct PrintedChannel {
 impl PrintedChannel {
     /// The channel called `name`. The ending of the name may be a printed unit: `x_mm` for `x_m`, `angle_deg` for
     /// `angle_rad`.
-    /// If the ending is no printed unit, the name is that of the channel in SI.
+    /// If the ending is not a printed unit, the name is that of the channel in SI.
     #[must_use]
     pub fn named(name: &str) -> Option<PrintedChannel> {
         if let Some(base) = name.strip_suffix(&format!(".{MAGNITUDE}")) {
@@ -129,6 +132,21 @@ impl PrintedChannel {
     #[must_use]
     pub fn unit_symbol(&self) -> &'static str {
         self.unit.map_or(self.channel.kind.unit.symbol(), |unit| unit.suffix)
+    }
+
+    /// For the magnitude of a vector, the channel of its y component.
+    #[must_use]
+    pub fn other_component(&self) -> Option<Channel> {
+        let other = || Channel::named(&format!("{}.{Y_OF_MAGNITUDE}", self.channel.subject()));
+        if self.magnitude { other() } else { None }
+    }
+
+    /// The printed number of a value of the channel in SI. `other` is the value of the
+    /// [other component](PrintedChannel::other_component), if there is one.
+    #[must_use]
+    pub fn from_si(&self, value: f64, other: Option<f64>) -> f64 {
+        let size = other.map_or(value, |other| (value * value + other * other).sqrt());
+        self.unit.map_or(size, |unit| size / unit.to_si(1.0))
     }
 
     /// A printed number in SI.

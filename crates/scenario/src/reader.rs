@@ -8,6 +8,7 @@ mod several;
 
 pub use super::keys::key::Sign;
 use crate::sentences;
+pub(crate) use quantity::SMALLEST;
 pub use several::Faults;
 #[cfg(test)]
 pub use several::asked;
@@ -19,6 +20,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::keys::key::FileKey;
+use super::numbers::{path_of_entry, plain_number};
 use super::parameters::{Parameters, arithmetic};
 use super::setting::{EngineSetting, SettingOrigin};
 use super::source::Source;
@@ -369,10 +371,7 @@ impl<'a> TomlTable<'a> {
             return self.instead(Vec::new(), self.mistyped(key, value, Needed::Tables));
         };
         let child = |(index, element): (usize, &'a Spanned<DeValue<'a>>)| {
-            let path = match element.get_ref().get("name").and_then(|name| name.get_ref().as_str()) {
-                Some(name) => format!("{}.{name}", self.path_of(key)),
-                None => format!("{}[{}]", self.path_of(key), index + 1),
-            };
+            let path = path_of_entry(&self.path_of(key), index, element.get_ref());
             self.child(key, path, element)
         };
         let all: Vec<_> = array.iter().enumerate().map(child).collect();
@@ -418,19 +417,11 @@ impl<'a> TomlTable<'a> {
         self.finite_with(key, value, &self.source.parameters)
     }
 
-    #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the TOML parser")]
     fn finite_with(&self, key: &str, value: &Spanned<DeValue>, parameters: &Parameters) -> Result<f64> {
-        let number = match value.get_ref() {
-            DeValue::Float(float) => float.as_str().parse().ok(),
-            DeValue::Integer(integer) => {
-                i128::from_str_radix(integer.as_str(), integer.radix()).ok().map(|number| number as f64)
-            }
-            DeValue::String(text) => {
-                return arithmetic(text, key, parameters).map_err(|fault| self.fault_at(key, value, &fault));
-            }
-            _ => None,
-        };
-        let number: f64 = number.ok_or_else(|| self.mistyped(key, value, Needed::Number))?;
+        if let DeValue::String(text) = value.get_ref() {
+            return arithmetic(text, key, parameters).map_err(|fault| self.fault_at(key, value, &fault));
+        }
+        let number = plain_number(value.get_ref()).ok_or_else(|| self.mistyped(key, value, Needed::Number))?;
         if number.is_finite() { Ok(number) } else { Err(self.mistyped(key, value, Needed::FiniteNumber)) }
     }
 }
@@ -478,6 +469,10 @@ fn found(source: &Source, value: &Spanned<DeValue>) -> String {
     match value.get_ref() {
         DeValue::Table(_) => "a table".into(),
         DeValue::Array(_) => "an array".into(),
+        // A number that has replaced that of the file.
+        DeValue::String(text) if !source.text.get(value.span()).is_some_and(|own| own.contains(&**text)) => {
+            text.to_string()
+        }
         _ => source.text.get(value.span()).unwrap_or("another value").to_string(),
     }
 }

@@ -11,21 +11,21 @@ use linkage::input::Input;
 use linkage::mechanism::{GROUND, Link};
 
 /// A quantity that is an arithmetic expression of channels.
-pub(super) struct Quantity {
+struct Quantity {
     /// Name of the quantity in a claim, unit included.
-    pub(super) name: &'static str,
+    name: &'static str,
     /// Symbol of its unit.
-    pub(super) unit: &'static str,
+    unit: &'static str,
     /// Whether the input to which the quantity is reduced is a slide. If not, the input is an angle.
     of_slide: bool,
     tree: fn(&Case) -> Found,
 }
 
 /// The arithmetic expression, or a message and help.
-type Found = Result<FormulaTree, (String, String)>;
+pub(super) type Found = Result<FormulaTree, (String, String)>;
 
 /// All reduced quantities. The quantities do not include motor, reducer and flywheel.
-pub(super) const QUANTITIES: [Quantity; 4] = [
+const QUANTITIES: [Quantity; 4] = [
     // I* = sum of m (v / omega)^2 + J (omega_link / omega)^2.
     Quantity { name: "drive.reduced_inertia_kg_m2", unit: "kg m^2", of_slide: false, tree: inertia },
     // Moment of gravity and loads reduced to the crank, counter-clockwise positive.
@@ -40,7 +40,7 @@ impl Quantity {
     ///
     /// # Errors
     /// Message and help, if the quantity has no meaning in the case.
-    pub(super) fn of(&self, case: &Case) -> Found {
+    fn of(&self, case: &Case) -> Found {
         let input = case.crank().input;
         match case.drives.len() {
             1 if (input == Input::Slide) != self.of_slide => {
@@ -50,13 +50,34 @@ impl Quantity {
                     sentences::use_one_of(&(own.collect::<Vec<_>>().join("; "))),
                 ))
             }
-            1 => (self.tree)(case),
-            count => Err((
-                sentences::is_of_one_crank_but_the_mechanism(&self.name, &count),
-                sentences::TAKE_A_SCENARIO_WITH_ONE_DRIVE.into(),
-            )),
+            _ => one_drive(self.name, case).and_then(|()| (self.tree)(case)),
         }
     }
+}
+
+/// Checks that a case has one drive. The quantity `name` belongs to the input of this drive.
+///
+/// # Errors
+/// Message and help for several drives.
+pub(super) fn one_drive(name: &str, case: &Case) -> Result<(), (String, String)> {
+    match case.drives.len() {
+        1 => Ok(()),
+        count => Err((
+            sentences::is_of_one_crank_but_the_mechanism(&name, &count),
+            sentences::TAKE_A_SCENARIO_WITH_ONE_DRIVE.into(),
+        )),
+    }
+}
+
+/// The reduced quantity called `name` as an expression of channels, and its unit. `None` if `name` is not a reduced
+/// quantity.
+pub(super) fn named(name: &str, case: &Case) -> Option<(Found, &'static str)> {
+    QUANTITIES.iter().find(|own| own.name == name).map(|own| (own.of(case), own.unit))
+}
+
+/// Names of all reduced quantities.
+pub(super) fn names() -> impl Iterator<Item = &'static str> {
+    QUANTITIES.iter().map(|own| own.name)
 }
 
 fn inertia(case: &Case) -> Found {
@@ -70,7 +91,11 @@ fn inertia(case: &Case) -> Found {
         let help = sentences::GIVE_THE_LINKS_MASS_KG_AND_INERTIA.into();
         return Err((sentences::NOTHING_IN_THE_MECHANISM_HAS_A_MASS.into(), help));
     };
-    Ok(FormulaTree::pair(Operator::Over, sum, FormulaTree::pair(Operator::Power, rate(case), FormulaTree::number(2.0))))
+    Ok(FormulaTree::pair(
+        Operator::Over,
+        sum,
+        FormulaTree::pair(Operator::Power, input(case, 1), FormulaTree::number(2.0)),
+    ))
 }
 
 fn moment(case: &Case) -> Found {
@@ -86,7 +111,8 @@ fn moment(case: &Case) -> Found {
         );
         of_inertias(link, across, product(link, ["omega_rad_s", "alpha_rad_s2"]))
     });
-    let gained = sum(powers).map_or(FormulaTree::number(0.0), |sum| FormulaTree::pair(Operator::Over, sum, rate(case)));
+    let gained =
+        sum(powers).map_or(FormulaTree::number(0.0), |sum| FormulaTree::pair(Operator::Over, sum, input(case, 1)));
     let drive = if case.crank().input == Input::Slide { "drive.force_N" } else { "drive.torque_N_m" };
     // If the crank has no driving torque, there is no drive moment to subtract.
     Ok(match case.drives.with_moment().next() {
@@ -101,11 +127,12 @@ fn masses(case: &Case) -> impl Iterator<Item = &Link> {
     links.map(|(_, link)| link).filter(|link| link.mass > 0.0 || link.inertia > 0.0)
 }
 
-/// Rate of the input.
-fn rate(case: &Case) -> FormulaTree {
-    let [_, rate, _] = case.input_channels();
-    let mut terms = rate.into_iter().map(|(channel, _)| FormulaTree::name(channel.to_string()));
-    let first = terms.next().expect("the rate has a channel");
+/// The input (order 0), its rate (order 1) or its acceleration (order 2), as an expression of channels.
+pub(super) fn input(case: &Case, order: usize) -> FormulaTree {
+    let [position, rate, acceleration] = case.input_channels();
+    let terms = [position, rate, acceleration].into_iter().nth(order).into_iter().flatten();
+    let mut terms = terms.map(|(channel, _)| FormulaTree::name(channel.to_string()));
+    let first = terms.next().expect("the input has channels");
     // The rate of an angle between two links is the difference of their angular velocities.
     terms.fold(first, |sum, term| FormulaTree::pair(Operator::Minus, sum, term))
 }
@@ -122,6 +149,7 @@ fn sum(parts: impl Iterator<Item = FormulaTree>) -> Option<FormulaTree> {
     parts.reduce(|sum, part| FormulaTree::pair(Operator::Plus, sum, part))
 }
 
-fn of_link(link: &Link, word: &str) -> FormulaTree {
+/// The channel of a link with the ending `word`.
+pub(super) fn of_link(link: &Link, word: &str) -> FormulaTree {
     FormulaTree::name(format!("link.{}.{word}", link.name))
 }

@@ -69,11 +69,11 @@ linkage::sentences! {
     A_PART_OF_THE_HOUSING = "a part of the housing";
     ADD_RADIUS_MM_OR_GIVE_CORNERS = "add `radius_mm`, or give `corners`";
     THE_OUTLINE_HAS_NO_RADIUS = "the outline has no radius";
-    give_all_links_capsules_with_radius(name) = "give all links capsules with `radius_mm` in `[clearance]`, or this one an outline in `[clearance.outlines.{name}]`";
+    give_all_links_capsules_with_radius(name) = "give all links capsules with `radius_mm` in `[clearance]`, or give this link an outline in `[clearance.outlines.{name}]`";
     link_has_no_outline(name) = "link \"{name}\" has no outline";
     there_is_no_link(name) = "there is no link \"{name}\"";
     THE_GROUND_HAS_NO_OUTLINE = "the ground has no separate outline";
-    give_a_number_from_to_such_as(smallest_area) = "give a number from {smallest_area} to 1, such as 1e-3";
+    give_a_number_from_to_such_as(smallest_area) = "give a number from {smallest_area} to below 1, such as 1e-3";
     found_but_this_is_the_share(share) = "found {share}, but this is the allowed error of a swept area as a fraction of the area";
     CHECK_THE_UNITS_OF_ITS_CORNERS = "check the units of its corners and its radius";
     the_outline_of_extends_to_the_mechanism(far, far_2, size) = "the outline of \"{far}\" extends to {far_2} m, but the mechanism only to {size} m";
@@ -243,8 +243,8 @@ linkage::sentences! {
     THE_FORMULA_IS_CONSTANT = "the formula is constant";
     // masses.rs
     CHECK_THE_UNIT_LEAVE_OUT = "check the unit; leave out masses that no requested quantity needs";
-    link_has_a_moment_of_inertia(link, own, own_2) = "link \"{link}\": its moment of inertia plus its mass times the square of the largest link's length is {own} kg·m²; this is {own_2} times that of everything else";
-    CHECK_THE_UNIT_A_LINK_THAT_IS_SO = "check the unit; if the link really is so large, add a point there";
+    link_has_a_moment_of_inertia(link, own, own_2) = "link \"{link}\": its moment of inertia plus its mass times the square of the largest link's length is {own} kg·m²; this is {own_2} times the sum over all other links and the motors";
+    CHECK_THE_UNIT_A_LINK_THAT_IS_SO = "check the unit; if the link really is so large, add a point at the mass centre";
     the_mass_centre_of_link_is_away(link, far, far_2) = "the mass centre of link \"{link}\" is {far} m away from all its points, {far_2} times the largest link";
     CHECK_THE_UNITS_OF_ITS_SPEED = "check the units of the link's speed and length";
     at_rad_link_of_has_points(speed, link, link_2) = "at {speed} rad/s, link \"{link}\" of {link_2} m has points that are faster than light";
@@ -363,7 +363,7 @@ linkage::sentences! {
     NAME_THE_COLUMN_OF_CRANK = "name the column of crank angles (`crank = \"crank_deg\"`) or that of times (`time = \"t_s\"`)";
     column_does_not_say_its_unit(column) = "column \"{column}\" does not state its unit";
     THE_COLUMN_OF_TIMES_ENDS = "the name of the column of times must end in `_s` or `_ms`";
-    THE_COLUMN_OF_CRANK_ANGLES = "the name of the column of crank angles must end in `_deg` or `_rad`";
+    THE_COLUMN_OF_CRANK_ANGLES = "the name of the column must end in `_deg` or `_rad` for crank angles, in `_m` or `_mm` for slides";
     keep_one_of_the_two_2(help) = "keep one of the two: {help}";
     A_COLUMN_OF_CRANK_ANGLES = "a column of crank angles and one of times are both named";
     A_CRANK_ANGLE_AND_A_TIME = "a crank angle and a time are both given";
@@ -416,6 +416,20 @@ linkage::sentences! {
     the_assembly_mode_of_the_group(first) = "the assembly mode of the group {first} is not given";
     the_assembly_modes_of_groups(groups) = "the assembly modes of these groups are not given: {groups}";
     IS_NO_ASSEMBLY_MODE = "is not an assembly mode";
+    // statistic.rs
+    WRITE_STATISTIC_AND_QUANTITY = "write STATISTIC:QUANTITY, such as `max:joint.A.f_N`, `mean:drive.torque_N_m` or `at=90:point.B.x_mm`";
+    is_no_figure(text) = "\"{text}\" is not a figure of a run";
+    there_is_no_statistic(word) = "there is no statistic `{word}`";
+    the_figure_has_no_instant(figure) = "the figure {figure} needs at least one instant";
+    GIVE_THE_GRID_INSTANTS = "give the grid at least one instant";
+    the_quantity_has_no_value(quantity, input) = "{quantity} has no value at {input}";
+    LEAVE_THAT_INSTANT_OUT = "leave this instant out of the grid, or choose another quantity";
+    no_instant_has_the_input(input, unit) = "the grid has no instant at {input} {unit}";
+    NAME_AN_INSTANT_OF_THE_GRID = "name an instant of the grid, or add this instant to the grid";
+    is_one_number_for_all(text) = "{text} is one number for the whole mechanism, not a quantity at each instant";
+    NAME_A_CHANNEL_FOR_A_FIGURE = "name a channel, such as `joint.A.f_N`";
+    the_run_lacks(name) = "the run does not contain {name}";
+    SOLVE_WITH_THE_CHANNELS_OF_THE_FIGURE = "request the channel in `want` of `[channels]`";
     // table_file.rs
     WRITE_IT_AS_PRINTED_WITH_A_DECIMAL = "write it as printed, with a decimal point; list a cell known to be wrong under `expect`, with its finding";
     found_but_a_decimal_number(text, comma) = "expected a decimal number{comma}, found \"{text}\"";
@@ -473,7 +487,7 @@ linkage::sentences! {
     LIFTS_IN_TWO_UNITS = "some lifts are lengths, others are angles";
     THE_FOLLOWER_DOES_NOT_MOVE = "the follower has no lift";
     THE_CAM_HAS_TWO_LAWS = "the lift of the cam is given twice";
-    the_angle_of_the_lift(angle) = "the lift at {angle} deg is not in ascending order of the angles, or is not below 360 deg";
+    the_angle_of_the_lift(angle) = "the angle {angle} deg of a lift does not ascend, or is not below 360 deg";
     ASCEND_BELOW_360 = "let the angles ascend from 0 and stay below 360 deg; the table repeats with every turn";
     GIVE_LIFTS = "give lifts: `lifts = [{ angle_deg = 0, lift_mm = 0 }, { angle_deg = 120, lift_mm = 20 }, { angle_deg = 240, lift_mm = 5 }]`";
     THE_FORMULA_DOES_NOT_REPEAT = "the lift, or one of its first two derivatives, is different at `phi` = 0 and 2 pi";
@@ -499,4 +513,7 @@ linkage::sentences! {
     the_pressure_angle_is(degrees) = "the pressure angle is {degrees} deg";
     GIVE_A_PRESSURE_ANGLE_BELOW_90 = "give a pressure angle below 90 deg; 20 deg is usual";
     found_numbers_for_two_wheels(key) = "`{key}` must have two positive numbers";
+    // numbers.rs, varied.rs
+    the_file_has_no_number_at(path) = "the file has no number at `{path}`";
+    GIVE_THE_TEXT_WHOSE_NUMBERS_THESE_ARE = "give the text from which the numbers were read";
 }

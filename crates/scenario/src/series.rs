@@ -1,5 +1,5 @@
 //! Values of one channel from an oracle, and the channels that an oracle may name.
-//! Every value is valid at a crank angle or at a time.
+//! Every value is valid at an input of the first drive (crank angle or slide) or at a time.
 
 use crate::sentences;
 
@@ -217,7 +217,7 @@ impl Rows {
     }
 }
 
-/// Limits a time to the motion of a drive: from zero to the end of its law.
+/// Limits a time to the motion of a drive: from zero to the end of its law. A constant speed does not limit the time.
 #[must_use]
 pub fn within(drive: &Drive, time: f64) -> f64 {
     match drive.constant_speed() {

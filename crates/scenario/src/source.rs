@@ -20,14 +20,13 @@ const LONGEST_TEXT: usize = 10_000;
 
 /// Upper limit of the number of values in a file.
 /// The number of values is estimated by the number of the characters `,` `=` `[` `{` `.`.
-/// Every value needs some 200 bytes of memory, whatever its length in the file.
+/// Every value needs some 200 bytes of memory, even if its text is short.
 /// The limit therefore also limits the memory, before the memory is used.
 const MOST_VALUES: usize = 2_000_000;
 
 /// Upper limit of the number of parts of a file: tables, such as points, links, joints, loads and formulas.
 /// Published numbers are not counted as parts.
-/// Some computations need a time that grows with the square of the number of parts. At the limit these computations
-/// need seconds.
+/// The time of some computations grows with the square of the number of parts. At the limit, they take some seconds.
 const MOST_PARTS: usize = 30_000;
 const UNCOUNTED: &str = "oracle";
 
@@ -42,6 +41,7 @@ pub fn text_of(path: &Path) -> Result<String> {
 }
 
 /// Text of a file and the path that messages use for it.
+#[derive(Clone)]
 pub struct Source<'a> {
     /// Path as the user gave it.
     pub path: &'a Path,
@@ -108,8 +108,8 @@ impl<'a> Source<'a> {
     /// Keys and texts must not contain invisible characters or be longer than a limit.
     ///
     /// Titles, sources and names go into reports, tables, drawings and recordings.
-    /// A line break in a title would forge a line of a report. An escape character would command a terminal.
-    /// A change of writing direction would show a wrong name.
+    /// A line break in a title could imitate a line of a report, and an escape character could control a terminal.
+    /// A change of the writing direction could make a name look like another name.
     fn check_table(&self, table: &DeTable, path: &str, parts: &mut usize) -> Result<()> {
         for (key, value) in table {
             let name: &str = key.get_ref();

@@ -95,7 +95,7 @@ pub fn groups(
         }
     }
     faults.end()?;
-    // If configurations are to be listed, missing assembly modes are no error, because no choice is required.
+    // A list of configurations needs no choice, so assembly modes may be missing.
     if lists == Lists::No {
         missing(start, |index| wanted[index].is_some(), mechanism, structure, asked)?;
     }

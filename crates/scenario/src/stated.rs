@@ -27,7 +27,7 @@ pub const SECTIONS: &[Section] = &[Section::at("").with(&[
     needed("ground", ValueKind::Table).means("the frame"),
     needed("links", ValueKind::Table).means("moving links by name"),
     needed("joints", ValueKind::Tables).means("joints"),
-    optional("transmissions", ValueKind::Tables, "none").means("gear pairs, racks, belts and cams"),
+    optional("transmissions", ValueKind::Tables, "none").means("gear pairs, racks, screws, belts and cams"),
     needed("drive", ValueKind::TableOrTables).means("drives; the input of the first one identifies an instant"),
     optional("motor", ValueKind::Table, "none").means("motor of the crank"),
     optional("gravity", ValueKind::Table, "none").means("acceleration of gravity"),

@@ -93,6 +93,7 @@ fn crank_rocker_starts_where_two_circles_meet() {
             "reduced model",
             "steady speed",
             "lengths",
+            "reduced model as printed",
             "steady speed as printed",
             "start",
             "Newton and Euler at 70 deg"

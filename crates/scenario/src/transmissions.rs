@@ -1,4 +1,4 @@
-//! `[[transmissions]]`: gear pairs, racks, belts and cams.
+//! `[[transmissions]]`: gear pairs, racks, screws, belts and cams.
 
 mod cam;
 
@@ -40,8 +40,8 @@ pub const SECTIONS: &[Section] = &[
     needed("links", ValueKind::Texts)
         .means("the two wheels, pinion and rack, screw and nut, or cam and follower; `\"ground\"` may be a wheel, such as a fixed ring gear"),
     optional("carrier", ValueKind::Text, "`\"ground\"`").means(
-        "the link that carries both axles, or the axle and the guide. A wheel is joined to the carrier, or to a \
-         third link at a joint of the carrier with that link",
+        "the link that carries both axles, or the axle and the guide. A wheel turns on a pin of the carrier. \
+         The pin may belong to a third link that a joint at the same point connects to the carrier",
     ),
     optional("teeth", ValueKind::Numbers, "required for gears").means(
         "gears: numbers of teeth; only their ratio matters. The pitch radii follow from the distance of the axles",
@@ -61,7 +61,7 @@ pub const SECTIONS: &[Section] = &[
          The loss is a moment between carrier and first member",
     ),
     optional("efficiency_back", ValueKind::Number, "`efficiency`").means(
-        "not for a cam: the same if the second member drives the first, at most 1; 0 or less for a self-locking \
+        "not for a cam: efficiency while the second member drives the first, at most 1; 0 or less for a self-locking \
          transmission: the second member alone cannot move the first",
     ),
     optional("follower", ValueKind::Choice(|| names(cam::FOLLOWERS)), "required for a cam")

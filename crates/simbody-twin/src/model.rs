@@ -108,7 +108,8 @@ impl Linkage {
         })
     }
 
-    /// Adds the reactions to a state after [`Linkage::motion`]. Forces do not depend on the direction of time.
+    /// Adds the reactions to a state after [`Linkage::motion`]. Unlike velocities, forces keep their
+    /// signs if Simbody's time runs backwards.
     pub(super) fn reactions(&self, case: &Case, bodies: &[BodyState], loops: &[LoopState], state: &mut State) {
         for (branch, body) in self.tree.branches.iter().zip(bodies) {
             let joint = &case.mechanism.joints()[branch.joint];

@@ -20,5 +20,5 @@ linkage::sentences! {
     CHECK_THAT_THE_POSE_CAN_BE_ASSEMBLED = "check that the pose can be assembled there";
     simbody_stopped_at(t, at, gap, message) = "Simbody stopped at t = {t:.6} s, {at}{gap}: {message}";
     joint_open_by(case, gap) = ", joint \"{case}\" open by {gap} m";
-    simbody_cannot_take_the_mechanism(message) = "Simbody cannot take the mechanism: {message}";
+    simbody_cannot_take_the_mechanism(message) = "Simbody cannot represent the mechanism: {message}";
 }

@@ -17,7 +17,7 @@ macro_rules! sentences {
 
 sentences! {
     // ffi.rs
-    SIMBODY_ANSWERED_WITH_A_NUMBER = "Simbody answered with a number that is not finite";
+    SIMBODY_ANSWERED_WITH_A_NUMBER = "Simbody returned a number that is not finite";
     A_LOAD_IS_NOT_FINITE = "a load is not finite";
     loads_are_given_for_bodies(loads, state) = "{loads} loads are given for {state} bodies";
     is_asked_for_after(time, time_2) = "t = {time} s is requested after t = {time_2} s";
@@ -26,8 +26,8 @@ sentences! {
     // model.rs
     THERE_IS_NO_BODY = "no body is given";
     GRAVITY_IS_NOT_FINITE = "gravity is not finite";
-    the_is_it_must_be_greater(what, value) = "the {what} is {value}, it must be greater than 0";
-    the_accuracy_is_it_must_lie(accuracy) = "the accuracy is {accuracy}, it must lie between 0 and 1";
+    the_is_it_must_be_greater(what, value) = "the {what} is {value}, but must be greater than 0";
+    the_accuracy_is_it_must_lie(accuracy) = "the accuracy is {accuracy}, but must lie between 0 and 1";
     IT_HOLDS_A_NUMBER_THAT_IS_NOT_FINITE = "the body or loop contains a number that is not finite";
     bodies_and_cannot_be_joined(first, second) = "bodies {first} and {second} cannot be joined";
     THE_AXIS_OF_ITS_SLIDER_IS_NO_UNIT = "the axis of its slider is not a unit vector";

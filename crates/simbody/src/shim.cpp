@@ -25,7 +25,8 @@ void out_of(const Vec3 &vector, double to[2]) {
     to[1] = vector[1];
 }
 
-// A coordinate as a linear function of time. It is prescribed as a position, so that it has no integration error.
+// A coordinate as a linear function of time. The position is prescribed (not the rate), so the coordinate has no
+// integration error.
 class Uniform : public Motion::Custom::Implementation {
 public:
     Uniform(double start, double rate) : start(start), rate(rate) {}
@@ -99,7 +100,7 @@ struct Loop {
     Constraint::PointInPlane along[2];
 };
 
-// Copies a text to the caller's buffer, cut to its size.
+// Copies a text to the caller's buffer. A text longer than the buffer is cut.
 int told(const std::string &what, char *text, size_t size) {
     if (size > 0) {
         const size_t length = std::min(what.size(), size - 1);
@@ -130,7 +131,7 @@ struct linkproof_run {
     RungeKuttaMersonIntegrator integrator;
     Vec3 gravity;
     std::vector<linkproof_body> given;
-    std::vector<double> loads; // Three per body: force at the mass centre and moment about it.
+    std::vector<double> loads; // For each body: force at the mass centre (two numbers), moment about the mass centre.
     std::vector<MobilizedBody> bodies; // The ground is first.
     std::vector<Loop> loops;
 
@@ -172,7 +173,7 @@ struct linkproof_run {
             Force::Custom(forces, new Resistance(bodies.back(), body.resistance));
     }
 
-    // Two equations in the plane: a third for z would be redundant, since no mobilizer leaves the plane.
+    // Two equations in the plane. An equation for z would be redundant, because no mobilizer leaves the plane.
     void close(const linkproof_loop &loop) {
         Loop closed;
         const Vec3 place = in_plane(loop.on_first);
@@ -214,11 +215,11 @@ struct linkproof_run {
 
     size_t taken() const { return static_cast<size_t>(integrator.getNumStepsAttempted()); }
 
-    // Applied forces: the loads, and the forces that accelerate the extra masses instead of the mobilizers.
-    // The latter follow from the accelerations.
-    // The accelerations depend on neither of these forces while every degree of freedom is prescribed.
+    // Applies two kinds of forces: the loads, and forces that accelerate the extra masses in place of the mobilizers.
+    // The forces for the extra masses follow from the accelerations.
+    // The accelerations depend on neither kind of force, because every degree of freedom is prescribed.
     void relieve(State &state) const {
-        // All accelerations are read before a force is set: setting one invalidates them in the state.
+        // All accelerations are read before any force is set, because setting a force invalidates the accelerations.
         std::vector<SpatialVec> carried(given.size(), SpatialVec(Vec3(0)));
         for (size_t index = 0; index < given.size(); ++index) {
             const linkproof_body &body = given[index];
@@ -256,7 +257,7 @@ struct linkproof_run {
             const SpatialVec &reaction = at_joints[mobile.getMobilizedBodyIndex()];
             out_of(reaction[1], of_bodies[index].force);
             of_bodies[index].moment = reaction[0][2];
-            // These are on the left side of the equations of motion, like multipliers.
+            // Motion forces are on the left side of the equations of motion, like multipliers, so the sign is reversed.
             of_bodies[index].drive = -mobile.getOneFromUPartition(state, 0, drives);
         }
         for (size_t index = 0; index < loops.size(); ++index) {

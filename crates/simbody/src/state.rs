@@ -52,7 +52,7 @@ impl BodyState {
 pub struct LoopState {
     /// Force of the first body on the second (N, world axes).
     pub force: [f64; 2],
-    /// Distance between the two points (m).
+    /// Opening of the loop (m): distance between the positions of the closing joint on its two bodies.
     pub gap: f64,
 }
 

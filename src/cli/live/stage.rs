@@ -26,7 +26,7 @@ impl Stage {
         Stage { name, shown: Mutex::default() }
     }
 
-    /// What is shown now.
+    /// The present content.
     pub(super) fn shown(&self) -> Shown {
         self.lock().clone()
     }

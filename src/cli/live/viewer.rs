@@ -248,7 +248,7 @@ fn agreed(
 /// A viewer needs one subscription; each additional subscription repeats every message.
 const EACH: usize = 4;
 
-/// Subscriptions of a viewer, indexed by the viewer's number and by the topic's number.
+/// Subscriptions of a viewer, by the numbers that the viewer chose and by the numbers of the topics.
 #[derive(Default)]
 pub(super) struct Wants {
     topics: BTreeMap<u32, u16>,
@@ -257,7 +257,7 @@ pub(super) struct Wants {
 
 impl Wants {
     /// Adds a topic under a number that the viewer chose; returns whether it was added.
-    /// A subscription is refused if the viewer already has [`EACH`] subscriptions to the topic.
+    /// A topic is not added if the viewer already has [`EACH`] subscriptions to it, or already uses this number.
     pub(super) fn add(&mut self, number: u32, topic: u16) -> bool {
         let numbers = self.numbers.entry(topic).or_default();
         let is_new = numbers.len() < EACH && !self.topics.contains_key(&number);
@@ -268,7 +268,7 @@ impl Wants {
         is_new
     }
 
-    /// Forgets these numbers.
+    /// Removes the subscriptions with these numbers.
     pub(super) fn remove(&mut self, numbers: &[u32]) {
         for number in numbers {
             let topic = self.topics.remove(number);
@@ -278,7 +278,7 @@ impl Wants {
         }
     }
 
-    /// Forgets everything.
+    /// Removes all subscriptions.
     pub(super) fn clear(&mut self) {
         *self = Wants::default();
     }

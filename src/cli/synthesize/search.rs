@@ -1,27 +1,20 @@
-//! `linkproof synthesize search` and `check`.
+//! `linkproof synthesize search`.
 
 use crate::sentences;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::cli::load::plain;
-use crate::cli::outputs::{Outputs, results};
+use crate::cli::outputs::{Made, Outputs, results};
 use crate::cli::{output, progress};
 use crate::report::synthesize::{self as report, Story};
-use design::draw;
 use design::synthesize::task::Task;
 use design::synthesize::task_file::TaskFile;
 use design::synthesize::{self, Achieved, redraw};
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::Result;
 use scenario::Scenario;
 
 results! { SearchResults {
     Scenario = "the scenario found",
-    Json = "the result",
-    Svg = "required and achieved motion",
-} }
-
-results! { CheckResults {
     Json = "the result",
     Svg = "required and achieved motion",
 } }
@@ -50,18 +43,6 @@ pub(super) struct Args {
     outputs: Outputs<SearchResults>,
 }
 
-#[derive(Debug, clap::Args)]
-pub(super) struct CheckArgs {
-    /// Synthesis file
-    #[arg(value_name = "FILE")]
-    file: PathBuf,
-    /// Scenario with the structure that the synthesis file describes
-    #[arg(value_name = "SCENARIO")]
-    scenario: PathBuf,
-    #[command(flatten)]
-    outputs: Outputs<CheckResults>,
-}
-
 pub(super) fn search(args: &Args) -> Result<()> {
     let TaskFile { mut task, drawing } = TaskFile::load(&args.file)?;
     for to in args.outputs.of(SearchResults::Scenario) {
@@ -84,10 +65,12 @@ pub(super) fn search(args: &Args) -> Result<()> {
     let achieved = Achieved::of(&own, found.forward)?;
     let text = redraw::redrawn(&task, &drawing.text, &values, &comment(args, &own, &achieved))?;
     let story = Story { task: &own, achieved: &achieved, search: Some((&found, &values)) };
-    let result = |result| match result {
-        SearchResults::Scenario => text.clone(),
-        SearchResults::Json => report::json(&story),
-        SearchResults::Svg => svg(&story),
+    let result = |result| -> Made {
+        match result {
+            SearchResults::Scenario => text.clone().into(),
+            SearchResults::Json => report::json(&story).into(),
+            SearchResults::Svg => report::picture(&story).into(),
+        }
     };
     args.outputs.deliver(|form| Ok(result(form)), |_| report::text(&story))
 }
@@ -103,29 +86,6 @@ fn comment(args: &Args, task: &Task, achieved: &Achieved) -> String {
         &effort.evaluations,
     );
     sentences::found_by(&command, &report::summary(task, achieved))
-}
-
-pub(super) fn check(args: &CheckArgs) -> Result<()> {
-    let TaskFile { task, drawing } = TaskFile::load(&args.file)?;
-    let scenario = plain(&args.scenario)?;
-    let names =
-        |scenario: &Scenario| scenario.case.mechanism.links().iter().map(|link| link.name.clone()).collect::<Vec<_>>();
-    if names(&scenario) != names(&drawing) || scenario.case.structure != drawing.case.structure {
-        let message = sentences::has_another_structure_than_the_drawing(&scenario.path.display(), &args.file.display());
-        return Err(Error::new(ErrorKind::Input, message).help(sentences::CHECK_A_SCENARIO_WITH_THE_SAME));
-    }
-    let task = Task { case: scenario.case, ..task };
-    let achieved = Achieved::of_either(&task)?;
-    let story = Story { task: &task, achieved: &achieved, search: None };
-    let result = |result| match result {
-        CheckResults::Json => report::json(&story),
-        CheckResults::Svg => svg(&story),
-    };
-    args.outputs.deliver(|form| Ok(result(form)), |_| report::text(&story))
-}
-
-fn svg(story: &Story) -> String {
-    draw::timing(&report::diagram(story), &story.task.title)
 }
 
 /// Refuses to write the scenario over one of its sources.

@@ -39,7 +39,7 @@ pub(super) fn others(proof: &Proof, tell: Tell) -> String {
     if proof.engines.len() > 1 {
         say!(told, sentences::engines_and_reference_against_each(&engines::disputes(proof)));
     }
-    // In an agreement, only points that do not decide the verdict may be open.
+    // If the proof does not agree, `why` has already reported the faults at the top of the page.
     if agrees(proof) {
         faults(proof, &mut told);
     }
@@ -95,7 +95,8 @@ fn grouped(proof: &Proof, tell: Tell) -> Vec<Reason> {
 
 /// Key under which equivalent reasons are counted once.
 /// For an inconclusive verdict, the key is the reason without its numbers.
-/// For any other verdict, it is the cause or, if the reason states none, the name without its side and channel.
+/// For any other verdict, the key is the cause. If the reason states no cause, the key is the name without its side and
+/// channel.
 fn key(name: &str, verdict: &Verdict, reason: &str) -> String {
     let bare = name.replace(" (assur)", "").replace(" (newton)", "");
     let channel = bare.split([' ', '(']).next().unwrap_or_default();

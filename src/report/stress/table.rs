@@ -1,6 +1,6 @@
 //! The results of a stress family as CSV: one row for each point, each solver or engine, and each group of channels.
 
-use super::super::table_csv::csv;
+use super::super::table_csv::as_csv;
 use lab::stress::{StressFamily, StressOutcome};
 use linkage::error::Result;
 
@@ -56,5 +56,5 @@ pub(crate) fn rows<'a>(family: &StressFamily, outcomes: impl Iterator<Item = &'a
             }
         }
     }
-    csv(rows)
+    as_csv(rows)
 }

@@ -5,7 +5,8 @@ use super::{Bad, GOOD, INPUT, assert_refused};
 #[test]
 fn mass_centres_and_inertias_beyond_the_mechanism_are_refused() {
     let far = ("mass_centre = { x_mm = 13, y_mm = 0 }", "mass_centre = { x_m = 1300, y_m = 0 }");
-    let words: &[&str] = &["link \"crank\"", "times the largest link", "check the unit", "add a point there"];
+    let words: &[&str] =
+        &["link \"crank\"", "times the largest link", "check the unit", "add a point at the mass centre"];
     let key = "links.crank.mass_centre";
     assert_refused(GOOD, &Bad { edits: &[far], kind: INPUT, at: "mass_centre", key, words });
     // A second mass, with which the first mass is compared.
@@ -13,7 +14,7 @@ fn mass_centres_and_inertias_beyond_the_mechanism_are_refused() {
         "[links.rocker.points]",
         "[links.rocker]\nmass_kg = 1\nmass_centre = { x_mm = 0, y_mm = 0 }\n[links.rocker.points]",
     );
-    let words: &[&str] = &["link \"crank\"", "that of everything else", "check the unit"];
+    let words: &[&str] = &["link \"crank\"", "the sum over all other links", "check the unit"];
     let heavy = ("inertia_kg_m2 = 0.0002", "inertia_kg_m2 = 2e14");
     let key = "links.crank.inertia";
     assert_refused(GOOD, &Bad { edits: &[rod, heavy], kind: INPUT, at: "[links.crank]", key, words });

@@ -72,7 +72,7 @@ fn a_clearance_is_reported_in_json_csv_and_text() {
         let time = |crank: f64| json!(scenario.case.crank().time_of(crank));
         let meeting = |meeting: Option<Meeting>| {
             meeting.map(|own| {
-                // A collision is reported with two crank angles: the bodies are apart up to the first angle, and meet
+                // A collision is reported with two crank angles: the bodies are apart up to the first angle, and touch
                 // at the second angle.
                 assert!((own.cranks[0] - found.range[0]).abs() <= (own.cranks[1] - found.range[0]).abs());
                 let [until, at] = own.cranks;
@@ -100,7 +100,7 @@ fn a_clearance_is_reported_in_json_csv_and_text() {
             assert!(value - error <= area.least && area.most <= value + error, "{name}: {row}");
             assert_eq!([&row["least_m2"], &row["most_m2"]], [&json!(area.least), &json!(area.most)]);
         }
-        // The first meeting is the earliest one in the direction of the drive, which may be backwards.
+        // The first contact is the earliest one in the direction of the drive, which may be backwards.
         for (key, all) in [("first_collision", false), ("first_too_near", true)] {
             let gone = |own: &Meeting| (own.cranks[1] - found.range[0]).abs();
             let each =

@@ -122,7 +122,10 @@ fn failing_peers_become_points_and_never_crash_the_bench() {
     let absent = found["scenarios"][0]["absent"].as_array().unwrap();
     assert!(absent.len() == 1 && absent[0]["peer"] == "absent", "{absent:?}");
     let drawn = fs::read_to_string(place.path("bench/five_bar.time.svg")).unwrap();
-    assert!(drawn.contains("hangs: it was stopped after 1 s") && drawn.contains("more reasons"), "failures are on it");
+    assert!(
+        drawn.contains("hangs: it was stopped after 1 s") && drawn.contains("more reasons"),
+        "the picture states failures"
+    );
 }
 
 /// Symptoms: a time of 5e-324 s drew an endless axis.

@@ -26,7 +26,11 @@ fn mjcf_is_written_to_the_given_file() {
         assert_eq!(place.ok(&format!("export scenarios/crank_rocker.toml {option}")), "crank_rocker.xml\n");
     }
     let written = fs::read_to_string(place.path("crank_rocker.xml")).unwrap();
-    assert_eq!(written.rsplit_once("<!--").map(|(model, _)| model), Some(text.as_str()), "its seal stands at the end");
+    assert_eq!(
+        written.rsplit_once("<!--").map(|(model, _)| model),
+        Some(text.as_str()),
+        "the seal is at the end of the file"
+    );
 }
 
 #[test]

@@ -58,7 +58,7 @@ fn a_page_has_verdict_channels_errors_and_positions() {
     assert!(page.starts_with("<!doctype html>") && page.trim_end().ends_with("</html>"));
     assert_alone(&page);
     assert!(between(&page, "id=\"verdict\">", "</p>").contains("AGREE"));
-    assert!(!page.contains("{{"), "a slot is open");
+    assert!(!page.contains("{{"), "a placeholder is not filled");
     let data = data(&page);
     // The page has the same values as the JSON, channel by channel.
     let json: Value = serde_json::from_str(&fs::read_to_string(place.path("out.json")).unwrap()).unwrap();
@@ -168,7 +168,7 @@ fn several_pages_go_to_a_directory_that_is_checked_first() {
         ("scenarios/pendulum.toml", ["--html", "scenario file"]),
     ] {
         let outcome = place.refused(&format!("run scenarios/pendulum.toml --no-record --html {target}"), &words);
-        assert_eq!(outcome.stdout, "", "nothing is proven before");
+        assert_eq!(outcome.stdout, "", "the refusal comes before the proof");
     }
     place.refused(&format!("run {files} --no-record --html file"), &["--html", "not a directory"]);
     assert_eq!(fs::read_to_string(place.path("file")).unwrap(), "old");
@@ -276,5 +276,5 @@ fn disagreeing_inconclusive_and_partial_runs_have_pages() {
     assert!(placeless.contains("nothing can be drawn") && data(&placeless)["motion"].is_null());
     let several = page("--budget 1e5 --engine rapier --engine impulse --only positions", 0);
     assert_eq!(data(&several)["engines"].as_array().unwrap().len(), 2);
-    assert!(data(&several)["motion"]["joints"][0]["force"].is_null(), "no reactions were asked for");
+    assert!(data(&several)["motion"]["joints"][0]["force"].is_null(), "no reactions were requested");
 }

@@ -152,7 +152,9 @@ fn list_shows_scenarios_and_the_errors_of_bad_ones() {
 fn list_shows_channels_and_solvers() {
     let place = Place::new();
     let channels = place.ok("list --channels");
-    assert_eq!(channels.lines().count(), linkage::trajectory::CHANNELS.len());
+    let [table, computed] = channels.split_once("\n\n").map(|(table, computed)| [table, computed]).unwrap();
+    assert_eq!(table.lines().count(), linkage::trajectory::CHANNELS.len());
+    assert!(computed.contains("link.NAME.dangle_dphi"), "{computed}");
     for part in [
         "link.NAME.angle_rad ",
         "point.NAME.ay_m_s2 ",

@@ -39,7 +39,7 @@ fn regress_without_a_planted_fault_nothing_is_proven() {
         let outcome = place.run(&format!("mutate scenarios/pendulum.toml --kind {kind} --no-sizes"));
         assert_eq!(outcome.code, 3, "{kind}: {}", outcome.stdout);
         assert!(outcome.stdout.starts_with("NOTHING PLANTED"), "{kind}: {}", outcome.stdout);
-        let has = "kinds that do: drive, mass, position, rate, acceleration, force";
+        let has = "kinds that change one: drive, mass, position, rate, acceleration, force";
         assert!(outcome.unbroken().contains(has), "{kind}: {}", outcome.stdout);
         let json = place.run(&format!("mutate scenarios/pendulum.toml --kind {kind} --no-sizes --json -")).json();
         assert_eq!(json["scenarios"][0]["kinds_instead"][1], "mass");
@@ -141,6 +141,6 @@ fn a_file_without_formulas_reports_nothing_planted() {
     assert!(outcome.stdout.starts_with("NOTHING PLANTED"), "{}", outcome.stdout);
     assert!(outcome.unbroken().contains("no formula of the scenario claims an exact value"), "{}", outcome.stdout);
     // The scenario has no formulas, so no mistake can be planted in a formula.
-    // The missing formulas are no error if `--kind` also requests a kind of fault that can be planted.
+    // Formulas may be missing if `--kind` also requests a kind of fault that can be planted.
     place.ok("mutate scenarios/pendulum.toml --kind gravity-sign --kind formula --party assur --no-sizes");
 }

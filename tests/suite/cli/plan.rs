@@ -9,7 +9,7 @@ use crate::common::assert_within;
 fn plans_as_text_json_and_drawing() {
     let place = Place::new();
     let text = place.ok("plan scenarios/fourth_class.toml --crank-deg 70");
-    for word in ["mu_v = 0.02 (m/s)/mm", "v_EC", "a_EC^n", "a_EC^t", "S = BD x CE", "perpendicular to CE"] {
+    for word in ["mu_v = 0.02 (m/s)/mm", "v_EC", "a_EC^n", "a_EC^t", "Σ = BD x CE", "perpendicular to CE"] {
         assert!(text.contains(word), "`{word}` is not in: {text}");
     }
     assert_eq!(text, place.ok("plan scenarios/fourth_class.toml"), "the start is at 70 deg");
@@ -17,11 +17,68 @@ fn plans_as_text_json_and_drawing() {
     assert_eq!(json["velocity"]["scale_per_mm"], 0.02);
     let omega = json["singular_points"][0]["links"][0]["omega_rad_s"].as_f64().unwrap();
     assert_within!((omega - 2.03890).abs(), 0.5e-5, "{omega}");
+    assert_eq!(json["singular_points"][0]["construction"]["false_positions"].as_array().unwrap().len(), 2);
+    let class_iii = place.ok("plan scenarios/class3_group.toml");
+    assert!(class_iii.contains("singular point of the class III group   Σ = "), "{class_iii}");
     // The command prints the text in addition to the drawing.
     let plan = "plan scenarios/ov7_base.toml --crank-deg -30";
     assert_eq!(place.ok(&format!("{plan} --svg plans.svg")), place.ok(plan));
     let drawing = fs::read_to_string(place.path("plans.svg")).unwrap();
     assert!(roxmltree::Document::parse(&drawing).is_ok());
+}
+
+/// The authors of the class IV mechanism require that every value of their plans is within 5 % of the exact value.
+/// The printed values meet this criterion.
+/// The value 1.88 1/s, which follows from the printed segment ab of 2.22 mm, does not meet the criterion.
+#[test]
+fn val_fourth_class_plans_are_within_five_per_cent_of_each_value() {
+    let place = Place::new();
+    let compare = "compare scenarios/fourth_class.toml scenarios/fourth_class/graphical.csv --rel-value 0.05";
+    let agreed = place.ok(compare);
+    assert!(agreed.contains("all 8 channels agree"), "{agreed}");
+    let path = place.path("scenarios/fourth_class/graphical.csv");
+    let table = fs::read_to_string(&path).unwrap();
+    assert_eq!(table.matches("1.98").count(), 1);
+    fs::write(&path, table.replace("1.98", "1.88")).unwrap();
+    let outcome = place.run(compare);
+    assert_eq!(outcome.code, 1, "{}", outcome.stdout);
+    assert!(outcome.unbroken().contains("1 of 8 channels"), "{}", outcome.stdout);
+}
+
+/// Chosen scales, the turned plan and the centres appear in the text and in JSON.
+#[test]
+fn scales_turned_plans_and_centres_reach_every_output() {
+    let place = Place::new();
+    let of = "plan scenarios/crank_rocker.toml --crank-deg 70 --scale pa=100mm --scale mu_l=0.005 --turned --centres";
+    let text = place.ok(of);
+    for word in ["mu_l = 0.005 m/mm", "mu_v = 0.00353893", "90 deg clockwise", "P13", "P01P03 x P12P23", "π2"] {
+        assert!(text.contains(word), "`{word}` is not in: {text}");
+    }
+    let json = place.run(&format!("{of} -o -")).json();
+    let vectors = json["velocity"]["vectors"].as_array().unwrap();
+    let crank_pin = vectors.iter().find(|vector| vector["name"] == "v_A").unwrap();
+    assert_within!((crank_pin["paper_mm"].as_f64().unwrap() - 100.0).abs(), 1e-12);
+    assert_eq!(json["velocity"]["turned_deg"], -90.0);
+    assert_eq!(json["acceleration"]["turned_deg"], 0.0);
+    assert_eq!(json["instant_centres"].as_array().unwrap().len(), 6);
+    assert_eq!(json["acceleration_centres"].as_array().unwrap().len(), 3);
+    let crank = place.run("plan scenarios/crank_rocker.toml --scale crank -o -").json();
+    let scale = |plan: &str| crank[plan]["scale_per_mm"].as_f64().unwrap();
+    let omega = crank["diagram"]["links"][0]["omega_rad_s"].as_f64().unwrap();
+    assert_within!((scale("velocity") / omega - crank["diagram"]["scale_m_per_mm"].as_f64().unwrap()).abs(), 1e-15);
+    assert_within!((scale("acceleration") / omega / scale("velocity") - 1.0).abs(), 1e-12);
+    assert!(place.ok("plan scenarios/boom_lift.toml --centres").contains("across the guide"));
+    for (wish, words) in [
+        ("pa=0", &["pa=100mm"][..]),
+        ("pa=-3mm", &["greater than zero"]),
+        ("mu_v=nan", &["mu_v=0.02"]),
+        ("mu_v=1e-9", &["--scale", "mm large", "1 to 2000 mm"]),
+        ("pz=10", &["--scale", "called \"pz\""]),
+        ("big", &["expected a scale factor"]),
+    ] {
+        place.refused(&format!("plan scenarios/crank_rocker.toml --scale {wish}"), words);
+    }
+    place.refused("plan scenarios/boom_lift.toml --scale crank", &["does not turn", "mu_v"]);
 }
 
 #[test]
@@ -33,9 +90,18 @@ fn diagrams_as_text_json_csv_and_drawing() {
     let json = place.run(&format!("{of} --divisions 24 --json -")).json();
     assert_eq!(json["methods"][0]["points"].as_array().unwrap().len(), 24);
     let csv = place.ok(&format!("{of} --csv -"));
-    // The file has one header line, twelve midpoints and twelve ends of chords, and thirteen ends for each of the two
-    // integrations.
-    assert_eq!(csv.lines().count(), 1 + 12 + 12 + 13 + 13);
+    // The file has one header line, twelve points for each of two chord and two tangent methods, and thirteen ends for
+    // each of the four integrations.
+    assert_eq!(csv.lines().count(), 1 + 4 * 12 + 4 * 13);
+    for sort in ["chords", "tangents", "integration", "areas"] {
+        let of = format!("{of} --construction {sort}");
+        let text = place.ok(&of);
+        assert!(text.contains(&format!("construction by {sort}   mu_t = 0.0025641 s/mm")), "{text}");
+        let json = place.run(&format!("{of} -o -")).json();
+        assert_eq!(json["construction"]["steps"].as_array().unwrap().len(), 2);
+        assert!(roxmltree::Document::parse(&place.ok(&format!("{of} -o -.svg"))).is_ok());
+    }
+    place.refused(&format!("{of} --construction chord"), &["chords", "tangents"]);
     assert!(roxmltree::Document::parse(&place.ok(&format!("{of} --svg -"))).is_ok());
 }
 

@@ -164,8 +164,12 @@ fn recordings_go_to_the_given_directory_reproducibly() {
     place.ok("run scenarios/crank_rocker.toml --record deep/er");
     let [first, second] =
         ["recordings", "deep/er"].map(|dir| fs::read(place.path(dir).join("crank_rocker.mcap")).unwrap());
-    assert!(first.starts_with(b"\x89MCAP") && first == second, "two runs, two recordings");
-    assert_eq!(fs::read_dir(place.path("deep/er")).unwrap().count(), 2, "nothing is left there but its layout");
+    assert!(first.starts_with(b"\x89MCAP") && first == second, "two equal runs give different recordings");
+    assert_eq!(
+        fs::read_dir(place.path("deep/er")).unwrap().count(),
+        2,
+        "the directory contains more than the recording and its layout"
+    );
 
     let quiet = place.run("run scenarios/crank_rocker.toml --record third --json -");
     assert_eq!(quiet.json()["runs"][0]["recording"], "third/crank_rocker.mcap");
@@ -213,7 +217,7 @@ fn a_bad_file_does_not_stop_the_proof_of_good_ones() {
 #[test]
 fn a_wrong_published_number_disagrees_by_name() {
     let place = Place::new();
-    place.edited("crank_rocker.toml", "wrong.toml", &[("value = 17.7778", "value = 17.7781")]);
+    place.edited("crank_rocker.toml", "wrong.toml", &[("_N_m\", value = 17.7778", "_N_m\", value = 17.7781")]);
     let outcome = place.run("run scenarios/wrong.toml --no-record");
     assert_eq!(outcome.code, 1, "{}", outcome.stderr);
     assert!(outcome.stdout.contains("DISAGREE: 2 of "), "one for each side: {}", outcome.stdout);
@@ -226,7 +230,7 @@ fn a_wrong_published_number_disagrees_by_name() {
     fs::write(&table, text.replacen("87.13", "87.16", 1)).unwrap();
     let outcome = place.run("run scenarios/wrong.toml scenarios/crank_rocker.toml --no-record --json -");
     let document = outcome.json();
-    assert_eq!(outcome.code, 1, "the graver of two outcomes decides");
+    assert_eq!(outcome.code, 1, "the more serious of two outcomes determines the exit code");
     assert_eq!(texts(&document["runs"], "verdict"), ["disagree", "agree"]);
     let checks = document["runs"][0]["checks"].as_array().unwrap();
     let wrong: Vec<&Value> = checks.iter().filter(|check| check["verdict"] != "agree").collect();
@@ -332,7 +336,7 @@ fn scenarios_of_one_name_do_not_overwrite_each_other() {
     let told = place.ok(both);
     assert!(told.contains("both/crank_rocker-2.mcap (") && told.contains("its scenario text differs"), "{told}");
     let [alone, both] = ["alone", "both"].map(|dir| fs::read(place.path(dir).join("crank_rocker.mcap")).unwrap());
-    assert!(alone == both, "the first one's recording is kept");
+    assert!(alone == both, "the recording of the first scenario is kept");
     place.ok("run scenarios/crank_rocker.toml scenarios/crank_rocker.toml");
 }
 

@@ -88,7 +88,7 @@ fn ranges_may_be_negative_and_reversed() {
         let (forth, _, mut rocker_forth) = cranks("--crank-deg=-30:30:15");
         assert_eq!(degrees(&forth), [-30.0, -15.0, 0.0, 15.0, 30.0]);
         rocker_forth.reverse();
-        assert_eq!(rocker_back, rocker_forth, "{solver}: the way through the grid does not matter");
+        assert_eq!(rocker_back, rocker_forth, "{solver}: the results must not depend on the order of the grid");
         let (cranks, times, _) = cranks("--times 0.1:-0.1:-0.05");
         assert_eq!((times.len(), degrees(&cranks)), (5, vec![78.0, 39.0, 0.0, -39.0, -78.0]), "{solver}");
         assert_within!((times[4] + 0.1).abs(), 1e-15);

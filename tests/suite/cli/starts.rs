@@ -154,7 +154,7 @@ fn regress_an_ambiguous_start_does_not_block_its_resolution() {
     }
     let run = place.ok("run scenarios/open.toml --no-record --mode coupler,rocker=left");
     assert!(run.starts_with("crank_rocker: AGREE: "), "{run}");
-    let words = ["does not distinguish them", "inspect FILE --modes", "open.toml:"];
+    let words = ["it decides for neither", "inspect FILE --modes", "open.toml:"];
     place.refused("solve scenarios/open.toml --with assur", &words);
     place.refused("inspect scenarios/open.toml", &words);
     let text = place.ok("inspect scenarios/open.toml --modes");
@@ -184,7 +184,7 @@ fn all_configurations_of_an_open_group_are_listed() {
     place.edited("fourth_class.toml", "open.toml", &[(near, &between)]);
     let open: Value = serde_json::from_str(&place.ok("inspect scenarios/open.toml --modes --json -")).unwrap();
     let group = &open["modes"]["groups"][0];
-    assert!(group["undecided"].as_str().unwrap().contains("does not distinguish them"), "{group}");
+    assert!(group["undecided"].as_str().unwrap().contains("it decides for neither"), "{group}");
     assert_eq!(open["groups"][0]["mode"], Value::Null);
     let places = |found: &Value| -> Vec<Value> {
         let modes = found["modes"]["groups"][0]["modes"].as_array().unwrap();

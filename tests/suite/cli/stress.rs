@@ -27,7 +27,7 @@ fn a_run_is_independent_of_threads_and_can_be_resumed() {
     place.ok("stress length_ratio redundant --quick --out two --jobs 2");
     let whole = files(&place, "one");
     assert_eq!(whole.keys().filter(|name| name.starts_with("length_ratio.")).count(), 3, "{:?}", whole.keys());
-    assert!(whole == files(&place, "two"), "other bytes from two threads");
+    assert!(whole == files(&place, "two"), "two threads give other bytes");
 
     // The table has the numbers of the JSON.
     let json: Value = serde_json::from_slice(&whole["length_ratio.json"]).unwrap();
@@ -59,7 +59,7 @@ fn a_run_is_independent_of_threads_and_can_be_resumed() {
     // A second call runs no point again.
     let told = place.ok("stress length_ratio redundant --quick --out one");
     assert!(run_of(&told).contains("0 of 5 points were run"), "{told}");
-    assert!(whole == files(&place, "one"), "other bytes from what was kept");
+    assert!(whole == files(&place, "one"), "stored results give other bytes");
 
     // Lost or stale results are computed anew.
     let path = place.path("one/length_ratio.json");
@@ -70,7 +70,7 @@ fn a_run_is_independent_of_threads_and_can_be_resumed() {
     fs::remove_file(place.path("one/redundant.json")).unwrap();
     let told = place.ok("stress length_ratio redundant --quick --out one");
     assert!(run_of(&told).contains("4 of 5 points were run"), "{told}");
-    assert!(whole == files(&place, "one"), "other bytes after a run that was broken off");
+    assert!(whole == files(&place, "one"), "other bytes after an interrupted run");
 
     // An edited result, valid or not, is computed anew.
     let kept = fs::read_to_string(&path).unwrap();
@@ -81,11 +81,11 @@ fn a_run_is_independent_of_threads_and_can_be_resumed() {
         ("\"group\": \"positions\"", "\"group\": \"places\""),
     ] {
         let changed = kept.replacen(old, new, 1);
-        assert_ne!(changed, kept, "{old} is not in what is kept");
+        assert_ne!(changed, kept, "{old} is not in the stored results");
         fs::write(&path, changed).unwrap();
         let told = place.ok("stress length_ratio redundant --quick --out one");
         assert!(run_of(&told).contains("1 of 5 points were run"), "{new}: {told}");
-        assert!(whole == files(&place, "one"), "{new}: other bytes after what was kept was changed");
+        assert!(whole == files(&place, "one"), "{new}: other bytes after a change of the stored results");
     }
 }
 

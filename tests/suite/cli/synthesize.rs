@@ -6,6 +6,7 @@ use serde_json::Value;
 
 use super::tools::Place;
 use crate::common::assert_within;
+use linkage::math::KeepNan;
 
 const ROCKER: &str = "synthesize crank-rocker --pivot-mm 150,15 --rocker-mm 250 --extreme-deg 50 --swing-deg 32";
 const SINKER: &str = "scenarios/ov7_drives/sinker_task.toml";
@@ -105,8 +106,132 @@ fn mistakes_are_reported() {
     let outcome =
         place.run(&format!("synthesize search {SINKER} --candidates 100 --refined 1 --evaluations 1 -o {SINKER}"));
     assert!(outcome.code == 2, "{}", outcome.stderr);
-    let other = place.run(&format!("synthesize check {SINKER} scenarios/crank_rocker.toml"));
-    assert!(other.code == 2 && other.stderr.contains("does not have the structure"), "{}", other.stderr);
+    place.refused(
+        &format!("synthesize check {SINKER} scenarios/ov7_new.toml"),
+        &["--link", "no link \"lever\"", "lead_64"],
+    );
+    place.refused("synthesize cyclogram nothing.toml", &["cannot be read", "machine.toml"]);
+    place.refused(&format!("synthesize cyclogram {SINKER}"), &["not known here"]);
+}
+
+const NEEDLES: &str = "synthesize check scenarios/ov7_drives/eyelet_needle_task.toml scenarios/ov7_base.toml \
+     scenarios/ov7_new.toml scenarios/ov7_drives/eyelet_needle_found.toml";
+
+/// The rows of a CSV file without quotes, as lists of cells.
+fn rows(text: &str) -> Vec<Vec<&str>> {
+    text.lines().map(|line| line.split(',').collect()).collect()
+}
+
+/// Largest length of a vector over the rows of a solution; its components are two channels.
+fn largest(place: &Place, file: &str, channels: [&str; 2]) -> f64 {
+    let text = place.ok(&format!("solve scenarios/{file} -o -"));
+    let rows = rows(&text);
+    let columns = channels.map(|name| rows[0].iter().position(|own| *own == name).unwrap());
+    let length = |row: &Vec<&str>| {
+        let [x, y] = columns.map(|column| row[column].parse::<f64>().unwrap());
+        x.hypot(y)
+    };
+    rows[1..].iter().map(length).fold(0.0, f64::larger)
+}
+
+/// Mechanisms of different structures are compared at one speed. The figures equal those of `solve` at this speed.
+#[test]
+fn mechanisms_are_compared_at_one_speed() {
+    let place = Place::new();
+    let text = place.ok(&format!("{NEEDLES} -o sheet.csv -o sheet.svg -o sheet.md -o sheet.json"));
+    assert!(text.contains("928.192 rpm (97.2 rad/s)") && text.contains("ov7_base rocker_87, point 9"), "{text}");
+    let csv = fs::read_to_string(place.path("sheet.csv")).unwrap();
+    let rows = rows(&csv);
+    assert_eq!(rows[0], ["quantity", "unit", "ov7_base", "ov7_new", "eyelet_needle_found"]);
+    let row = |name: &str| {
+        let own = rows.iter().find(|row| row[0].starts_with(name)).unwrap_or_else(|| panic!("{name}: {csv}"));
+        [2, 3, 4].map(|column| own[column].parse::<f64>().unwrap_or(f64::NAN))
+    };
+    let accelerations = row("largest acceleration of the output point");
+    let speeds = [97.2, 94.4, 94.4];
+    let drives = [("ov7_base.toml", "9"), ("ov7_new.toml", "8"), ("ov7_drives/eyelet_needle_found.toml", "8")];
+    for (((file, point), found), speed) in drives.into_iter().zip(accelerations).zip(speeds) {
+        let channels = ["ax", "ay"].map(|axis| format!("point.{point}.{axis}_m_s2"));
+        let sampled = largest(&place, file, [&channels[0], &channels[1]]) * (97.2f64 / speed).powi(2);
+        assert!(sampled <= found + 1e-6 && sampled > 0.998 * found, "{file}: {sampled} {found}");
+    }
+    for (name, expected, within) in [
+        ("largest motion in a dwell", [3.45, 15.0, 4.13], 0.01),
+        ("acceleration divided", [30.26, 16.73, 19.35], 0.006),
+        ("stroke", [5.45, 5.50, 5.50], 0.006),
+    ] {
+        for (found, expected) in row(name).into_iter().zip(expected) {
+            assert_within!((found - expected).abs(), within, "{name}: {csv}");
+        }
+    }
+    // Class III groups have no transmission angle. Only the drive as built has one, so its value is not marked as best.
+    let transmission = row("smallest transmission angle");
+    assert!(transmission[0] > 0.0 && transmission[1].is_nan() && transmission[2].is_nan(), "{csv}");
+    let markdown = fs::read_to_string(place.path("sheet.md")).unwrap();
+    let marked = |name: &str| {
+        let line = markdown.lines().find(|line| line.contains(name)).unwrap();
+        line.split('|').skip(3).map(|cell| cell.contains("**")).take(3).collect::<Vec<_>>()
+    };
+    assert_eq!(marked("largest motion in a dwell"), [true, false, false]);
+    assert_eq!(marked("largest acceleration of the output point"), [false, true, false]);
+    assert_eq!([marked("| stroke |"), marked("smallest transmission")], [[false; 3], [false; 3]].map(Vec::from));
+    let svg = fs::read_to_string(place.path("sheet.svg")).unwrap();
+    let drawing = roxmltree::Document::parse(&svg).unwrap();
+    let words = drawing.descendants().filter(|node| node.is_text());
+    let words: Vec<&str> = words.filter_map(|node| node.text()).collect();
+    assert_eq!(words.iter().filter(|word| **word == "forward").count(), 3, "{words:?}");
+    let bold = drawing.descendants().filter(|node| node.attribute("font-weight") == Some("bold"));
+    let bold: Vec<&str> = bold.filter_map(|node| node.text()).collect();
+    assert!(bold.contains(&"3.45") && !bold.contains(&"4.13") && words.contains(&"4.13"), "{bold:?}");
+    let json: Value = serde_json::from_str(&fs::read_to_string(place.path("sheet.json")).unwrap()).unwrap();
+    assert_within!((json["mechanisms"][1]["unrest"].as_f64().unwrap() - 0.150).abs(), 1e-3);
+    // At twice the speed, accelerations are four times as large. Scenarios with equal names get numbers.
+    let task = "scenarios/ov7_drives/eyelet_needle_task.toml";
+    let fast =
+        place.ok(&format!("synthesize check {task} {0} {0} --speed-rpm 1856.4 -o -.csv", "scenarios/ov7_base.toml"));
+    assert!(fast.starts_with("quantity,unit,ov7_base,ov7_base-2\n"), "{fast}");
+    let line = fast.lines().find(|line| line.starts_with("largest acceleration of the output point")).unwrap();
+    let double = line.split(',').nth(2).unwrap().parse::<f64>().unwrap();
+    assert_within!((double / accelerations[0] - 4.0).abs(), 1e-3);
+}
+
+/// The drawing of the cyclogram has a ring of sectors for every organ, the names of the moments, and the displacements.
+#[test]
+fn a_cyclogram_is_drawn_for_all_organs() {
+    let place = Place::new();
+    let machine = "synthesize cyclogram scenarios/ov7_drives/machine.toml";
+    let text = place.ok(&format!("{machine} -o machine.svg -o machine.csv -o machine.json"));
+    assert!(text.contains("additional rise") && text.contains("printed end 250"), "{text}");
+    let svg = fs::read_to_string(place.path("machine.svg")).unwrap();
+    let drawing = roxmltree::Document::parse(&svg).unwrap();
+    let sectors = drawing.descendants().filter(|node| {
+        let is_tinted = ["#f3c9a5", "#fbe9da", "#e3edf4"].contains(&node.attribute("fill").unwrap_or(""));
+        // Sectors have more than four corners; rectangles of the legend and of phases have four.
+        is_tinted && node.attribute("d").is_some_and(|path| path.matches('L').count() > 4)
+    });
+    assert_eq!(sectors.count(), 5 + 6 + 4 + 4);
+    let words: Vec<&str> = drawing.descendants().filter_map(|node| node.text()).collect();
+    for name in [
+        "drawing off",
+        "clearing",
+        "laying",
+        "additional rise",
+        "bringing in",
+        "pressing",
+        "landing",
+        "joining, forming",
+    ] {
+        assert!(words.contains(&name), "{name}: {words:?}");
+    }
+    let csv = fs::read_to_string(place.path("machine.csv")).unwrap();
+    let rows = rows(&csv);
+    assert_eq!(rows.len(), 362);
+    let column = rows[0].iter().position(|name| *name == "eyelet needles").unwrap();
+    let at = |deg: usize| rows[deg + 1][column].parse::<f64>().unwrap();
+    assert!(at(132) > 0.99 && at(15) < 0.1 && (at(0) - at(360)).abs() < 1e-9, "{csv}");
+    let json: Value = serde_json::from_str(&fs::read_to_string(place.path("machine.json")).unwrap()).unwrap();
+    assert_eq!(json["organs"].as_array().unwrap().len(), 4);
+    assert_within!((json["moments"][5]["spans_rad"][0][1].as_f64().unwrap().to_degrees() - 260.0).abs(), 1e-9);
 }
 
 fn motors(place: &Place) {

@@ -7,7 +7,7 @@ use assert_cmd::Command;
 use super::tools::{Place, listed};
 
 /// Scenarios that agree, a scenario with a wrong published number, and a scenario with a step so coarse that the
-/// verdict is open.
+/// verdict is inconclusive.
 const FILES: [&str; 7] = [
     "crank_rocker",
     "ov7_new_tabulated",
@@ -20,7 +20,8 @@ const FILES: [&str; 7] = [
 
 fn place() -> Place {
     let place = Place::new();
-    let edits = [("name = \"crank_rocker\"", "name = \"wrong\""), ("value = 17.7778", "value = 17.7781")];
+    let edits =
+        [("name = \"crank_rocker\"", "name = \"wrong\""), ("_N_m\", value = 17.7778", "_N_m\", value = 17.7781")];
     place.edited("crank_rocker.toml", "wrong.toml", &edits);
     place
 }

@@ -45,11 +45,16 @@ impl Place {
 
     /// Runs `linkproof` in this directory; blanks separate the arguments.
     pub fn run(&self, arguments: &str) -> Outcome {
+        self.given(&arguments.split_whitespace().collect::<Vec<_>>())
+    }
+
+    /// Runs `linkproof` in this directory with arguments that may contain blanks.
+    pub fn given(&self, arguments: &[&str]) -> Outcome {
         let mut command = Command::cargo_bin("linkproof").unwrap();
-        let output = command.current_dir(self.0.path()).args(arguments.split_whitespace()).output().unwrap();
+        let output = command.current_dir(self.0.path()).args(arguments).output().unwrap();
         let text = |bytes| String::from_utf8(bytes).unwrap();
         let (stdout, stderr) = (text(output.stdout), text(output.stderr));
-        assert!(!stderr.contains("panicked"), "{arguments}: {stderr}");
+        assert!(!stderr.contains("panicked"), "{arguments:?}: {stderr}");
         Outcome { code: output.status.code().expect("an exit code"), stdout, stderr }
     }
 

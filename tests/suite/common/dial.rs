@@ -39,8 +39,8 @@ pub fn accepts(value: f64, bound: f64) -> bool {
 }
 
 /// Implementation of [`assert_within`].
-/// `worst` keeps the bits of the largest ratio of residual to bound at the calling line.
-/// The bits of non-negative numbers are ordered like the numbers, and those of NaN are the largest.
+/// `worst` stores the largest ratio of residual to bound at the calling line, as the bit pattern of a double.
+/// Bit patterns of non-negative doubles are ordered like the numbers, and those of NaN are the largest.
 #[track_caller]
 pub fn judge(worst: &AtomicU64, value: f64, bound: f64, what: impl FnOnce() -> String) {
     if scale() > 0.0 {

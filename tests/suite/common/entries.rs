@@ -39,7 +39,7 @@ pub fn scenario(text: &str) -> Option<Scenario> {
 pub fn explains(error: &Error, text: &str) {
     let shown = format!("{error}");
     assert!(!error.message().trim().is_empty(), "an error without a message");
-    assert_ne!(error.kind(), ErrorKind::Numeric, "loading solves nothing: {shown}");
+    assert_ne!(error.kind(), ErrorKind::Numeric, "loading must not end with a numerical error: {shown}");
     let place = error.place().unwrap_or_else(|| panic!("no place: {shown}"));
     if place.file.extension().is_some_and(|own| own == "toml") {
         assert!(place.line() <= text.split('\n').count().max(1), "line {} does not exist: {shown}", place.line());
@@ -197,7 +197,8 @@ pub fn recording(bytes: &[u8]) -> Result<()> {
     Ok(())
 }
 
-/// A file with topics, descriptors and messages of any kind; most of these parts are nearly right.
+/// A file with topics, descriptors and messages of any kind; most of these parts are valid, or valid except for one
+/// detail.
 fn drawn_file(from: &mut Unstructured) -> Result<Vec<u8>> {
     let options = mcap::WriteOptions::new().compression(None).chunk_size(None);
     let mut file = options.create(Cursor::new(Vec::new())).expect("memory can be written");

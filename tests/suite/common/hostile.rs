@@ -66,6 +66,9 @@ const PENDULUM: &str = include_str!("../../../scenarios/pendulum.toml");
 const GOOD: &str = include_str!("../bad_scenarios/good.toml");
 const FIVE_BAR: &str = include_str!("../../../scenarios/five_bar.toml");
 const TASK: &str = include_str!("../../../scenarios/ov7_drives/sinker_task.toml");
+const MACHINE: &str = "format = 1\nname = \"m\"\ntitle = \"A machine\"\n[[organs]]\nname = \"sinkers\"\n\
+    task = \"task.toml\"\nmechanism = \"sinker.toml\"\noffset_deg = 30\n\
+    [[moments]]\nname = \"pressing\"\nduring = { sinkers = [5, 6] }\n";
 const DRAWING: &str = include_str!("../../../scenarios/ov7_drives/rockers_drawing.toml");
 const SINKER: &str = include_str!("../../../scenarios/ov7_drives/sinker.toml");
 const PARQUETS: [&[u8]; 3] = [
@@ -255,11 +258,17 @@ pub fn attack(seed: u64, index: u64, good: &Good) -> Attack {
             files.push(("task.toml".into(), task));
             files.push(("rockers_drawing.toml".into(), drawing));
             files.push(("sinker.toml".into(), SINKER.into()));
+            let mut machine = MACHINE.as_bytes().to_vec();
+            if random.index(2) > 0 {
+                spoil(random, &mut machine, &mut what);
+            }
+            files.push(("machine.toml".into(), machine));
             [
                 "synthesize search task.toml --candidates 500 --refined 1 --evaluations 50 -o out.toml --svg out.svg",
                 "synthesize check task.toml sinker.toml",
                 "run rockers_drawing.toml --no-record -q",
-            ][random.index(3)]
+                "synthesize cyclogram machine.toml",
+            ][random.index(4)]
             .into()
         }
         11 => {
@@ -304,14 +313,19 @@ pub fn attack(seed: u64, index: u64, good: &Good) -> Attack {
 }
 
 /// Commands on a scenario; usual commands occur more often in the list.
-const COMMANDS: [&str; 37] = [
+const COMMANDS: [&str; 42] = [
+    "sensitivity FILE --figure maxabs:drive.torque_N_m",
+    "merge FILE",
+    "sweep FILE --vary links.crank.mass_kg=1:2:5 --figure max:drive.torque_N_m --figure reach_to",
+    "graph FILE -o out.csv",
+    "exercise FILE -o class",
+    "mark FILE",
     "run FILE --no-record -q",
     "run FILE",
     "run FILE --no-record --verbose --json out.json --html out.html",
     "check FILE",
     "run FILE --no-record --explain",
     "inspect FILE --modes",
-    "run FILE --no-record -q",
     "inspect FILE --range",
     "inspect FILE --driver all",
     "solve FILE --with assur",

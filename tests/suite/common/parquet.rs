@@ -14,7 +14,7 @@ pub struct Announced {
     pub depth: usize,
     /// Number of the compression.
     pub codec: i64,
-    /// Announced sizes of a page: bytes after decompression, bytes in the file, number of values.
+    /// Sizes of a page as stated in its header: bytes after decompression, bytes in the file, number of values.
     pub held: i64,
     pub stored: i64,
     pub values: i64,

@@ -182,7 +182,7 @@ fn an_error_of_three_units_of_the_last_digit_is_found() {
         for (text, format, values) in &mut printed.columns {
             let size = values.iter().map(|value| value.abs()).fold(0.0, KeepNan::larger);
             let row = random.index(values.len());
-            // Limits the format to digits that the sides compute reliably.
+            // Limits the format to digits that the analytic sides compute reliably.
             *format = match (*format, size.log10().floor() as i32) {
                 (Format::Fixed(decimals), places) => Format::Fixed(decimals.min((6 - places).max(0) as usize)),
                 (Format::General(digits), _) => Format::General(digits.min(7)),

@@ -206,8 +206,8 @@ fn a_number_is_judged_by_its_own_channel_alone() {
     }
 }
 
-/// If a channel consists of rounding error, its uncertainty comes from the remaining channels of the solution, even if
-/// the table lacks these channels.
+/// If a channel consists of rounding error, the lower limit of its uncertainty follows from the remaining channels of
+/// the solution, even if the table lacks these channels.
 #[test]
 fn a_zero_of_rounding_size_agrees_with_and_without_others() {
     let scenario = scenario("compressor");

@@ -41,7 +41,7 @@ fn two_camps_are_found_and_ambiguity_stays_open() {
     let camps = of(&[("a", 1.0, 0.1), ("b", 1.0, 0.1), ("c", 2.0, 0.1), ("d", 2.0, 0.1)]);
     let names = |names: [&str; 2]| names.map(String::from).to_vec();
     assert_eq!(camps, PartyStanding::Camps([names(["a", "b"]), names(["c", "d"])]));
-    // The engine's bound is too wide to decide which of the two sides is wrong.
+    // The engine's bound is too wide to decide which of the two analytic sides is wrong.
     let open = of(&[("side 1", 1.0, 1e-9), ("side 2", 1.01, 1e-9), ("engine", 1.0, 0.1)]);
     assert_eq!(open, PartyStanding::Open(vec![names(["side 1", "side 2"]).try_into().unwrap()]));
     assert!(matches!(of(&[("a", 1.0, 0.1), ("b", 2.0, 0.1), ("c", 3.0, 0.1)]), PartyStanding::Open(_)));

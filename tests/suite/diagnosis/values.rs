@@ -131,13 +131,13 @@ fn deviations_without_a_simple_cause_are_reported_as_such() {
         ];
         for (what, suspect) in suspects {
             let found = examined(case, &suspect, Some(1e-3));
-            let found = found.expect("it disagrees");
+            let found = found.expect("the suspect disagrees");
             all += 1;
             let line = format!("{name}, {what}: {}", told(Some(&found)));
             println!("{line}");
             if found.is_explained() { wrong.push(line) } else { silent += 1 }
         }
     }
-    println!("nothing simple: {silent} of {all} called so");
+    println!("{silent} of {all} reported as having no simple cause");
     assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
 }

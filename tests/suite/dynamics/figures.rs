@@ -40,7 +40,7 @@ fn val_crank_rocker_reduced_means_and_maximum() {
     assert_within!((inertia.least.1 - own.least.1).abs(), 1e-13);
 }
 
-/// The authors' means are sums over 361 values, so both 0 deg and 360 deg are counted.
+/// The authors' means are averages of 361 values: the position at 0 deg is counted a second time at 360 deg.
 /// The authors' sum for the reduced inertia omits the crank's inertia.
 #[test]
 fn val_crank_rocker_printed_means_count_one_position_twice() {

@@ -32,8 +32,16 @@ pub(super) fn column<'a>(trajectory: &'a Trajectory, name: &str) -> &'a [f64] {
     trajectory.column(&Channel::named(name).unwrap()).unwrap_or_else(|| panic!("no channel {name}"))
 }
 
-const RUN_UPS: [&str; 6] =
-    ["crank_rocker_runup", "ov7_new_runup", "compressor_runup", "pendulum", "double_pendulum", "five_bar_on_a_spring"];
+const RUN_UPS: [&str; 8] = [
+    "crank_rocker_runup",
+    "crank_rocker_runup_published",
+    "averaged_run_up",
+    "ov7_new_runup",
+    "compressor_runup",
+    "pendulum",
+    "double_pendulum",
+    "five_bar_on_a_spring",
+];
 
 /// Motions through change points.
 const CHAINS: [&str; 2] = ["n_four_bar_1", "n_four_bar_2"];

@@ -22,7 +22,7 @@ fn loaded(case: &Case, loads: &[Load]) -> Case {
     case.with(|parts| parts.loads.extend(loads.iter().cloned())).unwrap()
 }
 
-/// Solves the motion with both sides, and checks that they agree within `bound` of every channel's scale.
+/// Solves the motion with both analytic sides, and checks that they agree within `bound` of every channel's scale.
 fn both(what: &str, case: &Case, bound: f64) -> [Trajectory; 2] {
     let found = [solve(&AssurSolver, case), solve(&NewtonSolver, case)];
     let apart = worst(&found[0], &found[1], |_| true);

@@ -81,7 +81,7 @@ fn chains_of_four_bars_swing_through_their_change_points() {
     }
 }
 
-/// Largest difference between the sides in the channels that `of` selects.
+/// Largest difference between the analytic sides in the channels that `of` selects.
 /// The difference is divided by the largest value of the quantity, or by 1 in its unit if 1 is larger.
 fn apart(found: &[Trajectory; 2], of: impl Fn(&Channel) -> bool) -> f64 {
     let largest = |unit: Unit| {

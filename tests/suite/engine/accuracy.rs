@@ -281,7 +281,7 @@ fn regress_60_single_precision_is_within_its_rounding_bound() {
         // routes.
         let routes: &[Route] = if name == "crank_rocker" { &Route::ALL } else { &[Route::Differences, Route::Native] };
         for (single, double) in [("rapier-f32", "rapier"), ("impulse-f32", "impulse")] {
-            // Short grids also use the smaller step. Long grids use it only if `LINKPROOF_DRAWS` is above 1.
+            // Short grids also use the smaller step. Long grids need `LINKPROOF_DRAWS` above 1 for the smaller step.
             let steps = if to - from < 0.5 || by_night() { &[1e-3, 2.5e-4][..] } else { &[1e-3] };
             for (&route, &step) in routes.iter().flat_map(|route| steps.iter().map(move |step| (route, step))) {
                 let engines = [double, single].map(|name| {
@@ -323,7 +323,7 @@ fn regress_60_single_precision_is_within_its_rounding_bound() {
     used.iter().for_each(|(what, share)| println!("{what:?}: {share:.1e}"));
     for (what, share) in &used {
         let least = if (what.0, what.1) == (Stage::Reactions, "N m") { 1e-3 } else { 1.0 / 50.0 };
-        assert!(*share >= least, "{what:?}: the bound is {:.0} times what was ever measured", 1.0 / share);
+        assert!(*share >= least, "{what:?}: the bound is {:.0} times the largest measured error", 1.0 / share);
     }
     assert!(used.len() >= 12, "{used:?}");
 }

@@ -23,8 +23,8 @@ fn with(text: &str, changes: &[(&str, &str)]) -> Scenario {
 /// The crank and its pendulum alone.
 fn alone() -> String {
     let cut = |text: &str, from: &str, to: &str| {
-        let (start, rest) = text.split_once(from).expect("the text has it");
-        format!("{start}{}", &rest[rest.find(to).expect("the text ends with it")..])
+        let (start, rest) = text.split_once(from).expect("the text contains the beginning of the part");
+        format!("{start}{}", &rest[rest.find(to).expect("the text contains the end of the part")..])
     };
     let text = cut(ON_A_LOOP, "C = { x_m = 0.4, y_m = 0 }\n", "\n[links.crank]");
     let text = cut(&text, "[links.coupler]", "[[joints]]");
@@ -70,7 +70,7 @@ fn regress_71_a_link_hanging_on_a_loop_has_the_right_reaction() {
     for (name, scenario) in scenarios {
         let proof = prove(&scenario, &Options::default()).unwrap_or_else(|error| panic!("{name}: {error}"));
         assert_eq!(proof.verdict.word(), "agree", "{name}: {:?}", proof.verdict);
-        let own = proof.engine().own_forces.as_ref().expect("own forces are judged");
+        let own = proof.engine().own_forces.as_ref().expect("the exerted forces are judged");
         for channel in ["joint.N.fx_N", "joint.N.fy_N"].map(|channel| Channel::named(channel).unwrap()) {
             let judged = own.channels.iter().find(|own| own.residual.channel == channel);
             assert_eq!(judged.map(|own| own.verdict.word()), Some("agree"), "{name}: {channel}");

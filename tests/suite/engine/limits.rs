@@ -77,7 +77,8 @@ fn regress_41_a_pose_that_cannot_be_assembled_is_an_error_with_its_crank_angle()
 }
 
 /// Story 42.
-/// Symptom: as in story 41, but with a slider: the gap in the guide does not show the error.
+/// Symptom: as in story 41, with a slider.
+/// Cause: the guide has no gap from which the engine could detect that the pose cannot be assembled.
 /// Beyond 261.347 deg the rod is too short.
 #[test]
 fn regress_42_a_slider_out_of_reach_is_an_error_with_its_crank_angle() {

@@ -122,7 +122,8 @@ fn regress_53_errors_of_sliders_are_as_measured() {
 
 /// Story 54.
 /// Symptom: the error shows only when a run follows the wrong branch.
-/// Cause: at the start, a slide has the wrong sign if the tree's parent is the joint's second link.
+/// Cause: at the start, a slide has the wrong sign if the parent in the spanning tree is the joint's second
+/// link.
 /// The first step closes the loop again, which hides the fault.
 #[test]
 fn regress_54_the_twin_starts_in_the_start_pose() {

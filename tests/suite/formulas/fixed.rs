@@ -8,7 +8,7 @@ use scenario::Scenario;
 
 use super::{judged, load, rewritten};
 
-/// Outcomes of both sides for the value of a formula.
+/// Outcomes of both analytic sides for the value of a formula.
 fn outcomes(scenario: &Scenario, name: &str) -> Vec<FormulaOutcome> {
     let all = judged(scenario).judgement.sides;
     let own = all.iter().flat_map(|(_, all)| all.iter().flatten()).filter(|own| own.name == name && own.order == 0);
@@ -111,4 +111,28 @@ fn a_formula_check_gives_the_largest_difference() {
         proof.all_checks().filter(|check| check.family.starts_with("formulas") && check.detail.starts_with("x as"));
     let own: Vec<_> = own.map(|check| (check.verdict.word(), (check.value * 1e9).round())).collect();
     assert_eq!(own, [("disagree", 1000.0); 2]);
+}
+
+/// A formula with a finding must disagree. A right formula with a finding is a fault.
+#[test]
+fn a_formula_with_a_finding_must_disagree() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/formulas/yoke_drive.toml");
+    let with = |expression: &str| {
+        let more = format!(
+            "\n[[formula]]\nname = \"printed\"\nexpression = \"{expression}\"\nchannel = \"point.A.vx_m_s\"\n\
+             finding = \"why\"\n"
+        );
+        Scenario::parse(&(std::fs::read_to_string(&path).unwrap() + &more), &path).unwrap()
+    };
+    let [right, wrong] = ["-r*w*sin(phi)", "-r*sin(phi)"].map(with);
+    let expected = FormulaOutcome::Expected { finding: "why".into() };
+    assert_eq!(outcomes(&wrong, "printed"), vec![expected; 2]);
+    assert_eq!(outcomes(&right, "printed"), vec![FormulaOutcome::Wrong; 2]);
+    assert_eq!(judged(&wrong).verdict.word(), "agree");
+    let found = judged(&right);
+    assert_eq!(found.verdict.word(), "disagree");
+    assert!(found.judgement.causes.is_empty(), "{:?}", found.judgement.causes);
+    let proof = prove(&wrong, &Options::default()).unwrap();
+    let check = proof.all_checks().find(|check| check.name().contains("printed as")).unwrap();
+    assert_eq!((proof.verdict.word(), check.verdict.word()), ("agree", "expected"));
 }

@@ -4,7 +4,7 @@ use prover::check::FormulaCause;
 
 use super::{files, is_wrong, judged, load, rewritten};
 
-/// Textbook results over whole revolutions, by value and by derivative, on both sides.
+/// Textbook results over whole revolutions, by value and by derivative, on both analytic sides.
 #[test]
 fn the_library_is_right() {
     let mut claims = 0;

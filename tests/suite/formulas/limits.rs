@@ -61,7 +61,7 @@ fn chained_formulas_do_not_double_the_work() {
 }
 
 /// All wrong formulas of a file share one work limit.
-/// Formulas for which no work remains are reported.
+/// Formulas that are not examined because of this limit are reported.
 #[test]
 fn many_wrong_formulas_share_one_limit() {
     let text = |index: usize| format!("{}+{index}", vec!["sin(phi)*cos(phi)"; 400].join("+"));

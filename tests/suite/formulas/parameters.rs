@@ -95,6 +95,10 @@ fn parameters_are_set_from_the_command_line() {
     assert_eq!([radius(""), radius("--set a_mm=50"), radius("--set b_mm=100")], [0.04, 0.05, 0.04]);
     place.ok("run mine.toml --no-record --set a_mm=30");
     place.refused("run mine.toml --no-record --set a_m=0.03", &["no parameter `a_m`", "a_mm"]);
+    // Parameters that are computed from the changed parameter change too.
+    let set = place.ok("solve mine.toml --with assur --times 0 --set a_mm=50");
+    fs::write(place.path("other.toml"), FOUR_BAR.replace("a_mm = 40", "a_mm = 50")).unwrap();
+    assert_eq!(set, place.ok("solve other.toml --with assur --times 0"));
 }
 
 #[test]

@@ -11,7 +11,7 @@ fn scenario(name: &str) -> Scenario {
     load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios").join(format!("{name}.toml")))
 }
 
-/// Results of both sides for a quantity reduced to the crank.
+/// Results of both analytic sides for a quantity reduced to the crank.
 /// Each side gives two instants, each with crank angle, value and bound.
 fn found(scenario: &Scenario, quantity: &str) -> Vec<[f64; 3]> {
     let mut formulas = Formulas::over(Vec::new());

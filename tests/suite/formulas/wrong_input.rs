@@ -53,7 +53,7 @@ fn steps_ranges_and_claimed_errors() {
     let branch = "check scenarios/crank_rocker.toml acos(cos(phi)) --channel link.crank.angle_rad";
     let outcome = place.run(branch);
     assert_eq!(outcome.code, 1);
-    assert!(outcome.stdout.contains("it is right up to crank angle 180.000 deg"), "{}", outcome.stdout);
+    assert!(outcome.stdout.contains("the formula is right up to crank angle 180.000 deg"), "{}", outcome.stdout);
     place.ok(&format!("{branch} --from-deg 0 --to-deg 180"));
 }
 

@@ -1,5 +1,5 @@
-//! Friction in joints: closed forms, the limits of self-locking, both sides compared with each other, and motions under
-//! forces.
+//! Friction in joints: closed forms, the limits of self-locking, both analytic sides compared with each other, and
+//! motions under forces.
 
 use std::path::Path;
 

@@ -52,7 +52,7 @@ fn left_out_in(proof: &Proof, stage: Stage) -> usize {
 }
 
 /// Exactly at a reversal, the sign of the speed is determined by rounding error.
-/// The sides and the runs find different signs, so the forces of a resistance differ by twice the resistance.
+/// The analytic sides and the runs find different signs, so the forces of a resistance differ by twice the resistance.
 /// Only the instant of the reversal is left out; at all judged instants, the forces agree.
 #[test]
 fn forces_are_not_judged_where_the_runs_reverse_at_another_instant() {

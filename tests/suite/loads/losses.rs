@@ -112,7 +112,7 @@ efficiency = 0.9
 efficiency_back = 0.8
 "#;
 
-/// A pendulum that swings through gears loses the energy that the gears dissipate, and both sides agree.
+/// A pendulum that swings through gears loses the energy that the gears dissipate, and both analytic sides agree.
 #[test]
 fn losses_of_a_swinging_pendulum_take_its_energy() {
     let case = parsed(PENDULUM);

@@ -274,7 +274,8 @@ impl Row<'_> {
         }
         let on_frame = loads.iter().filter(|own| own.0 == GROUND);
         on_frame.for_each(|(_, place, own, couple)| take(*own, cross(*place, *own) + couple));
-        let by_reactions = [force.norm() / largest, moment.abs() / turning];
+        let of = |part: f64, whole: f64| if part == 0.0 { 0.0 } else { part / whole };
+        let by_reactions = [of(force.norm(), largest), of(moment.abs(), turning)];
         // The sums of forces and moments, computed from the momentum: F = sum of m (g - a) + loads.
         let (mut force, mut moment, mut power) = (sampled.0, sampled.1, 0.0);
         let (mut largest, mut turning, mut strongest) = (largest, turning, 0.0f64);
@@ -303,7 +304,6 @@ impl Row<'_> {
             work(if own.norm() == 0.0 { couple * omega } else { own.dot(&moves) });
         }
         efforts.iter().for_each(|(_, effort, rate)| work(effort * rate));
-        let of = |part: f64, whole: f64| if part == 0.0 { 0.0 } else { part / whole };
         let [by_force, by_moment] = [of(force.norm(), largest), of(moment.abs(), turning)];
         ([by_reactions[0], by_reactions[1], by_force, by_moment], [power.abs(), strongest])
     }

@@ -11,7 +11,7 @@ fn drawings_are_well_formed_and_hold_every_vector() {
     let names = REVOLUTE.into_iter().chain(SLIDERS);
     for (name, degrees) in names.flat_map(|name| [0.0, 70.0, 210.0].map(|degrees| (name, degrees))) {
         let plans = plans(name, degrees_of(name, degrees));
-        let text = draw::plans(&plans, name, "a < b & \"c\"");
+        let text = draw::plans(&plans, name, "a < b & \"c\"").svg();
         let document = roxmltree::Document::parse(&text).unwrap_or_else(|error| panic!("{name}: {error}"));
         let root = document.root_element();
         let size = |key: &str| root.attribute(key).unwrap().trim_end_matches("mm").parse::<f64>().unwrap();
@@ -41,7 +41,7 @@ fn drawings_are_well_formed_and_hold_every_vector() {
                 assert!(value >= 0.0 && value <= size(most), "{name}: {key} = {value}");
             }
         }
-        assert_eq!(text, draw::plans(&plans, name, "a < b & \"c\""), "same input, same bytes");
+        assert_eq!(text, draw::plans(&plans, name, "a < b & \"c\"").svg(), "same input, same bytes");
     }
 }
 
@@ -51,7 +51,7 @@ fn drawings_are_well_formed_and_hold_every_vector() {
 fn letters_do_not_overlap() {
     let (mut letters, mut crossed) = (0, 0);
     for (name, degrees) in all().step_by(2) {
-        let text = draw::plans(&plans(name, degrees), name, "");
+        let text = draw::plans(&plans(name, degrees), name, "").svg();
         let document = roxmltree::Document::parse(&text).unwrap();
         let number = |node: &roxmltree::Node, key: &str| node.attribute(key).unwrap().parse::<f64>().unwrap();
         let italic = document.descendants().filter(|node| node.attribute("font-style") == Some("italic"));
@@ -106,7 +106,7 @@ fn letters_do_not_overlap() {
 #[test]
 fn drawings_are_true_to_scale() {
     let plans = plans("crank_rocker", 70.0);
-    let text = draw::plans(&plans, "crank_rocker", "");
+    let text = draw::plans(&plans, "crank_rocker", "").svg();
     let document = roxmltree::Document::parse(&text).unwrap();
     let mut checked = 0;
     for group in document.descendants().filter(|node| node.has_tag_name("g")) {

@@ -27,7 +27,7 @@ fn numbers(path: &str) -> Vec<[f64; 2]> {
 #[test]
 fn curves_are_true_to_scale_and_marks_lie_on_them() {
     for (amplitude, way) in [(2.0, 1.0), (2e-5, 1.0), (700.0, -1.0)] {
-        let text = draw::graphs(&cosine(amplitude, way), "cosine");
+        let text = draw::graphs(&cosine(amplitude, way), "cosine").svg();
         let document = roxmltree::Document::parse(&text).unwrap();
         let words: Vec<String> = document
             .descendants()
@@ -60,7 +60,7 @@ fn curves_are_true_to_scale_and_marks_lie_on_them() {
 fn rounding_is_drawn_as_a_constant() {
     let mut graphs = cosine(1e-15, 1.0);
     assert!(graphs.graphs[0].is_constant());
-    let text = draw::graphs(&graphs, "constant");
+    let text = draw::graphs(&graphs, "constant").svg();
     assert!(text.contains(">constant 3.000<") && !text.contains("<circle") && !text.contains("least"), "{text}");
     // The values of this graph are zero except for rounding error, although the graph's scale is 3.
     let graph = &mut graphs.graphs[0];
@@ -68,7 +68,7 @@ fn rounding_is_drawn_as_a_constant() {
     graph.marks.iter_mut().for_each(|mark| mark.at[1] -= 3.0);
     graph.mean = 1e-17;
     assert!(graph.is_constant());
-    let text = draw::graphs(&graphs, "zero");
+    let text = draw::graphs(&graphs, "zero").svg();
     assert!(text.contains(">constant 0<") && !text.contains("NaN") && !text.contains("e-1"), "{text}");
     assert!(!cosine(1e-6, 1.0).graphs[0].is_constant());
 }

@@ -209,7 +209,7 @@ step_deg = 0.5
         let along = state(&scenario.case, degrees).motions[rod].direction;
         let under = plans.velocity.vector("v_K2'").unwrap().value;
         assert_within!(cross(along, under).abs(), 1e-11 * longest(&plans.velocity));
-        assert!(!draw::plans(&plans, "swinging_block", "").is_empty());
+        assert!(!draw::plans(&plans, "swinging_block", "").svg().is_empty());
     }
 }
 

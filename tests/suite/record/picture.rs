@@ -134,7 +134,7 @@ fn every_arrow_is_the_reaction_at_its_joint() {
             assert!(0.0 < shaft_diameter && shaft_diameter < head_diameter);
         }
     }
-    assert!(short < all.len(), "most arrows are as long as their forces are large");
+    assert!(short < all.len(), "the length of most arrows is proportional to the force");
 }
 
 #[test]

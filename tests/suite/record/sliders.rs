@@ -72,7 +72,7 @@ fn all_channels_are_read_back_from_one_topic_per_subject() {
             let schema = channel.schema.as_ref().unwrap();
             schemas.entry(schema.name.clone()).or_default().insert(schema.data.to_vec());
         }
-        assert!(schemas.values().all(|contents| contents.len() == 1), "a name of two schemas");
+        assert!(schemas.values().all(|contents| contents.len() == 1), "two schemas have the same name");
         let sliding = case.mechanism.joints().iter().filter(|joint| joint.slides());
         assert!(sliding.clone().count() == 0 || schemas.keys().any(|name| name.ends_with("Slider")), "{name}");
         for joint in sliding {

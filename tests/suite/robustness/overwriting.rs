@@ -26,9 +26,12 @@ type Writer = (&'static str, &'static str, Then, bool);
 
 const BENCH: &str = "bench scenarios/five_bar.toml --out out --quick --engine rapier --only positions --budget 1e4";
 const STRESS: &str = "stress turns --quick --out out --page page.md";
+const EXERCISE: &str = "exercise scenarios/crank_rocker.toml --ask link.rocker.omega_rad_s --positions 1 --output out";
 const RUN: &str = "run scenarios/pendulum.toml --route differences";
 
-const WRITERS: [Writer; 23] = [
+const SWEEP: &str = "sweep scenarios/crank_rocker.toml --vary links.crank.mass_kg=1:2:3 --figure max:joint.A.fx_N";
+
+const WRITERS: [Writer; 29] = [
     ("run scenarios/pendulum.toml --route differences", "recordings/pendulum.mcap", Then::Keeps, false),
     ("run scenarios/pendulum.toml --route differences", "recordings/pendulum.foxglove.json", Then::Keeps, true),
     (
@@ -50,6 +53,17 @@ const WRITERS: [Writer; 23] = [
     (STRESS, "out/turns.svg", Then::Refuses, true),
     (STRESS, "out/report.txt", Then::Refuses, true),
     (STRESS, "page/turns.svg", Then::Refuses, true),
+    (EXERCISE, "out/key.json", Then::Refuses, true),
+    (EXERCISE, "out/tasks/crank_rocker.html", Then::Refuses, true),
+    (EXERCISE, "out/scenarios/crank_rocker.toml", Then::Refuses, true),
+    ("mark class -o out/", "out/crank_rocker.html", Then::Refuses, true),
+    (
+        "sweep scenarios/crank_rocker.toml --vary links.crank.mass_kg=1:2:3 --figure max:joint.A.fx_N -o out",
+        "out/cases.parquet",
+        Then::Refuses,
+        false,
+    ),
+    ("merge shard -o out", "out/cases.parquet", Then::Refuses, false),
     ("view seen/pendulum.mcap --with foxglove", "seen/pendulum.foxglove.json", Then::Refuses, true),
     ("view seen/pendulum.mcap --with plotjuggler", "seen/pendulum.plotjuggler.xml", Then::Refuses, true),
     ("view seen/pendulum.mcap --python ./rerun", "seen/pendulum.rrd", Then::Refuses, false),
@@ -60,7 +74,7 @@ const WRITERS: [Writer; 23] = [
 ];
 
 /// Commands that write no file, or only files that the caller names.
-const NAMED: [&str; 17] = [
+const NAMED: [&str; 19] = [
     "bearings",
     "check",
     "clearance",
@@ -69,12 +83,14 @@ const NAMED: [&str; 17] = [
     "diagram",
     "docs",
     "drive",
+    "graph",
     "help",
     "inspect",
     "list",
     "mutate",
     "plan",
     "schema",
+    "sensitivity",
     "solve",
     "synthesize",
     "tune",
@@ -85,6 +101,13 @@ fn place() -> Place {
     let place = Place::new();
     place.ok(&format!("{RUN} --record seen"));
     fs::remove_file(place.path("seen/pendulum.foxglove.json")).unwrap();
+    place.ok(&format!("{SWEEP} --shard 1/1 -o shard"));
+    // A class with a single sheet, whose only answer is right.
+    place.ok(&EXERCISE.replace("output out", "output class"));
+    let answers = fs::read_to_string(place.path("class/teacher/answers.csv")).unwrap();
+    let cells: Vec<&str> = answers.lines().last().unwrap().split(',').collect();
+    let answer = format!("crank_deg,link.rocker.omega_rad_s\n{},{}\n", cells[1], cells[4]);
+    fs::write(place.path("class/answers/crank_rocker.csv"), answer).unwrap();
     // Stand-ins for Rerun's library and viewer that do only what `linkproof` needs.
     let script = "#!/bin/sh\nif [ \"$1\" = -m ]; then exit 0; fi\nprintf 'RRF2 linkproof pendulum' > \"$3\"\n";
     fs::write(place.path("rerun"), script).unwrap();
@@ -98,7 +121,7 @@ fn meets(place: &Place, (command, file, then, _): Writer, what: &str) -> Outcome
     let outcome = place.run(command);
     let told = format!("{}{}", outcome.stdout, outcome.stderr);
     let name = Path::new(file).file_name().unwrap().to_str().unwrap();
-    assert!(told.contains(name), "{command}: {what} at {file} is not told: {told}");
+    assert!(told.contains(name), "{command}: {what} at {file} is not reported: {told}");
     match then {
         Then::Refuses => assert_eq!(outcome.code, 2, "{command}: {what} at {file}: {told}"),
         Then::Keeps => {
@@ -169,7 +192,10 @@ fn foreign_files_are_replaced_only_if_named() {
     // No command is forgotten.
     let help = Place::empty().ok("--help");
     for command in listed(&help) {
-        assert!(seen.contains(command) || NAMED.contains(&command), "what may {command} replace?");
+        assert!(
+            seen.contains(command) || NAMED.contains(&command),
+            "this test does not cover the files that {command} writes"
+        );
     }
 }
 

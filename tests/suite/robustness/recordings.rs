@@ -80,7 +80,11 @@ fn an_older_recording_with_a_bad_index_is_left_alone() {
         fs::write(&path, &file).unwrap();
         let told = place.ok("run scenarios/pendulum.toml --route differences --record out");
         assert!(told.contains("out/pendulum.mcap"), "{told}");
-        assert_eq!(fs::read(&path).unwrap(), whole, "it is the same run, and ours");
+        assert_eq!(
+            fs::read(&path).unwrap(),
+            whole,
+            "a recording of the same run by this program was replaced by other bytes"
+        );
     }
     // If the metadata are cut off at any byte, the recording counts as a file of the user.
     for cut in [9, 30, content(&whole, mcap::records::op::METADATA) + 20] {

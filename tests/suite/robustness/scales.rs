@@ -38,7 +38,7 @@ fn holds(proof: &Proof, family: &str) {
     }
 }
 
-/// Symptom: the balancing moments of the sides differed by 2e-8 where 1e-10 is required.
+/// Symptom: the balancing moments of the analytic sides differed by 2e-8 where 1e-10 is required.
 /// Cause: forces of 1e11 N in the joints cancel in the force on the frame, and the difference was divided by this small
 /// force.
 #[test]

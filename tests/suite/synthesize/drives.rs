@@ -1,4 +1,5 @@
-//! The designed drives of the warp-knitting machine: the claims in their files, and the agreement of both sides.
+//! The designed drives of the warp-knitting machine: the claims in their files, and the agreement of both analytic
+//! sides.
 
 use std::path::{Path, PathBuf};
 

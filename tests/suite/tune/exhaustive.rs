@@ -57,7 +57,7 @@ pub fn thinned(mut scenario: Scenario, every: usize) -> Scenario {
 /// The reference comes from the analytic side that `tune` does not use.
 pub fn error_of(scenario: &Scenario, truth: &Trajectory, engine: &dyn Engine) -> f64 {
     let Ok(found) = engine.solve(&scenario.case) else { return f64::INFINITY };
-    let residuals = residuals(truth, &found).expect("both stand on one grid");
+    let residuals = residuals(truth, &found).expect("both trajectories have the same grid");
     residuals.iter().map(Residual::share).fold(0.0, f64::larger)
 }
 
@@ -66,7 +66,8 @@ pub fn truth(scenario: &Scenario) -> Trajectory {
     NewtonSolver.solve(&scenario.case).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// All settings of the Rapier engines except the step: engine, route, extrapolation, substeps, sweeps.
+/// The rows of the space: all settings of the Rapier engines except the step. These settings are engine, route,
+/// extrapolation, substeps and sweeps.
 fn rows(space: &Space) -> Vec<Box<dyn Engine>> {
     let mut rows = Vec::new();
     for engine in prover::engines::all(1e-3).into_iter().filter(|engine| !engine.controls_error()) {

@@ -84,11 +84,14 @@ fn bad_pose(plan: &Plan) -> String {
     if plan.start == plan.linkage.variant.alpha {
         return String::new();
     }
-    let pose = match plan.given {
-        given if given < 1e-4 => "is singular (rod perpendicular to the guide)".into(),
-        given => format!("has only {given:.2} deg"),
-    };
-    format!("\n# The given pose {pose} and lies outside.")
+    match plan.given {
+        given if given < 1e-4 => {
+            "\n# The given pose is singular (rod perpendicular to the guide) and is not in the grid.".into()
+        }
+        given => {
+            format!("\n# In the given pose, a transmission angle is {given:.2} deg; this pose is not in the grid.")
+        }
+    }
 }
 
 fn mechanism(plan: &Plan) -> String {

@@ -24,7 +24,8 @@ fn turning<'a>(plans: &'a [Plan], has_slider: bool) -> (usize, usize) {
 fn counts(plans: &[Plan]) -> String {
     let [(slider, sliders), (plain, plains)] = [true, false].map(|has_slider| turning(plans, has_slider));
     format!(
-        "\n## How many turn fully\n\n{} of {}: {slider} of the {sliders} with a slider, {plain} of the {plains} of scheme 4.\n\n",
+        "\n## How many turn fully\n\n{} of {}: {slider} of the {sliders} with a slider, {plain} of the {plains} of scheme 4.\nOf the variants with a slider, the number that turns fully depends on the senses in which the angles \
+beta, gamma and phi are measured (cw: clockwise, ccw: counter-clockwise):\n\n",
         slider + plain,
         sliders + plains
     )
@@ -33,7 +34,7 @@ fn counts(plans: &[Plan]) -> String {
 /// For all eight combinations of directions of the three angles: the number of variants with a slider whose crank
 /// rotates fully.
 fn senses(plans: &[Plan]) -> String {
-    let mut text = String::from("| beta | gamma | phi | turn fully, of those with a slider |\n|---|---|---|---|\n");
+    let mut text = String::from("| beta | gamma | phi | variants with a slider that turn fully |\n|---|---|---|---|\n");
     let variants: Vec<&Variant> =
         plans.iter().map(|plan| &plan.linkage.variant).filter(|v| v.rocker.is_some()).collect();
     for k in 0..8 {
@@ -50,7 +51,7 @@ fn senses(plans: &[Plan]) -> String {
 
 fn table(plans: &[Plan], scenarios: &[Scenario]) -> String {
     let mut text = String::from(
-        "\n## All of them\n\nAngles in degrees.\n*Smallest transmission angle*: over the grid, of the dyad with the slider (scheme 4: of the only dyad), and of \
+        "\n## All variants\n\nAngles in degrees.\n*Smallest transmission angle*: over the grid, of the dyad with the slider (scheme 4: of the only dyad), and of \
 link 3 and rocker 4.\n\n",
     );
     for (letter, formula) in formulas(scenarios) {

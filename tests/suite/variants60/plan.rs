@@ -55,7 +55,7 @@ impl Plan {
             Some([from, to]) => {
                 let inside = (1..360).flat_map(|k| [alpha + f64::from(k), alpha - f64::from(k)]);
                 let start = inside.filter(|at| (from..to).contains(at)).find(|&at| linkage.transmission(at) >= SMALL);
-                let start = start.expect("the mechanism leaves its bad pose");
+                let start = start.expect("the crank can reach an angle with a sufficient transmission angle");
                 (SMALL, start, linkage.interval(start, SMALL).expect(NESTED))
             }
         };

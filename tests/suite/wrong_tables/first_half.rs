@@ -177,16 +177,14 @@ pub(super) const TABLES: &[Wrong] = &[
                 (y[to] - y[from]) / (t[to] - t[from])
             });
         }),
-        named: &[
-            "finite differences of point.D.y_m (or of the corresponding channel) over the previous and the next row",
-        ],
+        named: &["finite differences, such as those of point.D.y_m, over the previous and the next row"],
     },
     Wrong {
         scenario: "crank_rocker",
         columns: ANGLES,
         what: "crank angle by an arc tangent of a quotient",
         make: Make::Values(|sheet| sheet.each("link.crank.angle_rad", |_, value| value.tan().atan())),
-        named: &["half turns too much or too little in link.crank.angle_rad"],
+        named: &["half turns too many or too few in link.crank.angle_rad"],
     },
     Wrong {
         scenario: "crank_rocker",
@@ -252,7 +250,7 @@ pub(super) const TABLES: &[Wrong] = &[
         columns: MOTION,
         what: "sampling rate 0.1 % off",
         make: Make::Values(|sheet| sheet.times.iter_mut().for_each(|time| *time *= 1.001)),
-        named: &["the clock of all rows"],
+        named: &["the clock runs too"],
     },
     Wrong {
         scenario: "crank_rocker",

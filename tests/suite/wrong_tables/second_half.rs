@@ -110,9 +110,7 @@ pub(super) const TABLES: &[Wrong] = &[
                 (x[row + 2] - 2.0 * x[row] + x[row - 2]) / (t[row + 2] - t[row]).powi(2)
             });
         }),
-        named: &[
-            "second finite differences of link.ram.x_m (or of the corresponding channel) over 2 rows before and after",
-        ],
+        named: &["second finite differences, such as those of link.ram.x_m, over 2 rows before and after"],
     },
     Wrong {
         scenario: "crank_rocker",
@@ -122,9 +120,7 @@ pub(super) const TABLES: &[Wrong] = &[
             let (x, t) = (sheet.of("point.D.x_m").clone(), sheet.times.clone());
             sheet.each("point.D.vx_m_s", |row, _| (x[row.max(1)] - x[row.max(1) - 1]) / (t[1] - t[0]));
         }),
-        named: &[
-            "finite differences of point.D.x_m (or of the corresponding channel) over the row and the previous one",
-        ],
+        named: &["finite differences, such as those of point.D.x_m, over the row and the previous one"],
     },
     Wrong {
         scenario: "norton",

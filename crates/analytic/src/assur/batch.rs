@@ -13,7 +13,9 @@ mod elimination;
 mod equations;
 mod groups;
 mod lanes;
+mod many;
 mod poses;
+mod tally;
 
 use std::f64::consts::PI;
 
@@ -23,8 +25,10 @@ use wide::f64x8;
 use self::anchors::Anchors;
 use self::groups::Groups;
 use self::lanes::{Eight, TILE, Window};
+pub use self::many::CaseBatch;
 pub use self::poses::Poses;
 use self::poses::{ALPHA, DIRECTION, Layout, OMEGA};
+pub use self::tally::{PoseQuantity, PoseTally, rrr_sine, spans};
 use crate::PoseSolver;
 use linkage::case::Case;
 use linkage::error::Result;

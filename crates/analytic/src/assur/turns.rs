@@ -36,15 +36,7 @@ impl Turns {
     pub(super) fn count(&mut self, motions: &[Motion]) {
         for ((whole, last), motion) in self.whole.iter_mut().zip(&mut self.directions).zip(motions) {
             let now = motion.direction;
-            let (was_up, is_up) = (last.y >= 0.0, now.y >= 0.0);
-            if was_up != is_up {
-                let sense = cross(*last, now);
-                if was_up && sense > 0.0 {
-                    *whole += 1.0;
-                } else if is_up && sense < 0.0 {
-                    *whole -= 1.0;
-                }
-            }
+            *whole += crossing(*last, now);
             *last = now;
         }
     }
@@ -66,9 +58,21 @@ impl Turns {
     }
 }
 
+/// +1 if a direction has passed -x counter-clockwise, -1 if clockwise, otherwise 0. It has turned by less than half a
+/// turn.
+#[inline]
+pub(super) fn crossing(last: Vec2, now: Vec2) -> f64 {
+    let (was_up, is_up) = (last.y >= 0.0, now.y >= 0.0);
+    match (was_up, is_up) {
+        (true, false) if cross(last, now) > 0.0 => 1.0,
+        (false, true) if cross(last, now) < 0.0 => -1.0,
+        (true | false, _) => 0.0,
+    }
+}
+
 /// Angle of a direction (rad), from -pi to pi.
 /// The addition of 0.0 changes -0.0 to 0.0. The angle on the axis -x is therefore +pi, as the count assumes.
 #[inline]
-fn principal(direction: Vec2) -> f64 {
+pub(super) fn principal(direction: Vec2) -> f64 {
     (direction.y + 0.0).atan2(direction.x)
 }

@@ -19,7 +19,7 @@ const WORTH: f64 = 3.0;
 const SAME: f64 = 1e-9;
 
 impl PoseSolver<'_> {
-    /// Follows one whole turn towards the crank angle `target` and skips the following turns if they are equal to it.
+    /// Follows one whole turn towards the crank angle `target`, and skips the following turns if they equal this turn.
     /// At most a few turns then remain.
     /// No turns are skipped if the mechanism is not back at its old pose after one turn.
     /// No turns are skipped if further drives or change points make the turns differ from each other.

@@ -46,7 +46,7 @@ const AT_REST: f64 = 1e-11;
 /// A link, point or joint that starts at its dead centre shows its sense of motion after a driving link has turned by
 /// this angle (rad).
 const NUDGE: f64 = 1e-7;
-/// Largest number of iterations for the starting directions of points at rest. The starting directions of several
+/// Largest number of iterations that find in which directions points at rest start to move. The directions of several
 /// points depend on each other.
 const ROUNDS: usize = 60;
 /// Number of bisections for the starting acceleration of a point.

@@ -56,8 +56,7 @@ const PREDICTED: usize = 50_000;
 const SHORTEST: f64 = 1e-9;
 const MOST_SHORT: usize = 400;
 /// A step may be longer than planned by this factor if the longer step reaches the last target. The factor avoids a
-/// tiny last
-/// step.
+/// tiny last step.
 const STRETCH: f64 = 1.001;
 /// Number of bisections of a step for a first estimate of the position of a bound.
 const BISECTIONS: usize = 40;

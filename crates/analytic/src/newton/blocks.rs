@@ -112,7 +112,8 @@ impl Blocks {
 
     /// Smallest ratio of a block's determinant to the largest possible determinant, that of orthogonal columns with the
     /// lengths of the block's columns.
-    /// Columns are compared because all entries of a column have the same unit, unlike those of a row.
+    /// Every column belongs to one coordinate, so the ratio does not depend on the units of the coordinates (m and
+    /// rad).
     pub(super) fn smallest_share(&self) -> f64 {
         self.shares().map(f64::abs).fold(f64::INFINITY, f64::smaller)
     }

@@ -21,8 +21,8 @@ impl System<'_> {
     /// Residual and Jacobian of a drive's equation q - f(t) = 0 in `row`. The equation sets the coordinate of the drive
     /// to the input `at`, counted as in [`Drive::coordinate`].
     /// For a slide, q = e . (p2 - p1) with the axis e of the first link.
-    /// The derivative by the first link's angle is n . (p2 - p1) - e . (z x r1) = -e . (z x (p2 - c1)) with the mass
-    /// centre c1.
+    /// The derivative with respect to the first link's angle is n . (p2 - p1) - e . (z x r1) = -e . (z x (p2 - c1)).
+    /// Here c1 is the mass centre of the first link, and r1 the vector from c1 to p1.
     #[inline]
     pub(super) fn assemble_drive(&mut self, row: usize, drive: &Drive, at: f64) {
         match drive.input {

@@ -35,8 +35,8 @@ pub(super) struct Freedom<'a> {
     pub(super) held: &'a Held,
 }
 
-/// Sum of the normal forces of a joint as a function of its multipliers; then the derivatives of the sum by the
-/// multipliers.
+/// Sum of the normal forces of a joint as a function of its multipliers, and the derivatives of the sum with respect to
+/// the multipliers.
 /// For a transmission: the lost power of its force, divided by the lever and the speed.
 fn of_multipliers(friction: &Friction, own: &[f64], slides: bool, sense: f64) -> (f64, [f64; 2]) {
     if let FrictionSeat::Mesh { losses, .. } = friction.seat {

@@ -1,8 +1,8 @@
 //! Side 2 through change points, where the determinant of a block passes through zero but the mechanism moves on.
 //! At a change point, side 2 follows the branch with continuous velocities.
 //!
-//! The path is followed as a function of the crank angle, with the first and second derivatives of all coordinates by
-//! this angle.
+//! The path is followed as a function of the crank angle, with the first and second derivatives of all coordinates with
+//! respect to this angle.
 //! In a [`Window`] around a change point, no system of equations is solved.
 //! Instead, an osculating polynomial through poses on both sides gives the coordinates. The polynomial's derivatives
 //! give velocities and accelerations.

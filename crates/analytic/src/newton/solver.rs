@@ -1,6 +1,6 @@
 //! Side 2 solves the whole mechanism at once, from its constraint equations and their Jacobian.
 //!
-//! Coordinates are (x, y, theta) of every link's mass centre frame.
+//! The coordinates of a link are (x, y, theta) of a frame at its mass centre.
 //! Constraints C = 0: two equations per joint, one equation per transmission, and one equation per drive.
 //! Positions follow by Newton's method, then velocities from J q' = rates of the drives.
 //! Accelerations follow from J q'' = gamma with the centripetal terms, and multipliers from M q'' = Q + J^T lambda.

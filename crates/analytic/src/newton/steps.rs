@@ -63,7 +63,7 @@ impl System<'_> {
         let turned = |drive: &Drive| {
             let way = match drive.constant_speed() {
                 Some(_) => (drive.at(t).value - drive.at(self.time).value).abs(),
-                // Between the two times the drive may move forwards and back. The top speed bounds the total angle.
+                // The drive may move forwards and back between the two times, so its path is bounded by the top speed.
                 None => drive.top_speed().abs() * (t - self.time).abs(),
             };
             way / drive.input.span(size)

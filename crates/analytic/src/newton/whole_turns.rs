@@ -18,7 +18,7 @@ const WORTH: f64 = 3.0;
 const SAME: f64 = 1e-9;
 
 impl System<'_> {
-    /// Follows one whole turn towards `t` and skips the following turns if they are equal to it. At most a few turns
+    /// Follows one whole turn towards `t`, and skips the following turns if they equal this turn. At most a few turns
     /// then remain.
     /// No turns are skipped if the mechanism is not back at its old pose after one turn.
     /// No turns are skipped if there are several drives, if the drive is a slide, or if its speed is not constant.

@@ -61,7 +61,7 @@ pub(super) struct Constraints<'a> {
     middles: Vec<Vec2>,
 }
 
-/// Residuals and their derivatives by the coordinates.
+/// Residuals and their derivatives with respect to the coordinates.
 pub(super) struct Equations {
     pub(super) residual: ColumnVector,
     pub(super) jacobian: Matrix,

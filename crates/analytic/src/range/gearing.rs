@@ -1,4 +1,4 @@
-//! Further drives, as if they were geared to the first drive.
+//! Treats further drives as if they were geared to the first drive.
 
 use super::constraints::{Constraints, Gearing};
 use crate::sentences;

@@ -48,7 +48,8 @@ pub enum RunUpEnd {
 /// Instants after the end are left out.
 ///
 /// # Errors
-/// [`ErrorKind::Input`] for times that do not ascend from 0.
+/// [`ErrorKind::Input`] if a time is negative, if the times do not ascend, or if a number is not finite.
+/// [`ErrorKind::Unsupported`] if the crank may start from rest in either sense.
 /// [`ErrorKind::Numeric`] where the integration cannot continue.
 /// The errors of [`PoseSolver::solve`] are passed on.
 pub fn motion(model: &ReducedModel, omega: f64, times: &[f64], accuracy: f64) -> Result<(Vec<CrankState>, RunUpEnd)> {

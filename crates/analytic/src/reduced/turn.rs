@@ -14,7 +14,7 @@ use linkage::mechanism::{LinkId, PerLink};
 use linkage::trajectory::Stage;
 
 /// Number of poses in one turn of the crank. The poses are three degrees apart.
-/// Even two reversals between neighbouring poses are detected, from the slopes.
+/// Even two reversals between neighbouring poses are detected, from the slopes of the angular velocity.
 const POSES: u32 = 120;
 /// The search for a return to the first pose ends after this number of turns of the crank. The analysis of the range of
 /// motion uses the same limit.

@@ -1,5 +1,7 @@
 //! The averaged model in closed form: a linear motor against constant coefficients.
 
+use crate::reduced::ReducedModel;
+use crate::reduced::means::Means;
 use linkage::drive::{Motor, MotorLaw};
 
 /// Rounding may put a steady speed beyond the end of the motor's line. A relative excess of up to this value is
@@ -36,5 +38,13 @@ impl Averaged {
         let line = motor.branch(0.0, 1.0);
         let holds = steady_speed > 0.0 && steady_speed <= line.speeds[1] * (1.0 + SAME);
         (holds && inertia > 0.0).then(|| Averaged { time_constant: inertia / -line.slope(0.0), steady_speed })
+    }
+
+    /// The model of a motor that drives a reduced mechanism, whose means over a period are `means`.
+    ///
+    /// `None` under the conditions under which [`Averaged::of`] returns `None`.
+    #[must_use]
+    pub fn over_turn(model: &ReducedModel, motor: &Motor, means: &Means) -> Option<Self> {
+        Averaged::of(motor, means.inertia + model.added_inertia(), model.sense * means.resistance)
     }
 }

@@ -56,7 +56,14 @@ impl Regime {
     /// Coefficient of non-uniformity of the absolute speeds: (fastest - slowest) / (mean over time).
     #[must_use]
     pub fn non_uniformity(&self) -> f64 {
-        (self.fastest.omega.abs() - self.slowest.omega.abs()) / self.mean_speed.abs()
+        let [slowest, fastest] = self.ends();
+        (fastest - slowest) / self.mean_speed.abs()
+    }
+
+    /// Smallest and largest speed in the motor's sense (rad/s).
+    #[must_use]
+    pub fn ends(&self) -> [f64; 2] {
+        [self.slowest.omega.abs(), self.fastest.omega.abs()]
     }
 }
 
@@ -69,7 +76,7 @@ impl ReducedModel<'_> {
     ///
     /// # Errors
     /// [`ErrorKind::Input`] without a motor, [`ErrorKind::Geometry`] if the crank does not turn fully,
-    /// [`ErrorKind::Numeric`] if the motor has no stable speed or does not carry the crank over a period.
+    /// [`ErrorKind::Numeric`] if the motor has no stable speed, or stalls within a period.
     pub fn regime(&self, cranks: &[f64], accuracy: f64) -> Result<Regime> {
         let Some(motor) = &self.motor else {
             let message = sentences::A_STEADY_MOTION_IS_ASKED;

@@ -1,12 +1,8 @@
 //! Motion diagrams over one turn of the crank, or over the stroke of a slide.
 //! The diagrams show displacement, velocity and acceleration: exact, and by graphical methods.
 //!
-//! Differentiation: chords of the displacement give the velocity at the midpoints of the divisions.
-//! Chords of the chord velocity give the acceleration at the ends of the divisions.
-//! Integration: the exact velocity at the midpoints gives the displacement.
-//! The exact acceleration at the midpoints gives the velocity. Each integration starts from the exact first value.
 
-use super::chord::{closed_slopes, integral, slopes};
+use super::method::{Method, apply};
 use crate::sentences;
 use linkage::case::{Case, Grid, Wanted};
 use linkage::error::{Error, ErrorKind, Result};
@@ -85,32 +81,6 @@ fn help(all: &[Channel], name: &str) -> String {
     sentences::allowed_here(&names.join(", "))
 }
 
-linkage::words! {
-    /// Method that computes one diagram from another.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-    pub enum Method: words {
-        /// Velocity from chords of the displacement.
-        ChordVelocity = "velocity by chords",
-        /// Acceleration from chords of the chord velocity.
-        ChordAcceleration = "acceleration by chords of chords",
-        /// Displacement by graphical integration of the velocity.
-        IntegratedDisplacement = "displacement by integration",
-        /// Velocity by graphical integration of the acceleration.
-        IntegratedVelocity = "velocity by integration",
-    }
-}
-
-impl Method {
-    /// Index of the quantity that the method computes: 0 displacement, 1 velocity, 2 acceleration.
-    pub fn gives(self) -> usize {
-        match self {
-            Method::IntegratedDisplacement => 0,
-            Method::ChordVelocity | Method::IntegratedVelocity => 1,
-            Method::ChordAcceleration => 2,
-        }
-    }
-}
-
 /// Result of a method, with its error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MethodResult {
@@ -162,7 +132,9 @@ impl MotionDiagram {
     /// Computes the diagrams of `course` over one turn of the crank, with `divisions` equal divisions.
     /// The turn begins at the crank's start and follows its sense of rotation.
     /// If the input is a slide, the range of the grid replaces the turn.
-    /// If the motion does not repeat after the range, chords of chords begin and end one division inside the range.
+    /// If the motion does not repeat after the range, some methods give no values near the ends of the range.
+    /// Chords of chords and velocities by tangents begin and end one division inside the range, accelerations by
+    /// tangents two divisions inside.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for a number of divisions outside [`DIVISIONS`], or if the grid of a slide has no stroke.
@@ -239,34 +211,4 @@ impl MotionDiagram {
 fn scales(exact: &[Vec<f64>; 3], period: f64) -> [f64; 3] {
     let natural = |order: i32| SMALLEST * half_range(&exact[0]) * (TAU / period).powi(order);
     [0, 1, 2].map(|order| half_range(&exact[order as usize]).larger(natural(order)))
-}
-
-/// Applies a method to divisions of `stride` rows. Returns the rows, and the method's values in these rows.
-fn apply(
-    method: Method,
-    stride: usize,
-    is_closed: bool,
-    times: &[f64],
-    exact: &[Vec<f64>; 3],
-) -> (Vec<usize>, Vec<f64>) {
-    let ends: Vec<usize> = (0..times.len()).step_by(stride).collect();
-    let middles: Vec<usize> = (stride / 2..times.len()).step_by(stride).collect();
-    let at = |rows: &[usize], of: &[f64]| rows.iter().map(|&row| of[row]).collect::<Vec<f64>>();
-    let places = at(&ends, times);
-    let velocity = || slopes(&places, &at(&ends, &exact[0]));
-    let integrated = |of: usize| integral(exact[of][0], &places, &at(&middles, &exact[of + 1]));
-    let values = match method {
-        Method::ChordVelocity => velocity(),
-        Method::ChordAcceleration if is_closed => closed_slopes(&places, &velocity()),
-        Method::ChordAcceleration => slopes(&at(&middles, times), &velocity()),
-        Method::IntegratedDisplacement => integrated(0),
-        Method::IntegratedVelocity => integrated(1),
-    };
-    let rows = match method {
-        Method::ChordVelocity => middles,
-        Method::ChordAcceleration if is_closed => ends[1..].to_vec(),
-        Method::ChordAcceleration => ends[1..ends.len() - 1].to_vec(),
-        Method::IntegratedDisplacement | Method::IntegratedVelocity => ends,
-    };
-    (rows, values)
 }

@@ -1,8 +1,8 @@
 //! Axes with round numbers.
 
-use drawing::paper::document::document;
+use drawing::paper::document::Drawing;
 use drawing::paper::figure::{DrawnFigure, Style, Type, rectangle, solid, words};
-use drawing::paper::scale::{factor, round_up};
+use drawing::paper::scale::{factor, multiple, round_up};
 use drawing::paper::style::BLACK;
 use linkage::math::{KeepNan, Vec2};
 
@@ -23,7 +23,7 @@ pub struct Room {
 }
 
 /// Draws a sheet of diagrams below each other, with a title and notes above.
-pub fn stacked(title: &str, notes: &[String], room: &Room, panels: impl Iterator<Item = DrawnFigure>) -> String {
+pub fn stacked(title: &str, notes: &[String], room: &Room, panels: impl Iterator<Item = DrawnFigure>) -> Drawing {
     let mut sheet = DrawnFigure::default();
     sheet.text(Vec2::new(MARGIN, -MARGIN - 4.0), title, Type { bold: true, ..words(5.0) });
     let mut top = -MARGIN - 10.0;
@@ -37,14 +37,15 @@ pub fn stacked(title: &str, notes: &[String], room: &Room, panels: impl Iterator
         sheet.add(&figure, Vec2::new(MARGIN + room.left, top - high.y));
         top -= high.y - low.y + room.between;
     }
-    framed(&sheet, MARGIN, title)
+    framed(sheet, MARGIN, title)
 }
 
-/// Returns a sheet as a document. The sheet's upper left corner is the origin.
+/// Returns a sheet as a drawing. The sheet's upper left corner is the origin.
 /// `margin` (mm) is the space to the right of the sheet and below the sheet.
-pub fn framed(sheet: &DrawnFigure, margin: f64, title: &str) -> String {
+pub fn framed(sheet: DrawnFigure, margin: f64, title: &str) -> Drawing {
     let [low, high] = sheet.bounds();
-    document(sheet, [(high.x + margin).ceil(), (margin - low.y).ceil()], title)
+    let size = [(high.x + margin).ceil(), (margin - low.y).ceil()];
+    Drawing { figure: sheet, size, title: title.into() }
 }
 
 /// Vertical axis between two round values.
@@ -67,6 +68,11 @@ impl ValueAxis {
         ValueAxis { bottom, up, step, scale: factor((up - bottom) * step, room) }
     }
 
+    /// Returns the axis for values from `low` to `high` at a given scale factor (units per millimetre).
+    pub fn scaled([low, high]: [f64; 2], scale: f64) -> Self {
+        ValueAxis { scale, ..ValueAxis::of([low, high], 1.0) }
+    }
+
     /// Height of a value above the lower end (mm).
     pub fn y(&self, value: f64) -> f64 {
         (value - self.bottom * self.step) / self.scale
@@ -79,34 +85,28 @@ impl ValueAxis {
 
     /// Draws grid lines of length `long` (mm) at round values, with their numbers on the left.
     pub fn draw(&self, figure: &mut DrawnFigure, long: f64) {
+        self.draw_numbered(figure, long, (-2.0, "end"));
+    }
+
+    /// Draws grid lines of length `long` (mm) at round values, with their numbers at `x` (mm).
+    pub fn draw_numbered(&self, figure: &mut DrawnFigure, long: f64, (x, anchor): (f64, &'static str)) {
         let step = self.step;
         for k in 0..=(self.up - self.bottom).round() as i32 {
             let value = (self.bottom + f64::from(k)) * step;
             let y = self.y(value);
             let style = if value == 0.0 { solid(BLACK, 0.25) } else { GRID };
             figure.line([Vec2::new(0.0, y), Vec2::new(long, y)], style);
-            figure.text(Vec2::new(-2.0, y - 1.0), number(value, step), Type { anchor: "end", ..words(2.8) });
+            figure.text(Vec2::new(x, y - 1.0), multiple(value, step), Type { anchor, ..words(2.8) });
         }
     }
+}
+
+/// Unit of a scale factor, such as `(m/s)/mm` for values in `m/s`.
+pub fn per_millimetre(unit: &str) -> String {
+    if unit.contains([' ', '/', '·']) { format!("({unit})/mm") } else { format!("{unit}/mm") }
 }
 
 /// Draws the frame of a diagram; its lower left corner is the origin.
 pub fn frame(figure: &mut DrawnFigure, size: Vec2, colour: &'static str) {
     figure.area(rectangle([Vec2::zeros(), size]), None, solid(colour, 0.25));
-}
-
-/// Formats a multiple of `step` with the decimals of `step`.
-/// If `step` is very small or very large, the number has an exponent.
-fn number(value: f64, step: f64) -> String {
-    if (1e-4..1e6).contains(&step) {
-        let decimals = format!("{step}").split_once('.').map_or(0, |(_, decimals)| decimals.len());
-        return format!("{value:.decimals$}");
-    }
-    if value == 0.0 {
-        return "0".into();
-    }
-    // A computed multiple of a round number may differ from the round value by a rounding error.
-    // The value is therefore rounded to ten significant digits.
-    let round: f64 = format!("{value:.9e}").parse().unwrap_or(value);
-    format!("{round:e}")
 }

@@ -3,7 +3,7 @@
 
 use crate::clearance::{ClearanceResult, PairClearance, RangeVariable, poses};
 use crate::sentences;
-use drawing::paper::document::document;
+use drawing::paper::document::Drawing;
 use drawing::paper::figure::{DrawnFigure, Tint, solid};
 use drawing::paper::style::{GREY, colour, significant};
 use drawing::picture::{ALARM, LinkPlacement, Picture};
@@ -29,7 +29,7 @@ const THIN: f64 = 0.2;
 ///
 /// # Errors
 /// The errors of the pose solver.
-pub fn clearance(case: &Case, name: &str, asked: &ClearanceQuestion, found: &ClearanceResult) -> Result<String> {
+pub fn clearance(case: &Case, name: &str, asked: &ClearanceQuestion, found: &ClearanceResult) -> Result<Drawing> {
     let [from, to] = found.range;
     let cranks: Vec<f64> = (0..=POSITIONS).map(|k| from + (to - from) * (k as f64 / POSITIONS as f64)).collect();
     let smallest = found.smallest().filter(|pair| pair.smallest.distance.is_finite());
@@ -52,7 +52,7 @@ pub fn clearance(case: &Case, name: &str, asked: &ClearanceQuestion, found: &Cle
     // the symbol is left out.
     let has_housing = asked.bodies.iter().any(|body| !body.moves());
     let sketch = if has_housing { sketch.without(&[MarkRole::Bore, MarkRole::Rail, MarkRole::Hatch]) } else { sketch };
-    let places: Vec<LinkPlacement> = here.iter().map(|own| LinkPlacement::Here(pose_of(own))).collect();
+    let places: Vec<LinkPlacement> = here.iter().map(|own| LinkPlacement::Here(LinkPose::of(own))).collect();
     let mut picture = Picture::of(&sketch, &places, scale);
     for body in asked.bodies.iter().filter(|body| body.moves()) {
         let mut swept = DrawnFigure::default();
@@ -94,7 +94,7 @@ pub fn clearance(case: &Case, name: &str, asked: &ClearanceQuestion, found: &Cle
     let cell = SheetCell { heading: Vec::new(), figure, bounds, scale, faults: Vec::new() };
     let title = format!("{name}: clearance");
     let (page, size) = sheet(&title, &words, &[cell], ROOM.x);
-    Ok(document(&page, size, &title))
+    Ok(Drawing { figure: page, size, title })
 }
 
 /// Extent of all outlines over all poses (m).
@@ -107,10 +107,6 @@ fn extent(asked: &ClearanceQuestion, all: &[Vec<Motion>]) -> Vec2 {
         }
     }
     high - low
-}
-
-fn pose_of(motion: &Motion) -> LinkPose {
-    LinkPose { origin: motion.origin, angle: motion.direction.y.atan2(motion.direction.x) }
 }
 
 /// Draws an outline; its rounding is the width of a line with round joins.

@@ -1,8 +1,9 @@
 //! Sheet of graphs over the crank angle, arranged vertically.
 
-use super::axes::{GRID, Room, ValueAxis, frame, stacked};
+use super::axes::{GRID, Room, ValueAxis, frame, per_millimetre, stacked};
 use crate::diagram::graphs::{CrankGraph, Graphs};
 use crate::sentences;
+use drawing::paper::document::Drawing;
 use drawing::paper::figure::{DrawnFigure, Style, Type, scripted, solid, words};
 use drawing::paper::style::{COLOURS, GREY, significant};
 use linkage::math::{KeepNan, Vec2};
@@ -20,8 +21,8 @@ const ASIDE: f64 = 28.0;
 /// Line at the mean.
 const MEAN: Style = Style { colour: COLOURS[1], width: 0.3, dash: "2 1.2" };
 
-/// Returns the graphs as an SVG document with `title` above them.
-pub fn graphs(graphs: &Graphs, title: &str) -> String {
+/// Returns the graphs as a drawing with `title` above them.
+pub fn graphs(graphs: &Graphs, title: &str) -> Drawing {
     let panels = graphs.graphs.iter().map(|graph| panel(graph, graphs.period));
     stacked(title, &graphs.notes, &ROOM, panels)
 }
@@ -63,7 +64,7 @@ fn panel(graph: &CrankGraph, [start, end]: [f64; 2]) -> DrawnFigure {
         figure.text(aside, text, Type { anchor, ..words(2.8) });
     }
     let [symbol, unit] = [graph.symbol, graph.unit].map(scripted);
-    let per = if graph.unit.contains([' ', '/']) { format!("({unit})/mm") } else { format!("{unit}/mm") };
+    let per = per_millimetre(&unit);
     let heading = sentences::scale_factor(&graph.name, &symbol, &unit, &axis.scale, &per);
     figure.text(Vec2::new(0.0, axis.height() + 3.0), heading, Type { bold: true, ..words(3.6) });
     figure

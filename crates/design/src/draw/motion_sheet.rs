@@ -1,17 +1,17 @@
 //! Sheet of motion diagrams: displacement, velocity and acceleration over the crank angle, arranged vertically.
 
-use super::axes::{GRID, Room, ValueAxis, frame, stacked};
-use crate::diagram::motion::{Method, MethodResult, MotionDiagram};
+use super::axes::{GRID, Room, ValueAxis, frame, per_millimetre, stacked};
+use crate::diagram::construction::{ConstructionSort, HIGH, LONG};
+use crate::diagram::method::Method;
+use crate::diagram::motion::{MethodResult, MotionDiagram};
 use crate::sentences;
+use drawing::paper::document::Drawing;
 use drawing::paper::figure::{DrawnFigure, Style, Type, solid, sub, words};
 use drawing::paper::style::{BLACK, COLOURS, GREY, significant};
 use linkage::math::Vec2;
 use linkage::math::statistics::ends;
 
-/// Length of the crank angle axis (mm): two degrees per millimetre.
-const LONG: f64 = 180.0;
-/// Upper limit of the height of a diagram (mm). `ROOM` contains the distances between diagrams (mm).
-const HIGH: f64 = 60.0;
+/// Distances between diagrams (mm).
 const ROOM: Room = Room { gap: 3.4, left: 28.0, between: 10.0 };
 /// Chords of the displacement.
 const CHORDS: Style = Style { colour: COLOURS[0], width: 0.25, dash: "1.5 1" };
@@ -21,8 +21,8 @@ const LINE: f64 = 5.0;
 /// Upper limit of the number of points of a curve on paper. More points would not be visible.
 const POINTS: usize = 361;
 
-/// Returns the diagrams as an SVG document with `title` above them.
-pub fn motion(diagram: &MotionDiagram, title: &str) -> String {
+/// Returns the diagrams as a drawing with `title` above them.
+pub fn motion(diagram: &MotionDiagram, title: &str) -> Drawing {
     let note = sentences::chord_method_and_graphical_integration(&diagram.divisions);
     stacked(title, &[note], &ROOM, (0..3).map(|which| panel(diagram, which)))
 }
@@ -31,7 +31,9 @@ pub fn motion(diagram: &MotionDiagram, title: &str) -> String {
 fn panel(diagram: &MotionDiagram, which: usize) -> DrawnFigure {
     let mut figure = DrawnFigure::default();
     let exact = &diagram.exact[which];
-    let found: Vec<&MethodResult> = diagram.found.iter().filter(|found| found.method.gives() == which).collect();
+    let shown = [ConstructionSort::Chords, ConstructionSort::Integration].map(ConstructionSort::methods).concat();
+    let is_shown = |found: &&MethodResult| found.method.gives() == which && shown.contains(&found.method);
+    let found: Vec<&MethodResult> = diagram.found.iter().filter(is_shown).collect();
     let axis = ValueAxis::of(ends(exact.iter().chain(found.iter().flat_map(|found| &found.values)).copied()), HIGH);
     let rows = exact.len() - 1;
     let at = |row: usize, value: f64| Vec2::new(LONG * row as f64 / rows as f64, axis.y(value));
@@ -51,7 +53,7 @@ fn panel(diagram: &MotionDiagram, which: usize) -> DrawnFigure {
     let channel = &diagram.course.0[which];
     let symbol = ["s", "v", "a"][which];
     let unit = channel.kind.unit.symbol().replace("s^2", "s²");
-    let per = if unit.contains('/') { format!("({unit})/mm") } else { format!("{unit}/mm") };
+    let per = per_millimetre(&unit);
     let heading = sentences::scale_factor_2(&channel, &sub(symbol), &scale, &per);
     figure.text(Vec2::new(0.0, height + 8.0), heading, Type { bold: true, ..words(3.8) });
     let middle = Type { anchor: "middle", ..words(TEXT) };
@@ -90,11 +92,17 @@ fn caption(figure: &mut DrawnFigure, found: &[&MethodResult], which: usize, unit
     }
 }
 
-fn mark(figure: &mut DrawnFigure, method: Method, at: Vec2) {
+/// Draws the mark of a value that a method has found.
+pub(super) fn mark(figure: &mut DrawnFigure, method: Method, at: Vec2) {
     let corner = |x: f64, y: f64| at + Vec2::new(x, y);
     match method {
-        Method::ChordVelocity | Method::ChordAcceleration => figure.disc(at, 0.95, "white", solid(COLOURS[0], 0.4)),
-        Method::IntegratedDisplacement | Method::IntegratedVelocity => {
+        Method::ChordVelocity | Method::ChordAcceleration | Method::TangentVelocity | Method::TangentAcceleration => {
+            figure.disc(at, 0.95, "white", solid(COLOURS[0], 0.4))
+        }
+        Method::IntegratedDisplacement
+        | Method::IntegratedVelocity
+        | Method::AreaDisplacement
+        | Method::AreaVelocity => {
             figure.line([corner(-0.9, -0.9), corner(0.9, 0.9)], solid(COLOURS[1], 0.4));
             figure.line([corner(-0.9, 0.9), corner(0.9, -0.9)], solid(COLOURS[1], 0.4));
         }
@@ -103,8 +111,12 @@ fn mark(figure: &mut DrawnFigure, method: Method, at: Vec2) {
 
 /// Draws the frame, grid lines at round values and at the divisions of the turn, and their numbers.
 fn axes(figure: &mut DrawnFigure, diagram: &MotionDiagram, axis: &ValueAxis) {
-    let height = axis.height();
     axis.draw(figure, LONG);
+    crank_axis(figure, diagram, axis.height());
+}
+
+/// Draws the frame, the lines at the divisions of the turn, and the values of the input at these lines.
+pub(super) fn crank_axis(figure: &mut DrawnFigure, diagram: &MotionDiagram, height: f64) {
     let every = diagram.divisions.div_ceil(24);
     let whole = diagram.divisions;
     let (start, turn) = (diagram.cranks[0], diagram.cranks[diagram.cranks.len() - 1] - diagram.cranks[0]);

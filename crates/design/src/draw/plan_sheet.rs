@@ -2,14 +2,15 @@
 //! The table of each plan is below the plan. The sheet is narrow, so that letters stay legible at the width of a web
 //! page.
 
-use super::scheme_figure;
-use crate::plan::Plans;
+use super::scheme_figure::CONSTRUCTION;
+use super::{assur_figure, centre_figure, scheme_figure};
 use crate::plan::builder::NOTHING;
 use crate::plan::vectors::{Tip, TipKind, Vector, VectorKind, VectorPlan};
+use crate::plan::{PlanTurn, Plans, Quantity};
 use crate::sentences;
-use drawing::paper::document::document;
+use drawing::paper::document::Drawing;
 use drawing::paper::figure::{DrawnFigure, Style, Type, scripted, solid, sub, words};
-use drawing::paper::labels::{Obstacles, PlacedLabel, label_size, letter, place_among};
+use drawing::paper::labels::{LETTER, Obstacles, PlacedLabel, label_size, letter, lettering, place_among};
 use drawing::paper::style::{BLACK, GREY, colour, significant};
 use drawing::paper::table::LegendTable;
 use linkage::math::{KeepNan, Vec2, cross, turned};
@@ -31,37 +32,39 @@ const SHARED: f64 = 1.0;
 /// Length below which an arrow is drawn as a point (mm).
 const POINT: f64 = 0.15;
 
-/// Returns the plans as an SVG document true to scale, with `name` and `title` above them.
-pub fn plans(plans: &Plans, name: &str, title: &str) -> String {
-    let heading = |words: &str, symbol: &str, index: &str, scale: f64, unit: &str| {
-        (words.to_string(), sentences::scale_factor_3(&symbol, &sub(index), &scale, &scripted(unit)))
-    };
-    let of_plan = |plan: &VectorPlan, words: &str| {
-        let unit = format!("({})/mm", plan.quantity.unit());
-        let unit = unit.replace("s^2", "s²");
-        (heading(words, "μ", plan.quantity.symbol(), plan.scale, &unit), figure(plan), table(plan))
-    };
+/// Returns the plans as a drawing true to scale, with `name` and `title` above them.
+pub fn plans(plans: &Plans, name: &str, title: &str) -> Drawing {
     let scheme = &plans.scheme;
-    let columns = [
-        (
-            heading("Kinematic diagram", "μ", "l", scheme.scale, "m/mm"),
-            scheme_figure::scheme(scheme),
-            scheme_figure::table(scheme),
-        ),
+    let mut parts = vec![
+        heading("Kinematic diagram", "l", scheme.scale, "m/mm", PlanTurn::Upright)
+            .with(scheme_figure::scheme(scheme), scheme_figure::table(scheme)),
         of_plan(&plans.velocity, "Velocity plan"),
         of_plan(&plans.acceleration, "Acceleration plan"),
     ];
+    let is_whole = plans.velocity.tips.iter().any(|tip| tip.kind == TipKind::Singular);
+    for point in scheme.singular.iter().filter(|_| is_whole) {
+        let scale = assur_figure::scale(point, plans.acceleration.scale);
+        parts.push(
+            heading(&assur_figure::title(point), "a", scale, &unit(Quantity::Acceleration), PlanTurn::Upright)
+                .with(assur_figure::figure(point, scale), assur_figure::table(point, scale)),
+        );
+    }
+    if let Some(sheet) = &plans.centres {
+        parts.push(
+            heading(sentences::INSTANT_CENTRES, "l", sheet.scheme.scale, "m/mm", PlanTurn::Upright)
+                .with(centre_figure::figure(sheet), centre_figure::table(sheet)),
+        );
+    }
     let mut sheet = DrawnFigure::default();
     let large = Type { bold: true, ..words(5.5) };
     let heading = format!("{name}, {}", plans.input.marked(plans.crank));
     sheet.text(Vec2::new(MARGIN, -MARGIN - 4.0), heading, large);
     sheet.text(Vec2::new(MARGIN, -MARGIN - 10.0), title, words(3.6));
-    let columns = columns.map(|(heading, figure, table)| (heading, figure, table.figure()));
     let wide = |figure: &DrawnFigure| figure.bounds()[1].x - figure.bounds()[0].x;
-    let widest = columns.iter().map(|(_, figure, table)| wide(figure).larger(wide(table))).fold(0.0, f64::larger);
+    let widest = parts.iter().map(|part| wide(&part.figure).larger(wide(&part.table))).fold(0.0, f64::larger);
     let mut top = -MARGIN - TITLE;
-    for ((name, scale), figure, table) in &columns {
-        sheet.text(Vec2::new(MARGIN, top - 4.5), name.as_str(), Type { bold: true, ..words(4.8) });
+    for SheetPart { title, scale, figure, table } in &parts {
+        sheet.text(Vec2::new(MARGIN, top - 4.5), title.as_str(), Type { bold: true, ..words(4.8) });
         sheet.text(Vec2::new(MARGIN, top - 10.0), scale.as_str(), words(3.6));
         let [low, high] = figure.bounds();
         let inset = (widest - wide(figure)) / 2.0;
@@ -72,7 +75,45 @@ pub fn plans(plans: &Plans, name: &str, title: &str) -> String {
         top -= table_high.y - table_low.y + GAP;
     }
     let [low, high] = sheet.bounds();
-    document(&sheet, [(high.x.larger(MARGIN + widest) + MARGIN).ceil(), (MARGIN - low.y).ceil()], name)
+    let size = [(high.x.larger(MARGIN + widest) + MARGIN).ceil(), (MARGIN - low.y).ceil()];
+    Drawing { figure: sheet, size, title: name.into() }
+}
+
+/// Part of the sheet: a figure with its heading, and its table below.
+struct SheetPart {
+    title: String,
+    scale: String,
+    figure: DrawnFigure,
+    table: DrawnFigure,
+}
+
+impl SheetPart {
+    fn with(self, figure: DrawnFigure, table: LegendTable) -> Self {
+        SheetPart { figure, table: table.figure(), ..self }
+    }
+}
+
+fn heading(title: &str, index: &str, scale: f64, unit: &str, turn: PlanTurn) -> SheetPart {
+    let scale = sentences::scale_factor_3(&"μ", &sub(index), &scale_shown(scale), &scripted(unit));
+    let scale = match turn {
+        PlanTurn::Upright => scale,
+        PlanTurn::Clockwise | PlanTurn::CounterClockwise => sentences::turned_by(&scale, &turn.word()),
+    };
+    SheetPart { title: title.into(), scale, figure: DrawnFigure::default(), table: DrawnFigure::default() }
+}
+
+fn of_plan(plan: &VectorPlan, title: &str) -> SheetPart {
+    heading(title, plan.quantity.symbol(), plan.scale, &unit(plan.quantity), plan.turn).with(figure(plan), table(plan))
+}
+
+/// Unit of a scale factor: `(m/s)/mm`.
+fn unit(quantity: Quantity) -> String {
+    format!("({})/mm", quantity.unit()).replace("s^2", "s²")
+}
+
+/// A scale factor, rounded to six significant digits.
+pub fn scale_shown(scale: f64) -> String {
+    format!("{:.5e}", scale).parse::<f64>().unwrap_or(scale).to_string()
 }
 
 /// Line style of each kind of vector.
@@ -93,6 +134,10 @@ fn figure(plan: &VectorPlan) -> DrawnFigure {
     let mut figure = DrawnFigure::default();
     let mut obstacles = Obstacles::default();
     let mut drawn: Vec<[Vec2; 2]> = Vec::new();
+    for ends in plan.lines.iter().map(|ends| ends.map(|end| plan.on_paper(end))) {
+        figure.line(ends, CONSTRUCTION);
+        obstacles.segments.push(ends);
+    }
     let order = [
         VectorKind::MassCentre,
         VectorKind::Absolute,
@@ -103,7 +148,7 @@ fn figure(plan: &VectorPlan) -> DrawnFigure {
         VectorKind::Coriolis,
     ];
     for vector in order.into_iter().flat_map(|part| plan.vectors.iter().filter(move |vector| vector.part == part)) {
-        let ends = [vector.start, vector.start + vector.value].map(|end| end / plan.scale);
+        let ends = [vector.start, vector.start + vector.value].map(|end| plan.on_paper(end));
         if (ends[1] - ends[0]).norm() > POINT {
             let size = significant(vector.value.norm());
             let title = format!("{} = {size} {}: {}", vector.name, plan.quantity.unit(), vector.meaning);
@@ -126,12 +171,12 @@ fn figure(plan: &VectorPlan) -> DrawnFigure {
         .map(|(index, (at, text))| PlacedLabel {
             anchor: *at,
             away: if index == 0 { -centre } else { *at },
-            size: label_size(text),
+            size: label_size(text, LETTER),
             clear: if index == 0 { 1.0 } else { 0.55 },
         })
         .collect();
     for ((label, (_, text)), at) in labels.iter().zip(&marks).zip(place_among(&labels, &obstacles, 1)) {
-        letter(&mut figure, label, at, text, BLACK);
+        letter(&mut figure, label, at, text, lettering(BLACK));
     }
     figure
 }
@@ -158,7 +203,7 @@ fn beside(ends: [Vec2; 2], drawn: &[[Vec2; 2]]) -> [Vec2; 2] {
 fn marks(plan: &VectorPlan) -> Vec<(Vec2, String)> {
     let mut marks: Vec<(Vec2, String)> = Vec::new();
     for tip in &plan.tips {
-        let at = tip.at / plan.scale;
+        let at = plan.on_paper(tip.at);
         match marks.iter_mut().find(|(place, _)| (place - at).norm() < ONE) {
             // The end of a normal or Coriolis part needs no letter if it visibly coincides with another point of the
             // plan.

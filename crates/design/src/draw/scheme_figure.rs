@@ -1,7 +1,8 @@
 //! Figure of the kinematic diagram.
 
+use crate::plan::names::SINGULAR;
 use crate::plan::scheme::{Scheme, SchemeLink};
-use crate::plan::singular::SingularPoint;
+use crate::plan::singular::{AssurLead, SingularPoint};
 use drawing::paper::figure::{DrawnFigure, Style, solid, sub};
 use drawing::paper::style::{BLACK, GREY, colour, significant};
 use drawing::paper::table::LegendTable;
@@ -14,16 +15,19 @@ const ROUNDING: f64 = 1e-12;
 /// A singular point is drawn only if each lead has an end nearer to the point than this (mm).
 const NEAR: f64 = 120.0;
 
+/// Style of construction lines.
+pub const CONSTRUCTION: Style = Style { colour: GREY, width: 0.25, dash: "4 1 0.5 1" };
+
 /// Draws the mechanism; the world origin is the figure's origin.
 pub fn scheme(scheme: &Scheme) -> DrawnFigure {
     let mut picture = Picture::of(&scheme.sketch, &scheme.places, scheme.scale);
     for (at, leads) in scheme.singular.iter().filter_map(|point| lines_through(scheme, point)) {
         for ends in leads {
-            picture.figure.line(ends, Style { colour: GREY, width: 0.25, dash: "4 1 0.5 1" });
+            picture.figure.line(ends, CONSTRUCTION);
             picture.obstacles.segments.push(ends);
         }
         picture.figure.disc(at, 0.5, BLACK, solid(BLACK, 0.2));
-        picture.letters(at, Vec2::zeros(), 0.6, "S".into(), BLACK);
+        picture.letters(at, Vec2::zeros(), 0.6, SINGULAR[0].into(), BLACK);
     }
     picture.draw_marks();
     picture.draw_loads(&scheme.acting);
@@ -51,12 +55,11 @@ pub fn scheme(scheme: &Scheme) -> DrawnFigure {
 }
 
 /// Returns a singular point on paper and the two lines that meet in it. Each line starts at the farther end of a lead.
-/// `None` if an end of a lead has no position, or if the point is at least `NEAR` away from both ends of a lead.
+/// `None` if the point is at least `NEAR` away from both ends of a lead.
 fn lines_through(scheme: &Scheme, point: &SingularPoint) -> Option<(Vec2, [[Vec2; 2]; 2])> {
-    let named = |name: &String| scheme.points.iter().find(|(own, _)| own == name).map(|(_, at)| at / scheme.scale);
     let at = point.at / scheme.scale;
-    let line = |names: &[String; 2]| {
-        let ends = [named(&names[0])?, named(&names[1])?];
+    let line = |lead: &AssurLead| {
+        let ends = lead.ends.map(|end| end / scheme.scale);
         let far = ends.into_iter().max_by(|a, b| (a - at).norm().total_cmp(&(b - at).norm()))?;
         (ends.iter().any(|end| (end - at).norm() < NEAR)).then_some([far, at])
     };

@@ -8,7 +8,7 @@ use linkage::error::{Error, ErrorKind, Result};
 use scenario::header::check_format;
 use scenario::reader::{Sign, TomlTable};
 use scenario::source::Source;
-use scenario::unit::{ANGULAR_SPEED, POWER};
+use scenario::unit::{ANGULAR_SPEED, INERTIA, POWER};
 
 /// Reads the motors of a catalogue file, in the file's order.
 ///
@@ -45,6 +45,7 @@ fn motor(mut table: TomlTable) -> Result<CatalogueMotor> {
     let rated_speed = table.quantity("rated_speed", &ANGULAR_SPEED, Sign::Positive)?;
     let synchronous_speed = table.quantity("synchronous_speed", &ANGULAR_SPEED, Sign::Positive)?;
     let breakdown = table.optional_number("breakdown_ratio")?;
+    let rotor = table.optional_quantity("rotor_inertia", &INERTIA, Sign::NotNegative)?;
     if !(rated_speed < synchronous_speed) {
         let message = sentences::THE_RATED_SPEED_IS_NOT_BELOW;
         return table.refuse("rated_speed", message, sentences::CHECK_THE_TWO_SPEEDS_AND_THEIR);
@@ -54,5 +55,5 @@ fn motor(mut table: TomlTable) -> Result<CatalogueMotor> {
         return table.refuse("breakdown_ratio", message, sentences::GIVE_BREAKDOWN_TORQUE_OVER_RATED);
     }
     table.finish()?;
-    Ok(CatalogueMotor { name, power, rated_speed, synchronous_speed, breakdown })
+    Ok(CatalogueMotor { name, power, rated_speed, synchronous_speed, breakdown, rotor })
 }

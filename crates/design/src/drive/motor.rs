@@ -11,7 +11,7 @@ use analytic::reduced::means::{self, means_over_turn};
 use analytic::reduced::{ACCURACY, ReducedModel};
 use analytic::steady::Regime;
 use linkage::case::Case;
-use linkage::drive::{Motor, MotorLaw};
+use linkage::drive::{Motor, MotorLaw, ShaftInertia};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
 
@@ -28,6 +28,8 @@ pub struct CatalogueMotor {
     pub synchronous_speed: f64,
     /// Breakdown torque divided by rated torque, if the catalogue states it.
     pub breakdown: Option<f64>,
+    /// Moment of inertia of the rotor (kg m^2), if the catalogue states it.
+    pub rotor: Option<f64>,
 }
 
 impl CatalogueMotor {
@@ -47,7 +49,73 @@ impl CatalogueMotor {
     /// The motor with a gearbox that reduces the rated speed to `crank` (rad/s, greater than zero).
     /// The gearbox has the efficiency `efficiency` (above 0, at most 1).
     pub fn geared_to(&self, crank: f64, efficiency: f64) -> Motor {
-        Motor { efficiency, ..Motor::ideal(self.law(), self.rated_speed / crank) }
+        let inertia = ShaftInertia { rotor: self.rotor.unwrap_or(0.0), ..ShaftInertia::default() };
+        let rated_torque = Some(self.rated_torque());
+        Motor { efficiency, inertia, rated_torque, ..Motor::ideal(self.law(), self.rated_speed / crank) }
+    }
+}
+
+/// Largest breakdown torque of usual induction motors, divided by the rated torque.
+pub const LARGEST_BREAKDOWN: f64 = 3.0;
+
+/// A reason why the law of a motor does not describe the motor in a part of a motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum MotorLimit {
+    /// The motor turns faster than at no load, so the motor brakes the mechanism.
+    AboveSynchronous {
+        /// Largest speed of the motor (rad/s).
+        speed: f64,
+        /// Speed of the motor without load (rad/s).
+        synchronous: f64,
+    },
+    /// The torque of a linear law exceeds the breakdown torque of usual induction motors.
+    BeyondBreakdown {
+        /// Speed of the motor (rad/s).
+        speed: f64,
+        /// Torque of the law at this speed (N m).
+        torque: f64,
+        /// The torque divided by the rated torque.
+        share: f64,
+    },
+    /// The motor turns more slowly than at its breakdown torque. There, the torque falls with falling speed.
+    BelowBreakdown {
+        /// Smallest speed of the motor (rad/s).
+        speed: f64,
+        /// Speed at the breakdown torque (rad/s).
+        breakdown: f64,
+    },
+}
+
+impl MotorLimit {
+    /// The limits of a motor that are exceeded in a motion between two speeds of the crank (rad/s, positive in the
+    /// motor's sense).
+    /// A linear law without a rated torque has no breakdown, because it may describe a direct-current motor.
+    /// In a start from rest (`is_start`), a Kloss law holds below its breakdown speed too.
+    pub fn of(motor: &Motor, [slowest, fastest]: [f64; 2], is_start: bool) -> Vec<MotorLimit> {
+        let [slowest, fastest] = [slowest, fastest].map(|speed| speed * motor.ratio);
+        let mut limits = Vec::new();
+        if let Some(synchronous) = motor.steady_speed(0.0).map(|speed| speed * motor.ratio)
+            && fastest > synchronous * (1.0 + 1e-9)
+        {
+            limits.push(MotorLimit::AboveSynchronous { speed: fastest, synchronous });
+        }
+        match (&motor.law, motor.rated_torque) {
+            (MotorLaw::Linear { .. }, Some(rated)) => {
+                let torque = motor.law.torque(slowest);
+                let share = torque / rated;
+                if share > LARGEST_BREAKDOWN {
+                    limits.push(MotorLimit::BeyondBreakdown { speed: slowest, torque, share });
+                }
+            }
+            (&MotorLaw::Kloss { breakdown_slip, synchronous_speed, .. }, _) => {
+                let breakdown = synchronous_speed * (1.0 - breakdown_slip);
+                if !is_start && slowest < breakdown {
+                    limits.push(MotorLimit::BelowBreakdown { speed: slowest, breakdown });
+                }
+            }
+            (MotorLaw::Linear { .. } | MotorLaw::Constant { .. } | MotorLaw::Table { .. }, _) => {}
+        }
+        limits
     }
 }
 
@@ -127,12 +195,22 @@ impl MotorChoice {
         })
     }
 
-    /// Torque (N m) on the motor's shaft that the peak requires, without inertia.
+    /// The limits of the motor's law that the steady motion exceeds.
+    /// For a start from rest, only a torque beyond the breakdown torque is reported.
+    pub fn limits(&self) -> Vec<MotorLimit> {
+        let [slowest, fastest] = self.regime.ends();
+        let mut limits = MotorLimit::of(&self.geared, [slowest, fastest], false);
+        let at_start = MotorLimit::of(&self.geared, [0.0, slowest], true);
+        limits.extend(at_start.into_iter().filter(|own| matches!(own, MotorLimit::BeyondBreakdown { .. })));
+        limits
+    }
+
+    /// Torque (N m) on the motor's shaft at the peak of the resistance, without inertia.
     pub fn peak_torque(&self) -> f64 {
         self.peak.1 / (self.geared.ratio * self.geared.efficiency)
     }
 
-    /// Torque (N m) on the motor's shaft that the mean resistance requires.
+    /// Torque (N m) on the motor's shaft for the mean resistance.
     pub fn mean_torque(&self) -> f64 {
         self.mean / (self.geared.ratio * self.geared.efficiency)
     }
@@ -151,7 +229,28 @@ mod tests {
             rated_speed: rated * rpm,
             synchronous_speed: 3000.0 * rpm,
             breakdown: None,
+            rotor: None,
         }
+    }
+
+    /// At rest, a linear law through the rated point gives 11.8 times the rated torque.
+    /// A linear law without rated torque has no breakdown.
+    /// A Kloss law holds below its breakdown speed in a start, but not in steady motion.
+    #[test]
+    fn a_motion_beyond_the_stable_branch_is_told() {
+        let geared = motor("a", 0.55, 2745.0).geared_to(130.0 * TAU / 60.0, 1.0);
+        let ratio = geared.ratio;
+        let MotorLimit::BeyondBreakdown { share, .. } = MotorLimit::of(&geared, [0.0, 10.0], true)[0] else { panic!() };
+        assert!((share - 11.765).abs() < 1e-3, "{share}");
+        assert_eq!(MotorLimit::of(&geared, [290.0 / ratio, 314.0 / ratio], false), vec![]);
+        let fast = MotorLimit::of(&geared, [300.0 / ratio, 366.0 / ratio], false);
+        assert!(matches!(fast[..], [MotorLimit::AboveSynchronous { speed, .. }] if (speed - 366.0).abs() < 1e-9));
+        let unrated = Motor { rated_torque: None, ..geared.clone() };
+        assert_eq!(MotorLimit::of(&unrated, [0.0, 10.0], true), vec![]);
+        let law = MotorLaw::Kloss { breakdown_torque: 4.2, breakdown_slip: 0.2, synchronous_speed: 314.0 };
+        let kloss = Motor { law, ..geared };
+        assert_eq!(MotorLimit::of(&kloss, [0.0, 10.0], true), vec![]);
+        assert!(matches!(MotorLimit::of(&kloss, [0.0, 10.0], false)[..], [MotorLimit::BelowBreakdown { .. }]));
     }
 
     #[test]

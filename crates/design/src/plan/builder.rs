@@ -2,10 +2,10 @@
 
 use super::names::{Named, NamedPoint, fixed_guide, pair, pivot, primed};
 use super::sliding::Slide;
-use super::vectors::{Quantity, ROOM, Tip, TipKind, Vector, VectorKind, VectorPlan};
+use super::vectors::{PlanTurn, Quantity, ROOM, Tip, TipKind, Vector, VectorKind, VectorPlan, longest};
 use crate::sentences;
 use drawing::paper::scale::factor;
-use linkage::math::{KeepNan, Motion, Vec2, turned};
+use linkage::math::{Motion, Vec2, turned};
 use linkage::mechanism::{LinkId, Mechanism};
 use linkage::solver::State;
 
@@ -50,12 +50,12 @@ impl<'a> Builder<'a> {
             self.relative(link);
         }
         self.sliding();
-        let longest = self.vectors.iter().map(|vector| vector.value.norm()).fold(0.0, f64::larger);
-        let scale = factor(longest, ROOM);
+        let scale = factor(longest(&self.vectors), ROOM);
         if self.quantity == Quantity::Acceleration {
             self.split(scale);
         }
-        VectorPlan { quantity: self.quantity, scale, tips: self.tips, vectors: self.vectors }
+        let (lines, turn) = (Vec::new(), PlanTurn::Upright);
+        VectorPlan { quantity: self.quantity, scale, tips: self.tips, vectors: self.vectors, lines, turn }
     }
 
     fn of_point(&self, motion: &Motion, local: Vec2) -> Vec2 {

@@ -5,6 +5,10 @@
 use linkage::math::Vec2;
 use linkage::mechanism::{GROUND, Joint, JointSide, LinkId, Mechanism};
 
+/// Name of the singular point of a group in drawings, and its letter in plans.
+/// The letter S is not used, because S with a number is the name of a mass centre.
+pub const SINGULAR: [&str; 2] = ["Σ", "σ"];
+
 /// Name in the mechanism with its letter in the plans.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Named {

@@ -18,10 +18,11 @@
 //! assumption.
 
 use super::builder::Builder;
+use super::centre_sheet::CentreSheet;
 use super::names::{Named, NamedPoint, places};
 use super::scheme::Scheme;
 use super::sliding::{Slide, slides, travels};
-use super::vectors::{Quantity, VectorPlan};
+use super::vectors::{PlanTurn, Quantity, VectorPlan};
 use crate::sentences;
 use linkage::case::{Case, Grid, Wanted, When};
 use linkage::drive::Drives;
@@ -44,6 +45,8 @@ pub struct Plans {
     pub velocity: VectorPlan,
     /// Acceleration plan.
     pub acceleration: VectorPlan,
+    /// Instant centres and acceleration centres, if requested.
+    pub centres: Option<CentreSheet>,
     /// Points, each with the links that contain it.
     points: Vec<(Named, Vec<LinkId>)>,
 }
@@ -63,12 +66,21 @@ impl Plans {
         };
         let names = planner.places.iter().map(|place| &place.named);
         let points = names.map(|named| (named.clone(), carriers(&named.name))).collect();
-        let [velocity, acceleration] = Quantity::ALL.map(|quantity| planner.plan(quantity, state));
-        Plans { crank, input: case.crank().input, scheme, velocity, acceleration, points }
+        let [mut velocity, acceleration] = Quantity::ALL.map(|quantity| planner.plan(quantity, state));
+        velocity.add_singular(&scheme.singular);
+        Plans { crank, input: case.crank().input, scheme, velocity, acceleration, centres: None, points }
+    }
+
+    /// Adds all instant centres and acceleration centres of the state.
+    #[must_use]
+    pub fn with_centres(mut self, case: &Case, state: &State) -> Plans {
+        self.centres = Some(CentreSheet::of(case, state, &self.scheme));
+        self
     }
 
     /// Keeps only the vectors of the points and links in `names`.
     /// For a point, its vectors are kept; for a link, the vectors of all its points and of its mass centre.
+    /// If `names` contains links, only the instant centres and acceleration centres of these links are kept.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for a name of neither a point nor a link.
@@ -82,6 +94,9 @@ impl Plans {
             let before = letters.len();
             letters.extend(self.points.iter().filter(has).map(|(own, _)| own.letter.clone()));
             letters.extend(link.map(|link| format!("s{link}")));
+            if let Some(sheet) = &mut self.centres {
+                sheet.chosen.extend(link);
+            }
             if letters.len() == before {
                 let points = self.points.iter().map(|(own, _)| own.name.as_str());
                 let all: Vec<&str> = points.chain(self.scheme.links.iter().map(|link| link.name.as_str())).collect();
@@ -92,6 +107,18 @@ impl Plans {
         self.velocity.keep(&letters);
         self.acceleration.keep(&letters);
         Ok(self)
+    }
+
+    /// Turns the velocity plan by 90 deg against the rotation of the driving link.
+    /// The sides of a link's velocity image are then parallel to the sides of the link.
+    /// The velocity of the crank pin is parallel to the crank.
+    /// If the driving link does not turn, the plan is turned clockwise.
+    #[must_use]
+    pub fn turned(mut self) -> Plans {
+        let driver = self.scheme.links.iter().find(|link| link.number == self.scheme.driver);
+        let is_back = driver.is_some_and(|link| link.omega < 0.0);
+        self.velocity.turn = if is_back { PlanTurn::CounterClockwise } else { PlanTurn::Clockwise };
+        self
     }
 }
 

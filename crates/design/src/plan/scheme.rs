@@ -57,7 +57,7 @@ pub struct Scheme {
     pub guides: Vec<SchemeGuide>,
     /// Number of the driving link.
     pub driver: LinkId,
-    /// Singular points of the mechanism's class IV groups. Groups without a singular point are left out.
+    /// Singular points of the mechanism's groups of class III and IV. Groups without a singular point are left out.
     pub singular: Vec<SingularPoint>,
     /// Sketch of the mechanism, in millimetres on paper.
     pub sketch: Sketch,
@@ -65,6 +65,8 @@ pub struct Scheme {
     pub places: Vec<drawing::picture::LinkPlacement>,
     /// Loads that act on the mechanism.
     pub acting: Vec<Acting>,
+    /// Travel of the blocks on their guides.
+    travels: Travels,
 }
 
 impl Scheme {
@@ -115,15 +117,20 @@ impl Scheme {
         let [low, high] = corners(all);
         let scale = factor(high.x - low.x, ROOM[0]).larger(factor(high.y - low.y, ROOM[1]));
         // A singular point that cannot be computed is not drawn: parallel leads have no intersection.
-        let groups = case.structure.groups.iter();
-        let singular =
-            groups.filter_map(|group| SingularPoint::of(case, group, &state.motions).ok().flatten()).collect();
+        let singular = SingularPoint::all(case, &state.motions).into_iter().flatten().collect();
         let lengths = slides.iter().zip(travels);
         let travels = lengths.fold(Travels::none(mechanism), |all, (slide, travel)| all.with(slide.joint, *travel));
         let sketch = Sketch::of_case(case, &travels, scale);
         let acting = acting(case, &sketch, &state.motions, &state.angles);
         let pose = |(motion, &angle): (&Motion, &f64)| Here(LinkPose { origin: motion.origin, angle });
         let places = state.motions.iter().zip(&state.angles).map(pose).collect();
-        Scheme { scale, links, points, guides, driver: case.crank().link, singular, sketch, places, acting }
+        Scheme { scale, links, points, guides, driver: case.crank().link, singular, sketch, places, acting, travels }
+    }
+
+    /// Draws the same state at another scale (m/mm).
+    pub(super) fn redraw(&mut self, case: &Case, state: &State, scale: f64) {
+        self.scale = scale;
+        self.sketch = Sketch::of_case(case, &self.travels, scale);
+        self.acting = acting(case, &self.sketch, &state.motions, &state.angles);
     }
 }

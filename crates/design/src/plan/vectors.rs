@@ -1,7 +1,10 @@
 //! Velocity or acceleration plan: its vectors and their end points.
 
+use super::names::{SINGULAR, primed};
+use super::singular::SingularPoint;
+use crate::sentences;
 use drawing::paper::scale::factor;
-use linkage::math::{KeepNan, Vec2};
+use linkage::math::{KeepNan, Vec2, turned};
 use linkage::mechanism::LinkId;
 
 /// Upper limit of the length of a plan's longest vector (mm).
@@ -61,6 +64,8 @@ linkage::words! {
         /// Point of a moving guide's link that coincides with a sliding point. Its letter is that of the sliding point
         /// with the number of the link: a3.
         Coincident = "coincident",
+        /// A singular point of a group. Its letter is σ.
+        Singular = "singular",
         /// End of a Coriolis part. Its letter is k with a running number.
         Coriolis = "between",
     }
@@ -120,6 +125,39 @@ pub struct Vector {
     pub meaning: String,
 }
 
+linkage::words! {
+    /// How a plan is turned on paper.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum PlanTurn: word {
+        /// Not turned.
+        Upright = "not turned",
+        /// By 90 deg counter-clockwise.
+        CounterClockwise = "counter-clockwise",
+        /// By 90 deg clockwise.
+        Clockwise = "clockwise",
+    }
+}
+
+impl PlanTurn {
+    /// Turns a vector of the plan.
+    pub fn of(self, vector: Vec2) -> Vec2 {
+        match self {
+            PlanTurn::Upright => vector,
+            PlanTurn::CounterClockwise => turned(vector),
+            PlanTurn::Clockwise => -turned(vector),
+        }
+    }
+
+    /// Angle of the turn (deg), counter-clockwise positive.
+    pub fn degrees(self) -> f64 {
+        match self {
+            PlanTurn::Upright => 0.0,
+            PlanTurn::CounterClockwise => 90.0,
+            PlanTurn::Clockwise => -90.0,
+        }
+    }
+}
+
 /// A velocity or acceleration plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VectorPlan {
@@ -131,6 +169,15 @@ pub struct VectorPlan {
     pub tips: Vec<Tip>,
     /// All vectors.
     pub vectors: Vec<Vector>,
+    /// Construction lines, each between two points relative to the pole (SI).
+    pub lines: Vec<[Vec2; 2]>,
+    /// How the plan is turned on paper. The fields `tips`, `vectors` and `lines` are not turned.
+    pub turn: PlanTurn,
+}
+
+/// Size of the longest of several vectors (SI).
+pub(super) fn longest(vectors: &[Vector]) -> f64 {
+    vectors.iter().map(|vector| vector.value.norm()).fold(0.0, f64::larger)
 }
 
 impl VectorPlan {
@@ -150,10 +197,44 @@ impl VectorPlan {
         let kept: Vec<Vector> = self.vectors.iter().filter(|own| stays(&own.from) && stays(&own.to)).cloned().collect();
         let is_touched = |tip: &Tip| kept.iter().any(|own| own.from == tip.letter || own.to == tip.letter);
         let tips = self.tips.iter().filter(|tip| is_chosen(&tip.letter) || is_touched(tip)).cloned().collect();
-        let longest = kept.iter().map(|vector| vector.value.norm()).fold(0.0, f64::larger);
+        (self.vectors, self.tips, self.lines) = (kept, tips, Vec::new());
         // The scale factor has a lower limit, so that vectors that are only rounding error stay short on paper.
-        self.scale = factor(longest, ROOM).larger(self.scale * FINEST);
-        (self.vectors, self.tips) = (kept, tips);
+        self.scale = factor(self.longest(), ROOM).larger(self.scale * FINEST);
+    }
+
+    /// Size of the longest vector (SI).
+    pub fn longest(&self) -> f64 {
+        longest(&self.vectors)
+    }
+
+    /// Adds the velocities of the groups' singular points, and the two lines that meet at the end of each velocity.
+    /// A velocity that is too long for the paper at the plan's scale is left out.
+    pub(super) fn add_singular(&mut self, points: &[SingularPoint]) {
+        for point in points.iter().filter(|point| point.velocity.norm() <= ROOM * self.scale) {
+            let is_taken = |letter: &str| self.tips.iter().any(|tip| tip.letter == letter);
+            let letter = primed(SINGULAR[1].into(), is_taken);
+            let name = letter.replace(SINGULAR[1], SINGULAR[0]);
+            self.vectors.push(Vector {
+                name: format!("{}_{name}", self.quantity.symbol()),
+                part: VectorKind::Absolute,
+                from: self.quantity.pole().into(),
+                to: letter.clone(),
+                start: Vec2::zeros(),
+                value: point.velocity,
+                link: point.links[0].0,
+                meaning: sentences::of_the_singular_point(&self.quantity.word(), &name, &point.lines()),
+            });
+            self.tips.push(Tip { letter, kind: TipKind::Singular, at: point.velocity });
+            let away = |end: &Vec2| (end - point.velocity).norm();
+            for [near, far] in point.leads.each_ref().map(|lead| lead.velocities) {
+                self.lines.push([if away(&near) > away(&far) { near } else { far }, point.velocity]);
+            }
+        }
+    }
+
+    /// Position on paper (mm, from the pole) of a point of the plan (SI, from the pole).
+    pub fn on_paper(&self, at: Vec2) -> Vec2 {
+        self.turn.of(at) / self.scale
     }
 
     /// Length of a vector on paper (mm).

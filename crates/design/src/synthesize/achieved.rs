@@ -15,6 +15,11 @@ const ROWS: usize = 7200;
 /// Half width of the band about a dwell (fraction of the stroke). The dwell ends where the output leaves the band.
 pub const BAND: f64 = 0.01;
 
+/// The crank angles at which a motion is measured (rad), over one turn.
+pub(super) fn fine_turns() -> Vec<f64> {
+    (0..=ROWS).map(|row| TAU * (row as f64 / ROWS as f64)).collect()
+}
+
 /// Achieved motion in one phase.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PhaseDone {
@@ -60,7 +65,7 @@ impl Achieved {
     /// # Errors
     /// [`ErrorKind::Geometry`] if the mechanism cannot be assembled over the whole turn, or if its output turns fully.
     pub fn of(task: &Task, forward: f64) -> Result<Self> {
-        let turns: Vec<f64> = (0..=ROWS).map(|row| TAU * (row as f64 / ROWS as f64)).collect();
+        let turns = fine_turns();
         let as_drawn = Task { places: Vec::new(), ..task.clone() };
         let mut evaluator = Evaluator::new(&as_drawn);
         evaluator.run(&[], task.case.crank().zero, &turns).map_err(|_| {
@@ -135,6 +140,13 @@ impl Achieved {
             _ => None,
         };
         self.with_next(task).filter_map(missing).fold(0.0, f64::larger)
+    }
+
+    /// The output at the crank angle `crank` (rad, 0 to a turn), as a fraction of the stroke.
+    /// The value is taken at the first measured crank angle that is not before `crank`.
+    pub fn share(&self, crank: f64) -> f64 {
+        let row = self.turns.partition_point(|&turn| turn < crank - 1e-9);
+        self.shares[row.min(self.shares.len() - 1)]
     }
 
     /// The output at any row (fraction of the stroke). Row numbers continue over several turns.

@@ -66,7 +66,7 @@ impl CrankRocker {
     /// The crank-rocker for the given requirements.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] for lengths and angles that make no sense.
+    /// [`ErrorKind::Input`] for a length that is not positive, an angle outside its range, or coincident pivots.
     /// [`ErrorKind::Geometry`] if the two positions permit no crank that turns fully. The error states the reason.
     pub fn of(wish: CrankRockerSpec) -> Result<Self> {
         check(&wish)?;

@@ -6,7 +6,7 @@ use crate::synthesize::task::{OutputQuantity, Task};
 use analytic::assur::groups::{SolutionPlan, Step};
 use linkage::math::{KeepNan, Motion, cross, unit};
 use linkage::mechanism::assembly::transmission_sine;
-use linkage::mechanism::{Mechanism, PerLink, Pose, first_pose};
+use linkage::mechanism::{LinkPose, Mechanism, PerLink, Pose, first_pose};
 use linkage::solver::State;
 
 /// Number of poses that are tried first. Most candidates that cannot be assembled fail in one of these poses.
@@ -25,6 +25,9 @@ pub(super) struct Evaluator<'a> {
     pub(super) curve: Vec<f64>,
     /// Smallest sine of the transmission angle of any dyad so far.
     pub(super) sine: f64,
+    /// Largest acceleration of the working point so far (m/s^2), at the drawing's crank speed; 0 if the task does not
+    /// limit the acceleration.
+    pub(super) acceleration: f64,
 }
 
 impl<'a> Evaluator<'a> {
@@ -37,6 +40,7 @@ impl<'a> Evaluator<'a> {
             pose: task.case.start.clone(),
             curve: Vec::new(),
             sine: 1.0,
+            acceleration: 0.0,
         }
     }
 
@@ -61,7 +65,7 @@ impl<'a> Evaluator<'a> {
         let plan = SolutionPlan::of(&self.mechanism, &case.structure, &case.modes);
         self.curve.clear();
         self.curve.resize(turns.len(), 0.0);
-        self.sine = 1.0;
+        (self.sine, self.acceleration) = (1.0, 0.0);
         let sense = self.task.turning();
         let world = |turn: f64| zero + sense * turn;
         if plan.is_closed_form() {
@@ -94,6 +98,7 @@ impl<'a> Evaluator<'a> {
             }
             self.curve[row] = self.output();
             self.watch(&plan);
+            self.accelerate(&mut plan);
         }
         Ok(())
     }
@@ -123,14 +128,28 @@ impl<'a> Evaluator<'a> {
                 plan.positions(&[angle], &mut self.motions).map_err(|_| row as f64 / turns.len() as f64)?;
             }
             self.curve[row] = self.output();
+            self.accelerate(&mut plan);
         }
         Ok(())
+    }
+
+    /// Updates the largest acceleration of the working point, if the task limits the acceleration.
+    #[inline]
+    fn accelerate(&mut self, plan: &mut SolutionPlan) {
+        let (link, Some(point)) = self.task.output.working_point() else { return };
+        if self.task.acceleration.is_finite() {
+            let speed = [self.task.case.crank().top_speed()];
+            plan.velocities(&speed, &mut self.motions);
+            plan.accelerations([&speed, &[0.0]], &mut self.motions);
+            let local = self.mechanism.links()[link].points[point].local;
+            self.acceleration = self.acceleration.larger(self.motions[link].point_acceleration(local).norm());
+        }
     }
 
     #[inline]
     fn output(&self) -> f64 {
         match self.task.output {
-            OutputQuantity::Angle { link } => {
+            OutputQuantity::Angle { link, .. } => {
                 let direction = self.motions[link].direction;
                 direction.y.atan2(direction.x)
             }
@@ -151,7 +170,7 @@ impl<'a> Evaluator<'a> {
             } else {
                 if !placed {
                     for (link, motion) in self.pose.0.iter_mut().zip(&self.motions) {
-                        (link.origin, link.angle) = (motion.origin, motion.direction.y.atan2(motion.direction.x));
+                        *link = LinkPose::of(motion);
                     }
                     placed = true;
                 }

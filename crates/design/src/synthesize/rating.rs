@@ -127,13 +127,16 @@ impl<'a> Rater<'a> {
         cost
     }
 
-    /// Addition to the cost if the stroke is outside its limits, or the transmission sine is below its limit.
-    pub(super) fn excess(&self, task: &Task, sine: f64) -> f64 {
+    /// Addition to the cost if the stroke or the acceleration (m/s^2) is outside its limits, or the transmission sine
+    /// is below its limit.
+    pub(super) fn excess(&self, task: &Task, sine: f64, acceleration: f64) -> f64 {
         let [least, most] = task.stroke;
         let short = if least > 0.0 { (1.0 - self.span / least).larger(0.0) } else { 0.0 };
         let long = if most.is_finite() { (self.span / most - 1.0).larger(0.0) } else { 0.0 };
         let flat = (task.transmission.sin() - sine).larger(0.0);
-        LIMIT * (short * short + long * long + flat * flat)
+        // Without a limit, the quotient is zero, and so is the excess.
+        let hard = (acceleration / task.acceleration - 1.0).larger(0.0);
+        LIMIT * (short * short + long * long + flat * flat + hard * hard)
     }
 }
 

@@ -1,12 +1,12 @@
 //! Rewrites the text of a drawing's scenario with other dimensions.
 
 use crate::sentences;
-use toml_edit::{DocumentMut, InlineTable, Item, TableLike, value};
+use toml_edit::{ArrayOfTables, DocumentMut, InlineTable, Item, TableLike, value};
 
 use crate::synthesize::task::{Task, TaskNumber};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
-use linkage::mechanism::{GROUND, Link, LinkId};
+use linkage::mechanism::{GROUND, Link, LinkId, Mechanism, first_pose};
 
 /// Dimensions are rounded to the accuracy of a workshop.
 /// The first number is the number of steps per millimetre, the second is the number of steps per degree.
@@ -34,6 +34,7 @@ const OWN: [&str; 3] = ["oracle", "formula", "source"];
 /// The text of the drawing `text`, with the dimensions that `values` (SI) give the task.
 /// The new text has the task's name, and `comment` at the top.
 /// Sections that are valid only for the original dimensions are left out, and the comment names them.
+/// Approximate positions at the start are replaced by the positions of the mechanism found.
 /// If the task states the mass of bars, every link gets the masses of slender bars.
 /// These bars join the link's first point to each of its other points.
 ///
@@ -77,6 +78,7 @@ pub fn redrawn(task: &Task, text: &str, values: &[f64], comment: &str) -> Result
             weigh(link_table(&mut document, index, &body.name)?, body, bar);
         }
     }
+    approach(&mut document, task, &mechanism, task.zero.value(values));
     let left_out = match &left_out[..] {
         [] => String::new(),
         keys => sentences::left_out_of_the_drawing_because(&keys.join(", ")),
@@ -84,6 +86,34 @@ pub fn redrawn(task: &Task, text: &str, values: &[f64], comment: &str) -> Result
     let comment = comment.to_string() + &left_out;
     let comment: String = comment.lines().map(|line| format!("# {line}").trim_end().to_string() + "\n").collect();
     Ok(format!("{comment}\n{document}"))
+}
+
+/// Replaces the approximate positions at the start by the positions of the mechanism found, with the crank's zero at
+/// `zero` (rad). The drawing's approximate positions could be closer to another configuration of the mechanism found.
+fn approach(document: &mut DocumentMut, task: &Task, mechanism: &Mechanism, zero: f64) {
+    let case = &task.case;
+    let start = [zero + case.crank().start];
+    let Ok((pose, _)) = first_pose(mechanism, &case.structure, &start, &task.starts) else { return };
+    let world = |name: &str| {
+        mechanism.links().entries().skip(1).find_map(|(link, body)| {
+            let point = body.points.iter().find(|point| point.name == name)?;
+            Some(pose.0[link].point(point.local))
+        })
+    };
+    let update = |near: &mut dyn TableLike| {
+        let Some(at) = near.get("point").and_then(Item::as_str).and_then(world) else { return };
+        ["x_m", "y_m"].iter().for_each(|key| drop(near.remove(key)));
+        flat(at).into_iter().for_each(|(key, number)| drop(near.insert(&key, value(number))));
+    };
+    let groups = document.get_mut("start").and_then(|start| start.get_mut("groups"));
+    for group in groups.and_then(Item::as_array_of_tables_mut).into_iter().flat_map(ArrayOfTables::iter_mut) {
+        let Some(near) = group.get_mut("near") else { continue };
+        if let Some(only) = near.as_table_like_mut() {
+            update(only);
+        } else if let Some(all) = near.as_array_mut() {
+            all.iter_mut().filter_map(toml_edit::Value::as_inline_table_mut).for_each(|own| update(own));
+        }
+    }
 }
 
 fn foreign(name: &str) -> Error {

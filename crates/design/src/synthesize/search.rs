@@ -14,8 +14,10 @@ use crate::sentences;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::SeedableRng;
 
+use super::achieved::fine_turns;
 use super::evaluate::Evaluator;
 use super::rating::Rater;
+use super::redraw::round_values;
 use crate::synthesize::task::Task;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::solver::Progress;
@@ -37,7 +39,8 @@ const RANDOM_SHARE: f64 = 0.5;
 /// Afterwards, the shifts around the best shift are tried row by row.
 const STRIDE: usize = 3;
 
-/// Random candidates are dropped if their stroke or transmission sine violates its limits by more than this factor.
+/// A random candidate is dropped if its stroke, acceleration or transmission sine violates a limit by more than this
+/// factor.
 /// Refinement would hardly repair such candidates.
 const NEAR: f64 = 1.5;
 
@@ -91,7 +94,7 @@ pub fn search(task: &Task, threads: usize, progress: Progress) -> Result<SearchR
     }
     let count = refined.len();
     keep(&mut refined, count);
-    let best = &refined[0];
+    let Some(best) = refined.iter().find(|candidate| holds(task, candidate)) else { return Err(none(task)) };
     Ok(SearchResult {
         values: values(task, &best.shares),
         forward: best.forward,
@@ -100,6 +103,13 @@ pub fn search(task: &Task, threads: usize, progress: Progress) -> Result<SearchR
         candidates: [effort.candidates, assembled],
         refined: refined.iter().map(|candidate| candidate.cost).collect(),
     })
+}
+
+/// Whether a candidate with rounded dimensions can be followed over the whole turn in the fine steps in which results
+/// are measured. In larger steps, a higher group may change its branch unnoticed.
+fn holds(task: &Task, candidate: &Candidate) -> bool {
+    let values = round_values(task, &values(task, &candidate.shares));
+    Evaluator::new(task).run(&values, task.zero.value(&values), &fine_turns()).is_ok()
 }
 
 fn none(task: &Task) -> Error {
@@ -171,11 +181,12 @@ impl<'a> Random<'a> {
         self.evaluator.run(&self.values, zero, &self.rater.turns).ok()?;
         let span = self.rater.take(&self.evaluator.curve);
         let [least, most] = self.task.stroke;
-        let sine = self.evaluator.sine;
-        if !(span > 0.0 && NEAR * span >= least && span <= NEAR * most && NEAR * sine >= self.task.transmission.sin()) {
+        let (sine, acceleration) = (self.evaluator.sine, self.evaluator.acceleration);
+        let is_near = NEAR * span >= least && span <= NEAR * most && acceleration <= NEAR * self.task.acceleration;
+        if !(span > 0.0 && is_near && NEAR * sine >= self.task.transmission.sin()) {
             return None;
         }
-        let excess = self.rater.excess(self.task, sine);
+        let excess = self.rater.excess(self.task, sine, acceleration);
         let senses: &[f64] = match self.task.forward {
             Some(sense) if sense > 0.0 => &[1.0],
             Some(_) => &[-1.0],

@@ -59,7 +59,7 @@ impl SliderCrank {
     /// The slider-crank with this stroke and offset (m), and with the length of the rod or the time ratio `given`.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] for numbers that make no sense.
+    /// [`ErrorKind::Input`] for a number outside its range.
     /// [`ErrorKind::Geometry`] if no crank turns fully (the error states the limit), or if the time ratio does not
     /// determine the mechanism.
     pub fn of(stroke: f64, offset: f64, given: Given) -> Result<Self> {

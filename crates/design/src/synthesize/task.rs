@@ -20,6 +20,9 @@ pub enum OutputQuantity {
     Angle {
         /// The link.
         link: LinkId,
+        /// Working point of the link: the point whose acceleration is limited and compared. Index among the link's
+        /// points; `None` if the task names no working point.
+        point: Option<usize>,
     },
     /// The coordinate of a point along a direction of the world (m).
     Coordinate {
@@ -50,6 +53,16 @@ pub enum TaskNumber {
     Fixed(f64),
     /// The variable with this index.
     Free(usize),
+}
+
+impl OutputQuantity {
+    /// The output link, and the index of its working point if there is one.
+    pub fn working_point(&self) -> (LinkId, Option<usize>) {
+        match *self {
+            OutputQuantity::Angle { link, point } => (link, point),
+            OutputQuantity::Coordinate { link, point, .. } => (link, Some(point)),
+        }
+    }
 }
 
 impl TaskNumber {
@@ -127,6 +140,9 @@ pub struct Task {
     pub stroke: [f64; 2],
     /// Smallest permitted transmission angle of any dyad (rad).
     pub transmission: f64,
+    /// Largest permitted acceleration of the working point (m/s^2), at the drawing's crank speed. Infinite if the
+    /// acceleration has no limit.
+    pub acceleration: f64,
     /// Effort of the search.
     pub effort: SearchEffort,
     /// Mass of the links found, per metre of their length (kg/m). `None` if the links keep the masses of the drawing.
@@ -159,6 +175,10 @@ impl Task {
         if higher && self.transmission > 0.0 {
             let message = sentences::A_SMALLEST_TRANSMISSION_ANGLE_IS_ASKED;
             return wrong(ErrorKind::Unsupported, "limits", message, sentences::LEAVE_TRANSMISSION_OUT);
+        }
+        if self.acceleration.is_finite() && self.output.working_point().1.is_none() {
+            let message = sentences::AN_ACCELERATION_IS_LIMITED_BUT_NO_POINT;
+            return wrong(ErrorKind::Input, "limits", message, sentences::NAME_THE_WORKING_POINT_OF_THE_OUTPUT);
         }
         let effort = &self.effort;
         let counts = [effort.candidates, effort.refined, effort.evaluations];

@@ -9,13 +9,13 @@ use crate::synthesize::task::{
 };
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::unit;
-use linkage::mechanism::{GROUND, Mechanism};
+use linkage::mechanism::{GROUND, Link, LinkId, Mechanism, PerLink};
 use scenario::Scenario;
 use scenario::header::{check_format, name};
 use scenario::joints::link;
 use scenario::reader::{Sign, TomlTable};
 use scenario::source::Source;
-use scenario::unit::{ANGLE, LENGTH, MASS_PER_LENGTH, UnitFamily};
+use scenario::unit::{ACCELERATION, ANGLE, LENGTH, MASS_PER_LENGTH, UnitFamily};
 use scenario::words::suggestion;
 
 /// Default of the smallest displacement of a moving phase (fraction of the stroke).
@@ -39,14 +39,36 @@ impl TaskFile {
     /// [`ErrorKind::Input`] for a mistake in a file.
     /// The errors of [`Scenario::load`] and [`Task::check`].
     pub fn load(path: &Path) -> Result<Self> {
-        let text = files::read_text(path).map_err(|error| {
-            Error::new(ErrorKind::Io, sentences::the_synthesis_file_cannot_be_read(&path.display(), &error))
-                .help(files::way_out(&error, sentences::GIVE_THE_PATH_OF_A_SYNTHESIS))
-        })?;
+        let text = source_text(path, sentences::GIVE_THE_PATH_OF_A_SYNTHESIS)?;
         let source = Source::new(path, &text);
         let tree = source.tree()?;
         read(&mut TomlTable::root(&source, &tree)).map_err(|error| source.located(tree.get_ref(), error))
     }
+}
+
+/// Text of a synthesis file or a machine file. `help` is the advice if the file does not exist.
+pub(super) fn source_text(path: &Path, help: &str) -> Result<String> {
+    files::read_text(path).map_err(|error| {
+        Error::new(ErrorKind::Io, sentences::the_synthesis_file_cannot_be_read(&path.display(), &error))
+            .help(files::way_out(&error, help))
+    })
+}
+
+/// Loads the file `file` that `key` names.
+/// A relative name is looked for in the directory of the file that contains the key.
+/// An error inside the named file has a position there and is returned unchanged.
+/// An error without a position, such as a missing file, is reported as an error at `key`, with the advice `help`.
+pub(super) fn beside<T>(
+    table: &TomlTable,
+    key: &str,
+    file: &str,
+    help: &str,
+    load: impl FnOnce(&Path) -> Result<T>,
+) -> Result<T> {
+    let path = table.source().path.parent().unwrap_or(Path::new("")).join(file);
+    load(&path).map_err(|error| {
+        if error.place().is_some() { error } else { table.wrong(error.kind(), key, error.message()).help(help) }
+    })
 }
 
 fn read(root: &mut TomlTable) -> Result<TaskFile> {
@@ -59,22 +81,14 @@ fn read(root: &mut TomlTable) -> Result<TaskFile> {
     let (effort, bar) = (root.table("search")?, root.optional_quantity("bar", &MASS_PER_LENGTH, Sign::Positive)?);
     root.finish()?;
 
-    let beside = root.source().path.parent().unwrap_or(Path::new("")).join(&file);
-    let drawing = Scenario::load(&beside).map_err(|error| {
-        // An error inside the drawing has a position in the drawing and is returned unchanged.
-        // An error without a position, such as a missing drawing, is reported as an error in the synthesis file.
-        if error.place().is_some() {
-            error
-        } else {
-            root.wrong(error.kind(), "scenario", error.message()).help(sentences::NAME_THE_SCENARIO_FILE_OF_THE_DRAWING)
-        }
-    })?;
+    let load = |path: &Path| Scenario::load(path);
+    let drawing = beside(root, "scenario", &file, sentences::NAME_THE_SCENARIO_FILE_OF_THE_DRAWING, load)?;
     let mechanism = &drawing.case.mechanism;
     let timing = timing(phases)?;
     let timing = if follow { timing.followed()? } else { timing };
     let (output, forward) = read_output(output, mechanism)?;
     let family = if matches!(output, OutputQuantity::Angle { .. }) { &ANGLE } else { &LENGTH };
-    let (stroke, transmission) = read_limits(limits, family)?;
+    let Limits { stroke, transmission, acceleration } = read_limits(limits, family)?;
     let (mut variables, mut places) = (Vec::new(), Vec::new());
     for table in vary {
         let found = place(table, mechanism, &mut variables, &places)?;
@@ -100,6 +114,7 @@ fn read(root: &mut TomlTable) -> Result<TaskFile> {
         timing,
         stroke,
         transmission,
+        acceleration,
         effort: read_effort(effort)?,
         bar,
     };
@@ -143,6 +158,10 @@ fn read_output(mut table: TomlTable, mechanism: &Mechanism) -> Result<(OutputQua
         }
     };
     let (of_link, of_point) = (table.optional_string("link")?, table.optional_string("point")?);
+    let working = match of_link {
+        Some(_) => table.optional_string("working_point")?,
+        None => None,
+    };
     let found = match (of_link, of_point) {
         (Some(name), None) => {
             let link = link(&mut table, &name, mechanism.links())?;
@@ -150,7 +169,8 @@ fn read_output(mut table: TomlTable, mechanism: &Mechanism) -> Result<(OutputQua
                 let help = sentences::NAME_THE_MOVING_LINK_WHOSE;
                 return table.refuse("link", sentences::THE_GROUND_DOES_NOT_TURN, help);
             }
-            OutputQuantity::Angle { link }
+            let point = working.map(|name| own_point(&table, "working_point", mechanism.links(), link, &name));
+            OutputQuantity::Angle { link, point: point.transpose()? }
         }
         (None, Some(name)) => {
             let along = unit(table.quantity("along", &ANGLE, Sign::Any)?);
@@ -173,17 +193,30 @@ fn read_output(mut table: TomlTable, mechanism: &Mechanism) -> Result<(OutputQua
     Ok((found, forward))
 }
 
-/// Limits of the stroke in units of `family`, and the smallest transmission angle.
-fn read_limits(table: Option<TomlTable>, family: &'static UnitFamily) -> Result<([f64; 2], f64)> {
-    let Some(mut table) = table else { return Ok(([0.0, f64::INFINITY], 0.0)) };
+/// Limits of an output (SI).
+struct Limits {
+    stroke: [f64; 2],
+    transmission: f64,
+    acceleration: f64,
+}
+
+/// Limits of the stroke in units of `family`, the smallest transmission angle, and the largest acceleration.
+fn read_limits(table: Option<TomlTable>, family: &'static UnitFamily) -> Result<Limits> {
+    let unlimited = Limits { stroke: [0.0, f64::INFINITY], transmission: 0.0, acceleration: f64::INFINITY };
+    let Some(mut table) = table else { return Ok(unlimited) };
     let transmission = table.optional_quantity("transmission", &ANGLE, Sign::NotNegative)?.unwrap_or(0.0);
     if transmission >= std::f64::consts::FRAC_PI_2 {
         let message = sentences::a_transmission_angle_of_deg(&transmission.to_degrees());
         return table.refuse("transmission", message, sentences::GIVE_LESS_THAN_DEG_TO_DEG);
     }
     let stroke = table.optional_table("stroke")?.map(|stroke| bounds(stroke, family)).transpose()?;
+    let acceleration = table.optional_quantity("acceleration", &ACCELERATION, Sign::Positive)?;
     table.finish()?;
-    Ok((stroke.unwrap_or([0.0, f64::INFINITY]), transmission))
+    Ok(Limits {
+        stroke: stroke.unwrap_or(unlimited.stroke),
+        transmission,
+        acceleration: acceleration.unwrap_or(unlimited.acceleration),
+    })
 }
 
 fn read_effort(mut table: TomlTable) -> Result<SearchEffort> {
@@ -211,6 +244,15 @@ fn bounds(mut table: TomlTable, family: &'static UnitFamily) -> Result<[f64; 2]>
     Ok([from, to])
 }
 
+/// Index of the point `name` of a link; an error at `key` if the link has no such point.
+fn own_point(table: &TomlTable, key: &str, links: &PerLink<Link>, link: LinkId, name: &str) -> Result<usize> {
+    let own = &links[link];
+    let names = || own.points.iter().map(|point| point.name.as_str());
+    let message = || sentences::link_has_no_point(&own.name, &name);
+    let found = names().position(|point| point == name);
+    found.map_or_else(|| table.refuse(key, message(), suggestion(name, names(), "\"")), Ok)
+}
+
 fn free(variables: &mut Vec<Variable>, variable: Variable) -> TaskNumber {
     variables.push(variable);
     TaskNumber::Free(variables.len() - 1)
@@ -226,12 +268,7 @@ fn place(
     let (link_name, point_name) = (table.string("link")?, table.string("point")?);
     let own = link(&mut table, &link_name, mechanism.links())?;
     let points = &mechanism.links()[own].points;
-    let names = || points.iter().map(|point| point.name.as_str());
-    let index = |table: &TomlTable, key: &str, name: &str| {
-        let message = || sentences::link_has_no_point(&link_name, &name);
-        let found = points.iter().position(|point| point.name == name);
-        found.map_or_else(|| table.refuse(key, message(), suggestion(name, names(), "\"")), Ok)
-    };
+    let index = |table: &TomlTable, key: &str, name: &str| own_point(table, key, mechanism.links(), own, name);
     let point = index(&table, "point", &point_name)?;
     let Some(handle) = mechanism.handle(own, point) else {
         let message = sentences::point_of_the_drawing_lies(&point_name);

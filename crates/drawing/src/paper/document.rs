@@ -4,6 +4,24 @@ use super::figure::DrawnFigure;
 use crate::sentences;
 use svg::Document;
 
+/// A finished drawing: a figure on white paper.
+#[derive(Clone, Debug)]
+pub struct Drawing {
+    /// The figure. Its origin is the paper's upper left corner.
+    pub figure: DrawnFigure,
+    /// Size of the paper (mm).
+    pub size: [f64; 2],
+    /// Title of the document.
+    pub title: String,
+}
+
+impl Drawing {
+    /// The drawing as an SVG document.
+    pub fn svg(&self) -> String {
+        document(&self.figure, self.size, &self.title)
+    }
+}
+
 /// The document of a figure on white paper of the given size (mm).
 /// The document's upper left corner is the figure's origin.
 pub fn document(figure: &DrawnFigure, [width, height]: [f64; 2], title: &str) -> String {

@@ -117,11 +117,13 @@ pub struct Type {
     pub italic: bool,
     /// Whether the letters are bold.
     pub bold: bool,
+    /// Whether the text runs upwards, turned by 90 degrees counter-clockwise about its position.
+    pub upward: bool,
 }
 
 /// Upright text that starts at its position.
 pub const fn words(size: f64) -> Type {
-    Type { size, colour: super::style::BLACK, anchor: "start", italic: false, bold: false }
+    Type { size, colour: super::style::BLACK, anchor: "start", italic: false, bold: false, upward: false }
 }
 
 #[derive(Clone, Debug)]
@@ -178,8 +180,9 @@ impl DrawnFigure {
     pub fn text(&mut self, at: Vec2, text: impl Into<String>, set: Type) {
         let text = text.into();
         let (wide, left) = (width(&text, set.size), left(&text, &set));
-        self.reach(at - Vec2::new(left, 0.3 * set.size));
-        self.reach(at + Vec2::new(wide - left, 0.8 * set.size));
+        let along = |x: f64, y: f64| if set.upward { Vec2::new(-y, x) } else { Vec2::new(x, y) };
+        self.reach(at + along(-left, -0.3 * set.size));
+        self.reach(at + along(wide - left, 0.8 * set.size));
         self.ink.push(Ink::Text { at, text, set });
     }
 
@@ -355,13 +358,13 @@ fn text_element(at: Vec2, text: &str, set: &Type) -> String {
     // Some viewers do not centre a text of several pieces, so the text is shifted by its estimated width, which works
     // in all viewers.
     let pieces = text.contains([SUB, SUP]);
-    let x = at.x - if pieces { left(text, set) } else { 0.0 };
+    let back = if pieces { left(text, set) } else { 0.0 };
+    let [x, y] = if set.upward { [at.x, -at.y + back] } else { [at.x - back, -at.y] }.map(mm);
+    let turn = if set.upward { format!(" transform=\"rotate(-90 {x} {y})\"") } else { String::new() };
     let anchor =
         if pieces || set.anchor == "start" { String::new() } else { format!(" text-anchor=\"{}\"", set.anchor) };
     format!(
-        "<text x=\"{}\" y=\"{}\" font-size=\"{}\" fill=\"{}\"{anchor}{face}{weight}>{body}</text>",
-        mm(x),
-        mm(-at.y),
+        "<text x=\"{x}\" y=\"{y}\" font-size=\"{}\" fill=\"{}\"{anchor}{face}{weight}{turn}>{body}</text>",
         mm(size),
         set.colour
     )

@@ -26,7 +26,9 @@ const LEAST_COMPARED: usize = 10_000_000;
 
 /// Font size of labels (mm).
 pub const LETTER: f64 = 4.2;
-/// If a label is farther than this from its point (mm), a line connects the label with the point.
+/// A line connects a label with its point if the distance between the two is larger than this (mm).
+/// The value is for labels of the font size [`LETTER`]; for other labels, the distance is proportional to the font
+/// size.
 const FAR: f64 = 3.2;
 
 /// A label to be placed; paper coordinates (mm), y upwards.
@@ -174,23 +176,33 @@ fn length_inside(segment: &[Vec2; 2], centre: Vec2, half: Vec2) -> f64 {
     inside(segment, centre, half).map_or(0.0, |[from, to]| (to - from) * (segment[1] - segment[0]).norm())
 }
 
-/// Box of a label, subscripts included.
+/// Box of a label at the font size `size` (mm), subscripts included.
 /// The box is a little larger than the letters, because viewers may use other fonts than the bundled font.
-pub fn label_size(text: &str) -> Vec2 {
-    Vec2::new(1.05 * width(text, LETTER), 1.15 * LETTER)
+pub fn label_size(text: &str, size: f64) -> Vec2 {
+    Vec2::new(1.05 * width(text, size), 1.15 * size)
 }
 
-/// Draws a label at its position. If its point is far away, a line connects the label with the point.
-pub fn letter(figure: &mut DrawnFigure, label: &PlacedLabel, at: Vec2, text: &str, paint: &'static str) {
+/// Usual type of labels: centred, italic, font size [`LETTER`].
+pub const fn lettering(colour: &'static str) -> Type {
+    Type { anchor: "middle", italic: true, colour, ..words(LETTER) }
+}
+
+/// Draws a line from a label at the position `at` to the label's point, if the two are far apart.
+/// `size` is the font size of the label (mm).
+pub fn leader(figure: &mut DrawnFigure, label: &PlacedLabel, at: Vec2, size: f64) {
     let toward = label.anchor - at;
     let half = label.size / 2.0;
     let edge = (half.x / toward.x.abs().larger(1e-9)).smaller(half.y / toward.y.abs().larger(1e-9));
-    if toward.norm() * (1.0 - edge) > FAR + label.clear {
+    if toward.norm() * (1.0 - edge) > FAR * (size / LETTER) + label.clear {
         let end = label.anchor - toward.normalize() * (label.clear + 0.2);
         figure.line([at + toward * edge, end], solid(GREY, 0.15));
     }
-    let set = Type { anchor: "middle", italic: true, colour: paint, ..words(LETTER) };
-    figure.text(at - Vec2::new(0.0, 0.28 * LETTER), text, set);
+}
+
+/// Draws a label at the position `at`. If the label's point is far away, a line connects the label with the point.
+pub fn letter(figure: &mut DrawnFigure, label: &PlacedLabel, at: Vec2, text: &str, set: Type) {
+    leader(figure, label, at, set.size);
+    figure.text(at - Vec2::new(0.0, 0.28 * set.size), text, set);
 }
 
 #[cfg(test)]

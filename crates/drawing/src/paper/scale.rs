@@ -29,6 +29,22 @@ pub fn factor(largest: f64, room: f64) -> f64 {
     round_up(largest / room)
 }
 
+/// Formats a multiple of `step` with as many decimals as `step`.
+/// The number has an exponent if `step` lies outside the range from 1e-4 to 1e6.
+pub fn multiple(value: f64, step: f64) -> String {
+    if (1e-4..1e6).contains(&step) {
+        let decimals = format!("{step}").split_once('.').map_or(0, |(_, decimals)| decimals.len());
+        return format!("{value:.decimals$}");
+    }
+    if value == 0.0 {
+        return "0".into();
+    }
+    // A computed multiple of a round number may differ from the round value by a rounding error.
+    // The value is therefore rounded to ten significant digits.
+    let round: f64 = format!("{value:.9e}").parse().unwrap_or(value);
+    format!("{round:e}")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -5,7 +5,7 @@ use super::point::BenchPoint;
 use linkage::trajectory::Stage;
 
 linkage::words! {
-    /// What a point costs.
+    /// Quantity that measures the cost of a point.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum CostAxis: name {
         /// Shortest time.

@@ -1,5 +1,5 @@
 //! The methods that are measured.
-//! For engines, the methods differ in step, sweeps, extrapolations and the way to compute reactions; for analytic
+//! For engines, the methods differ in step, sweeps, extrapolations and the method for reactions; for analytic
 //! sides, in accuracy.
 
 use super::options::BenchOptions;
@@ -168,7 +168,7 @@ fn resolutions(engine: &dyn Engine, usual: f64, options: &BenchOptions) -> Vec<f
     }
 }
 
-/// Work of a run including its probes, in steps without sweeps.
+/// Work of a run including its probes. The unit is a step without sweeps.
 fn work(case: &Case, engine: &dyn Engine, settings: &Settings) -> f64 {
     let probes = match settings.route {
         Route::Probe if !engine.controls_error() => case.grid.len() as f64 * settings.work() * settings.resolution,

@@ -76,7 +76,7 @@ pub struct BenchPoint {
 }
 
 impl BenchPoint {
-    /// The run, if the method has answered.
+    /// The run; `None` if the method gave no solution.
     pub fn run(&self) -> Option<&AnsweredRun> {
         match &self.outcome {
             BenchOutcome::Answered(run) => Some(run),

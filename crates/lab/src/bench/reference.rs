@@ -19,7 +19,7 @@ use prover::bounds::residuals;
 /// The constant is this hundredth times a factor of four, the margin `SAFETY` of `prover::run::known`.
 const LEFT: f64 = 0.04;
 
-/// The reference's own error.
+/// The error of the reference.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Floor {
     /// The reference, in words.

@@ -34,13 +34,15 @@ impl Stage<'_> {
 
     /// Indices of the formulas that claim an exact value, and of the steps of derivation that they use.
     /// A claim with a stated error is left out: a claim with a mistake may still be correct within its stated error.
+    /// A formula that is wrong as printed is left out too.
     pub(super) fn formulas(&self) -> Vec<usize> {
         let all = &self.scenario.formulas.list;
         let judged = self.judged_formulas();
         let mut used: BTreeSet<&str> = BTreeSet::new();
         let mut found = Vec::new();
         for (index, own) in all.iter().enumerate().rev() {
-            let is_exact = own.claim.is_some() && own.error.is_none() && judged.contains(own.name.as_str());
+            let is_right = own.claim.is_some() && own.finding.is_none() && judged.contains(own.name.as_str());
+            let is_exact = is_right && own.error.is_none();
             if is_exact || used.contains(own.name.as_str()) {
                 used.extend(own.tree.names().into_iter().map(|(name, _)| name));
                 found.push(index);
@@ -57,8 +59,7 @@ impl Stage<'_> {
         let nodes: Vec<NodeId> = formulas.claims().map(|(formula, _)| formula.id).collect();
         let operations = Program::of(&formulas.graph, &nodes).len() * self.case.grid.len();
         // Of a formula, the value and two derivatives are evaluated.
-        // Together these evaluations count as six times the
-        // operations of the value.
+        // Together these evaluations count as six times the operations of the value.
         OPERATION * 2.0 * 6.0 * operations as f64
     }
 

@@ -140,7 +140,7 @@ fn fault(kind: &'static FaultKind) -> Fault {
     Fault { kind, size: kind.size.unwrap_or(1.0) }
 }
 
-/// A mistake in every formula with a suitable position, and its effect.
+/// Every formula with a suitable position for the mistake `mistake`: its number, the planted mistake and the effect.
 /// If `only_real` is true, only the first mistake with an effect is returned.
 fn spoiled(
     stage: &Stage,

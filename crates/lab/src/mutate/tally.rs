@@ -30,7 +30,7 @@ impl Share {
         }
     }
 
-    /// Faults that change something.
+    /// Number of faults that change the answer.
     pub fn real(&self) -> usize {
         self.found() + self.inconclusive + self.escaped
     }

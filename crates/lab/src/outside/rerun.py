@@ -1,6 +1,7 @@
 """Writes a moving mechanism as a Rerun recording with its blueprint: rerun.py FILM.json OUT.rrd
 
-Needs rerun-sdk. The picture is seen from above; values of both sides lie in one plot, and their errors below.
+Needs rerun-sdk. The picture is seen from above. A plot has the values of the reference and of all engines; a plot below
+has the errors of the engines.
 """
 
 import json
@@ -61,7 +62,7 @@ def draw(path, part):
 
 
 def entity(*names):
-    """Path of an entity; names may have any signs."""
+    """Path of an entity; names may contain any characters."""
     return rr.new_entity_path(list(names)).lstrip("/")
 
 
@@ -87,7 +88,7 @@ def picture(film):
 
 
 def plots(film):
-    """One view for each plot; a line has the name of its side."""
+    """One view for each plot; the name of a line is its label."""
     views = []
     for number, plot in enumerate(film["plots"]):
         paths = []
@@ -117,7 +118,7 @@ def main(source, target):
         film = json.load(stream)
     rr.init(f"linkproof {film['name']}", recording_id=film["name"])
     x, y = film["centre"]
-    # The eye's opening is 55 degrees: from here all of the height is in view.
+    # The camera's field of view is 55 degrees: at this distance, the whole height is visible.
     eye = rrb.EyeControls3D(
         kind=rrb.Eye3DKind.Orbital,
         position=[x, y, film["height"]],

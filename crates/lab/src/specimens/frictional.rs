@@ -15,7 +15,7 @@ const GUIDE: [f64; 2] = [0.2, 0.6];
 /// Smallest efficiency of a transmission.
 const LEAST_EFFICIENCY: f64 = 0.6;
 
-/// The mechanism of `case` with friction in half of its joints, and losses in its transmissions except cams.
+/// The mechanism of `case` with friction in about half of its joints, and losses in its transmissions except cams.
 /// `None` if the case does not allow friction.
 pub fn frictional(random: &mut RandomSource, case: &Case) -> Option<Case> {
     let size = case.mechanism.size();

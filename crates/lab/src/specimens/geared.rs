@@ -68,7 +68,8 @@ pub fn geared(random: &mut RandomSource, case: &Case) -> Option<Case> {
     restructured(case, parts)
 }
 
-/// A case of the changed parts, with their structure. Groups that also exist in `case` keep their modes.
+/// The case with changed parts and the structure of the changed mechanism. Groups that also exist in `case` keep their
+/// modes.
 fn restructured(case: &Case, mut parts: CaseParts) -> Option<Case> {
     parts.structure = Structure::of(&parts.mechanism, &parts.drives.joints()).ok()?;
     let mode = |own: &linkage::mechanism::Group| match own.kind {

@@ -87,7 +87,7 @@ pub struct PartyAtPoint {
     pub steps: Option<f64>,
     /// Number of runs in the engine's search for settings.
     pub runs: Option<usize>,
-    /// Work of the engine's search for settings, in steps without sweeps.
+    /// Work of the engine's search for settings. The unit is a step without sweeps.
     pub work: Option<f64>,
     /// Counted operations, in the order of [`Count::ALL`](linkage::work::Count::ALL).
     /// For an analytic side, the operations of its single run are counted; for an engine, the operations of all its

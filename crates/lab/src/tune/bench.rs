@@ -53,7 +53,7 @@ pub(super) struct Bench<'a> {
     /// Whether the engine has refused the last method.
     /// The engine would refuse the method again with any step and any number of sweeps.
     pub(super) refused: bool,
-    /// Work done so far, and total work allowed, in steps without sweeps.
+    /// Work done so far, and total work allowed. The unit is a step without sweeps.
     pub(super) effort: f64,
     pub(super) budget: f64,
     /// Whether a run was omitted because its work exceeds the allowance.

@@ -54,7 +54,7 @@ fn costs(engine: EngineName) -> Costs {
     }
 }
 
-/// Runs an engine on a case and returns the cost, in steps of `rapier` without sweeps.
+/// Runs an engine on a case and returns the cost of the run. The unit of cost is a step of `rapier` without its sweeps.
 /// The number of steps follows from the settings. If the engine chooses its steps itself, they are counted in the run
 /// instead.
 ///

@@ -13,8 +13,7 @@ const AIM: f64 = 0.92;
 /// The search ends if the ratio of the smallest step known to be too large to the largest sufficient step is below this
 /// factor.
 const CLOSE: f64 = 1.06;
-/// If the observed order is below this, the error does not depend on the step: the error has a cause other than the
-/// step.
+/// If the observed order is below this, the error counts as independent of the step.
 const FLAT: f64 = 0.3;
 /// Largest factor from one step to the next.
 const LEAP: f64 = 16.0;

@@ -172,14 +172,16 @@ impl CaseBuilder {
         self
     }
 
-    /// Adds a driving link at constant speed (rad/s, counter-clockwise positive).
-    /// The driving link is the link that `joint` connects to the ground.
+    /// Adds a driving link at constant speed: rad/s, counter-clockwise positive, or m/s for a prismatic joint.
+    /// [`Drive::of_joint`] gives the driving link, usually the link that `joint` connects to the ground.
     /// The first driving link is the crank.
     pub fn crank(self, joint: &str, speed: f64) -> Self {
         self.driven(joint, MotionLaw::ConstantSpeed(speed))
     }
 
     /// Adds a driving link that follows a motion law.
+    /// The first drive starts at [`CaseBuilder::start`]; a further drive starts at the start that is set when this
+    /// method is called.
     pub fn driven(self, joint: &str, law: MotionLaw) -> Self {
         let start = self.start;
         self.driven_from(joint, start, law)

@@ -107,8 +107,8 @@ impl Case {
     }
 }
 
-/// Reactions of all joints on the second links: forces (N), and moments about the joints' points on these links (N m).
-/// Forces of all transmissions (N).
+/// Forces of all transmissions (N), and reactions of all joints on the second links.
+/// The reactions are forces (N), and moments about the joints' points on the second links (N m).
 #[derive(Clone, Copy, Debug)]
 pub struct JointReactions<'a> {
     /// One force per joint.
@@ -241,8 +241,8 @@ impl Friction<'_> {
 }
 
 impl Losses {
-    /// Magnitude of the transmission's force (N) times the lost fraction of the power; then its derivative by the
-    /// force.
+    /// Magnitude of the transmission's force (N) times the lost fraction of the power, and the derivative of this
+    /// product with respect to the force.
     /// The sign of `sense` is the sense of the joint's coordinate. At standstill both results are zero.
     #[must_use]
     pub fn normal(&self, force: f64, sense: f64) -> [f64; 2] {

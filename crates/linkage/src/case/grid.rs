@@ -55,8 +55,8 @@ impl Grid {
     /// Also checks that the law of every drive is defined at all times.
     ///
     /// # Errors
-    /// A message that names one of three faults: the grid reaches too far, the law ends too early, or the crank is free
-    /// and the grid consists of crank angles.
+    /// A message that names the fault. The crank is free but the grid consists of crank angles, the law does not reach
+    /// an input at exactly one time, a time is outside the law of a drive, or the inputs are too large or not finite.
     pub fn check(&self, drives: &Drives) -> std::result::Result<(), String> {
         self.check_crank(drives.crank())?;
         let further = (2..).zip(drives.further()).filter(|(_, drive)| drive.constant_speed().is_none());

@@ -48,6 +48,7 @@ impl LeftOut {
 impl Case {
     /// Returns the part of the case on which the requested channels depend.
     /// The values of these channels agree with those of the whole case up to rounding error.
+    /// For a free motion, and for a case that requests all channels of its stages, the whole case is returned.
     ///
     /// # Errors
     /// The errors of [`Case::new`], if the part is not a complete mechanism.

@@ -24,8 +24,7 @@ struct Bridge {
 }
 
 /// For every link, the representative of the link's class.
-/// A class contains the links with the same angle up to a constant, on
-/// the branch of the start pose.
+/// A class contains the links with the same angle up to a constant, on the branch of the start pose.
 /// All links of a class have the same representative, so equal entries mean that there is no relative rotation.
 pub(super) fn classes(parts: &CaseParts) -> Vec<LinkId> {
     let mechanism = &parts.mechanism;

@@ -9,8 +9,8 @@ use crate::math::{Piecewise, just_below};
 /// At the stated crank angle, all solvers therefore find the value after the jump.
 const BEFORE: f64 = 4e-9;
 
-/// A table over a slide keeps its end values beyond both ends, over this number times (1 m + |first slide| + |last
-/// slide|).
+/// A table over a slide keeps its end values beyond both ends. It does so over the distance (1 m + |first slide| +
+/// |last slide|) times this number.
 const FAR: f64 = 100.0;
 
 /// If the values on both sides of a knot differ relatively by no more than twice this number, there is no jump.

@@ -56,7 +56,7 @@ pub struct Drive {
     /// Motion of the link: prescribed or free.
     pub motion: DriveMotion,
     /// Whether the mechanism continues through change points, on the branch with continuous velocities.
-    /// If `false`, a change point is an error. A free motion always continues: see [`Drive::passes`].
+    /// If `false`, a change point is an error. The field has no effect on a free motion: see [`Drive::passes`].
     pub through: bool,
 }
 
@@ -184,8 +184,8 @@ impl Drive {
     }
 
     /// Whether the mechanism continues through change points, on the branch with continuous velocities.
-    /// A free motion always continues, because of its momentum. A motion under a law continues if [`Drive::through`] is
-    /// set.
+    /// A free motion continues because of its momentum. A motion under a law continues if [`Drive::through`] is set.
+    /// [`Case::passes`](crate::case::Case::passes) has further conditions for the whole mechanism.
     #[inline]
     #[must_use]
     pub fn passes(&self) -> bool {

@@ -48,13 +48,13 @@ impl Drives {
         self.0.iter().enumerate().filter(|(_, drive)| drive.has_moment())
     }
 
-    /// Driven joints without the kinds of their inputs, in the order of the drives.
+    /// Numbers of the driven joints, in the order of the drives.
     #[must_use]
     pub fn joint_ids(&self) -> Vec<JointId> {
         self.0.iter().map(|drive| drive.joint).collect()
     }
 
-    /// Driven joints, in the order of the drives.
+    /// Driven joints with the kinds of their inputs, in the order of the drives.
     #[must_use]
     pub fn joints(&self) -> Vec<DrivenJoint> {
         self.0.iter().map(|drive| DrivenJoint { joint: drive.joint, input: drive.input }).collect()

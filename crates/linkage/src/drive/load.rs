@@ -84,7 +84,7 @@ pub enum Load {
         stiffness: f64,
         /// Unloaded twist (rad).
         free_angle: f64,
-        /// Side of the free twist on which the spring acts: counter-clockwise stands for larger twists.
+        /// Side of the free twist on which the spring acts: [`Acts::CounterClockwise`] means larger twists.
         acts: Acts,
     },
     /// Torsion damper between two links.
@@ -105,7 +105,7 @@ pub enum Load {
         links: [LinkId; 2],
         /// The force (N).
         force: Course,
-        /// Sense of the sliding for which the force acts: counter-clockwise stands for an increasing slide.
+        /// Sense of the sliding for which the force acts: [`Acts::CounterClockwise`] means an increasing slide.
         acts: Acts,
     },
     /// Spring along the axis of a prismatic joint: the force -stiffness (slide - free slide) on the second link.
@@ -119,7 +119,7 @@ pub enum Load {
         stiffness: f64,
         /// Unloaded slide (m).
         free_slide: f64,
-        /// Side of the free slide on which the spring acts: counter-clockwise stands for larger slides.
+        /// Side of the free slide on which the spring acts: [`Acts::CounterClockwise`] means larger slides.
         acts: Acts,
     },
     /// Damper along the axis of a prismatic joint: the force -damping times the rate of the slide on the second link.

@@ -151,7 +151,8 @@ impl MotionLaw {
 
     /// First time (s) at which the driving link has turned by the angle `gone` (rad). For `gone` = 0 the result is 0.
     /// NaN if the law never reaches the angle.
-    /// NaN also if a table or formula, or a harmonic within one period, reaches the angle more than once.
+    /// NaN also if a table or formula reaches the angle more than once, or if a harmonic reaches it more than once
+    /// within one period.
     #[inline]
     #[must_use]
     pub fn time_of(&self, gone: f64) -> f64 {
@@ -198,7 +199,7 @@ fn only_time(curve: &Curve, gone: f64) -> f64 {
     if times.next().is_some() { f64::NAN } else { first }
 }
 
-/// Number of bisections of the law's whole duration.
+/// Number of bisections that locate a time. The first interval is the law's duration, or a part of it.
 /// After these bisections the error of the time is at the level of rounding errors.
 const HALVINGS: usize = 60;
 

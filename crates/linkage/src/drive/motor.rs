@@ -120,13 +120,16 @@ pub struct Motor {
     pub efficiency: f64,
     /// Moments of inertia of rotor and reducer.
     pub inertia: ShaftInertia,
+    /// Rated torque (N m), if it is known. A linear law describes an induction motor only up to a multiple of the rated
+    /// torque.
+    pub rated_torque: Option<f64>,
 }
 
 impl Motor {
     /// Returns a motor with a reducer that has neither losses nor inertia.
     #[must_use]
     pub fn ideal(law: MotorLaw, ratio: f64) -> Self {
-        Motor { law, ratio, efficiency: 1.0, inertia: ShaftInertia::default() }
+        Motor { law, ratio, efficiency: 1.0, inertia: ShaftInertia::default(), rated_torque: None }
     }
 
     /// Moment of the motor on the crank (N m) if the crank turns at `omega` (rad/s, positive in the motor's driving
@@ -164,7 +167,8 @@ impl Motor {
     fn branches(&self) -> Vec<MotorBranch> {
         let mut found = Vec::new();
         for ([from, to], curve) in self.law.curves() {
-            // The losses change sign with the power, and the power changes sign with the speed or the torque.
+            // The effect of the losses changes with the direction of the power flow, which changes with the sign of the
+            // speed or of the torque.
             // A piece therefore ends at zero speed and at zero torque.
             let mut ends = vec![from, to];
             if self.efficiency < 1.0 {
@@ -258,7 +262,7 @@ mod tests {
             let at = pair[0].speeds[1];
             assert_eq!(at, pair[1].speeds[0]);
             let jump = (pair[0].moment(at) - pair[1].moment(at)).abs();
-            // The moment jumps only at standstill, because the losses change sign at standstill.
+            // The moment jumps only at standstill, where the direction of the power flow changes.
             assert!(jump < 1e-12 || at == 0.0, "{at} {jump}");
             assert_eq!(motor.branch(at, 1.0), pair[1]);
             assert_eq!(motor.branch(at, -1.0), pair[0]);

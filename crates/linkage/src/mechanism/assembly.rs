@@ -123,7 +123,7 @@ mod tests {
         let (_, modes) = start(StartGroup { mode: None, near: near(b.x + 0.1, b.y), ..StartGroup::default() }).unwrap();
         assert_eq!(modes, [AssemblyMode::Left]);
         let error = start(StartGroup { mode: None, near: near(2.0, 0.5), ..StartGroup::default() }).unwrap_err();
-        assert!(error.to_string().contains("does not distinguish them"), "{error}");
+        assert!(error.to_string().contains("it decides for neither"), "{error}");
         let error =
             start(StartGroup { mode: Some(AssemblyMode::Right), near: near(b.x, b.y), ..StartGroup::default() })
                 .unwrap_err();

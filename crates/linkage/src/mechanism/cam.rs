@@ -1,4 +1,4 @@
-//! A cam and its follower: contact, profile and figures.
+//! A cam and its follower: contact, profile and main dimensions.
 //!
 //! Relative to the carrier, the cam turns about its axle A by the angle q1, and the follower has the coordinate q2.
 //! With the lift f, q2 - f(q1) is constant.
@@ -18,7 +18,7 @@ pub use law::{CamCurve, CamLaw, CamSegment};
 use super::contact::{Contact, LineOfAction};
 use crate::math::{KeepNan, Vec2, cross, rotated, turned, unit};
 
-/// Number of cam angles from which the figures of a cam are computed.
+/// Number of cam angles from which the [`CamFigures`] of a cam are computed.
 const INSTANTS: usize = 720;
 
 /// The part of a follower that touches the cam.
@@ -64,7 +64,7 @@ pub(super) enum Follower {
 }
 
 impl Follower {
-    /// R, and its first two derivatives by the coordinate of the follower.
+    /// R, and its first two derivatives with respect to the coordinate of the follower.
     fn at(self, q: f64) -> [Vec2; 3] {
         match self {
             Follower::Slides { at, along } => [at + along * q, along, Vec2::zeros()],
@@ -86,21 +86,23 @@ pub struct Cam {
     pub(super) axle: [Vec2; 2],
 }
 
-/// Figures of a cam over one turn.
+/// Main dimensions and extreme values of a cam over one turn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CamFigures {
     /// Largest minus least lift (m, or rad for a swinging follower).
     pub lift: f64,
     /// Radius of the base circle (m): the least distance of the profile, or of a flat face, from the axle.
     pub base: f64,
-    /// Largest pressure angle (rad): between the force on the follower and the velocity of [`CamContact::point`].
+    /// Largest pressure angle (rad), the angle between the force on the follower and the velocity of
+    /// [`CamContact::point`].
     pub pressure_angle: f64,
-    /// Least radius of curvature of the convex parts of the profile (m). If it is negative, the profile is undercut.
+    /// Least radius of curvature of the convex parts of the profile (m). If this radius is negative, the profile is
+    /// undercut.
     pub curvature: f64,
 }
 
 impl Cam {
-    /// Lift at an angle of the cam (rad), and its first two derivatives by the angle.
+    /// Lift at an angle of the cam (rad), and its first two derivatives with respect to the angle.
     #[must_use]
     pub fn lift(&self, angle: f64) -> [f64; 3] {
         self.law.at(angle)
@@ -145,7 +147,7 @@ impl Cam {
         })
     }
 
-    /// The profile in the frame of the cam (m): `count` points at which it touches the follower in one turn.
+    /// The profile in the frame of the cam (m): `count` points at which the cam touches the follower in one turn.
     /// `at` contains the coordinates of cam and follower in one arbitrary pose.
     #[must_use]
     pub fn profile(&self, at: [f64; 2], count: usize) -> Vec<Vec2> {

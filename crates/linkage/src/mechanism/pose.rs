@@ -19,6 +19,11 @@ impl LinkPose {
     /// Pose of the ground: its frame coincides with the world frame.
     pub const GROUND: LinkPose = LinkPose { origin: Vec2::new(0.0, 0.0), angle: 0.0 };
 
+    /// Pose of a link in motion: the angle is between -pi and pi.
+    pub fn of(motion: &Motion) -> LinkPose {
+        LinkPose { origin: motion.origin, angle: motion.direction.y.atan2(motion.direction.x) }
+    }
+
     /// The pose at `angle` that puts the body point `local` at the world point `at`.
     pub fn through(local: Vec2, at: Vec2, angle: f64) -> Self {
         LinkPose { origin: at - rotated(unit(angle), local), angle }
@@ -81,6 +86,12 @@ impl Joint {
 pub struct Pose(pub PerLink<LinkPose>);
 
 impl Pose {
+    /// Pose of links in motion: the angles are between -pi and pi.
+    #[must_use]
+    pub fn of(motions: &[Motion]) -> Pose {
+        Pose(motions.iter().map(LinkPose::of).collect())
+    }
+
     /// Motions of all links, with the frames of this pose and all rates zero.
     #[must_use]
     pub fn motions(&self) -> Vec<Motion> {

@@ -113,13 +113,11 @@ impl SpanningTree {
     }
 
     /// Returns the tree for runs, changed so that it contains the given joints.
-    /// If a given joint is neither on the ground nor on a link that the earlier given joints reach, the tree is built
-    /// in another order:
+    /// Usually, each given joint adds one link to the tree. If neither of its links, or both, are in the tree already,
+    /// the tree is built in another order:
     /// first all given joints, then all prismatic joints, then the remaining joints (Kruskal's algorithm).
-    /// The given joints stay in the tree even if the tree could reach the links of these joints through joints that are
-    /// not given.
-    /// In an Oldham coupling, for example, sliding joints alone reach the driven disc.
-    /// Without this exception the driven joint would be cut, although it must be a coordinate of the tree.
+    /// Both links are in the tree already if sliding joints reach them, as in an Oldham coupling with its driven disc.
+    /// In the usual order the driven joint would then be cut, although it must be a coordinate of the tree.
     pub fn with(mechanism: &Mechanism, joints: &[JointId]) -> Self {
         let mut tree = SpanningTree { branches: Vec::new(), cut: Vec::new() };
         let mut reached = Vec::new();

@@ -14,6 +14,7 @@
 //! instead of its links.
 
 mod driven;
+mod formula;
 mod group;
 mod owners;
 #[cfg(test)]
@@ -21,7 +22,7 @@ mod tests;
 
 use crate::sentences;
 pub use driven::{DrivenJoint, DrivingLink};
-pub use group::{Group, GroupKind};
+pub use group::{Group, GroupKind, roman};
 
 use super::{GROUND, LinkPose, Mechanism, Pose};
 use crate::error::{Error, ErrorKind, Result};
@@ -54,6 +55,8 @@ impl Structure {
     /// [`ErrorKind::Input`] if links have no connection to the ground, or if the mobility differs from the number of
     /// drives.
     /// [`ErrorKind::Input`] also if one part of the mechanism is over-constrained while a second part is free to move.
+    /// [`ErrorKind::Input`] also if the start joint of a transmission is driven, or if the start joints do not fit the
+    /// groups of the mechanism.
     pub fn of<T: Copy + Into<DrivenJoint>>(mechanism: &Mechanism, drives: &[T]) -> Result<Self> {
         let drives: Vec<DrivenJoint> = drives.iter().map(|&drive| drive.into()).collect();
         let structure = Structure::of_driven(mechanism, &drives)?;
@@ -78,7 +81,7 @@ impl Structure {
         drives.iter().copied().chain(starts).take(at_start.drivers.len()).collect()
     }
 
-    /// The structure with these groups alone.
+    /// The structure with these groups only.
     #[must_use]
     pub fn of_groups(&self, groups: impl Iterator<Item = GroupId>) -> Structure {
         Structure { groups: groups.map(|group| self.groups[group].clone()).collect(), ..self.clone() }
@@ -267,36 +270,6 @@ impl Structure {
             }
         }
         upstream
-    }
-
-    /// Structural formula, for example `I(ground, crank) -> II.2 RRR(coupler, rocker)`.
-    #[must_use]
-    pub fn formula(&self, mechanism: &Mechanism) -> String {
-        const ROMAN: [&str; 9] = ["", "I", "II", "III", "IV", "V", "VI", "VII", "VIII"];
-        let driving = |link: LinkId, joint: JointId, moved: &str| {
-            let base = mechanism.joints()[joint].other(link).link;
-            format!("I({}, {moved})", mechanism.links()[base].name)
-        };
-        let leading = self.leading();
-        let mut parts: Vec<String> = leading
-            .map(|(_, driver)| driving(driver.link, driver.joint, &mechanism.links()[driver.link].name))
-            .collect();
-        for group in &self.groups {
-            if group.kind == GroupKind::Driven {
-                let on = |&&link: &&LinkId| mechanism.joints()[group.outer[0]].on(link).is_some();
-                let link = group.links.iter().find(on).expect("the outer joint is on the group");
-                parts.push(driving(*link, group.outer[0], &group.bodies(mechanism)));
-                continue;
-            }
-            if !group.trains.is_empty() {
-                parts.push(format!("train({})", group.bodies(mechanism)));
-                continue;
-            }
-            let class = ROMAN.get(group.class).map_or_else(|| group.class.to_string(), ToString::to_string);
-            let pairs = group.kind.letters().map_or_else(String::new, |letters| format!(" {letters}"));
-            parts.push(format!("{class}.{}{pairs}({})", group.order(), group.bodies(mechanism)));
-        }
-        parts.join(" -> ")
     }
 }
 

@@ -44,7 +44,8 @@ pub enum TransmissionKind {
         pressure_angle: f64,
     },
     /// A screw, the first member, and a nut that slides in the carrier.
-    /// In the plane it is a rack without pressure angle and a pinion of the radius lead / (2 pi).
+    /// In the plane, screw and nut are modelled as a pinion of the radius lead / (2 pi) and a rack without pressure
+    /// angle.
     /// The axial force acts at the radius lead / (2 pi) from the axle of the screw.
     Screw {
         /// Slide of the nut along the axis for one counter-clockwise turn of the screw (m), not zero.
@@ -332,8 +333,8 @@ impl Transmission {
         [against(self.members[0].link), q2]
     }
 
-    /// Time (s) from a pose to the nearest end of a piece of a cam's law at the present speed. This end may lie before
-    /// or after the pose.
+    /// Time (s) that a cam at its present speed needs for the angle between the pose and the nearest end of a piece of
+    /// its law, before or after the pose.
     /// The time is infinite for a transmission without a cam, and if the cam stands still.
     #[must_use]
     pub fn time_to_knot(&self, joints: &PerJoint<Joint>, motions: &[Motion]) -> f64 {

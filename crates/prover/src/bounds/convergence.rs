@@ -136,7 +136,8 @@ impl Convergence {
         Some(half.iter().zip(steps).map(|(value, step)| value + step * share).collect())
     }
 
-    /// Whether the runs converge as expected, so that the estimate can be trusted.
+    /// Whether the estimate can be trusted: the observed order is at least half of the formal order, or the difference
+    /// between single and half step is only rounding.
     #[must_use]
     pub fn is_trusted(&self) -> bool {
         self.observed.is_nan() || self.observed >= 0.5 * self.formal

@@ -38,7 +38,7 @@ pub struct Residual {
     pub worst_time: f64,
     /// Value of the input at the largest difference (SI).
     pub worst_crank: f64,
-    /// What `worst_crank` measures.
+    /// Kind of the input whose value is `worst_crank`.
     pub input: Input,
 }
 
@@ -73,7 +73,7 @@ pub fn scales(trajectory: &Trajectory) -> Vec<f64> {
     scales_beyond(&vec![0.0; trajectory.channels().len()], trajectory, &Built::default())
 }
 
-/// As `scales`, but for a trajectory with known `errors` (in the units of its channels).
+/// Like `scales`, but for a trajectory with known `errors` (in the units of its channels).
 /// A rate, a force or a moment that is zero throughout, within its error, has no size: its values are rounding.
 /// The cause may be a constant speed, a link that only translates, a joint that guides nothing, or a parallelogram.
 /// The scale of such a channel is a tenth of the natural size of its quantity.
@@ -145,7 +145,7 @@ impl Built {
     }
 }
 
-/// Whether a channel's values have an arbitrary origin, so that their size says nothing.
+/// Whether a channel's values have an arbitrary origin, so that their size has no meaning.
 fn is_coordinate(channel: &Channel) -> bool {
     matches!(channel.kind.unit, Unit::Radian | Unit::Metre)
 }
@@ -160,7 +160,7 @@ pub fn magnitudes(trajectory: &Trajectory) -> Vec<f64> {
     trajectory.channels().iter().map(|channel| all.rounded_with(channel)).collect()
 }
 
-/// As `magnitudes`, but each set of channels has its own sizes.
+/// Like `magnitudes`, but each set of channels has its own sizes.
 /// `sets[channel]` is the set of a channel. `feeds(from, to)` tells whether numbers of the set `to` are computed from
 /// channels of the set `from`.
 pub(crate) fn magnitudes_by(trajectory: &Trajectory, sets: &[usize], feeds: &dyn Fn(usize, usize) -> bool) -> Vec<f64> {

@@ -42,6 +42,12 @@ pub enum Verdict {
     },
 }
 
+/// The section of `docs/findings.md` with the anchor `finding`, as a place to read.
+#[must_use]
+pub fn place_of_finding(finding: &str) -> Advice {
+    Advice::Text(format!("docs/findings.md#{finding}"))
+}
+
 impl fmt::Display for Verdict {
     /// Writes the word for the verdict.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -71,10 +77,7 @@ impl Verdict {
     pub fn reason(&self, tell: impl Fn(&Advice) -> String) -> Option<String> {
         match self {
             Verdict::Agree { .. } => None,
-            Verdict::Expected { finding, .. } => {
-                let place = tell(&Advice::Text(format!("docs/findings.md#{finding}")));
-                Some(sentences::expected_see(&place))
-            }
+            Verdict::Expected { finding, .. } => Some(sentences::expected_see(&tell(&place_of_finding(finding)))),
             Verdict::Disagree { place } => Some(place.clone()),
             Verdict::Inconclusive { reason, advice } => Some(match Advice::sentence(advice, tell) {
                 Some(way_out) => format!("{reason}; {way_out}"),

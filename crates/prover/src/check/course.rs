@@ -18,9 +18,9 @@ pub struct KnownTrajectory<'a> {
     pub(super) trajectory: &'a Trajectory,
     error: &'a dyn Fn(usize, usize) -> f64,
     crank_name: &'a str,
-    /// Columns whose signed sums are the rate and the acceleration of the input. `None` if the side does not have them.
+    /// Columns whose signed sums are the rate and the acceleration of the input. `None` if a column is missing.
     crank: [Option<InputColumns>; 2],
-    /// Columns of the input of a motion under forces. `None` if the side does not have them.
+    /// Columns of the input of a motion under forces. `None` if a column is missing.
     /// The error of the input is its integration error.
     angle: Option<InputColumns>,
     /// Values of the whole mechanism, in SI units.
@@ -72,8 +72,8 @@ pub fn needed(claim: &Claim, case: &Case) -> Vec<Channel> {
     all
 }
 
-/// Returns the channels among which a diagnosis may find a missing term: angles, velocities and accelerations of all
-/// links and points.
+/// Returns the channels among which a diagnosis may find a missing term: angles of links, positions of mass centres and
+/// points, and the first and second time derivatives of both.
 /// Also returns every channel with the unit of a claim, because the author of the formula may have meant that channel.
 #[must_use]
 pub fn telling<'a>(case: &Case, claims: impl Iterator<Item = &'a Claim>) -> Vec<Channel> {

@@ -187,7 +187,7 @@ fn of_tree(tree: &FormulaTree, named: &dyn Fn(&str) -> Known) -> Result<Known, U
         Some([0, 1, 2].map(|axis: usize| one[axis] + sign * other[axis]))
     };
     Ok(match &tree.shape {
-        // Zero fits every dimension. A number such as 9.81, which is no multiple of 1/24, may have a unit.
+        // Zero fits every dimension. A number such as 9.81, which is not a multiple of 1/24, may have a unit.
         NodeShape::Number(value) => (*value != 0.0 && (24.0 * value).fract() == 0.0).then_some(NONE),
         NodeShape::Name(name) => named(name),
         NodeShape::Negative(part) => of_tree(part, named)?,

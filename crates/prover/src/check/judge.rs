@@ -92,11 +92,12 @@ struct One<'a> {
 
 /// Number of derivatives by which a formula is judged.
 fn orders(formula: &Formula, claim: &Claim, course: &KnownTrajectory) -> Result<usize> {
-    // An approximation is claimed for the value only, not for its derivatives.
-    // A formula that is claimed at a single crank angle is judged by its value only, too.
+    // A formula is judged by value only in three cases: it is an approximation, it is known to be wrong, or it is
+    // claimed at a single crank angle.
     let is_instant = formula.valid[0].is_some() && formula.valid[0] == formula.valid[1];
     let known = course.orders(claim)?;
-    Ok(if formula.error.is_some() || is_instant { 0 } else { known })
+    let is_value_only = formula.error.is_some() || formula.finding.is_some() || is_instant;
+    Ok(if is_value_only { 0 } else { known })
 }
 
 /// Judges all claims of a scenario's formulas for which the trajectory has the channels.
@@ -180,6 +181,15 @@ impl KnownTrajectory<'_> {
             }
         }
         all
+    }
+
+    /// Returns the value of a formula at every instant; `None` at instants for which the formula is not claimed.
+    #[must_use]
+    pub fn formula(&self, formulas: &Formulas, formula: &Formula) -> Vec<Option<f64>> {
+        let mut program = Program::of(&formulas.graph, &[formula.id]);
+        let mut at = |row: usize| program.run(&self.inputs(row))[0].value;
+        let holds = |row: usize| formula.holds_at(self.trajectory.inputs()[row]);
+        (0..self.len()).map(|row| holds(row).then(|| at(row))).collect()
     }
 
     /// Returns the side's values of a claim, instant by instant, in the claim's unit and with their errors.

@@ -49,13 +49,18 @@ pub(super) struct Pair {
 pub enum FormulaOutcome {
     /// The formula is right at every instant judged.
     Right,
-    /// The formula is wrong.
+    /// The formula is wrong, or is right although a finding calls it wrong.
     Wrong,
+    /// The formula is wrong, as `docs/findings.md` states.
+    Expected {
+        /// Anchor of the section of `docs/findings.md`.
+        finding: String,
+    },
     /// Inconclusive.
     Open {
-        /// Why it is inconclusive.
+        /// Why the judgement is inconclusive.
         reason: String,
-        /// What would decide it.
+        /// Actions that would decide the judgement.
         advice: Vec<Advice>,
     },
 }
@@ -85,8 +90,10 @@ pub struct JudgedFormula {
     pub since: Option<FormulaAtInstant>,
     /// Instant with the largest ratio of difference to bound.
     pub worst: Option<FormulaAtInstant>,
-    /// Largest value of the mechanism.
+    /// Largest absolute value of the claimed quantity of the mechanism.
     pub scale: f64,
+    /// Anchor of the section of `docs/findings.md` that calls the formula wrong.
+    pub finding: Option<String>,
 }
 
 /// If the formula's error exceeds this fraction of the scale, digits may count as lost: see `NO_WORSE`.
@@ -111,6 +118,7 @@ impl JudgedFormula {
             unit: if order == 0 { claim.unit() } else { "" },
             order,
             claimed: formula.error.is_some(),
+            finding: formula.finding.clone(),
             ..JudgedFormula::default()
         }
     }
@@ -171,7 +179,8 @@ impl JudgedFormula {
     #[must_use]
     pub fn outcome(&self) -> FormulaOutcome {
         if self.since.is_some() {
-            return FormulaOutcome::Wrong;
+            let expected = |finding: &String| FormulaOutcome::Expected { finding: finding.clone() };
+            return self.finding.as_ref().map_or(FormulaOutcome::Wrong, expected);
         }
         let open = |reason: String, advice: &str| FormulaOutcome::Open { reason, advice: vec![advice.into()] };
         let all = self.judged + self.lost;
@@ -182,7 +191,10 @@ impl JudgedFormula {
             None if all == 0 => {
                 open(sentences::NO_INSTANT_LIES_BETWEEN_THE_CRANK.into(), sentences::LET_THE_GRID_COME_TO_THEM)
             }
-            Some(_) if self.lost as f64 <= MOST_LOST * all as f64 => FormulaOutcome::Right,
+            Some(_) if self.lost as f64 <= MOST_LOST * all as f64 => match self.finding {
+                Some(_) => FormulaOutcome::Wrong,
+                None => FormulaOutcome::Right,
+            },
             _ => open(
                 sentences::rounding_leaves_the_formula_less(&self.lost, &all),
                 sentences::WRITE_IT_SO_THAT_NO_DIGITS,

@@ -1,7 +1,7 @@
-//! Missing terms and factors: finds from the numbers what one position of a formula lacks.
+//! Finds a term or factor that is missing in a formula.
 //!
-//! At every position of the formula, the missing summand or factor is calculated instant by instant.
-//! If the calculated summand or factor is proportional to an expression of the derivation, this expression is missing.
+//! At every position of the formula, the summand or factor that makes the formula right is calculated for each instant.
+//! If it is proportional to an expression of the derivation, this expression is missing there.
 
 mod dictionary;
 mod monomials;
@@ -20,7 +20,8 @@ pub(in crate::check) use monomials::Monomials;
 pub struct Missing {
     /// The formula with the missing term or factor.
     pub formula: String,
-    /// The part next to which the term or factor is missing; `None` for the whole formula.
+    /// The part of the formula to which the term must be added, or which must be multiplied; `None` for the whole
+    /// formula.
     pub beside: Option<String>,
     /// The missing expression with its sign: `+ m*g*s*cos(phi)`, `/ cos(beta)^3`.
     pub what: String,
@@ -33,23 +34,24 @@ const FEWEST: usize = 4;
 /// Relative accuracy to which a constant amount is recognised as a product of known quantities.
 const ACCURACY: f64 = 1e-9;
 
-/// Missing amount at one position of the formula, per instant, with its error; `None` if it cannot be determined.
+/// The missing amount at one position of the formula and its error, for each instant; `None` if it cannot be
+/// determined.
 type Needed = Vec<Option<[f64; 2]>>;
 
-/// Upper limit of the expected number of products that match by chance.
-/// If a number is the only evidence, the parameters must be unlikely to produce the same number by chance.
+/// A number that is the only evidence is accepted if at most this many products of parameters are expected to match it
+/// by chance.
 const CHANCE: f64 = 0.5;
-/// Assumed number of ways in which a product of several quantities may be missing. This number is used if the formula
-/// is wrong by a constant factor or offset, or if the mechanism's value is constant.
+/// Assumed number of positions at which a product of several quantities may be missing, if the formula is wrong by a
+/// constant factor or offset, or if the mechanism's value is constant.
 const LONG: f64 = 100.0;
 
-/// Returns the missing term or factor that makes the formula right, at one position and with consistent units.
-/// Returns several explanations if the parameters produce the missing number in several ways.
+/// The missing term or factor that makes the formula right, at one position and with consistent units.
+/// If several products of parameters equal the missing number, each of them is an explanation.
 pub(super) fn missing(trial: &mut Trial, dimensions: &Dimensions) -> Vec<Missing> {
     let dictionary = Dictionary::of(trial);
     let monomials = Monomials::of(&trial.formulas, trial.index, &dictionary.constants, dimensions);
     trial.sheet.operations += (30 * dictionary.entries.len() * trial.few.len() + monomials.len()) as u64;
-    // The units are evidence too if they are consistent only with the missing expression.
+    // Units that only the missing expression makes consistent are further evidence.
     let own = trial.formulas.list[trial.index].tree.clone();
     let units = if dimensions.are_sound(&[(trial.index, own)]) { 1.0 } else { 0.05 };
     let is_weak = trial.is_number || trial.is_constant();
@@ -93,8 +95,8 @@ pub(super) fn missing(trial: &mut Trial, dimensions: &Dimensions) -> Vec<Missing
                             {
                                 continue;
                             }
-                            // An explanation is less simple if the expression is missing in an earlier formula, if its
-                            // position is deeper in the formula, and for each name that the formula does not contain.
+                            // An earlier formula, a deeper position and each name that is new in the formula make an
+                            // explanation less simple.
                             let outside = usize::from(index != trial.index) + depth + own.strangers;
                             found.push((weight + 2 * outside, own));
                         }
@@ -107,7 +109,7 @@ pub(super) fn missing(trial: &mut Trial, dimensions: &Dimensions) -> Vec<Missing
     found.dedup_by(|one, other| one.1.changed == other.1.changed);
     let mut right: Vec<(usize, Candidate)> = Vec::new();
     for (weight, own) in found {
-        // Keeps only explanations about as simple as the simplest one and at the position of this one.
+        // Keeps only explanations about as simple as the simplest one, and at the same position.
         let is_equal = right.first().is_none_or(|(least, first)| weight <= least + 1 && own.is_beside(first));
         if is_equal && right.len() < MOST && trial.fits(&own.changed, 0.0) {
             right.push((weight, own));
@@ -120,7 +122,7 @@ pub(super) fn missing(trial: &mut Trial, dimensions: &Dimensions) -> Vec<Missing
 const MOST: usize = 3;
 
 /// Entries of a dictionary, sorted by the ratio of their values at two instants.
-/// So entries proportional to an amount are found without a test of every entry.
+/// A binary search then finds the entries that are proportional to an amount.
 #[derive(Default)]
 struct Ratios {
     sorted: BTreeMap<[usize; 2], Vec<(f64, usize)>>,
@@ -170,7 +172,7 @@ impl Candidate {
         of(self) == of(other)
     }
 
-    /// Returns `None` if the formula with the missing expression would use a later formula.
+    /// Returns `None` if the formula with the missing expression would use itself or a later formula.
     fn of(trial: &Trial, [index, number]: [usize; 2], operator: Operator, what: &FormulaTree) -> Option<Self> {
         let later = &trial.formulas.list[index..];
         if what.names().iter().any(|(name, _)| later.iter().any(|own| own.name == *name)) {
@@ -191,10 +193,9 @@ impl Candidate {
 }
 
 /// Whether a number alone proves that a product is missing.
-/// The number must have more digits than chance explains, given the number of products with the same unit.
-/// If the formula is wrong by a constant factor or offset, or if the mechanism's value is constant, `places` is the
-/// number of positions at which the product may be missing.
-/// The product then fits at all these positions. In all other cases `places` is `None`.
+/// Few products with the same unit may match the number by chance.
+/// If the formula is wrong by a constant factor or offset, or if the mechanism's value is constant, the product fits at
+/// several positions, and `places` is their number; otherwise `places` is `None`.
 fn is_believed(
     monomials: &Monomials,
     dimensions: &Dimensions,
@@ -206,7 +207,7 @@ fn is_believed(
 ) -> bool {
     let dimension = dimensions.of_constant(what);
     let (products, one) = monomials.by_chance(coefficient, ACCURACY, weight, dimension);
-    // A simple product is accepted if no other product of its complexity has the missing unit.
+    // A simple product is accepted if no other product of its complexity has the same unit.
     if weight <= 2 && products <= 1 && dimension.is_some() {
         return true;
     }
@@ -222,8 +223,7 @@ fn before(places: &[(usize, usize)], depth: usize) -> usize {
     places.partition_point(|(own, _)| *own <= depth)
 }
 
-/// Depth and number of every position of a tree at which an expression may be missing. The whole tree comes before its
-/// parts.
+/// Depth and number of every position of a tree at which an expression may be missing; the whole tree comes first.
 fn places(tree: &FormulaTree) -> Vec<(usize, usize)> {
     let (mut places, mut number) = (Vec::new(), 0);
     at_every_place(tree, &mut |place, part| {
@@ -291,10 +291,10 @@ fn product(factor: &FormulaTree, entry: &FormulaTree) -> FormulaTree {
     }
 }
 
-/// Missing amount at one position of the formula, for each of the few instants.
-/// If the amount enters the formula as a square, for example, there are two solutions.
-/// The iteration is therefore run with three starting values: the neutral value, the amount at the previous instant,
-/// and the amount at the next instant. Different results are all returned.
+/// The missing amount at one position of the formula, for each instant of the trial.
+/// There may be several solutions, for example two if the amount is squared in the formula.
+/// The iteration therefore starts from the neutral value, from the amount at the previous instant, and from the amount
+/// at the next instant. All different results are returned.
 fn needed(trial: &mut Trial, place: usize, operator: Operator) -> Vec<Needed> {
     let depending = trial.sheet.depending(&[place]);
     let neutral = if operator == Operator::Plus { 0.0 } else { 1.0 };
@@ -325,8 +325,7 @@ fn needed(trial: &mut Trial, place: usize, operator: Operator) -> Vec<Needed> {
     [vec![afresh], others].concat()
 }
 
-/// Factor by which the missing amount is proportional to an entry. `None` if the amount is not proportional to the
-/// entry.
+/// Ratio of the missing amount to an entry; `None` if the ratio is not constant.
 fn coefficient(entry: &Entry, needed: &Needed) -> Option<f64> {
     let known = || entry.values.iter().zip(needed).filter_map(|(value, own)| Some((*value, (*own)?)));
     // Selects the instant with the smallest relative error.

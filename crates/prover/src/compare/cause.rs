@@ -38,7 +38,8 @@ pub struct Explained {
 }
 
 /// Fractions of the largest difference that a cause may leave, tried in this order.
-/// At first nothing beyond the bounds may remain. Later a little may remain, such as the error of a simulation.
+/// With the first fraction, the remaining differences must be within the bounds.
+/// The further fractions allow for errors such as those of a simulation.
 const LEFT: [f64; 3] = [0.0, 0.01, 0.05];
 
 /// Largest number of channels with small differences for which missing terms are sought.

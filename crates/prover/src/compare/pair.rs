@@ -1,4 +1,4 @@
-//! Result of comparing two sides.
+//! Result of a comparison of two parties.
 
 use crate::sentences;
 
@@ -13,14 +13,14 @@ use linkage::input::Input;
 use linkage::math::statistics::half_range;
 use scenario::Claim;
 
-/// A side of a comparison.
+/// A party of a comparison.
 pub(super) struct Side {
     /// Name in a recording; empty for a party that is not a recording.
     pub name: String,
     pub held: Held,
 }
 
-/// Two sides compared.
+/// The comparison of two parties.
 #[derive(Default)]
 pub struct SidePair {
     /// Names in the recordings; empty for a party that is not a recording.
@@ -34,7 +34,7 @@ pub struct SidePair {
     pub instants: usize,
     /// Number of instants of one party that the other party does not have.
     pub unshared: usize,
-    /// Channels that only one of the two sides has.
+    /// Channels that only one of the two parties has.
     pub alone: [Vec<String>; 2],
     /// The first row at which time or crank angle goes backwards: the number of the row, the previous instant, and the
     /// instant of the row. See [`RowKey::turns_back`](crate::tables::RowKey::turns_back).

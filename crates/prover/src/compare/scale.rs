@@ -47,7 +47,8 @@ impl Scales {
         Scales(all.map(|((channel, scale), known)| (channel.to_string(), (scale, known))).collect())
     }
 
-    /// Smallest error of a channel, in its SI unit.
+    /// Lower limit of the error of an analytic side's values of a channel (SI unit): the rounding error in a
+    /// well-conditioned pose. 0 for a channel without a scale.
     pub(super) fn known(&self, channel: &Channel) -> f64 {
         self.0.get(&channel.to_string()).map_or(0.0, |(_, known)| *known)
     }

@@ -125,8 +125,8 @@ impl<'a> Bench<'a> {
         self.tried_in(case, None)
     }
 
-    /// As `tried`, but the values of the changed case replace those of the reference in the channels of one stage only,
-    /// or in all channels.
+    /// Like `tried`, but the values of the changed case replace those of the reference in the channels of one stage
+    /// only, or in all channels.
     pub(super) fn tried_in(&self, case: &Case, stage: Option<Stage>) -> Option<Misfit> {
         self.left.set(self.left.get().checked_sub(1)?);
         let found = self.solver.solve(case).ok()?;
@@ -199,7 +199,7 @@ pub(super) fn thinned(question: &DiagnosisInput) -> Vec<usize> {
     in_order(rows)
 }
 
-/// As `thinned`, but the rows are from the early time in which the differences are still small.
+/// Like `thinned`, but the rows are from the early time in which the differences are still small.
 pub(super) fn early(question: &DiagnosisInput) -> Vec<usize> {
     let ascending = ascending(question.reference.times());
     let mut end = ascending.len();

@@ -420,7 +420,7 @@ pub(super) fn significant(value: f64, digits: usize) -> f64 {
     format!("{value:.*e}", digits - 1).parse().unwrap_or(value)
 }
 
-/// As `significant`, but angles are rounded in degrees.
+/// Like `significant`, but angles are rounded in degrees.
 pub(super) fn significant_in(is_angle: bool, value: f64, digits: usize) -> f64 {
     if is_angle { significant(value.to_degrees(), digits).to_radians() } else { significant(value, digits) }
 }

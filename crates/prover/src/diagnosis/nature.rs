@@ -71,8 +71,8 @@ fn growth(times: &[f64], gaps: &[f64]) -> Option<Option<u32>> {
     if !grows {
         return None;
     }
-    // Only the second half of the run is used: for a late part, the time of its middle represents the time since the
-    // start more accurately.
+    // Only the second half of the run is used. The middle of a part represents the time since the start more
+    // accurately for a late part than for an early part.
     let middle = |part: usize| times[part * size + size / 2] - times[0];
     let power = (parts[PARTS - 1] / parts[PARTS / 2]).ln() / (middle(PARTS - 1) / middle(PARTS / 2)).ln();
     let whole = power.round();

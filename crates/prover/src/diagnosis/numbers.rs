@@ -185,7 +185,7 @@ fn search(knob: &Knob, guess: f64, bench: &Bench, start: Option<&Misfit>) -> Opt
             return None;
         }
         if misfit.dot(&misfit) > before.dot(&before) {
-            // A step that is too long is halved once. After that the search ends.
+            // A step that is too long is halved once. If the half step is too long too, the search ends.
             if halved {
                 return None;
             }

@@ -97,7 +97,7 @@ fn mass_centres(case: &Case) -> Vec<(Change, Make)> {
     found
 }
 
-/// Changes every link in three ways: without mass and inertia, without weight, and without resistance to acceleration.
+/// For every link, three changed cases: without mass and moment of inertia, without weight, and without inertia forces.
 fn masses(case: &Case) -> Vec<(Change, Make)> {
     let mut found = Vec::new();
     let heavy = |(_, link): &(LinkId, &Link)| link.mass > 0.0;
@@ -147,8 +147,8 @@ fn weight(case: &Case, link: LinkId, factor: f64) -> Load {
     Load::Force { at: JointSide { link, local: body.mass_centre }, force: [x, y], follows: false }
 }
 
-/// The case in which some links have weight but no resistance to acceleration.
-fn without_inertia_forces(case: &Case, of: &[LinkId]) -> Option<Case> {
+/// The case in which some links have weight but no inertia; `None` if this case cannot be built.
+pub fn without_inertia_forces(case: &Case, of: &[LinkId]) -> Option<Case> {
     let heavy = case.with(|parts| parts.loads.extend(of.iter().map(|&link| weight(case, link, 1.0)))).ok()?;
     without_masses(&heavy, of)
 }

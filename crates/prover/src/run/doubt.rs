@@ -22,17 +22,17 @@ use super::runs::Runs;
 /// Within this number of steps on either side of a jump, an engine's values are doubtful. The steps are those of the
 /// coarsest judged run.
 const STEPS: f64 = 8.0;
-/// As `STEPS`, for impulses of a free motion. Impulses are computed from six steps, one step late.
+/// Like `STEPS`, for impulses of a free motion. Impulses are computed from six steps, one step late.
 const IMPULSES: f64 = 5.0;
-/// As `STEPS`, for a prescribed motion with extrapolated impulses.
+/// Like `STEPS`, for a prescribed motion with extrapolated impulses.
 /// The instants at which a load jumps in the different runs lie within this fraction of a step.
 /// With the step h, the velocities of these runs differ by about h^2 / 12 times their second derivative.
 const APART: f64 = 0.25;
 
-/// As `STEPS`, for accelerations and forces at the start of a free motion with friction.
+/// Like `STEPS`, for accelerations and forces at the start of a free motion with friction.
 /// The acceleration of the first step, from which the engine computes its friction, lacks half of the centripetal part.
 const START: f64 = 2.0;
-/// As `STEPS`, for accelerations and forces at the end of a piece of a cam's law.
+/// Like `STEPS`, for accelerations and forces at the end of a piece of a cam's law.
 const KNOT: f64 = 2.0;
 /// An instant nearer to the end of a piece than this fraction of a step lies at this end.
 const ON_KNOT: f64 = 1e-6;

@@ -71,7 +71,7 @@ impl<T> EachSide<T> {
         EachSide(Reference::ALL.map(of))
     }
 
-    /// As `EachSide::of`, for a function that can fail. Returns the first error.
+    /// Like `EachSide::of`, for a function that can fail. Returns the first error.
     pub(crate) fn tried<E>(mut of: impl FnMut(Reference) -> Result<T, E>) -> Result<Self, E> {
         Ok(EachSide([of(Reference::Assur)?, of(Reference::Newton)?]))
     }

@@ -46,7 +46,7 @@ pub const TRUE_SIDES: EachSide<Entrant<'static>> = EachSide::new(
     Entrant { solver: &NewtonSolver, tight: &TIGHT_NEWTON },
 );
 
-/// How engines take part.
+/// The part of engines in a proof.
 pub struct EngineRole<'a> {
     /// The case that the engines solve, on the scenario's instants.
     pub case: &'a Case,
@@ -160,7 +160,9 @@ impl ObservedSides {
         let sides = self.claimed(case, formulas)?;
         let (mut causes, mut undefined) = (Vec::new(), BTreeMap::new());
         let (mut unsought, mut work) = (BTreeSet::new(), 0);
-        let is_wrong = |all: &&Vec<JudgedFormula>| all.iter().any(|judged| judged.outcome() == FormulaOutcome::Wrong);
+        let is_wrong = |all: &&Vec<JudgedFormula>| {
+            all.iter().any(|judged| judged.finding.is_none() && judged.outcome() == FormulaOutcome::Wrong)
+        };
         for index in 0..sides[Reference::Assur].len() {
             // Selects the first side that the formula contradicts.
             let all = EachSide::of(|side| &sides[side][index]);
@@ -187,8 +189,8 @@ impl ObservedSides {
         Ok(Judgement { causes, undefined, unsought, work, ..Judgement::of(sides) })
     }
 
-    /// Every claim, compared with the results of each side that has its channels. Causes of wrong formulas are not
-    /// sought.
+    /// Every claim, compared with the results of each side that has the channels of the claim. Causes of wrong
+    /// formulas are not sought.
     ///
     /// # Errors
     /// The errors of [`check::judge`].

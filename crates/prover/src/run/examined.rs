@@ -33,7 +33,7 @@ pub(super) fn of(
     let ran: Vec<(&EngineProof, Trajectory)> =
         ran.filter_map(|engine| Some((engine, thin(engine.trajectory.as_ref()?)))).collect();
 
-    // The bound is on the difference of the two sides, so each side gets half of it.
+    // The bound is on the difference of the two analytic sides, so each side gets half of it.
     let halves: Vec<_> = between.iter().map(|judged| (judged.channel.clone(), judged.bound / 2.0)).collect();
     let mut parties: Vec<DiagnosedParty> = own
         .iter()

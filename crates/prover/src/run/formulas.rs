@@ -63,8 +63,15 @@ fn check(side: Reference, judged: &JudgedFormula, why: &str) -> Check {
     let (value, bound) = judged.worst.map_or((0.0, 0.0), |worst| (worst.difference.abs(), worst.bound));
     let tolerance = Tolerance { bound, basis: BoundBasis::Formula { claimed: judged.claimed } };
     let mut check = Check::new(format!("formulas ({side})"), value, tolerance, judged.unit).of(name(judged));
-    if let FormulaOutcome::Open { reason, advice } = judged.outcome() {
-        check.verdict = Verdict::Inconclusive { reason, advice };
+    match judged.outcome() {
+        FormulaOutcome::Open { reason, advice } => check.verdict = Verdict::Inconclusive { reason, advice },
+        FormulaOutcome::Expected { finding } => check.verdict = Verdict::Expected { finding, off: value },
+        FormulaOutcome::Wrong if judged.since.is_none() => {
+            let finding = judged.finding.as_deref().unwrap_or_default();
+            check.verdict = Verdict::Disagree { place: sentences::the_finding_calls_the_formula(&finding) };
+            return check;
+        }
+        FormulaOutcome::Right | FormulaOutcome::Wrong => {}
     }
     check.located(|| {
         let place = judged.since.map_or_else(String::new, |since| place(&since));

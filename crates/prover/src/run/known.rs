@@ -124,8 +124,9 @@ pub(super) struct Known {
     /// Absolute crank angle at every instant of a prescribed motion (rad). Both sides receive this angle rounded to a
     /// double.
     turned: Vec<f64>,
-    /// Whether a channel is an angle. The rounding of the crank angle is not added for angles, because their numbers
-    /// already include their revolutions.
+    /// Whether a channel is an angle.
+    /// The rounding error of an angle is relative to the angle with all its revolutions, so it already covers the
+    /// rounding error of the crank angle.
     is_angle: Vec<bool>,
 }
 
@@ -168,8 +169,8 @@ impl Known {
         let integration = EachSide::tried(|side| integration(sides[side]))?;
         let dependence = Dependence::of(case, own.channels());
         let magnitudes = magnitudes_by(own, &dependence.of, &|from, to| dependence.feeds(from, to));
-        // The sizes from the case's data serve for quantities that vanish, for example a velocity if no coordinate is
-        // among the channels.
+        // If a size is only rounding error, a size from the case's data replaces it. An example is the size of a
+        // vanishing velocity if the channels contain no coordinate from which a size could follow.
         let sizes = built(case);
         let sized = magnitudes.into_iter().zip(own.channels());
         // The angular acceleration of a wheel is a sum of terms of the size omega^2, which cancel if the ratio of the
@@ -240,7 +241,7 @@ impl Known {
     fn rounding(&self, stage: Stage, channel: usize, row: usize) -> f64 {
         let set = self.dependence.of[channel];
         let condition = self.conditions.get(row).map_or(1.0, |sets| sets[set]);
-        // The crank angle is rounded before either side begins. This rounding acts like any error of a position.
+        // Rounding the crank angle, before either side begins, acts like any other error of a position.
         let turned = self.turned.get(row).filter(|_| !self.is_angle[channel]);
         let turned = turned.map_or(0.0, |turned| f64::EPSILON * turned * condition.powi(power(stage)));
         usual(stage).larger(self.levers[channel] * of_condition(stage, condition)) + turned

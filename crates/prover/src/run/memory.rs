@@ -15,8 +15,8 @@ use scenario::Oracle;
 pub(crate) const MOST: f64 = 4e9;
 /// Memory of a run without its instants (bytes).
 const ELSE: f64 = 2e7;
-/// Number of trajectories of a proof at its peak: two sides, the three judged runs, one run with another number of
-/// sweeps, the best run so far, and one run in progress.
+/// Number of trajectories of a proof at its peak: two analytic sides, the three judged runs, one run with another
+/// number of sweeps, the best run so far, and one run in progress.
 const TRAJECTORIES: f64 = 8.0;
 /// Number of runs of an engine in memory at the peak: one run for each halving of the step, and, at some steps, further
 /// runs with different numbers of sweeps.

@@ -19,7 +19,7 @@ const LEFT_OUT: f64 = 2.0;
 pub(super) enum Of {
     /// The bound of a channel or check.
     Bound,
-    /// The instants that a step leaves out.
+    /// The instants that are not judged because the step is too coarse.
     Instants,
 }
 
@@ -40,8 +40,8 @@ impl Need {
         !self.is_vague && self.share <= most
     }
 
-    /// Whether this need is at most `part` times the need `other`.
-    /// A need with an order of convergence is always less than a need without an order of convergence.
+    /// Whether a trial is closer to conclusive than another: its `share` is at most `part` times that of `other`.
+    /// A trial with an observed order of convergence is always closer than a trial without.
     pub(super) fn is_less(self, part: f64, other: Need) -> bool {
         match (self.is_vague, other.is_vague) {
             (false, true) => true,
@@ -50,7 +50,7 @@ impl Need {
         }
     }
 
-    /// Whether an order of convergence is observed and the largest need is a step that leaves out fewer instants.
+    /// Whether an order of convergence is observed, and the instants left out by the step determine `share`.
     pub(super) fn is_of_instants(self) -> bool {
         !self.is_vague && self.of == Of::Instants
     }

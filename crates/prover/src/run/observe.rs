@@ -8,8 +8,8 @@ use linkage::case::{Case, FrictionSeat};
 use linkage::drive::{Drive, Load, Senses as LoadSenses};
 use linkage::error::Error;
 use linkage::math::statistics::share;
-use linkage::math::{KeepNan, Motion, Vec2, largest_size, unit};
-use linkage::mechanism::{LinkPose, Pose};
+use linkage::math::{KeepNan, Vec2, largest_size, unit};
+use linkage::mechanism::Pose;
 use linkage::solver::{Progress, Sampler, Solver, State};
 use linkage::trajectory::{Stage, Trajectory};
 
@@ -232,9 +232,7 @@ fn sensed_in(case: &Case, state: &State, senses: LoadSenses) -> Option<Vec2> {
 
 /// Positions and directions of all links.
 pub(super) fn pose_of(state: &State) -> Pose {
-    let frame =
-        |motion: &Motion| LinkPose { origin: motion.origin, angle: motion.direction.y.atan2(motion.direction.x) };
-    Pose(state.motions.iter().map(frame).collect())
+    Pose::of(&state.motions)
 }
 
 /// Balancing moments of all drives (N m), reduced to the crank by their powers.

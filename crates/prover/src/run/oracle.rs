@@ -274,7 +274,7 @@ fn tolerance(oracle: &Oracle, origin: BoundOrigin, bound: f64, instant: f64, dig
     Tolerance { bound, basis: BoundBasis::Digits { origin, digits, source: oracle.source.clone(), instant } }
 }
 
-/// Origin of the numbers of an oracle.
+/// How the numbers of an `[[oracle]]` were obtained.
 fn origin(oracle: &Oracle) -> BoundOrigin {
     match oracle.basis {
         OracleBasis::Published => BoundOrigin::Published,

@@ -1,6 +1,7 @@
 //! Judges the forces that an engine itself exerts: its own forces.
 //! These forces are judged in addition to the forces that follow from the engine's motion by Newton-Euler equations.
-//! A second search tries the engine's routes.
+//! The settings for them are searched after those for the motion: one search for each method by which the engine
+//! reports its forces (`Engine::own_routes`), until one is conclusive.
 //! See docs/numerics/forces.md.
 
 use crate::sentences;

@@ -1,29 +1,30 @@
-//! Compares reference and engines as equals, to find the side that disagrees with all other sides.
+//! Compares the parties, that is reference and engines, with each other, to find the party that disagrees with all
+//! others.
 
 use super::engine_proof::EngineProof;
 use crate::bounds::largest_difference;
 use linkage::trajectory::{Channel, Trajectory};
 
-/// A channel in which not all sides agree.
+/// A channel in which not all parties agree.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Dispute {
     /// The channel.
     pub channel: String,
-    /// Pairs of sides whose difference exceeds the sum of their bounds.
+    /// Pairs of parties whose difference exceeds the sum of their bounds.
     pub pairs: Vec<[&'static str; 2]>,
-    /// The side without which all other sides agree. `None` if there is no such side, if there are several such sides,
-    /// or if there are only two sides.
+    /// The only party without which all others agree. `None` if there is no such party, or if there are only two
+    /// parties.
     pub odd: Option<&'static str>,
 }
 
-/// One side: its values and the bound on their error.
+/// A party: its values and the bound on their error.
 struct Party<'a> {
     name: &'static str,
     values: &'a [f64],
     bound: f64,
 }
 
-/// Every channel in which two sides differ by more than the sum of their bounds.
+/// Every channel in which two parties differ by more than the sum of their bounds.
 /// The bound of the reference is 0 here, because the bounds of the engines include its error.
 /// Engines with an inconclusive verdict are left out.
 #[must_use]
@@ -45,7 +46,7 @@ fn dispute(name: &'static str, channel: &Channel, values: &[f64], engines: &[Eng
     Some(Dispute { channel: channel.to_string(), pairs, odd })
 }
 
-/// Pairs of sides that differ by more than the sum of their bounds, and the only side that is in all these pairs.
+/// Pairs of parties that differ by more than the sum of their bounds, and the only party that is in all these pairs.
 /// `None` if no pair differs.
 fn apart(parties: &[Party], periodic: bool) -> Option<(Vec<[&'static str; 2]>, Option<&'static str>)> {
     let differ = |a: &Party, b: &Party| {

@@ -171,7 +171,7 @@ fn regress_a_driving_link_has_its_own_bound_near_a_dead_point() {
         let differ = checks::sides_differ([&truth.trajectory, &slow.trajectory], &known);
         assert_eq!(differ, is_found, "{size:e}");
     }
-    // Without a fault, the sides differ at this pose only by rounding.
+    // Without a fault, the analytic sides differ at this pose only by rounding.
     assert!(!checks::sides_differ([&truth.trajectory, &other.trajectory], &known));
 }
 

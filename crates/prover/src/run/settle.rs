@@ -24,8 +24,8 @@ pub const BUDGET: f64 = 2e7;
 /// As long as the search has done less than this fraction of the allowed work, a conclusive result is refined further,
 /// to the target accuracy.
 const THRIFT: f64 = 0.0015;
-/// The search aims at bounds of this fraction of the widest conclusive bound.
-/// With extrapolation, a bound a hundred times narrower than the widest conclusive bound costs little.
+/// Target of the search: bounds at this fraction of the widest conclusive bound. With extrapolation, such bounds cost
+/// little more work than conclusive bounds.
 const AIM: f64 = 0.01;
 /// Limit of extrapolations. With more extrapolations, the weights of the runs add more rounding error than they cancel
 /// truncation error.
@@ -138,9 +138,8 @@ impl<'a, 'b> Settling<'a, 'b> {
         }
     }
 
-    /// Changes this search so that it ends as soon as every channel is conclusive.
-    /// The changed search begins with coarser steps than before, and with at least `sweeps` sweeps.
-    /// The changed search chooses no step below `finest` (s).
+    /// This search, ended as soon as every channel is conclusive.
+    /// It begins with coarser steps and with at least `sweeps` sweeps, and chooses no step below `finest` (s).
     pub(super) fn conclusive(mut self, finest: f64, sweeps: usize) -> Self {
         (self.aim, self.conclusive, self.finest, self.factor) = (1.0, true, finest, MORE_SWEEPS[1]);
         if self.given.sweeps.is_free() {
@@ -157,7 +156,7 @@ impl<'a, 'b> Settling<'a, 'b> {
         !self.given.step.is_free() || 0.5 * self.now.resolution < 0.99 * self.finest
     }
 
-    /// Refines the settings until the verdict is decided, or until nothing is left to try.
+    /// Refines the settings until the verdict is conclusive, no finer setting is left, or the work limit is reached.
     ///
     /// # Errors
     /// The failure of the last run, if no run can be judged.
@@ -212,9 +211,8 @@ impl<'a, 'b> Settling<'a, 'b> {
                     if trial.need.is_of_instants() && self.given.step.is_free() {
                         self.leave_out_less(&trial.judged);
                     }
-                    // A later round replaces the best round in three cases: a channel or check of the later round
-                    // disagrees, the later round has a smaller need, or the later round is decided and the best round
-                    // has a disagreement.
+                    // The trial of this round replaces the best trial so far in three cases: its bounds are tighter,
+                    // one of its channels or checks disagrees, or it is conclusive although the best trial disagrees.
                     let better = best.as_ref().is_none_or(|best| {
                         let refuted = decided && !best.judged.proof.against().is_empty();
                         disagrees || refuted || trial.need < best.need
@@ -372,7 +370,7 @@ impl<'a, 'b> Settling<'a, 'b> {
         self.candidates().into_iter().flat_map(|settings| rungs(settings, &[])).collect()
     }
 
-    /// Makes the runs of a round, judges the combinations of the runs and returns the best combination.
+    /// Makes the runs of a round, judges their combinations and returns the best combination.
     /// In a long search (`is_long`), the iteration error is determined even if the step is to blame for the bound.
     fn round(&mut self, is_long: bool, progress: Progress) -> Result<Trial, Stopped> {
         let mut best: Option<Trial> = None;

@@ -111,7 +111,7 @@ pub fn grow(drift: &mut [f64], changes: impl Iterator<Item = f64>, turn: Option<
     }
 }
 
-/// Rounded instants of a motion, and the change of every channel within their rounding.
+/// Rounded instants of a motion, and the change of every channel within the rounding interval of each instant.
 pub(super) struct RoundedInstants {
     /// Instants (rad or s) with their errors, in ascending order.
     at: Vec<(f64, f64)>,

@@ -37,9 +37,11 @@ pub(super) struct Stand {
     pub(super) normal: Option<Vec2>,
 }
 
-/// Weights of a joint of the tree: they give the force and moment that the inner link must receive so that the joint
-/// can transmit what the outer link needs.
-/// Each part of the transfer is a weighted sum of the three numbers x, y and moment.
+/// Weights of a joint of the tree.
+/// Given are the force and moment that the outer link must receive, the moment about its mass centre.
+/// The weights give the part that the joint cannot transmit.
+/// They also give the force and moment that the inner link must receive in addition, the moment about its mass centre.
+/// Each result is a weighted sum of the three numbers x, y and moment of the outer link.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pass {
     /// The part that the joint cannot transmit: the moment for a revolute joint, the axial force for a prismatic joint.
@@ -147,8 +149,8 @@ impl Pass {
         weighed(&self.left_over, term)
     }
 
-    /// Adds the force and moment that the joint transmits to the outer link to the force and moment that the inner link
-    /// needs.
+    /// Adds the force and moment that the joint transmits to its outer link (from `term`) to the force and moment `sum`
+    /// that must be transmitted to its inner link.
     #[inline]
     pub(super) fn on(&self, term: &Term, sum: &mut Term) {
         let [xx, xy, yy] = self.force;

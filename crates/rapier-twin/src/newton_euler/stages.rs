@@ -47,7 +47,8 @@ impl Row {
     }
 
     /// Calls `put` for every column and coefficient of the equation, and returns the right-hand side.
-    /// Coefficients and right-hand side follow from the limb's joint and from the needs of its link.
+    /// Coefficients and right-hand side follow from the limb's joint, and from the force and moment that this joint
+    /// must transmit to its link.
     #[inline]
     pub(super) fn equation(
         &self,

@@ -114,9 +114,8 @@ fn every_key_of_the_table_is_read() {
     let names = |section: &Section| section.keys.iter().map(|key| key.name).collect::<Vec<_>>();
     let mut never = Vec::new();
     for section in sections() {
-        // The same keys occur in several sections, for example positions and printed numbers. A single reader reads all
-        // sections with the same keys.
-        // It therefore suffices that a key is requested in one of the sections with the same keys.
+        // One reader serves all sections with the same keys, for example positions and printed numbers. It is enough
+        // that it reads a key in one of these sections.
         let alike = || sections().filter(|other| names(other) == names(section));
         for spelling in section.keys.iter().flat_map(super::FileKey::spellings) {
             if !alike().any(|own| asked.get(own.path).is_some_and(|keys| keys.contains(&spelling))) {

@@ -15,7 +15,7 @@ type Spelled = (&'static UnitFamily, usize, &'static NamedUnit);
 
 /// Lower limit of the magnitude of a quantity in SI.
 /// If all quantities exceed this limit, their squares and products do not underflow.
-const SMALLEST: f64 = 1e-100;
+pub(crate) const SMALLEST: f64 = 1e-100;
 
 impl<'a> TomlTable<'a> {
     /// The row of a quantity in the table of keys, which states its units and its sign.

@@ -1,4 +1,4 @@
-// Channels: both sides over time or crank angle; below, the magnitude of their difference with its bound.
+// Channels: reference and engine over time or crank angle; below, the magnitude of their difference with its bound.
 
 const PLOT = { width: 340, left: 56, right: 8, upper: 110, gap: 25, lower: 66, axis: 28, head: 18 };
 /** Units of the page in place of SI units. */

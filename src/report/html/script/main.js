@@ -120,7 +120,7 @@ function setUpEngines() {
     tellFactor();
   };
   const tellFactor = () => {
-    byId('magnified').textContent = shown.magnify === 1 ? '' : `The engine's difference to the reference is drawn ${digits(shown.magnify)} times as large as it is.`;
+    byId('magnified').textContent = shown.magnify === 1 ? '' : `The difference between engine and reference is drawn ${digits(shown.magnify)} times as large as it is.`;
   };
   choice.addEventListener('change', () => {
     shown.engine = choice.selectedIndex;

@@ -52,7 +52,7 @@ function setUpJoints() {
   }
 }
 
-/** Elements of both sides that are redrawn at every instant: `make` creates an element, `move` draws it. */
+/** Elements of reference and engine that are redrawn at every instant: `make` creates an element, `move` draws it. */
 function onBothSides(parent, make, move) {
   for (const isEngine of hasEngine ? [false, true] : [false]) {
     const own = draw(parent, 'g', { class: isEngine ? 'other' : 'own' });
@@ -172,7 +172,7 @@ function setUpPaths() {
   return drawn.some((own) => own !== null);
 }
 
-/** Factors by which differences between the sides can be magnified. */
+/** Factors by which differences between engine and reference can be magnified. */
 function magnifications() {
   let most = 0;
   for (const link of motion.links) {

@@ -99,7 +99,7 @@ impl<'a> Anchors<'a> {
 }
 
 impl Way<'_> {
-    /// Adds anchors until this interval is known. Returns `false` if this is impossible.
+    /// Adds anchors until the interval `interval` is known. Returns `false` if this is impossible.
     fn reach(&mut self, start: f64, interval: usize) -> bool {
         if interval >= MOST {
             return false;

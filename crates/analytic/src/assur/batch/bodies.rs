@@ -6,25 +6,22 @@ use linkage::drive::Load;
 use linkage::math::Vec2;
 use linkage::mechanism::{JointId, JointSide, LinkId};
 
-/// Action of a joint on one of its links: `sign` times the joint's reaction, applied at the vector `arm` from the
-/// link's pole, in the link's frame.
+/// Action of a joint on one of its links: `sign` times the joint's reaction, applied at `place` in the link's frame.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Action {
     /// Column of the reaction.
     pub(super) force: usize,
-    pub(super) arm: Vec2,
+    pub(super) place: Vec2,
     pub(super) sign: f64,
 }
 
-/// A link with the actions on it. Moments are about its pole, which is one of its joints.
+/// A link with the actions on it.
 #[derive(Clone, Debug)]
 pub(super) struct Body {
     /// First column of the link.
     pub(super) link: usize,
     pub(super) mass: f64,
     pub(super) mass_centre: Vec2,
-    /// Vector from the pole to the mass centre, in the link's frame.
-    pub(super) centre: Vec2,
     pub(super) inertia: f64,
     /// Joints at which later groups are attached to the link.
     pub(super) hanging: Vec<Action>,
@@ -50,16 +47,16 @@ impl Reader<'_> {
         (self.layout.link(link), local)
     }
 
-    pub(super) fn action(&self, joint: JointId, link: LinkId, pole: Vec2) -> Action {
+    pub(super) fn action(&self, joint: JointId, link: LinkId) -> Action {
         let is_second = self.case.mechanism.joints()[joint].second.link == link;
         Action {
             force: self.layout.force(joint),
-            arm: self.place(joint, link) - pole,
+            place: self.place(joint, link),
             sign: if is_second { 1.0 } else { -1.0 },
         }
     }
 
-    pub(super) fn body(&self, link: LinkId, pole: Vec2) -> Body {
+    pub(super) fn body(&self, link: LinkId) -> Body {
         let joints = self.case.mechanism.joints();
         let hanging = joints.ids().filter(|&joint| self.settled[joint] && joints[joint].on(link).is_some());
         let body = &self.case.mechanism.links()[link];
@@ -67,9 +64,8 @@ impl Reader<'_> {
             link: self.layout.link(link).expect("the link moves"),
             mass: body.mass,
             mass_centre: body.mass_centre,
-            centre: body.mass_centre - pole,
             inertia: body.inertia,
-            hanging: hanging.map(|joint| self.action(joint, link, pole)).collect(),
+            hanging: hanging.map(|joint| self.action(joint, link)).collect(),
             loads: self
                 .case
                 .loads

@@ -67,10 +67,10 @@ impl Chain {
         }
         let column = |link: LinkId| reader.layout.link(link);
         let nodes = contours.nodes.iter().map(|node| Node {
-            body: reader.body(node.link, node.own),
+            body: reader.body(node.link),
             own: node.own,
             hangs: node.hangs,
-            reaction: reader.action(node.joint, node.link, node.own),
+            reaction: reader.action(node.joint, node.link),
         });
         let arrow = |arrow: &groups::Arrow| {
             let (node, link) = (arrow.node, column(contours.nodes[arrow.node].link)?);

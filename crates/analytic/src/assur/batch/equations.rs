@@ -3,7 +3,7 @@
 //! The motion is computed with the equations of [`crate::assur::groups::Rrr`], the forces with the equations of the
 //! module `assur::forces`.
 //! The sources of the equations are named in these two modules.
-//! The arm of a force is the vector from the link's pole in the link's frame, so that no world positions are needed.
+//! The results equal those of these modules, bit by bit, if the motion of the driving links does.
 
 use pulp::Simd;
 
@@ -52,7 +52,7 @@ impl Groups {
             }
         }
         for (index, driver) in self.drivers.iter().enumerate() {
-            let (force, moment) = driver.body.resultant(self.gravity, tile);
+            let (force, moment) = driver.body.resultant(self.gravity, driver.pole(tile), tile);
             tile.put_vector(driver.reaction.force, force * -driver.reaction.sign);
             tile.put(self.layout.torque(index), -moment);
         }
@@ -63,102 +63,125 @@ impl Driver {
     #[inline(always)]
     fn turn<S: Simd>(&self, deepest: Stage, tile: &mut Window<S>) {
         let link = self.body.link;
+        let zero = Plane::splat(tile.simd, Vec2::zeros());
+        let (is_plain, ground) = (self.pivot == Vec2::zeros(), Plane::splat(tile.simd, self.ground));
         let arm = tile.vector(link + DIRECTION).rotate(-self.pivot);
-        tile.put_vector(link + ORIGIN, arm + self.ground);
+        tile.put_vector(link + ORIGIN, if is_plain { ground } else { arm + self.ground });
         if deepest >= Stage::Velocities {
-            tile.put_vector(link + VELOCITY, arm.turned() * tile.get(link + OMEGA));
+            let velocity = if is_plain { zero } else { arm.turned() * tile.get(link + OMEGA) };
+            tile.put_vector(link + VELOCITY, velocity);
         }
         if deepest >= Stage::Accelerations {
             let (omega, alpha) = (tile.get(link + OMEGA), tile.get(link + ALPHA));
-            tile.put_vector(link + ACCELERATION, swung(arm, omega, alpha));
+            let acceleration = if is_plain { zero } else { swung(arm, omega, alpha) };
+            tile.put_vector(link + ACCELERATION, acceleration);
+        }
+    }
+
+    /// World position of the joint.
+    #[inline(always)]
+    fn pole<S: Simd>(&self, tile: &Window<S>) -> Plane<S> {
+        match self.pivot == Vec2::zeros() {
+            true => tile.vector(self.body.link + ORIGIN),
+            false => self.body.point(self.pivot, tile),
         }
     }
 }
 
 impl Arm {
-    /// World vector from the base link's origin to the outer joint, and the first column of the base link (`None` for
-    /// the ground).
+    /// World vector from the base link's origin to the outer joint, and the position, velocity and acceleration of the
+    /// joint. Only values up to the stage `deepest` are computed.
     #[inline(always)]
-    fn base<S: Simd>(&self, tile: &Window<S>) -> (Plane<S>, Option<usize>) {
-        match self.base {
-            (Some(base), local) => (tile.vector(base + DIRECTION).rotate(local), Some(base)),
-            (None, local) => (Plane::splat(tile.simd, local), None),
+    fn base<S: Simd>(&self, deepest: Stage, tile: &Window<S>) -> [Plane<S>; 3] {
+        let zero = Plane::splat(tile.simd, Vec2::zeros());
+        let (Some(base), local) = self.base else { return [Plane::splat(tile.simd, self.base.1), zero, zero] };
+        let vector = tile.vector(base + DIRECTION).rotate(local);
+        let place = tile.vector(base + ORIGIN) + vector;
+        if deepest < Stage::Velocities {
+            return [place, zero, zero];
         }
-    }
-
-    /// World position of the outer joint.
-    #[inline(always)]
-    fn place<S: Simd>(&self, tile: &Window<S>) -> Plane<S> {
-        let (arm, base) = self.base(tile);
-        base.map_or(arm, |base| tile.vector(base + ORIGIN) + arm)
-    }
-
-    /// Velocity of the outer joint.
-    #[inline(always)]
-    fn velocity<S: Simd>(&self, tile: &Window<S>) -> Plane<S> {
-        match self.base(tile) {
-            (arm, Some(base)) => tile.vector(base + VELOCITY) + arm.turned() * tile.get(base + OMEGA),
-            (_, None) => Plane::splat(tile.simd, Vec2::zeros()),
+        let omega = tile.get(base + OMEGA);
+        let velocity = tile.vector(base + VELOCITY) + vector.turned() * omega;
+        if deepest < Stage::Accelerations {
+            return [place, velocity, zero];
         }
-    }
-
-    /// Acceleration of the outer joint.
-    #[inline(always)]
-    fn acceleration<S: Simd>(&self, tile: &Window<S>) -> Plane<S> {
-        match self.base(tile) {
-            (arm, Some(base)) => {
-                tile.vector(base + ACCELERATION) + swung(arm, tile.get(base + OMEGA), tile.get(base + ALPHA))
-            }
-            (_, None) => Plane::splat(tile.simd, Vec2::zeros()),
-        }
+        let alpha = tile.get(base + ALPHA);
+        let acceleration = tile.vector(base + ACCELERATION) + vector.turned() * alpha - vector * (omega * omega);
+        [place, velocity, acceleration]
     }
 }
 
 impl Dyad {
     /// Computes the motion of both links. Returns NaN for poses that cannot be assembled.
+    /// The operations and their order are those of [`crate::assur::groups::Rrr`], so that the bits are the same.
     #[inline(always)]
     fn turn<S: Simd>(&self, deepest: Stage, tile: &mut Window<S>, work: &mut Window<S>, column: usize) -> Lanes<S> {
         let [first, second] = &self.arms;
-        let [p1, p2] = [first.place(tile), second.place(tile)];
+        let ([p1, v1, a1], [p2, v2, a2]) = (first.base(deepest, tile), second.base(deepest, tile));
         let d = p2 - p1;
         let d_squared = d.dot(d);
-        let along = (d_squared + (first.squared - second.squared)) * 0.5 / d_squared;
-        let across = (Lanes::splat(tile.simd, first.squared) / d_squared - along * along).sqrt();
-        let r1 = d * along + d.turned() * (across * self.side);
+        let along = (d_squared + (first.squared - second.squared)) * 0.5;
+        let square = (Lanes::splat(tile.simd, self.range[1]) - d_squared) * (d_squared - self.range[0]);
+        let product = square.sqrt() * self.half;
+        let r1 = (d * along + d.turned() * product) * d_squared.inverse();
         let r2 = r1 - d;
-        // Vectors from the outer joints to the origins of the links' frames.
-        let mut arms = [r1, r2];
-        for ((arm, pivot), back) in self.arms.iter().zip([p1, p2]).zip(&mut arms) {
-            let (r, link, span) = (*back, arm.body.link, arm.span);
-            let direction = r.rotate(Vec2::new(span.x, -span.y)) * arm.inverse_squared;
-            *back = direction.rotate(-arm.outer);
-            tile.put_vector(link + DIRECTION, direction);
-            tile.put_vector(link + ORIGIN, pivot + *back);
-        }
+        let inverse = product.inverse();
+        let mut rates = [(Lanes::splat(tile.simd, 0.0), Lanes::splat(tile.simd, 0.0)); 2];
         if deepest >= Stage::Velocities {
-            let inverse = r1.cross(r2).inverse();
-            let [v1, v2] = [first.velocity(tile), second.velocity(tile)];
             let quotient = (v2 - v1) * inverse;
-            let [w1, w2] = [quotient.dot(r2), quotient.dot(r1)];
-            for (((arm, back), v), omega) in self.arms.iter().zip(arms).zip([v1, v2]).zip([w1, w2]) {
-                tile.put(arm.body.link + OMEGA, omega);
-                tile.put_vector(arm.body.link + VELOCITY, v + back.turned() * omega);
+            rates = [(quotient.dot(r2), rates[0].1), (quotient.dot(r1), rates[1].1)];
+        }
+        if deepest >= Stage::Accelerations {
+            let [w1, w2] = rates.map(|(omega, _)| omega);
+            let quotient = ((a2 - r2 * (w2 * w2)) - (a1 - r1 * (w1 * w1))) * inverse;
+            rates = [(w1, quotient.dot(r2)), (w2, quotient.dot(r1))];
+        }
+        let places = [(r1, p1, v1, a1), (r2, p2, v2, a2)];
+        for ((arm, (omega, alpha)), (r, p, v, a)) in self.arms.iter().zip(rates).zip(places) {
+            let (link, span) = (arm.body.link, Plane::splat(tile.simd, arm.inverse_span));
+            let direction = Plane { x: span.dot(r), y: span.cross(r) };
+            tile.put_vector(link + DIRECTION, direction);
+            let is_at_origin = arm.outer == Vec2::zeros();
+            let outer = direction.rotate(arm.outer);
+            tile.put_vector(link + ORIGIN, if is_at_origin { p } else { p - outer });
+            if deepest >= Stage::Velocities {
+                tile.put(link + OMEGA, omega);
+                tile.put_vector(link + VELOCITY, if is_at_origin { v } else { v - outer.turned() * omega });
             }
             if deepest >= Stage::Accelerations {
-                let [a1, a2] = [first.acceleration(tile), second.acceleration(tile)];
-                let quotient = ((a2 - r2 * (w2 * w2)) - (a1 - r1 * (w1 * w1))) * inverse;
-                let [e1, e2] = [quotient.dot(r2), quotient.dot(r1)];
-                let rates = [(a1, w1, e1), (a2, w2, e2)];
-                for ((arm, back), (a, omega, alpha)) in self.arms.iter().zip(arms).zip(rates) {
-                    tile.put(arm.body.link + ALPHA, alpha);
-                    tile.put_vector(arm.body.link + ACCELERATION, a + swung(back, omega, alpha));
-                }
+                tile.put(link + ALPHA, alpha);
+                let square = omega * omega;
+                let moved = a - outer.turned() * alpha + outer * square;
+                tile.put_vector(link + ACCELERATION, if is_at_origin { a } else { moved });
             }
-            work.put_vector(column, r1);
-            work.put_vector(column + 2, r2);
-            work.put(column + 4, inverse);
         }
-        across
+        work.put_vector(column, r1);
+        work.put_vector(column + 2, r2);
+        work.put(column + 4, inverse);
+        work.put_vector(column + 5, p1 + r1);
+        product
+    }
+
+    /// Zero in poses that are clear of dead points, and so is the way to the next pose; elsewhere NaN.
+    /// The sine of the transmission angle is s = D / (l1 l2), its rate is (r1 . r2) (omega2 - omega1) / (l1 l2), and
+    /// `pace` (s) is the time between two poses: s must be larger than `least`, and s' times `pace` at most `share`
+    /// of s.
+    #[inline(always)]
+    pub(super) fn doubt<S: Simd>(
+        &self,
+        pace: f64,
+        [least, share]: [f64; 2],
+        tile: &Window<S>,
+        work: &Window<S>,
+        column: usize,
+    ) -> Lanes<S> {
+        let (r1, r2) = (work.vector(column), work.vector(column + 2));
+        let turn = tile.get(self.arms[1].body.link + OMEGA) - tile.get(self.arms[0].body.link + OMEGA);
+        let product = r1.cross(r2).abs();
+        let change = (r1.dot(r2) * turn).abs() * (pace / share);
+        let (clear, unclear) = (Lanes::splat(tile.simd, 0.0), Lanes::splat(tile.simd, f64::NAN));
+        let far = product.exceeds(Lanes::splat(tile.simd, least * self.product)).of(clear, unclear);
+        product.exceeds(change).of(far, unclear)
     }
 
     /// Computes the reactions in the three joints.
@@ -166,8 +189,9 @@ impl Dyad {
     fn hold<S: Simd>(&self, gravity: Vec2, tile: &mut Window<S>, work: &Window<S>, column: usize) {
         let [first, second] = &self.arms;
         let (r1, r2, inverse) = (work.vector(column), work.vector(column + 2), work.get(column + 4));
-        let (force_a, moment_a) = first.body.resultant(gravity, tile);
-        let (force_b, moment_b) = second.body.resultant(gravity, tile);
+        let pole = work.vector(column + 5);
+        let (force_a, moment_a) = first.body.resultant(gravity, pole, tile);
+        let (force_b, moment_b) = second.body.resultant(gravity, pole, tile);
         let total = force_a + force_b;
         let reaction = (r1 * (moment_b + r2.cross(total)) + r2 * moment_a) * inverse;
         tile.put_vector(first.reaction.force, reaction * first.reaction.sign);
@@ -177,21 +201,31 @@ impl Dyad {
 }
 
 impl Body {
-    /// Returns the resultant of all known forces on the link and their moment about the pole.
+    /// World position of a point of the link.
     #[inline(always)]
-    pub(super) fn resultant<S: Simd>(&self, gravity: Vec2, tile: &Window<S>) -> (Plane<S>, Lanes<S>) {
-        let direction = tile.vector(self.link + DIRECTION);
+    pub(super) fn point<S: Simd>(&self, local: Vec2, tile: &Window<S>) -> Plane<S> {
+        tile.vector(self.link + ORIGIN) + tile.vector(self.link + DIRECTION).rotate(local)
+    }
+
+    /// Returns the resultant of all known forces on the link and their moment about the world point `pole`.
+    /// The operations and their order are those of the module `assur::forces`.
+    #[inline(always)]
+    pub(super) fn resultant<S: Simd>(&self, gravity: Vec2, pole: Plane<S>, tile: &Window<S>) -> (Plane<S>, Lanes<S>) {
+        let (origin, direction) = (tile.vector(self.link + ORIGIN), tile.vector(self.link + DIRECTION));
         let (omega, alpha) = (tile.get(self.link + OMEGA), tile.get(self.link + ALPHA));
-        let centre = tile.vector(self.link + ACCELERATION) + swung(direction.rotate(self.mass_centre), omega, alpha);
-        let mut force = -(centre + -gravity) * self.mass;
-        let mut moment = direction.rotate(self.centre).cross(force) - alpha * self.inertia;
+        let arm = direction.rotate(self.mass_centre);
+        let acceleration = tile.vector(self.link + ACCELERATION) + arm.turned() * alpha - arm * (omega * omega);
+        let mut force = (Plane::splat(tile.simd, gravity) - acceleration) * self.mass;
+        let mut moment = alpha * -self.inertia;
         for load in &self.loads {
             moment = moment + omega.map(|omega| load.moment_in(omega, 0.0));
         }
+        moment = moment + (origin + arm - pole).cross(force);
         for action in &self.hanging {
             let hung = tile.vector(action.force) * action.sign;
             force = force + hung;
-            moment = moment + direction.rotate(action.arm).cross(hung);
+            let place = if action.place == Vec2::zeros() { origin } else { origin + direction.rotate(action.place) };
+            moment = moment + (place - pole).cross(hung);
         }
         (force, moment)
     }

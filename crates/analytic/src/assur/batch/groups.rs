@@ -10,10 +10,11 @@ use linkage::input::Input;
 use linkage::math::Vec2;
 use linkage::mechanism::{AssemblyMode, DrivingLink, GROUND, Group, GroupKind, JointId, LinkId};
 
-/// Number of columns of a dyad in the working memory: two for its span r1, two for r2, and one for 1 / (r1 x r2).
-const OF_DYAD: usize = 5;
+/// Number of columns of a dyad in the working memory: two for its span r1, two for r2, one for 1 / (r1 x r2), and two
+/// for the position of the inner joint.
+const OF_DYAD: usize = 7;
 
-/// A driving link. Its pole is the joint about which it turns on the ground.
+/// A driving link, which turns about a joint on the ground.
 #[derive(Clone, Debug)]
 pub(super) struct Driver {
     pub(super) ground: Vec2,
@@ -27,12 +28,11 @@ pub(super) struct Driver {
 pub(super) struct Arm {
     /// First column of the base link, `None` for the ground, and the position of the joint on that link.
     pub(super) base: (Option<usize>, Vec2),
-    /// The outer joint, and the vector from the outer joint to the inner joint, in the link's frame.
+    /// The outer joint in the link's frame.
     pub(super) outer: Vec2,
-    pub(super) span: Vec2,
+    /// Vector from outer to inner joint in the link's frame, divided by the square of its length (1/m).
+    pub(super) inverse_span: Vec2,
     pub(super) squared: f64,
-    pub(super) inverse_squared: f64,
-    /// The link; its pole is the inner joint.
     pub(super) body: Body,
     pub(super) reaction: Action,
 }
@@ -41,7 +41,12 @@ pub(super) struct Arm {
 #[derive(Clone, Debug)]
 pub(super) struct Dyad {
     pub(super) arms: [Arm; 2],
-    pub(super) side: f64,
+    /// Limits of d^2: (l1 - l2)^2 and (l1 + l2)^2 (m^2).
+    pub(super) range: [f64; 2],
+    /// l1 l2 (m^2).
+    pub(super) product: f64,
+    /// One half, with the sign that the dyad's determinant has on the branch.
+    pub(super) half: f64,
     /// Action of the inner joint on the first link.
     pub(super) inner: Action,
 }
@@ -133,34 +138,32 @@ impl Groups {
 impl Reader<'_> {
     fn driver(&self, link: LinkId, joint: JointId) -> Driver {
         let pivot = self.place(joint, link);
-        Driver {
-            ground: self.base(joint, link).1,
-            pivot,
-            body: self.body(link, pivot),
-            reaction: self.action(joint, link, pivot),
-        }
+        Driver { ground: self.base(joint, link).1, pivot, body: self.body(link), reaction: self.action(joint, link) }
     }
 
     fn dyad(&self, group: &Group, mode: AssemblyMode) -> Dyad {
         let arm = |k: usize| {
             let (link, joint) = (group.links[k], group.outer[k]);
-            let (outer, pole) = (self.place(joint, link), self.place(group.inner[0], link));
-            let squared = (pole - outer).norm_squared();
+            let outer = self.place(joint, link);
+            let span = self.place(group.inner[0], link) - outer;
+            let squared = span.norm_squared();
             Arm {
                 base: self.base(joint, link),
                 outer,
-                span: pole - outer,
+                inverse_span: span / squared,
                 squared,
-                inverse_squared: 1.0 / squared,
-                body: self.body(link, pole),
-                reaction: self.action(joint, link, pole),
+                body: self.body(link),
+                reaction: self.action(joint, link),
             }
         };
-        let first = group.links[0];
+        let arms = [arm(0), arm(1)];
+        let lengths = [0, 1].map(|k| arms[k].squared.sqrt());
         Dyad {
-            arms: [arm(0), arm(1)],
-            side: if mode == AssemblyMode::Right { -1.0 } else { 1.0 },
-            inner: self.action(group.inner[0], first, self.place(group.inner[0], first)),
+            arms,
+            product: lengths[0] * lengths[1],
+            range: [(lengths[0] - lengths[1]).powi(2), (lengths[0] + lengths[1]).powi(2)],
+            half: if mode == AssemblyMode::Right { -0.5 } else { 0.5 },
+            inner: self.action(group.inner[0], group.links[0]),
         }
     }
 }

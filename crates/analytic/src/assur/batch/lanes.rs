@@ -67,12 +67,11 @@ impl<S: Simd> Lanes<S> {
     /// Applies `f` to every lane.
     #[inline(always)]
     pub(super) fn map(self, f: impl Fn(f64) -> f64) -> Self {
-        let mut column = Eight([0.0; TILE]);
-        S::as_mut_simd_f64s(&mut column.0).0[0] = self.value;
-        for lane in &mut column.0[..S::F64_LANES] {
+        let mut column = self.to_column();
+        for lane in &mut column[..S::F64_LANES] {
             *lane = f(*lane);
         }
-        Lanes { value: S::as_simd_f64s(&column.0).0[0], ..self }
+        Lanes::of_column(self.simd, &column)
     }
 
     #[inline(always)]
@@ -84,6 +83,20 @@ impl<S: Simd> Lanes<S> {
     #[inline(always)]
     pub(super) fn exceeds(self, other: Self) -> Choice<S> {
         Choice { simd: self.simd, mask: self.simd.greater_than_f64s(self.value, other.value) }
+    }
+
+    /// The lanes as the first numbers of a column.
+    #[inline(always)]
+    pub(super) fn to_column(self) -> [f64; TILE] {
+        let mut column = Eight([0.0; TILE]);
+        S::as_mut_simd_f64s(&mut column.0).0[0] = self.value;
+        column.0
+    }
+
+    /// The first numbers of a column as lanes.
+    #[inline(always)]
+    pub(super) fn of_column(simd: S, column: &[f64; TILE]) -> Self {
+        Lanes { simd, value: S::as_simd_f64s(column).0[0] }
     }
 
     /// 1 / self.
@@ -213,12 +226,34 @@ impl<S: Simd> Window<'_, S> {
 
     #[inline(always)]
     pub(super) fn get(&self, column: usize) -> Lanes<S> {
-        Lanes { simd: self.simd, value: S::as_simd_f64s(&self.columns[column].0).0[self.part] }
+        self.of(&self.columns[column])
     }
 
     #[inline(always)]
     pub(super) fn put(&mut self, column: usize, lanes: Lanes<S>) {
         S::as_mut_simd_f64s(&mut self.columns[column].0).0[self.part] = lanes.value;
+    }
+
+    /// This part of a column elsewhere.
+    #[inline(always)]
+    pub(super) fn of(&self, column: &Eight) -> Lanes<S> {
+        self.in_array(&column.0)
+    }
+
+    #[inline(always)]
+    pub(super) fn in_array(&self, column: &[f64; TILE]) -> Lanes<S> {
+        Lanes { simd: self.simd, value: S::as_simd_f64s(column).0[self.part] }
+    }
+
+    #[inline(always)]
+    pub(super) fn put_in(&self, column: &mut [f64; TILE], lanes: Lanes<S>) {
+        S::as_mut_simd_f64s(column).0[self.part] = lanes.value;
+    }
+
+    #[inline(always)]
+    pub(super) fn add_to(&self, column: &mut [f64; TILE], lanes: Lanes<S>) {
+        let sum = self.in_array(column) + lanes;
+        self.put_in(column, sum);
     }
 
     /// Returns the vector with its components at `column` and the next column.

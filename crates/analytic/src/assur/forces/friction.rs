@@ -61,7 +61,7 @@ pub(crate) struct Dry {
     next: Vec<f64>,
     efforts: Vec<f64>,
     base: Vec<Reaction>,
-    /// Derivatives of all reactions by the first normal force, then by the second one, and so on.
+    /// Derivatives of all reactions with respect to the first normal force, then with respect to each further one.
     columns: Vec<Reaction>,
     matrix: Lu,
 }

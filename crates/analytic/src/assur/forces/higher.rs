@@ -16,7 +16,7 @@ pub(super) struct Higher {
     /// Index of the group's [`Chain`] in the plan.
     step: GroupId,
     bodies: Vec<Body>,
-    /// For each node: the action on the node's link from the joint to the parent.
+    /// For each node: the action of the joint to the parent on the node's link.
     hung: Vec<Action>,
     /// For each node: the known force on its link and on all links attached to it (N), and the moment of this force
     /// about the joint to the node's parent (N m).
@@ -127,7 +127,7 @@ impl Higher {
 
     /// Finds the forces of the transmissions and adds them to the forces on the nodes' links.
     /// The multiplier of a transmission gives its force, although the row of the transmission contains only derivatives
-    /// by angles and slides.
+    /// with respect to angles and slides.
     /// If the transmissions' forces are then applied to the links as known forces, the remaining multipliers give the
     /// forces in the joints.
     fn transmit<const SLIDING: bool>(

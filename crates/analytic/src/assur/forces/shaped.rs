@@ -18,7 +18,8 @@ struct Member {
     body: Body,
     /// Number of the link's parent in the body, and the given joint to it; `None` for the root.
     parent: Option<(usize, DrivenPivot)>,
-    /// Known force on the link and on the links that hang on it (N), and its moment about the inner joint (N m).
+    /// Known force on the link and on the links that it carries (N), and the moment of this force about the inner joint
+    /// (N m).
     carried: (Vec2, f64),
 }
 

@@ -62,7 +62,7 @@ pub(in crate::assur) type Bounds = [Option<Bound>];
 pub(in crate::assur) struct Limit {
     /// Ends of the gauge's range.
     pub(in crate::assur) range: [f64; 2],
-    /// Bound of the gauge's second derivative by the crank angle.
+    /// Bound of the gauge's second derivative with respect to the crank angle.
     pub(in crate::assur) second: f64,
     /// Crank travel (rad) for which the bound is valid.
     pub(in crate::assur) way: f64,

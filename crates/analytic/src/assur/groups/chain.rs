@@ -8,10 +8,13 @@
 //! Each transmission gives one equation too (`train.rs`).
 //! There are as many unknowns as equations.
 //! The gap of a closing joint is the sum of the link and slide vectors along both paths to this joint.
-//! The gap's derivative by an angle is the sum of the vectors that turn with that angle, rotated by 90 degrees. The
-//! gap's derivative by a slide is the axis of this slide.
-//! Velocities and accelerations follow from the same Jacobian: J q' = -(velocity of the ends), J q'' = -(acceleration
-//! of the ends) + centripetal and Coriolis parts.
+//! The derivative of the gap with respect to an angle is the sum of the vectors that turn with this angle, rotated by
+//! 90 degrees. The derivative of the gap with respect to a slide is the axis of this slide.
+//! Velocities and accelerations of the unknowns follow from the same Jacobian.
+//! For a contour, the right-hand side is minus the velocity that its gap would have if all unknowns stood still.
+//! For accelerations, it is minus the acceleration of the gap without second derivatives of the unknowns, that is, with
+//! the centripetal and Coriolis parts.
+//! For a given coordinate, it contains the rate or acceleration of the drive.
 
 mod contour;
 mod given;
@@ -51,11 +54,11 @@ const SAME_POSE: f64 = 4e-14;
 /// Largest correction of a predicted pose (rad). Near a dead point predictions are poor, and the corrected pose may be
 /// on another branch.
 const MAX_CORRECTION: f64 = 0.01;
-/// If the squared determinant would fall below this fraction of its value during a step, the step is refused. The fall
-/// is extrapolated from the last steps.
+/// A step is refused if the squared determinant, extrapolated from the last steps, falls below this fraction of its
+/// present value.
 const LEAST_LEFT: f64 = 0.25;
-/// If the driving angles change by no more than this (rad), a jump to another branch is impossible.
-/// The fall of the determinant then does not limit the step.
+/// If the driving angles change by no more than this (rad), a jump to another branch is impossible, and the determinant
+/// does not limit the step.
 const SMALLEST_STEP: f64 = 1e-6;
 /// A pose is singular if the ratio of its determinant to the largest determinant so far is below this value.
 /// At a change point the determinant is linear in the driving angles.
@@ -105,7 +108,8 @@ pub struct Chain {
     jacobian: Lu,
     unknown: Vec<f64>,
     branch: f64,
-    /// Determinant at the last pose, its square, and the derivatives of the square by the driving angles (1/rad).
+    /// Determinant at the last pose, its square, and the derivatives of the square with respect to the driving angles
+    /// (1/rad).
     /// Every step corrects the derivatives along the direction of the step (Broyden's update).
     determinant: f64,
     square: f64,

@@ -1,6 +1,7 @@
 //! A driving link: its pose follows from the pose of its base and the coordinate of its joint.
 //!
-//! Let p be the joint's point on the base, w the base's angular velocity, and g the sign of the joint's order.
+//! Let p be the joint's point on the base, and w the base's angular velocity. The sign g is +1 if the driving link is
+//! the joint's second link, and -1 if it is the first.
 //! A crank has the given world angle. A link with a given angle q has the angle of its base plus g q.
 //! For a given slide q along the axis e, the joint's point on the link is at P = p + g q e.
 //! Its velocity is that of the base at P, plus g q' e.

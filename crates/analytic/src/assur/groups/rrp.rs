@@ -86,7 +86,8 @@ impl Rrp {
     /// Returns bounds of the speed and acceleration of the outer pin and of the point Q, and the bounds of the guide's
     /// link.
     /// Q is the inner joint on the guide's link at slide zero.
-    /// The last value is the largest distance between pin and Q while the crank turns by `way` from the present pose.
+    /// The last value is an upper bound of the distance between pin and Q while the crank turns by at most `way` from
+    /// the present pose.
     fn outer_rates(&self, links: &Bounds, motions: &[Motion], way: f64) -> Option<([f64; 2], [f64; 2], Bound, f64)> {
         let (pin, link) = (self.rod.rates(links)?, links[self.guide.base.link]?);
         let (base, at_zero) = (&motions[self.guide.base.link], self.guide.at_zero(self.inner, motions));

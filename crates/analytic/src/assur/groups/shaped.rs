@@ -2,7 +2,7 @@
 //! See docs/numerics/given.md.
 //!
 //! The root of a body is the link with its outer joint.
-//! The other links of the body hang on given joints, whose coordinates are functions of time.
+//! Given joints, whose coordinates are functions of time, connect the other links of the body with the root.
 //! In the frame of the root, the inner joint has the position p(t) from the outer joint, with the rates p' and p''.
 //! The dyad is solved with the present vectors p in closed form.
 //! With w = p' in world axes, the velocity of the inner joint is v + omega x r + w. Its acceleration has the additional
@@ -16,7 +16,7 @@ use super::rrr::Rrr;
 use linkage::math::{Motion, Vec2, cross, rotated, turned};
 use linkage::mechanism::{AssemblyMode, DrivingLink, Group, JointId, LinkId, Mechanism};
 
-/// One body: its root, and the links that hang on given joints, parents before children.
+/// One body: its root, and the links that given joints connect with the root, parents before children.
 #[derive(Clone, Debug)]
 pub(in crate::assur) struct Shape {
     pub(in crate::assur) root: LinkId,
@@ -58,7 +58,7 @@ impl Shape {
                 let reaches = placed.contains(&first) != placed.contains(&second);
                 reaches.then_some((index, DrivingLink { link: far, ..*driver }))
             });
-            let (index, driver) = found.expect("a body hangs together");
+            let (index, driver) = found.expect("the links of a body are connected");
             placed.push(driver.link);
             hung.push(Driver::of(mechanism, index, &driver));
         }
@@ -96,7 +96,8 @@ impl Shape {
         }
     }
 
-    /// Moves the hung links in the frame of the root. `frame` contains the motions of the body's links in this frame.
+    /// Moves all links of the body except the root, in the frame of the root. `frame` contains the motions of the
+    /// body's links in this frame.
     #[inline]
     fn form(&mut self, coordinates: &[f64], frame: &mut [Motion]) {
         frame[self.root] = Motion::REST;

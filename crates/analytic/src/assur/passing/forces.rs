@@ -86,7 +86,7 @@ impl Window {
         Ok(())
     }
 
-    /// Values at the distance `x`, from the values at the nodes.
+    /// Values at the distance `x`, interpolated between the nodes.
     /// Each value is the sum of a polynomial and, if its residue is not zero, a pole of first order.
     fn with_poles(&self, x: f64, values: &[Vec<f64>]) -> Result<Vec<f64>, Unbounded> {
         let offsets = self.offsets();

@@ -37,8 +37,8 @@ const WORST: f64 = 1e-6;
 const APART: f64 = 0.2;
 /// Number of secant steps that improve the position of the change point.
 const POLISHING: usize = 4;
-/// Cube root of the sum of the weights' magnitudes. This sum is about four. The polynomials amplify the rounding error
-/// of the poses by this sum.
+/// Cube root of the factor, about four, by which the polynomials amplify the rounding error of the poses.
+/// The factor is the sum of the magnitudes of the weights.
 const WEIGHTS: f64 = 1.6;
 /// Ratio of the rounding error of accelerations to the unit roundoff times the cube of the condition number.
 const ULPS: f64 = 16.0;
@@ -104,9 +104,8 @@ impl Window {
                 let sines: Vec<f64> = window.nodes.iter_mut().map(sine).collect();
                 let (least, most) =
                     sines.iter().fold((f64::INFINITY, 0.0f64), |(a, b), &sine| (a.smaller(sine), b.larger(sine)));
-                // The larger of two condition numbers is stored. The first number is about the inverse of the sine of
-                // the innermost pose.
-                // The second number follows from the error of the second transfer functions.
+                // The larger of two condition numbers: about the inverse sine of the innermost pose, and the number
+                // that explains the error of the second transfer functions.
                 window.condition =
                     (WEIGHTS * most / least / window.reach).larger((error / (ULPS * f64::EPSILON)).cbrt());
                 Ok(window)
@@ -152,8 +151,8 @@ impl Window {
             }
             from = at + offset;
             let (node, sine) = put(offset, &mut plan, &motions);
-            // The determinant of a higher group already has a sign. The sine of a dyad has no sign, so it is negated on
-            // this side.
+            // The sine of a dyad is a magnitude. It gets the opposite sign beyond the change point, so that `polish`
+            // finds its zero there; the determinant of a higher group changes its sign itself.
             sines.push(if node.plan.determinant(group).is_some() { sine } else { -sine });
             nodes.push(node);
         }

@@ -13,10 +13,9 @@ use linkage::drive::Wrench;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{KeepNan, Motion};
 
-/// At the change point, products of multiplier and distance below a threshold count as zero. The threshold has two
-/// terms.
-/// The first term is this multiple of the product's change when the innermost poses are left out.
-/// The second term is a fraction of the largest product.
+/// At the change point, products of multiplier and distance below a threshold count as zero.
+/// The threshold is the sum of `NOISE` times the change of the product if the innermost poses are left out, and `LEAST`
+/// times the largest product.
 const NOISE: f64 = 16.0;
 const LEAST: f64 = 1e-12;
 

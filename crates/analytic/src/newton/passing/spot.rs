@@ -5,7 +5,8 @@ use crate::newton::system::System;
 use crate::sentences;
 use linkage::error::Result;
 
-/// A pose on the path: the crank's angle in the world (rad), all coordinates, and their derivatives by that angle.
+/// A pose on the path: the crank's angle in the world (rad), all coordinates, and their derivatives with respect to
+/// this angle.
 #[derive(Clone, Debug, Default)]
 pub(in crate::newton) struct Spot {
     pub(in crate::newton) angle: f64,

@@ -54,7 +54,7 @@ const LAST_CHANGE: f64 = 1e-9;
 pub struct Transfer {
     /// Directions of the links' x axes.
     pub directions: [Vec2; 4],
-    /// First transfer functions: derivatives of the links' angles by the crank angle.
+    /// First transfer functions: derivatives of the links' angles with respect to the crank angle.
     pub first: [f64; 4],
     /// Second transfer functions (1/rad).
     pub second: [f64; 4],

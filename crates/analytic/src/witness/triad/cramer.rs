@@ -2,8 +2,8 @@
 //!
 //! Leads and base link have the two vector contours A_1 B_1 B_k A_k, k = 2, 3:
 //! `l_1 e(alpha_1) + b_k e(alpha_4 + beta_k) = A_1 A_k + l_k e(alpha_k)`.
-//! The derivatives by the crank angle (or by time) give four linear equations for alpha_1' .. alpha_4'. The right-hand
-//! side contains the velocities of the feet.
+//! The derivatives with respect to the crank angle (or to time) give four linear equations for alpha_1' .. alpha_4'.
+//! The right-hand side contains the velocities of the feet.
 //! The second derivatives give equations with the determinant of the first equations. The right-hand side contains the
 //! accelerations of the feet and the centripetal parts of the links.
 //! Each unknown is a quotient of two 4 x 4 determinants (method of the transfer functions).
@@ -49,8 +49,8 @@ impl Contours {
     }
 
     /// Angular velocities of the three leads and the base link (rad/s) from the velocities of the three feet (m/s).
-    /// If `feet` contains the feet's derivatives by the crank angle (m), the results are the first transfer functions
-    /// alpha_i'.
+    /// If `feet` contains the feet's derivatives with respect to the crank angle (m), the results are the first
+    /// transfer functions alpha_i'.
     ///
     /// # Errors
     /// [`ErrorKind::Numeric`](linkage::ErrorKind::Numeric) at a dead point of the group.
@@ -60,7 +60,7 @@ impl Contours {
 
     /// Angular accelerations (rad/s^2) from the accelerations of the feet (m/s^2) and the angular velocities `first`
     /// (rad/s).
-    /// If the arguments are derivatives by the crank angle, the results are the second transfer functions.
+    /// If the arguments are derivatives with respect to the crank angle, the results are the second transfer functions.
     ///
     /// # Errors
     /// [`ErrorKind::Numeric`](linkage::ErrorKind::Numeric) at a dead point of the group.

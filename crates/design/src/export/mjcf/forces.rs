@@ -19,7 +19,7 @@ pub(super) enum Target {
     Sum(Vec<(usize, f64)>),
     /// A point of a link with a force (N).
     Place {
-        /// The place.
+        /// The point, in the frame of the link.
         at: JointSide,
         /// The force.
         force: Vec2,

@@ -47,13 +47,18 @@ struct Bench<'a> {
 }
 
 impl Bench<'_> {
+    /// Addition to the cost for limits that the last candidate violates.
+    fn excess(&self) -> f64 {
+        self.rater.excess(self.task, self.evaluator.sine, self.evaluator.acceleration)
+    }
+
     fn cost(&mut self, shares: &[f64]) -> f64 {
         let values = values(self.task, shares);
         let zero = self.task.zero.value(&values);
         let cost = match self.evaluator.run(&values, zero, &self.rater.turns) {
             Err(reached) => BROKEN * (2.0 - reached),
             Ok(()) if !(self.rater.take(&self.evaluator.curve) > 0.0) => BROKEN,
-            Ok(()) => self.rater.cost(0, self.forward) + self.rater.excess(self.task, self.evaluator.sine),
+            Ok(()) => self.rater.cost(0, self.forward) + self.excess(),
         };
         if cost < self.cost {
             self.cost = cost;

@@ -223,7 +223,7 @@ mod tests {
             (vec![(200.0, Forward, None), (100.0, Back, None)], "runs from 200"),
             (vec![(200.0, Forward, None), (350.0, Back, None)], "ends at 350"),
             (vec![(200.0, Forward, None), (360.0, Dwell, None)], "no phase moves back"),
-            (vec![(200.0, Forward, Some(1.5)), (360.0, Back, None)], "share of the stroke"),
+            (vec![(200.0, Forward, Some(1.5)), (360.0, Back, None)], "fraction of the stroke"),
         ] {
             let error = Timing::of(phases(&all)).unwrap_err();
             assert!(error.message().contains(words) && error.way_out().is_some(), "{error}");

@@ -33,7 +33,7 @@ linkage::words! {
     }
 }
 
-/// One answered state of a run.
+/// An instant of a run at which a fault changes the answer.
 #[derive(Clone, Copy)]
 pub struct FaultInstant<'a> {
     /// The case that was solved.
@@ -72,7 +72,7 @@ pub enum Mistake {
 pub struct FaultKind {
     /// Name, as on the command line.
     pub name: &'static str,
-    /// What is wrong, in words.
+    /// Description of the fault.
     pub says: &'static str,
     /// The part that the fault affects.
     pub family: FaultFamily,

@@ -35,8 +35,8 @@ pub(super) fn floating(case: &Case) -> LinkId {
     case.mechanism.links().ids().skip(1).rev().find(|&link| !held(link)).unwrap_or_else(|| output(case))
 }
 
-/// The last link that can turn. The angular rates of links that cannot turn are only rounding noise, so such a link is
-/// not selected.
+/// The last link that can turn; if no link can turn, the last link.
+/// The angular rates of links that cannot turn are only rounding noise.
 pub(super) fn turner(case: &Case) -> LinkId {
     case.mechanism.links().ids().skip(1).rev().find(|&link| case.can_turn(link)).unwrap_or_else(|| output(case))
 }

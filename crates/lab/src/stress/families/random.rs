@@ -30,7 +30,7 @@ fn drawn(dyads: usize, number: u64, seed: u64) -> Result<Setup> {
         let (mut spec, _) = chain(&mut random, &SORTS, dyads);
         // Moments that jump where a link reverses are excluded, because the double-double reference does not support
         // them.
-        // A separate set of tests covers such moments.
+        // `tests/suite/loads/jumps.rs` covers such moments.
         spec.loads.clear();
         spec.dt = None;
         // The grid begins at the start pose and follows the crank's direction.

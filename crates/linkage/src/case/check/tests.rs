@@ -154,7 +154,7 @@ fn unsupported_combinations_of_drives_are_refused() {
 
 #[test]
 fn the_structure_of_another_mechanism_is_refused() {
-    says(Input, "structure", &["of 1 parts", "give 2"], |parts| parts.structure.groups = Vec::new().into());
+    says(Input, "structure", &["has 1 parts", "structure of 2"], |parts| parts.structure.groups = Vec::new().into());
     says(Input, "structure", &[], |parts| {
         parts.structure = Structure::of(&class_four(1.0, 1.0), &[JointId(0)]).unwrap()
     });

@@ -18,9 +18,7 @@ fn motions(omega: f64) -> [Motion; 2] {
 }
 
 fn act(load: &Load, motions: &[Motion], angles: &[f64], crank: f64) -> Vec<Action> {
-    let pose =
-        |motion: &Motion| LinkPose { origin: motion.origin, angle: motion.direction.y.atan2(motion.direction.x) };
-    let start: Vec<LinkPose> = motions.iter().map(pose).collect();
+    let start: Vec<LinkPose> = motions.iter().map(LinkPose::of).collect();
     let mut found = Vec::new();
     load.act(&LoadState { motions, angles, joints: &PerJoint::default(), start: &start, crank }, &mut |action| {
         found.push(action)

@@ -71,14 +71,14 @@ impl CamCurve {
     }
 }
 
-/// A piece of a law. It begins at the end of the previous piece.
+/// A piece of a law, which begins at the end of the previous piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CamSegment {
     /// Angle of the cam at the end (rad).
     pub to: f64,
     /// Lift at the end (m, or rad for a swinging follower).
     pub lift: f64,
-    /// Curve of the rise or return. It has no effect in a dwell, in which the lift is constant.
+    /// Curve of the rise or return. The curve has no effect in a dwell, because the lift is constant.
     pub curve: CamCurve,
 }
 
@@ -102,7 +102,7 @@ impl CamLaw {
         (ascends && (last.to - TAU).abs() < 1e-9 && last.lift == 0.0).then_some(CamLaw::Segments(segments))
     }
 
-    /// Lift at an angle of the cam (rad), and its first two derivatives by the angle.
+    /// Lift at an angle of the cam (rad), and its first two derivatives with respect to the angle.
     #[must_use]
     pub fn at(&self, angle: f64) -> [f64; 3] {
         let angle = angle.rem_euclid(TAU);

@@ -8,7 +8,7 @@ use crate::mechanism::{JointId, LinkId};
 pub struct DrivenJoint {
     /// The joint.
     pub joint: JointId,
-    /// What its coordinate measures.
+    /// What the joint's coordinate measures.
     pub input: Input,
 }
 
@@ -28,7 +28,7 @@ impl From<&DrivingLink> for DrivenJoint {
 /// A link that a drive moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DrivingLink {
-    /// The link. For a joint between two links of a group, it is the joint's second link.
+    /// The link. For a joint between two links of a group, the driving link is the joint's second link.
     pub link: LinkId,
     /// The driven joint.
     pub joint: JointId,

@@ -59,6 +59,13 @@ impl GroupKind {
     }
 }
 
+/// A class in Roman numerals; a class above VIII in digits.
+#[must_use]
+pub fn roman(class: usize) -> String {
+    const ROMAN: [&str; 9] = ["", "I", "II", "III", "IV", "V", "VI", "VII", "VIII"];
+    ROMAN.get(class).map_or_else(|| class.to_string(), ToString::to_string)
+}
+
 /// Assur group: a set of links that has no mobility if its outer joints are fixed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Group {
@@ -112,18 +119,18 @@ impl Group {
     /// The group's bodies by name, for messages: `boom, cylinder+rod`.
     #[must_use]
     pub fn bodies(&self, mechanism: &Mechanism) -> String {
+        self.bodies_by(mechanism, &|link: LinkId| mechanism.links()[link].name.clone(), ", ")
+    }
+
+    /// The group's bodies, with `+` between the links of one body and `between` between bodies. `name` names a link.
+    pub(super) fn bodies_by(&self, mechanism: &Mechanism, name: &dyn Fn(LinkId) -> String, between: &str) -> String {
         let leads = self.leads(mechanism);
         let named = |lead: &LinkId| {
             let members = self.links.iter().zip(&leads).filter(|(_, own)| *own == lead);
-            members.map(|(&link, _)| mechanism.links()[link].name.as_str()).collect::<Vec<_>>().join("+")
+            members.map(|(&link, _)| name(link)).collect::<Vec<_>>().join("+")
         };
-        self.links
-            .iter()
-            .zip(&leads)
-            .filter(|(link, lead)| link == lead)
-            .map(|(_, lead)| named(lead))
-            .collect::<Vec<_>>()
-            .join(", ")
+        let bodies = self.links.iter().zip(&leads).filter(|(link, lead)| link == lead);
+        bodies.map(|(_, lead)| named(lead)).collect::<Vec<_>>().join(between)
     }
 
     /// The group's outer joint on `link`, for a link that has exactly one outer joint.

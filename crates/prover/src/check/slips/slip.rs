@@ -69,7 +69,8 @@ pub(in crate::check) struct Mended {
     pub(in crate::check) rank: Rank,
     /// Fraction of the largest difference that remains after the correction; zero if the formula is then right.
     pub(in crate::check) left: f64,
-    /// Number of slips tried up to and including this one. All slips tried before are at least as simple as this one.
+    /// Number of slips tried up to and including this one. The order of the trials is not that of the ranks:
+    /// slips at one position, kind by kind; slips at all occurrences; wrong values.
     pub(in crate::check) among: usize,
 }
 
@@ -99,7 +100,7 @@ impl Tried {
         }
     }
 
-    /// As `put`, for a slip in which one part of the first changed formula is replaced: `replaced` holds the old and
+    /// Like `put`, for a slip in which one part of the first changed formula is replaced: `replaced` holds the old and
     /// the new part.
     /// The correction is judged only if the units allow it.
     pub(super) fn put_standing(

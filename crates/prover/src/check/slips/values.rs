@@ -78,8 +78,8 @@ fn put(
     tried.put(trial, changed, slip, rank);
 }
 
-/// The right number in place of a wrong one, if a single number of the same sign is right at all instants.
-/// Also returns whether its digits were confused.
+/// The right number in place of a wrong one, if a single number of the same sign is right at all instants, and whether
+/// the wrong number has confused digits of the right one.
 fn meant(trial: &mut Trial, place: usize, wrong: f64) -> Option<(f64, bool)> {
     if trial.is_spent() || wrong == 0.0 {
         return None;

@@ -16,7 +16,8 @@ use crate::tables::source::MAGIC;
 const TAIL: u64 = 8;
 /// Limit of the nesting depth of columns and groups of columns, because the reader is recursive.
 const DEEPEST: usize = 32;
-/// Limit of bytes of a page per value: eight bytes, plus levels and the unfinished blocks of delta encoding.
+/// Limit of bytes of a page per value: eight for the value, and eight more for its definition and
+/// repetition levels and for the overhead of delta encoding.
 const WIDEST: u64 = 16;
 /// Bytes allowed for a page in addition to its values, because a block of delta encoding is always complete.
 const BESIDE: u64 = 1 << 12;

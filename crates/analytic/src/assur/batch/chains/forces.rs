@@ -35,7 +35,8 @@ impl Chain {
         let (zero, none) = (Lanes::splat(tile.simd, 0.0), Plane::splat(tile.simd, Vec2::zeros()));
         let (mut forces, mut moments) = ([none; N], [zero; N]);
         for (index, node) in self.nodes.iter().enumerate() {
-            (forces[index], moments[index]) = node.body.resultant(gravity, tile);
+            let pole = node.body.point(node.own, tile);
+            (forces[index], moments[index]) = node.body.resultant(gravity, pole, tile);
         }
         self.gather(&mut forces);
         // Adds the moments of the forces at the arrows' ends. Each moment is about the pole of the link that carries

@@ -37,7 +37,7 @@ pub struct Node {
     pub(super) guided: Option<Guided>,
 }
 
-/// Position of a joint on the one of its two links that is placed first.
+/// Position of a joint on the first placed of its two links.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::assur) enum Hangs {
     /// A joint on a link outside the group: index in [`Contours::roots`].
@@ -172,7 +172,7 @@ impl Contours {
             // Prismatic joints and joints with a given coordinate first, so that all of them are in the tree (Prim's
             // algorithm for the minimum spanning tree).
             let slider = next().find(|&(joint, _)| joints[joint].slides() || group.given.contains(&joint));
-            let (joint, link) = slider.or_else(|| next().next()).expect("a group hangs together");
+            let (joint, link) = slider.or_else(|| next().next()).expect("the links of a group are connected");
             used[joint] = true;
             let node = Node::of(joints, joint, link, &mut all);
             all.nodes.push(node);

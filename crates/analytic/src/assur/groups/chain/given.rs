@@ -10,8 +10,8 @@ pub(in crate::assur) struct Given {
     pub(in crate::assur) node: usize,
     /// Number of the drive.
     pub(in crate::assur) drive: usize,
-    /// The sign of the coordinate if it is counted from the parent to the node, and this sign divided by the unit of
-    /// the node's unknown.
+    /// `sign` is +1 if the node is the joint's second link, and -1 if it is the first. `factor` is `sign` divided by
+    /// the unit of the node's unknown.
     pub(in crate::assur) sign: f64,
     pub(in crate::assur) factor: f64,
     pub(in crate::assur) is_slide: bool,

@@ -23,8 +23,8 @@ enum Of {
 struct Term {
     of: Of,
     sign: f64,
-    /// The unknown on which the coordinate depends, and the derivative of the term by this unknown; `None` for a known
-    /// coordinate.
+    /// The unknown on which the coordinate depends, and the derivative of the term with respect to this unknown; `None`
+    /// for a known coordinate.
     column: Option<(usize, f64)>,
     /// The coordinate at the last pose and at the present one.
     last: f64,

@@ -41,7 +41,7 @@ pub(super) struct Place {
     pub(super) third: Vec2,
 }
 
-/// First and second derivatives of the chain by the driving lead's angle.
+/// First and second derivatives of the chain with respect to the driving lead's angle.
 pub(super) struct Slopes {
     pub(super) base: [f64; 2],
     pub(super) other: [f64; 2],

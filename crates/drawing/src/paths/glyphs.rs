@@ -4,9 +4,11 @@ use tiny_skia::{Path, PathBuilder};
 use ttf_parser::{Face, OutlineBuilder};
 
 use crate::paper::figure::{Piece, Type, pieces};
+use crate::sentences;
+use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
 
-/// DejaVu Sans Condensed, Latin and Greek: see `font/LICENSE`.
+/// DejaVu Sans Condensed, Latin, Greek and Cyrillic: see `font/LICENSE`.
 const FONT: &[u8] = include_bytes!("../../font/DejaVuSansCondensed.ttf");
 /// Slant of an italic letter, and outline thickness of a bold letter divided by the font size.
 const LEAN: f64 = 0.2;
@@ -22,7 +24,23 @@ impl Glyphs {
         Glyphs { face: Face::parse(FONT, 0).ok() }
     }
 
-    /// A text as a path (mm, y downwards), and the thickness of the line around it (mm).
+    /// Checks that the font has all letters of a text.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Input`] with the first letter that the font lacks.
+    pub fn check(&self, text: &str) -> Result<()> {
+        let lacks = |sign: &char| self.face.as_ref().is_some_and(|face| face.glyph_index(*sign).is_none());
+        match pieces(text, 1.0).into_iter().map(|piece| piece.sign).find(lacks) {
+            None => Ok(()),
+            Some(sign) => {
+                let text: String = text.chars().filter(|sign| !sign.is_control()).collect();
+                let message = sentences::the_font_lacks_the_letter(&sign, &format!("{:04X}", u32::from(sign)), &text);
+                Err(Error::new(ErrorKind::Input, message).help(sentences::USE_LATIN_GREEK_OR_CYRILLIC))
+            }
+        }
+    }
+
+    /// A text as a path (mm, y downwards), and the thickness of the line around the letters (mm).
     pub fn path(&self, at: Vec2, text: &str, set: &Type) -> (Option<Path>, f64) {
         let Some(face) = &self.face else { return (None, 0.0) };
         let unit = 1.0 / f64::from(face.units_per_em());
@@ -32,20 +50,19 @@ impl Glyphs {
         };
         let pieces = pieces(text, set.size);
         let wide: f64 = pieces.iter().map(|Piece { sign, size, .. }| advance(*sign).1 * size).sum();
-        let mut x = at.x
-            - match set.anchor {
-                "middle" => wide / 2.0,
-                "end" => wide,
-                _ => 0.0,
-            };
-        let mut builder = Letters { path: PathBuilder::new(), origin: Vec2::zeros(), scale: 0.0, lean: 0.0 };
+        let mut along = match set.anchor {
+            "middle" => -wide / 2.0,
+            "end" => -wide,
+            _ => 0.0,
+        };
+        let (path, lean) = (PathBuilder::new(), if set.italic { LEAN } else { 0.0 });
+        let mut builder = Letters { path, origin: Vec2::zeros(), scale: 0.0, lean, upward: set.upward };
         for Piece { sign, size, rise } in pieces {
             let (glyph, step) = advance(sign);
-            builder.origin = Vec2::new(x, -at.y - rise);
+            builder.origin = Vec2::new(at.x, -at.y) + builder.turned(along, rise);
             builder.scale = size * unit;
-            builder.lean = if set.italic { LEAN } else { 0.0 };
             face.outline_glyph(glyph, &mut builder);
-            x += step * size;
+            along += step * size;
         }
         (builder.path.finish(), if set.bold { BOLD * set.size } else { 0.0 })
     }
@@ -56,12 +73,19 @@ struct Letters {
     origin: Vec2,
     scale: f64,
     lean: f64,
+    upward: bool,
 }
 
 impl Letters {
+    /// The vector on paper (y downwards) of a step `along` the base line and of a step `rise` above the base line.
+    fn turned(&self, along: f64, rise: f64) -> Vec2 {
+        if self.upward { Vec2::new(-rise, -along) } else { Vec2::new(along, -rise) }
+    }
+
     fn at(&self, x: f32, y: f32) -> (f32, f32) {
         let (x, y) = (f64::from(x) * self.scale, f64::from(y) * self.scale);
-        ((self.origin.x + x + self.lean * y) as f32, (self.origin.y - y) as f32)
+        let at = self.origin + self.turned(x + self.lean * y, y);
+        (at.x as f32, at.y as f32)
     }
 }
 

@@ -1,0 +1,196 @@
+//! Many cases on one grid that differ only in points, masses and moments of inertia of links.
+
+use linkage::case::Case;
+use linkage::input::Input;
+use linkage::math::{KeepNan, unit};
+use linkage::mechanism::{Joint, Link};
+use linkage::trajectory::Stage;
+use pulp::{Arch, Simd, WithSimd};
+
+use super::STEP;
+use super::groups::{Groups, Part};
+use super::lanes::{Eight, TILE, Window};
+use super::poses::{ALPHA, DIRECTION, Layout, OMEGA};
+use super::tally::PoseTally;
+use crate::assur::groups::SolutionPlan;
+
+/// Smallest allowed sine of a transmission angle.
+const CLEAR_SINE: f64 = 0.01;
+/// Largest allowed change of the sine of a transmission angle between two instants, as a fraction of the sine.
+/// Near a dead point the square of the sine s is linear in time, so that s is zero after the time s / (2 s').
+/// A quarter is half of the corresponding fraction.
+const CLEAR_CHANGE: f64 = 0.25;
+
+/// Solver for cases of one structure and grid: a crank on the ground at constant speed, and RRR dyads without loads.
+/// The results equal those of [`PoseSolver`](crate::PoseSolver), bit by bit.
+/// Cases that may pass a dead point are not solved.
+#[derive(Debug)]
+pub struct CaseBatch {
+    case: Case,
+    plan: SolutionPlan,
+    layout: Layout,
+    groups: Groups,
+    /// The crank in each tile of the grid, and at the start.
+    cranks: Vec<CrankTile>,
+    start: CrankTile,
+    /// Whether the rows are in the order of time.
+    is_ascending: bool,
+    omega: f64,
+    /// Largest time between two instants (s).
+    pace: f64,
+    tile: Vec<Eight>,
+    work: Vec<Eight>,
+    arch: Arch,
+}
+
+/// The crank in one tile.
+#[derive(Clone, Debug)]
+struct CrankTile {
+    angles: Eight,
+    direction: [Eight; 2],
+}
+
+impl CrankTile {
+    /// Unused rows repeat the last angle.
+    fn of(angles: &[f64]) -> CrankTile {
+        let angles = std::array::from_fn(|row| angles[row.min(angles.len() - 1)]);
+        let directions = angles.map(unit);
+        CrankTile {
+            angles: Eight(angles),
+            direction: [Eight(directions.map(|own| own.x)), Eight(directions.map(|own| own.y))],
+        }
+    }
+}
+
+impl CaseBatch {
+    /// A solver for cases that differ from `case` only in points, masses and moments of inertia of links.
+    /// `None` if the case must be solved pose by pose, or if its instants are too far apart.
+    #[must_use]
+    pub fn of(case: &Case) -> Option<CaseBatch> {
+        let (crank, grid) = (case.crank(), &case.grid);
+        let omega = crank.constant_speed()?;
+        let is_plain = case.drives.len() == 1
+            && crank.input == Input::Angle
+            && !crank.through
+            && !case.is_free()
+            && case.loads.is_empty()
+            && !case.has_friction();
+        let rows = grid.ascending();
+        let inputs: Vec<f64> = rows.iter().map(|&row| grid.inputs[row]).collect();
+        let gaps =
+            inputs.windows(2).map(|pair| pair[1] - pair[0]).chain(inputs.first().map(|first| first - crank.start));
+        let widest = gaps.map(f64::abs).fold(0.0, f64::larger);
+        if !(is_plain && omega.is_normal() && widest <= STEP) {
+            return None;
+        }
+        let plan = SolutionPlan::of(&case.mechanism, &case.structure, &case.modes);
+        let layout = Layout::of(case, false);
+        let groups = Groups::of(case, &plan, layout)?;
+        if groups.chains().next().is_some() {
+            return None;
+        }
+        let zero = crank.coordinate(0.0);
+        let angles: Vec<f64> = grid.inputs.iter().map(|input| zero + input).collect();
+        Some(CaseBatch {
+            plan,
+            layout,
+            cranks: angles.chunks(TILE).map(CrankTile::of).collect(),
+            start: CrankTile::of(&[zero + crank.start]),
+            is_ascending: rows.is_sorted(),
+            omega,
+            pace: (widest / omega).abs(),
+            tile: vec![Eight([0.0; TILE]); layout.columns()],
+            work: vec![Eight([0.0; TILE]); groups.columns],
+            groups,
+            arch: Arch::new(),
+            case: case.clone(),
+        })
+    }
+
+    /// The case with its present numbers.
+    #[must_use]
+    pub fn case(&self) -> &Case {
+        &self.case
+    }
+
+    /// Changes numbers of links, and positions of joints on links. Names, kinds and order must remain.
+    pub fn renumber(&mut self, change: impl FnOnce(&mut [Link], &mut [Joint])) {
+        self.case.renumber(change);
+        self.groups = Groups::of(&self.case, &self.plan, self.layout).expect("the structure is that of the first case");
+    }
+
+    /// Solves all instants of the grid up to the stage `deepest`, and computes the statistics `tallies`.
+    /// `false` if a pose cannot be assembled, if a number is not finite, or if a dyad may pass a dead point between two
+    /// instants. [`PoseSolver`](crate::PoseSolver) then solves the case or gives the error.
+    pub fn solve(&mut self, deepest: Stage, tallies: &mut [PoseTally]) -> bool {
+        tallies.iter_mut().for_each(|own| own.start(&self.case, self.layout));
+        let arch = self.arch;
+        arch.dispatch(AllTiles { batch: self, deepest, tallies })
+    }
+}
+
+/// All tiles of a case.
+struct AllTiles<'a> {
+    batch: &'a mut CaseBatch,
+    deepest: Stage,
+    tallies: &'a mut [PoseTally],
+}
+
+impl CaseBatch {
+    /// Solves one tile, of the start without its index. `doubt` becomes NaN where a dead point may be near.
+    #[inline(always)]
+    fn solve_tile<S: Simd>(
+        &mut self,
+        simd: S,
+        deepest: Stage,
+        index: Option<usize>,
+        tallies: &mut [PoseTally],
+        doubt: &mut Eight,
+    ) {
+        let CaseBatch { groups, cranks, start, omega, pace, tile, work, .. } = self;
+        let (link, crank) = (groups.drivers[0].body.link, index.map_or(&*start, |index| &cranks[index]));
+        [tile[link + DIRECTION], tile[link + DIRECTION + 1]] = crank.direction;
+        tile[link + OMEGA] = Eight([*omega; TILE]);
+        tile[link + ALPHA] = Eight([0.0; TILE]);
+        for part in 0..Window::<S>::PARTS {
+            let mut tile = Window { simd, columns: &mut *tile, part };
+            let mut work = Window { simd, columns: &mut *work, part };
+            groups.move_links(deepest, &mut tile, &mut work);
+            if deepest >= Stage::Reactions {
+                groups.load_joints(&mut tile, &mut work);
+            }
+            for (group, first) in &groups.parts {
+                let Part::Dyad(dyad) = group else { unreachable!("a case batch has dyads only") };
+                let own = dyad.doubt(*pace, [CLEAR_SINE, CLEAR_CHANGE], &tile, &work, *first);
+                tile.add_to(&mut doubt.0, own);
+            }
+            for own in &mut *tallies {
+                own.add(index.unwrap_or(0) * TILE, &crank.angles, &tile);
+            }
+        }
+    }
+}
+
+impl WithSimd for AllTiles<'_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> bool {
+        let AllTiles { batch, deepest, tallies } = self;
+        let mut doubt = Eight([0.0; TILE]);
+        if tallies.iter().any(PoseTally::needs_start) {
+            batch.solve_tile(simd, Stage::Positions, None, &mut [], &mut Eight([0.0; TILE]));
+            if !(batch.is_ascending && tallies.iter_mut().all(|own| own.begin(&batch.tile))) {
+                return false;
+            }
+        }
+        // Velocities tell how near a dead point is.
+        let deepest = if deepest < Stage::Velocities { Stage::Velocities } else { deepest };
+        for index in 0..batch.cranks.len() {
+            batch.solve_tile(simd, deepest, Some(index), tallies, &mut doubt);
+        }
+        let rows = batch.case.grid.len();
+        tallies.iter_mut().for_each(|own| own.tally.truncate(rows));
+        doubt.0.iter().all(|lane| *lane == 0.0) && tallies.iter().all(PoseTally::is_finite)
+    }
+}

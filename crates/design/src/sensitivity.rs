@@ -1,0 +1,203 @@
+//! Exact first derivatives of figures of a run by the numbers of its file, and tolerance stacks from these derivatives.
+//!
+//! Side 1 computes the figure. At the instants that determine the figure, the equations of the whole mechanism are
+//! solved again in dual numbers ([`precise::Dual`]), so that there is no error of a step width.
+//! An extreme over the instants has the derivatives of the quantity at the instant of the extreme, because a shift of
+//! this instant has no first-order effect. A mean needs all instants.
+
+mod answer;
+mod instants;
+mod quantity;
+mod rivals;
+mod tolerance;
+
+use crate::sentences;
+use std::collections::BTreeMap;
+
+use linkage::case::Case;
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::KeepNan;
+use scenario::{CaseKey, CaseSlopes, Claim, SampledFigure, Scenario, Statistic, TurnFigure};
+
+pub use self::answer::{FigureSlopes, Sensitivity, SensitivityQuestion};
+use self::instants::{Derived, derived};
+use self::quantity::solved;
+use self::rivals::rival;
+pub use self::tolerance::{APART, KeyTolerance, LinearLimit, ToleranceStack, stacks};
+
+/// The exact derivatives of the figures of a scenario.
+///
+/// # Errors
+/// [`ErrorKind::Input`] for an unknown key or quantity, or a figure without a value.
+/// [`ErrorKind::Unsupported`] for a mechanism with friction or transmissions, for a free motion, for a motion through
+/// change points, and for a key whose derivative is not known. The errors of the solver.
+pub fn sensitivity(scenario: &Scenario, question: &SensitivityQuestion) -> Result<Sensitivity> {
+    sensitivity_by(scenario, &CaseSlopes::of(scenario, &question.asked)?, question)
+}
+
+/// Like [`sensitivity`], for a caller that already has the derivatives of the numbers of the case.
+///
+/// # Errors
+/// The errors of [`sensitivity`].
+pub fn sensitivity_by(scenario: &Scenario, slopes: &CaseSlopes, question: &SensitivityQuestion) -> Result<Sensitivity> {
+    let (chosen, left_out) = chosen(slopes, question)?;
+    let case = &scenario.case;
+    let by_input = question.by_input.unwrap_or(slopes.by_input);
+    let claims = question.figures.iter().map(|figure| claim(figure, case)).collect::<Result<Vec<_>>>()?;
+    let run = solved(case, &claims)?;
+    let mut sampled = Vec::with_capacity(claims.len());
+    for (figure, claim) in question.figures.iter().zip(&claims) {
+        let values = scenario::sampled_values(claim, &run)?;
+        sampled.push((figure.of(&run, &values)?, values));
+    }
+    let rows = rows(&sampled, case.grid.len());
+    let derived = derived(case, slopes, &chosen, &claims, &rows, by_input)?;
+    let keys: Vec<CaseKey> = chosen.iter().map(|key| slopes.keys[*key].clone()).collect();
+    let mut figures = Vec::with_capacity(sampled.len());
+    for (index, (found, values)) in sampled.into_iter().enumerate() {
+        let figure = &question.figures[index];
+        check_agreement(figure, &found, &values, index, &derived)?;
+        let by = figure_slopes(figure, &found, &values, index, &derived, keys.len());
+        let has_kink = by.iter().any(|own| own.is_nan());
+        figures.push(FigureSlopes {
+            figure: figure.clone(),
+            unit: claims[index].unit().into(),
+            instants: found.rows.iter().map(|row| run.told(*row).to_string()).collect(),
+            rival: rival(figure.statistic, &values, &run, case).map(|row| run.told(row).to_string()),
+            sampled: found,
+            by,
+            has_kink,
+        });
+    }
+    Ok(Sensitivity { keys, figures, left_out, by_input })
+}
+
+/// Indices of the chosen keys, and the names of omitted keys, each with the part of the file that has no derivative by
+/// the key.
+type Chosen = (Vec<usize>, Vec<(String, String)>);
+
+fn chosen(slopes: &CaseSlopes, question: &SensitivityQuestion) -> Result<Chosen> {
+    let untold: BTreeMap<usize, &String> = slopes.untold.iter().map(|(key, part)| (*key, part)).collect();
+    let (mut chosen, mut left_out) = (Vec::new(), Vec::new());
+    if question.keys.is_empty() {
+        for key in slopes.usual() {
+            match untold.get(&key) {
+                Some(part) => left_out.push((slopes.keys[key].name.clone(), (*part).clone())),
+                None => chosen.push(key),
+            }
+        }
+    }
+    for name in question.keys.iter().chain(&question.also) {
+        let Some(key) = slopes.key(name) else {
+            let names = slopes.keys.iter().map(|key| key.name.as_str());
+            let help = scenario::words::suggestion(name, names, "`");
+            return Err(Error::new(ErrorKind::Input, sentences::no_number_of_the_file_is_called(&name)).help(help));
+        };
+        if let Some(part) = untold.get(&key) {
+            let message = sentences::no_derivative_is_known(&name, part);
+            return Err(Error::new(ErrorKind::Unsupported, message).help(sentences::COMPARE_WITH_A_SWEEP));
+        }
+        if !chosen.contains(&key) {
+            chosen.push(key);
+        }
+    }
+    if chosen.is_empty() {
+        let message = sentences::THE_CASE_DEPENDS_ON_NO_KEY;
+        return Err(Error::new(ErrorKind::Input, message).help(sentences::NAME_A_KEY));
+    }
+    Ok((chosen, left_out))
+}
+
+/// The quantity of a figure, if it can be differentiated.
+fn claim(figure: &TurnFigure, case: &Case) -> Result<Claim> {
+    let claim = figure.claim(case)?;
+    if claim.has_masses() {
+        let message = sentences::a_reduced_quantity_is_not_differentiated(&claim.text);
+        return Err(Error::new(ErrorKind::Unsupported, message).help(sentences::COMPARE_WITH_A_SWEEP));
+    }
+    Ok(claim)
+}
+
+/// The rows that determine the figures, in ascending order: all rows if one figure is a mean.
+fn rows(sampled: &[(SampledFigure, Vec<f64>)], count: usize) -> Vec<usize> {
+    if sampled.iter().any(|(found, _)| found.rows.is_empty()) {
+        return (0..count).collect();
+    }
+    let mut rows: Vec<usize> = sampled.iter().flat_map(|(found, _)| found.rows.iter().copied()).collect();
+    rows.sort_unstable();
+    rows.dedup();
+    rows
+}
+
+/// Largest allowed difference between the values of the two solutions, divided by the largest value.
+const AGREEMENT: f64 = 1e-6;
+
+/// Checks that the solution in dual numbers has the values of side 1. Otherwise its derivatives would be those of
+/// another mechanism.
+fn check_agreement(
+    figure: &TurnFigure,
+    found: &SampledFigure,
+    values: &[f64],
+    index: usize,
+    derived: &Derived,
+) -> Result<()> {
+    let scale = values.iter().fold(0.0, |most: f64, own| most.larger(own.abs()));
+    for &row in &found.rows {
+        let own = derived.at(index, row).value;
+        if own.is_finite() && !((own - values[row]).abs() <= AGREEMENT * scale) && derived.turn(index).is_none() {
+            let message = sentences::the_two_solutions_differ(&figure, &values[row], &own);
+            return Err(Error::new(ErrorKind::Numeric, message).help(sentences::TAKE_ANOTHER_INSTANT));
+        }
+    }
+    Ok(())
+}
+
+/// The derivatives of a figure from those of its quantity.
+fn figure_slopes(
+    figure: &TurnFigure,
+    found: &SampledFigure,
+    values: &[f64],
+    index: usize,
+    derived: &Derived,
+    keys: usize,
+) -> Vec<f64> {
+    let at = |row: usize, key: usize| derived.at(index, row).slopes[key];
+    let one = |key: usize| match (figure.statistic, found.rows.as_slice()) {
+        (Statistic::MaxAbs, [row]) if values[*row] == 0.0 => f64::NAN,
+        (Statistic::MaxAbs, [row]) => values[*row].signum() * at(*row, key),
+        (Statistic::Range, [most, least]) => at(*most, key) - at(*least, key),
+        (Statistic::Max | Statistic::Min | Statistic::At(_), [row]) => at(*row, key),
+        (Statistic::Rms, _) => {
+            let squares: Vec<f64> = values.iter().map(|own| own * own).collect();
+            let slope = |row: usize| 2.0 * values[row] * at(row, key);
+            mean_slope(&squares, slope, key, derived) / (2.0 * found.value)
+        }
+        (Statistic::Mean, _) => mean_slope(values, |row| at(row, key), key, derived),
+        (Statistic::Max | Statistic::Min | Statistic::MaxAbs | Statistic::Range | Statistic::At(_), _) => f64::NAN,
+    };
+    (0..keys).map(one).collect()
+}
+
+/// Derivative of the mean over time by the trapezoidal rule. If the instants keep their inputs, their times have
+/// derivatives too.
+fn mean_slope(values: &[f64], slope: impl Fn(usize) -> f64, key: usize, derived: &Derived) -> f64 {
+    let order = linkage::math::statistics::ascending(&derived.times);
+    let (mut sum, mut change) = (0.0, 0.0);
+    for pair in order.windows(2) {
+        let [a, b] = [pair[0], pair[1]];
+        let width = derived.times[b] - derived.times[a];
+        let wider = derived.time_slopes[b][key] - derived.time_slopes[a][key];
+        sum += width * (values[a] + values[b]) / 2.0;
+        change += wider * (values[a] + values[b]) / 2.0 + width * (slope(a) + slope(b)) / 2.0;
+    }
+    let [first, last] = [order[0], order[order.len() - 1]];
+    let whole = derived.times[last] - derived.times[first];
+    if !(whole > 0.0) {
+        return slope(first);
+    }
+    let longer = derived.time_slopes[last][key] - derived.time_slopes[first][key];
+    change / whole - sum / whole * longer / whole
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,74 @@
+//! Question and answer of a sensitivity.
+
+use scenario::{CaseKey, SampledFigure, StartRequest, TurnFigure};
+
+/// The requested derivatives of a scenario.
+#[derive(Clone, Debug, Default)]
+pub struct SensitivityQuestion {
+    /// The figures.
+    pub figures: Vec<TurnFigure>,
+    /// Names of the keys; empty for [the usual keys](scenario::CaseSlopes::usual).
+    pub keys: Vec<String>,
+    /// Names of further keys, such as those with tolerances.
+    pub also: Vec<String>,
+    /// The start that replaces the start of the file.
+    pub asked: StartRequest,
+    /// Whether the instants keep their inputs (`true`) or their times (`false`) when a number of a law changes.
+    /// `None` stands for the coordinate by which the file gives its grid.
+    pub by_input: Option<bool>,
+}
+
+/// The derivatives of one figure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FigureSlopes {
+    /// The figure.
+    pub figure: TurnFigure,
+    /// Unit of its quantity; empty for an expression.
+    pub unit: String,
+    /// The value of the figure, with the rows that determine it.
+    pub sampled: SampledFigure,
+    /// Inputs of these rows, as messages write them.
+    pub instants: Vec<String>,
+    /// Derivatives by the keys, per unit of the key, in the order of [`Sensitivity::keys`].
+    /// NaN where the figure has a kink.
+    pub by: Vec<f64>,
+    /// Input at a second, equal extreme. The figure then has a kink, and the derivatives hold only for changes after
+    /// which the first instant still has the extreme.
+    pub rival: Option<String>,
+    /// Whether the figure has a kink, because it is the absolute value of zero or the magnitude of a zero vector.
+    pub has_kink: bool,
+}
+
+/// The derivatives of figures by keys.
+#[derive(Clone, Debug)]
+pub struct Sensitivity {
+    /// The keys.
+    pub keys: Vec<CaseKey>,
+    /// The figures, in the order of the question.
+    pub figures: Vec<FigureSlopes>,
+    /// Usual keys that were left out, each with the part of the file that has no derivative by this key.
+    pub left_out: Vec<(String, String)>,
+    /// Whether the instants keep their inputs (`true`) or their times (`false`).
+    pub by_input: bool,
+}
+
+impl FigureSlopes {
+    /// Relative derivative by the key with this index: per cent of the figure for each per cent of the key. `None` if
+    /// one of the two is zero.
+    #[must_use]
+    pub fn relative(&self, keys: &[CaseKey], index: usize) -> Option<f64> {
+        let (value, key) = (self.sampled.value, keys[index].value);
+        (value != 0.0 && key != 0.0).then(|| self.by[index] * key / value)
+    }
+
+    /// Indices of the keys, by decreasing relative derivative. Keys with the value zero follow, by decreasing
+    /// derivative.
+    /// Keys with equal derivatives keep their order.
+    #[must_use]
+    pub fn ranked(&self, keys: &[CaseKey]) -> Vec<usize> {
+        let mut order: Vec<usize> = (0..keys.len()).collect();
+        let size = |index: usize| self.relative(keys, index).map_or(-1.0, f64::abs);
+        order.sort_by(|&a, &b| size(b).total_cmp(&size(a)).then_with(|| self.by[b].abs().total_cmp(&self.by[a].abs())));
+        order
+    }
+}

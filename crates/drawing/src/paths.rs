@@ -1,0 +1,91 @@
+//! The elements of a figure as paths for bitmaps and PDF: strokes, filled areas and the outlines of letters.
+
+mod glyphs;
+
+use tiny_skia::{Path, PathBuilder};
+
+use crate::paper::figure::{DrawnFigure, Ink, Style, Tint, head};
+pub(crate) use glyphs::Glyphs;
+use linkage::error::Result;
+use linkage::math::Vec2;
+
+/// A bitmap or PDF page that receives paths (mm, y downwards).
+pub(crate) trait Surface {
+    /// Fills a path, then strokes it. A width of zero means no stroke.
+    fn paint(&mut self, path: Option<Path>, fill: Option<Tint>, style: &Style);
+
+    /// Calls `draw`. All that `draw` paints appears as one element of the opacity `opacity`.
+    fn group(&mut self, opacity: f64, draw: &mut dyn FnMut(&mut Self));
+}
+
+/// Draws a figure on a surface.
+///
+/// # Errors
+/// [`ErrorKind::Input`](linkage::error::ErrorKind::Input) for a text with a letter that the bundled font lacks.
+pub(crate) fn draw(figure: &DrawnFigure, surface: &mut impl Surface) -> Result<()> {
+    let glyphs = Glyphs::new();
+    check(&figure.ink, &glyphs)?;
+    figure.ink.iter().for_each(|ink| put(ink, &glyphs, surface));
+    Ok(())
+}
+
+/// Checks that the font has all letters of the texts.
+fn check(ink: &[Ink], glyphs: &Glyphs) -> Result<()> {
+    ink.iter().try_for_each(|own| match own {
+        Ink::Text { text, .. } => glyphs.check(text),
+        Ink::Group { ink, .. } => check(ink, glyphs),
+        Ink::Line(..) | Ink::Arrow(..) | Ink::Shape { .. } | Ink::Disc { .. } => Ok(()),
+    })
+}
+
+fn put<S: Surface>(ink: &Ink, glyphs: &Glyphs, surface: &mut S) {
+    match ink {
+        Ink::Line(ends, style) => surface.paint(line(ends).finish(), None, style),
+        Ink::Arrow(ends, style, _) => {
+            let (base, corners) = head(*ends);
+            surface.paint(line(&[ends[0], base]).finish(), None, style);
+            surface.paint(polygon(&corners), Some(Tint::opaque(style.colour)), &Style { width: 0.0, ..*style });
+        }
+        Ink::Shape { corners, closed: true, fill, style } => surface.paint(polygon(corners), *fill, style),
+        Ink::Shape { corners, closed: false, fill, style } => surface.paint(line(corners).finish(), *fill, style),
+        Ink::Disc { centre, radius, fill, style } => {
+            let path = PathBuilder::from_circle(centre.x as f32, -centre.y as f32, *radius as f32);
+            surface.paint(path, (*fill != "none").then_some(Tint::opaque(fill)), style);
+        }
+        Ink::Text { at, text, set } => {
+            let (path, strength) = glyphs.path(*at, text, set);
+            let style = Style { colour: set.colour, width: strength, dash: "" };
+            surface.paint(path, Some(Tint::opaque(set.colour)), &style);
+        }
+        Ink::Group { ink, opacity: 1.0.., .. } => ink.iter().for_each(|own| put(own, glyphs, surface)),
+        Ink::Group { ink, opacity, .. } => {
+            surface.group(*opacity, &mut |surface| ink.iter().for_each(|own| put(own, glyphs, surface)));
+        }
+    }
+}
+
+/// Red, green and blue of a colour `#rrggbb` or `white`; black for any other text.
+pub(crate) fn rgb(colour: &str) -> [u8; 3] {
+    let part = |at: usize| colour.get(at..at + 2).and_then(|part| u8::from_str_radix(part, 16).ok()).unwrap_or(0);
+    if colour == "white" { [255; 3] } else { [1, 3, 5].map(part) }
+}
+
+/// Lengths of strokes and gaps of a dashed line (mm); empty for a solid line.
+pub(crate) fn dashes(style: &Style) -> Vec<f32> {
+    style.dash.split_whitespace().filter_map(|part| part.parse().ok()).collect()
+}
+
+fn line(corners: &[Vec2]) -> PathBuilder {
+    let mut path = PathBuilder::new();
+    for (index, corner) in corners.iter().enumerate() {
+        let (x, y) = (corner.x as f32, -corner.y as f32);
+        if index == 0 { path.move_to(x, y) } else { path.line_to(x, y) }
+    }
+    path
+}
+
+fn polygon(corners: &[Vec2]) -> Option<Path> {
+    let mut path = line(corners);
+    path.close();
+    path.finish()
+}

@@ -1,0 +1,164 @@
+//! Statistics of a quantity that is known row by row, eight rows at a time.
+//!
+//! The order of the operations depends on the rows only. The same values give the same bits, whoever computes them.
+
+use std::array;
+use std::sync::Arc;
+
+/// Number of rows that are added at once.
+pub const LANES: usize = 8;
+
+/// The largest score so far, with its first row, for every lane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(align(64))]
+pub struct LanePeak {
+    /// Largest scores.
+    pub scores: [f64; LANES],
+    /// Their rows.
+    pub rows: [f64; LANES],
+}
+
+impl LanePeak {
+    /// No row yet.
+    pub const NONE: LanePeak = LanePeak { scores: [f64::NEG_INFINITY; LANES], rows: [0.0; LANES] };
+
+    fn add(&mut self, row: usize, scores: [f64; LANES]) {
+        for (lane, score) in scores.into_iter().enumerate() {
+            if score > self.scores[lane] {
+                (self.scores[lane], self.rows[lane]) = (score, (row + lane) as f64);
+            }
+        }
+    }
+
+    /// The first row with the largest score, and this score.
+    fn first(&self) -> (usize, f64) {
+        let key = |lane: usize| (self.scores[lane], self.rows[lane]);
+        let is_better =
+            |(score, row): (f64, f64), (best, first): (f64, f64)| score > best || score == best && row < first;
+        let (score, row) = (1..LANES).map(key).fold(key(0), |best, own| if is_better(own, best) { own } else { best });
+        (row as usize, score)
+    }
+}
+
+/// A statistic of the rows so far.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Tally {
+    /// Largest value.
+    Max(LanePeak),
+    /// Smallest value.
+    Min(LanePeak),
+    /// Largest absolute value.
+    MaxAbs(LanePeak),
+    /// Largest minus smallest value.
+    Range([LanePeak; 2]),
+    /// Weighted sum.
+    Mean(Weighted),
+    /// Root of the weighted sum of the squares.
+    Rms(Weighted),
+    /// The value in a row.
+    At(usize, f64),
+    /// All values.
+    Column(Vec<f64>),
+}
+
+/// A weighted sum.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Weighted {
+    /// Weights of all rows, eight by eight.
+    pub weights: Arc<[[f64; LANES]]>,
+    /// The sum of every lane.
+    pub sums: [f64; LANES],
+}
+
+impl Weighted {
+    /// A sum with one weight for each row.
+    #[must_use]
+    pub fn of(weights: &[f64]) -> Weighted {
+        // Rows beyond the last one have no weight.
+        let weight = |row: usize| weights.get(row).copied().unwrap_or(0.0);
+        let blocks = (0..weights.len()).step_by(LANES);
+        Weighted { weights: blocks.map(|row| array::from_fn(|lane| weight(row + lane))).collect(), sums: [0.0; LANES] }
+    }
+
+    fn add(&mut self, row: usize, values: [f64; LANES]) {
+        let weights = &self.weights[row / LANES];
+        for ((sum, weight), value) in self.sums.iter_mut().zip(weights).zip(values) {
+            *sum += weight * value;
+        }
+    }
+
+    fn sum(&self) -> f64 {
+        self.sums.iter().sum()
+    }
+}
+
+impl Tally {
+    /// Forgets all rows.
+    pub fn clear(&mut self) {
+        match self {
+            Tally::Max(peak) | Tally::Min(peak) | Tally::MaxAbs(peak) => *peak = LanePeak::NONE,
+            Tally::Range(peaks) => *peaks = [LanePeak::NONE; 2],
+            Tally::Mean(own) | Tally::Rms(own) => own.sums = [0.0; LANES],
+            Tally::At(_, value) => *value = f64::NAN,
+            Tally::Column(values) => values.clear(),
+        }
+    }
+
+    /// Adds eight rows, the first of which is `row`, a multiple of eight. Behind the last row, its value is repeated.
+    pub fn add(&mut self, row: usize, values: &[f64; LANES]) {
+        match self {
+            Tally::Max(peak) => peak.add(row, *values),
+            Tally::Min(peak) => peak.add(row, values.map(|value| -value)),
+            Tally::MaxAbs(peak) => peak.add(row, values.map(f64::abs)),
+            Tally::Range([most, least]) => {
+                most.add(row, *values);
+                least.add(row, values.map(|value| -value));
+            }
+            Tally::Mean(own) => own.add(row, *values),
+            Tally::Rms(own) => own.add(row, values.map(|value| value * value)),
+            Tally::At(wanted, value) => {
+                *value = wanted.checked_sub(row).and_then(|at| values.get(at)).copied().unwrap_or(*value)
+            }
+            Tally::Column(all) => all.extend_from_slice(values),
+        }
+    }
+
+    /// Leaves only the first `rows` values of a column.
+    pub fn truncate(&mut self, rows: usize) {
+        if let Tally::Column(values) = self {
+            values.truncate(rows);
+        }
+    }
+
+    /// The statistic; of a column, its last value.
+    #[must_use]
+    pub fn value(&self) -> f64 {
+        self.value_as(|value| value)
+    }
+
+    /// The statistic of the values `shown(value)`, if this function grows with the value, is odd, and the statistic is
+    /// no mean. Its bits are those of a statistic whose values were shown one by one.
+    #[must_use]
+    pub fn value_as(&self, shown: impl Fn(f64) -> f64) -> f64 {
+        match self {
+            Tally::Max(peak) | Tally::MaxAbs(peak) => shown(peak.first().1),
+            Tally::Min(peak) => shown(-peak.first().1),
+            Tally::Range([most, least]) => shown(most.first().1) - shown(-least.first().1),
+            Tally::Mean(own) => own.sum(),
+            Tally::Rms(own) => own.sum().sqrt(),
+            Tally::At(_, value) => shown(*value),
+            Tally::Column(values) => values.last().copied().unwrap_or(f64::NAN),
+        }
+    }
+
+    /// The rows on which the statistic rests: the first extreme ones, or none if all rows count.
+    #[must_use]
+    pub fn rows(&self) -> [Option<usize>; 2] {
+        match self {
+            Tally::Max(peak) | Tally::Min(peak) | Tally::MaxAbs(peak) => [Some(peak.first().0), None],
+            Tally::Range(peaks) => peaks.map(|peak| Some(peak.first().0)),
+            Tally::At(row, _) => [Some(*row), None],
+            Tally::Mean(_) | Tally::Rms(_) | Tally::Column(_) => [None; 2],
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! The causes of wrong answers. Reports put them into words.
+
+/// A cell of a sheet: number of the position and of the quantity, from 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CellPlace {
+    /// Number of the position.
+    pub row: usize,
+    /// Number of the quantity.
+    pub column: usize,
+}
+
+/// A term in the velocity or acceleration of a point P, composed from that of a point Q on the same link:
+/// v_P = v_Q + v_PQ and a_P = a_Q + a_PQ^n + a_PQ^t.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PartOfPoint {
+    /// The velocity or acceleration of the point Q.
+    Carried,
+    /// The normal (centripetal) part of the relative acceleration.
+    Normal,
+    /// The tangential part of the relative acceleration.
+    Tangential,
+}
+
+/// Mistake that turns right answers into the student's number.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MarkCause {
+    /// The opposite sign.
+    Sign,
+    /// The number is right in another unit; the fields are symbols of units.
+    Unit {
+        /// Unit of the student's number.
+        written: &'static str,
+        /// Unit that the sheet asks for.
+        asked: &'static str,
+    },
+    /// The decimal point is at the wrong place. The field is the power of ten by which the number is too large.
+    DecimalPoint(i32),
+    /// Twice the value.
+    Twice,
+    /// Half the value.
+    Half,
+    /// Zero instead of the value.
+    Zero,
+    /// The derivative by the crank angle instead of the derivative by time.
+    PerRadian,
+    /// The supplement: 180 deg minus the right angle.
+    Supplement,
+    /// The right angle plus 180 deg: the direction of the link is taken from the wrong end.
+    OtherEnd,
+    /// The complement: 90 deg minus the right angle, as with cosine and sine exchanged.
+    Complement,
+    /// The right angle plus or minus 90 deg: the angle is measured from the vertical.
+    FromVertical,
+    /// The angle relative to another link. The field is the name of that link.
+    RelativeAngle(String),
+    /// Two cells exchanged: each has the right value of the other cell.
+    Exchanged(CellPlace),
+    /// The right value of another cell.
+    OfCell(CellPlace),
+    /// The right value of another cell, with the opposite sign.
+    OppositeOfCell(CellPlace),
+    /// Two neighbouring digits exchanged.
+    DigitsSwapped,
+    /// One digit is wrong.
+    OneDigit,
+    /// One digit is left out, or one digit is added.
+    DigitLost,
+    /// A term of a point's velocity or acceleration is missing: the term, the point P, and the point Q.
+    WithoutPart(PartOfPoint, String, String),
+    /// The angular velocity is computed from the whole velocity of a point instead of its velocity relative to another
+    /// point of the link. The field is the name of the point.
+    FromWholeSpeed(String),
+    /// Accelerations without the normal (centripetal) part of one link. The field is the name of the link.
+    NoNormal(String),
+    /// Accelerations without the normal parts of all links.
+    NoNormals,
+    /// Accelerations without the Coriolis part in one sliding joint. The field is the name of the joint.
+    NoCoriolis(String),
+    /// A group, or several groups, in another configuration.
+    Configuration {
+        /// Names of the links of the groups.
+        group: String,
+        /// The student's configurations: name of the mode, or number of the configuration.
+        mode: String,
+    },
+    /// The crank turns in the opposite direction.
+    Reversed,
+    /// The crank's speed is taken in the wrong unit: the unit that the student took, and the right unit.
+    SpeedUnit(&'static str, &'static str),
+    /// The crank angle is measured in the opposite direction.
+    Clockwise,
+    /// The crank angle is this many degrees larger.
+    CrankTurned(i32),
+    /// Gravity is missing.
+    NoGravity,
+    /// Gravity acts upwards.
+    GravityUp,
+    /// The inertia forces and moments are missing.
+    NoInertiaForces,
+    /// A load is missing. The field is the number of the load in the file, from 1.
+    NoLoad(usize),
+    /// The distance of a point is measured from the wrong end of its link: names of the link and of the point.
+    FromOtherEnd(String, String),
+    /// The right answers of another student. The field is the name of that student's sheet.
+    OfStudent(String),
+}

@@ -1,0 +1,379 @@
+//! Points, masses and moments of inertia of links as functions of varied numbers of the file.
+//!
+//! The results equal, bit by bit, those of a scenario that is read with these numbers.
+//! If a varied number has further effects, or is not allowed, the file must be read instead.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use toml::de::{DeTable, DeValue};
+
+use super::family::ScenarioFamily;
+use super::keys::key::{Sign, ValueKind};
+use super::numbers::{self, is_path, plain_number};
+use super::parameters::{Conversion, Parameter, ParameterGraph, Parameters};
+use super::reader::SMALLEST;
+use super::unit::{self, ANGLE, INERTIA, LENGTH, MASS, NamedUnit, UnitFamily};
+use super::{keys, masses};
+use formula::{FormulaTree, Program, Rounded};
+use linkage::case::Case;
+use linkage::math::{Vec2, unit as direction};
+use linkage::mechanism::{Joint, Link, Mechanism};
+
+/// An expression of parameters, for a key with a unit.
+struct Expression {
+    /// The names in the expression: parameter, and conversion to the unit of the key.
+    names: Vec<(usize, Conversion)>,
+    inputs: Vec<Rounded>,
+    program: Program,
+}
+
+impl Expression {
+    fn read(text: &str, key: &str, parameters: &Parameters) -> Option<Expression> {
+        let tree = FormulaTree::parse(text).ok()?;
+        let wanted = unit::ending(key).map(|(_, unit)| unit);
+        let ParameterGraph { names, graph, node } = ParameterGraph::of(&tree, parameters)?;
+        let conversion = |(place, name): (usize, &str)| (place, parameters.list()[place].conversion(name, wanted));
+        let names: Vec<_> = names.into_iter().map(conversion).collect();
+        let inputs = vec![Rounded::exact(0.0); names.len()];
+        Some(Expression { names, inputs, program: Program::of(&graph, &[node]) })
+    }
+
+    /// The value; `None` if its rounding error is not finite. The reader refuses such a value.
+    fn value(&mut self, parameters: &[Parameter]) -> Option<f64> {
+        for (input, (place, conversion)) in self.inputs.iter_mut().zip(&self.names) {
+            *input = Rounded::exact(conversion.of(parameters[*place].given));
+        }
+        let found = self.program.run(&self.inputs)[0];
+        found.error.is_finite().then_some(found.value)
+    }
+}
+
+/// Where a number comes from.
+enum Origin {
+    /// The number of the file, in the unit of its key.
+    Plain(f64),
+    /// The varied number with this index.
+    Varied(usize),
+    Expression(Expression),
+}
+
+/// A number of a link.
+struct LinkNumber {
+    origin: Origin,
+    unit: &'static NamedUnit,
+    family: &'static UnitFamily,
+    sign: Sign,
+}
+
+/// A position: coordinates, or the distance and the direction from an earlier point.
+enum PlaceNumbers {
+    Coordinates([LinkNumber; 2]),
+    From(usize, [LinkNumber; 2]),
+}
+
+/// The numbers of a link that depend on varied numbers.
+struct LinkNumbers {
+    link: usize,
+    points: Vec<PlaceNumbers>,
+    centre: Option<PlaceNumbers>,
+    mass: Option<LinkNumber>,
+    inertia: Option<LinkNumber>,
+    /// Joints on the link: index, whether the link is the second one, and the point.
+    joints: Vec<(usize, bool, usize)>,
+    /// Positions of the points as last computed.
+    places: Vec<Vec2>,
+}
+
+/// Computes the numbers of all links of a case from varied numbers of its file.
+pub struct Renumbering {
+    /// Parameters with the numbers of the last case.
+    parameters: Vec<Parameter>,
+    /// The varied parameters: index of the parameter, and index of the varied number.
+    set: Vec<(usize, usize)>,
+    /// Expressions of parameters that depend on varied ones, in the order of the file.
+    derived: Vec<(usize, Expression)>,
+    links: Vec<LinkNumbers>,
+}
+
+/// Reads the tables of a family.
+struct Reading<'a> {
+    parameters: Parameters,
+    /// Names of parameters that depend on varied numbers.
+    moved: BTreeSet<String>,
+    /// The varied numbers that are not parameters, by their paths.
+    paths: BTreeMap<&'a str, usize>,
+    /// Number of paths that were found.
+    found: usize,
+    /// Keys whose texts are not expressions.
+    texts: BTreeSet<&'static str>,
+}
+
+/// Keys whose texts may contain names of parameters.
+const FORMULAS: [&str; 3] = ["channel", "expression", "formula"];
+
+/// Keys whose texts are not expressions, but names, words or sentences.
+fn texts() -> BTreeSet<&'static str> {
+    let of = |is_meant: fn(ValueKind) -> bool| -> BTreeSet<&'static str> {
+        let rows = keys::sections().flat_map(|section| section.keys);
+        rows.filter(|row| is_meant(row.kind)).map(|row| row.name).collect()
+    };
+    let texts = of(|kind| matches!(kind, ValueKind::Text | ValueKind::Texts | ValueKind::Choice(_)));
+    let numbers = of(|kind| !kind.families().is_empty() || matches!(kind, ValueKind::Number | ValueKind::Numbers));
+    texts.into_iter().filter(|key| !FORMULAS.contains(key) && !numbers.contains(key)).collect()
+}
+
+impl Renumbering {
+    /// Prepares a family for the varied numbers `keys`; `member` is one of its scenarios.
+    /// `None` if a varied number affects more than points, masses and moments of inertia of links, or if approximate
+    /// positions choose the assembly modes.
+    #[must_use]
+    pub fn of(family: &ScenarioFamily, keys: &[String], member: &super::Scenario) -> Option<Renumbering> {
+        if member.starts.iter().any(|start| start.mode.is_none() || !start.near.is_empty()) {
+            return None;
+        }
+        let (mut tree, case) = (family.tree().clone(), &member.case);
+        numbers::replace(&mut tree, family.set()).ok()?;
+        let mut parameters = Parameters::default();
+        member.formulas.parameters.iter().for_each(|own| parameters.push(own.clone()));
+        let paths =
+            keys.iter().enumerate().filter(|(_, key)| is_path(key)).map(|(at, key)| (key.as_str(), at)).collect();
+        let mut reading = Reading { parameters, moved: BTreeSet::new(), paths, found: 0, texts: texts() };
+        let mut set = Vec::new();
+        for (at, key) in keys.iter().enumerate().filter(|(_, key)| !is_path(key)) {
+            set.push((reading.parameters.list().iter().position(|own| own.key == *key)?, at));
+        }
+        let derived = reading.derived(&tree, &set, family.set())?;
+        let mut links = Vec::new();
+        let tables = [("ground", tree.get("ground")?.get_ref().as_table()?)];
+        let moving = tree.get("links")?.get_ref().as_table()?;
+        let all = tables.into_iter().chain(in_order(moving));
+        for (index, (name, table)) in all.enumerate() {
+            let path = if index == 0 { name.to_string() } else { format!("links.{name}") };
+            links.extend(reading.link(index, table, &path, case)?);
+        }
+        let read = ["parameters", "ground", "links", "formula"];
+        let mut rest = tree.iter().filter(|(key, _)| !read.contains(&&**key.get_ref()));
+        let is_used = rest.any(|(key, value)| reading.is_moved_below(key.get_ref(), value.get_ref()));
+        if is_used || reading.found < reading.paths.len() {
+            return None;
+        }
+        Some(Renumbering { parameters: reading.parameters.list().to_vec(), set, derived, links })
+    }
+
+    /// Writes the numbers of links and joints for the varied numbers `values`.
+    /// `false` if a number may not be allowed. Some numbers may already be written then, and the file must be read to
+    /// get the message.
+    #[must_use]
+    pub fn write(&mut self, values: &[f64], links: &mut [Link], joints: &mut [Joint]) -> bool {
+        self.written(values, links, joints).is_some()
+    }
+
+    /// Whether the crank of a case has a length, and the masses and speeds are allowed.
+    #[must_use]
+    pub fn is_sound(case: &Case) -> bool {
+        let mechanism: &Mechanism = &case.mechanism;
+        let crank = &mechanism.links()[case.crank().link];
+        let pivot = mechanism.joints()[case.crank().joint].on(case.crank().link).unwrap_or_default();
+        // A crank without a joint off its axis of rotation moves nothing.
+        let reaches = mechanism.joints().iter().filter_map(|joint| joint.on(case.crank().link));
+        let is_crank = reaches.map(|place| (place - pivot).norm()).any(|length| length > 1e-9 * mechanism.size());
+        is_crank
+            && crank.points.iter().all(|point| point.local.iter().all(|part| part.is_finite()))
+            && masses::check(mechanism, &case.drives).is_ok()
+            && masses::check_speeds(mechanism, &case.drives).is_ok()
+    }
+
+    fn written(&mut self, values: &[f64], links: &mut [Link], joints: &mut [Joint]) -> Option<()> {
+        for (parameter, at) in &self.set {
+            self.parameters[*parameter].given = values[*at];
+        }
+        for (parameter, expression) in &mut self.derived {
+            self.parameters[*parameter].given = expression.value(&self.parameters)?;
+        }
+        let parameters = &self.parameters;
+        for own in &mut self.links {
+            let link = &mut links[own.link];
+            own.places.clear();
+            for (point, place) in link.points.iter_mut().zip(&mut own.points) {
+                point.local = place.value(&own.places, values, parameters)?;
+                own.places.push(point.local);
+            }
+            if let Some(centre) = &mut own.centre {
+                link.mass_centre = centre.value(&own.places, values, parameters)?;
+            }
+            if let Some(mass) = &mut own.mass {
+                link.mass = mass.value(values, parameters)?;
+            }
+            if let Some(inertia) = &mut own.inertia {
+                link.inertia = inertia.value(values, parameters)?;
+            }
+            for &(joint, is_second, point) in &own.joints {
+                let joint = &mut joints[joint];
+                let side = if is_second { &mut joint.second } else { &mut joint.first };
+                side.local = own.places[point];
+            }
+        }
+        Some(())
+    }
+}
+
+impl LinkNumber {
+    fn value(&mut self, values: &[f64], parameters: &[Parameter]) -> Option<f64> {
+        let number = match &mut self.origin {
+            Origin::Plain(number) => *number,
+            Origin::Varied(at) => values[*at],
+            Origin::Expression(expression) => expression.value(parameters)?,
+        };
+        let si = self.unit.to_si(number);
+        let is_allowed =
+            self.sign.broken_by(number).is_none() && (si == 0.0 || (SMALLEST..=self.family.most).contains(&si.abs()));
+        is_allowed.then_some(si)
+    }
+}
+
+impl PlaceNumbers {
+    fn value(&mut self, before: &[Vec2], values: &[f64], parameters: &[Parameter]) -> Option<Vec2> {
+        match self {
+            PlaceNumbers::Coordinates([x, y]) => {
+                Some(Vec2::new(x.value(values, parameters)?, y.value(values, parameters)?))
+            }
+            PlaceNumbers::From(origin, [length, angle]) => {
+                let (length, angle) = (length.value(values, parameters)?, angle.value(values, parameters)?);
+                Some(before[*origin] + direction(angle) * length)
+            }
+        }
+    }
+}
+
+/// The tables below a table, in the order of the file.
+fn in_order<'t, 'a>(table: &'t DeTable<'a>) -> Vec<(&'t str, &'t DeTable<'a>)> {
+    let mut entries: Vec<_> = table.iter().collect();
+    entries.sort_by_key(|(key, _)| key.span().start);
+    let tables = entries.into_iter().filter_map(|(key, value)| Some((&**key.get_ref(), value.get_ref().as_table()?)));
+    tables.collect()
+}
+
+impl Reading<'_> {
+    /// The expressions of parameters that depend on varied ones. `fixed` are parameters that are set for all cases.
+    fn derived(
+        &mut self,
+        tree: &DeTable,
+        set: &[(usize, usize)],
+        fixed: &[(String, f64)],
+    ) -> Option<Vec<(usize, Expression)>> {
+        let table = tree.get("parameters").and_then(|table| table.get_ref().as_table());
+        let mut derived = Vec::new();
+        for place in 0..self.parameters.list().len() {
+            let own = self.parameters.list()[place].clone();
+            let is_set = set.iter().any(|(varied, _)| *varied == place);
+            let text = table.and_then(|table| table.get(own.key.as_str())).and_then(|value| value.get_ref().as_str());
+            let text =
+                text.filter(|text| !is_set && self.is_moved(text) && fixed.iter().all(|(key, _)| *key != own.key));
+            if let Some(text) = text {
+                derived.push((place, Expression::read(text, &own.key, &self.parameters)?));
+            }
+            if is_set || text.is_some() {
+                self.moved.extend(own.names().map(|(name, _)| name.to_string()));
+            }
+        }
+        Some(derived)
+    }
+
+    /// Whether a text names a parameter that depends on varied numbers.
+    fn is_moved(&self, text: &str) -> bool {
+        let words = text.split(|sign: char| !(sign.is_ascii_alphanumeric() || sign == '_'));
+        words.into_iter().any(|word| self.moved.contains(word))
+    }
+
+    /// Whether an expression in the value of a key, or in a table below it, depends on varied numbers.
+    #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the TOML parser")]
+    fn is_moved_below(&self, key: &str, value: &DeValue) -> bool {
+        match value {
+            DeValue::String(text) => !self.texts.contains(key) && self.is_moved(text),
+            DeValue::Array(array) => array.iter().any(|value| self.is_moved_below(key, value.get_ref())),
+            DeValue::Table(table) => {
+                table.iter().any(|(key, value)| self.is_moved_below(key.get_ref(), value.get_ref()))
+            }
+            _ => false,
+        }
+    }
+
+    /// The number of a table under one of the spellings of `base`. The inner `None` stands for a missing key.
+    fn number(
+        &mut self,
+        table: &DeTable,
+        path: &str,
+        (base, family, sign): (&str, &'static UnitFamily, Sign),
+    ) -> Option<Option<LinkNumber>> {
+        let found = table.iter().find_map(|(key, value)| Some((key, value, family.unit_of(base, key.get_ref())?)));
+        let Some((key, value, unit)) = found else { return Some(None) };
+        let origin = match (self.paths.get(format!("{path}.{}", key.get_ref()).as_str()), value.get_ref()) {
+            (Some(at), _) => {
+                self.found += 1;
+                Origin::Varied(*at)
+            }
+            (None, DeValue::String(text)) => {
+                Origin::Expression(Expression::read(text, key.get_ref(), &self.parameters)?)
+            }
+            (None, value) => Origin::Plain(plain_number(value)?),
+        };
+        Some(Some(LinkNumber { origin, unit, family, sign }))
+    }
+
+    fn place(&mut self, table: &DeTable, path: &str, before: &[&str]) -> Option<PlaceNumbers> {
+        if let Some(from) = table.get("from") {
+            let origin = before.iter().position(|name| Some(*name) == from.get_ref().as_str())?;
+            let length = self.number(table, path, ("length", &LENGTH, Sign::NotNegative))??;
+            let angle = self.number(table, path, ("angle", &ANGLE, Sign::Any))??;
+            return Some(PlaceNumbers::From(origin, [length, angle]));
+        }
+        let x = self.number(table, path, ("x", &LENGTH, Sign::Any))??;
+        let y = self.number(table, path, ("y", &LENGTH, Sign::Any))??;
+        Some(PlaceNumbers::Coordinates([x, y]))
+    }
+
+    /// The numbers of a link; the inner `None` stands for a link whose numbers do not depend on varied numbers.
+    fn link(&mut self, index: usize, table: &DeTable, path: &str, case: &Case) -> Option<Option<LinkNumbers>> {
+        let below = format!("{path}.");
+        let has_varied = self.paths.keys().any(|own| own.starts_with(&below));
+        let is_moved = table.iter().any(|(key, value)| self.is_moved_below(key.get_ref(), value.get_ref()));
+        if !has_varied && !is_moved {
+            return Some(None);
+        }
+        let tables = in_order(table.get("points")?.get_ref().as_table()?);
+        let names: Vec<&str> = tables.iter().map(|(name, _)| *name).collect();
+        let mut points = Vec::new();
+        for (at, (name, own)) in tables.iter().enumerate() {
+            points.push(self.place(own, &format!("{path}.points.{name}"), &names[..at])?);
+        }
+        let link = &case.mechanism.links().to_vec()[index];
+        // The points of the case are in the order of the file.
+        if link.points.iter().map(|point| point.name.as_str()).ne(names.iter().copied()) {
+            return None;
+        }
+        let centre = match table.get("mass_centre") {
+            Some(own) => Some(self.place(own.get_ref().as_table()?, &format!("{path}.mass_centre"), &names)?),
+            None => None,
+        };
+        let mass = self.number(table, path, ("mass", &MASS, Sign::NotNegative))?;
+        let inertia = self.number(table, path, ("inertia", &INERTIA, Sign::NotNegative))?;
+        let mut joints = Vec::new();
+        for (joint, own) in case.mechanism.joints().entries() {
+            for (is_second, side) in [(false, own.first), (true, own.second)] {
+                if side.link.index() == index {
+                    // Other numbers may separate points that coincide, so the joint needs the name of its point.
+                    let mut at = link.points.iter().enumerate().filter(|(_, point)| point.local == side.local);
+                    let named = link.points.iter().position(|point| own.is_pin() && point.name == own.name);
+                    let found = named.filter(|at| link.points[*at].local == side.local);
+                    let point = match (found, at.next(), at.next()) {
+                        (Some(point), ..) => point,
+                        (None, Some((point, _)), None) => point,
+                        (None, ..) => return None,
+                    };
+                    joints.push((joint.index(), is_second, point));
+                }
+            }
+        }
+        Some(Some(LinkNumbers { link: index, points, centre, mass, inertia, joints, places: Vec::new() }))
+    }
+}

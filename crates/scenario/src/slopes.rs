@@ -1,0 +1,35 @@
+//! Derivatives of all numbers of a case by the keys of its file.
+//!
+//! A key is a parameter (`a_mm`), or the path of another number of the file (see `numbers.rs`).
+//! Expressions are differentiated symbolically, and units are factors, so the derivatives are exact.
+//! This module reads the file independently of the readers of the sections. Tests compare every number with that of the
+//! case, and every derivative with the case of a file in which the key is changed.
+
+mod drives;
+mod file;
+mod found;
+mod loads;
+mod slope;
+
+use self::file::SlopeFile;
+pub use self::found::{CaseKey, CaseSlopes, KeySort};
+pub use self::slope::Slope;
+use super::Scenario;
+use super::asked::StartRequest;
+use super::source::Source;
+use linkage::error::Result;
+
+impl CaseSlopes {
+    /// The derivatives of the numbers of a scenario, which was read from its file with the start `asked`.
+    ///
+    /// # Errors
+    /// The errors of [`Scenario::parse_as`], if the text of the scenario is not the text from which it was read.
+    pub fn of(scenario: &Scenario, asked: &StartRequest) -> Result<CaseSlopes> {
+        let source = Source::new(&scenario.path, &scenario.text);
+        let tree = source.tree()?;
+        Ok(SlopeFile::read(&scenario.case, tree.get_ref(), asked, &scenario.formulas.parameters).finish())
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,142 @@
+//! Runs a sweep on several threads.
+
+use std::ops::ControlFlow;
+use std::sync::{Mutex, PoisonError};
+
+use linkage::error::Result;
+use linkage::quiet::{guarded, panic_text};
+use linkage::threads::side_by_side;
+
+use crate::plan::{CaseResult, CaseSolver, SweepPlan, one_line};
+use crate::sentences;
+use crate::store::SweepStore;
+use crate::table::Rows;
+
+/// One of several equal shares of a sweep's parts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shard {
+    /// Number of the share, from 1.
+    pub number: u64,
+    /// Number of shares.
+    pub count: u64,
+}
+
+impl Shard {
+    /// All parts.
+    pub const WHOLE: Shard = Shard { number: 1, count: 1 };
+
+    /// The parts of this share.
+    pub fn parts(self, plan: &SweepPlan) -> impl Iterator<Item = u64> {
+        (self.number - 1..plan.parts()).step_by(self.count as usize)
+    }
+
+    /// Number of cases of this share.
+    #[must_use]
+    pub fn cases(self, plan: &SweepPlan) -> u64 {
+        cases_of(plan, self.parts(plan))
+    }
+}
+
+/// Number of cases of some parts.
+fn cases_of(plan: &SweepPlan, parts: impl Iterator<Item = u64>) -> u64 {
+    parts.map(|part| plan.cases_of(part).count() as u64).sum()
+}
+
+/// Counts of cases so far.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SweepTally {
+    /// Cases solved in this run.
+    pub solved: u64,
+    /// Cases refused in this run.
+    pub refused: u64,
+    /// Cases stored by an earlier run.
+    pub stored: u64,
+    /// Index of the first case whose proof disagrees.
+    pub disagreement: Option<u64>,
+}
+
+impl SweepTally {
+    /// Number of cases that are done, in this run or an earlier one.
+    #[must_use]
+    pub fn cases(&self) -> u64 {
+        self.solved + self.refused + self.stored
+    }
+
+    fn add(&mut self, first: u64, results: &[CaseResult]) {
+        for (case, result) in (first..).zip(results) {
+            match &result.refusal {
+                None => self.solved += 1,
+                Some(_) => self.refused += 1,
+            }
+            if result.verdict.as_deref() == Some("disagree") {
+                self.disagreement = Some(self.disagreement.map_or(case, |own| own.min(case)));
+            }
+        }
+    }
+}
+
+/// Solves the parts of a shard that are not stored yet. `progress` receives the counts after every part, and stops the
+/// sweep with a break.
+/// If the proof of a case disagrees, the sweep stops after the part of this case; finished parts remain stored.
+///
+/// # Errors
+/// [`linkage::error::ErrorKind::Io`] if a part cannot be written.
+pub fn run(
+    plan: &SweepPlan,
+    store: &SweepStore,
+    shard: Shard,
+    threads: usize,
+    progress: &mut dyn FnMut(&SweepTally) -> ControlFlow<()>,
+) -> Result<SweepTally> {
+    let mut tally = SweepTally::default();
+    let (stored, open): (Vec<u64>, Vec<u64>) = shard.parts(plan).partition(|part| store.has(*part));
+    tally.stored = cases_of(plan, stored.into_iter());
+    let mut failed = None;
+    // Idle solvers. A thread takes one for its next part, so that the file is read only once for each thread.
+    let solvers: Mutex<Vec<CaseSolver>> = Mutex::default();
+    let waiting = || solvers.lock().unwrap_or_else(PoisonError::into_inner);
+    let part = |part: u64| {
+        let idle = waiting().pop();
+        let mut solver = idle.map_or_else(|| plan.solver(), Ok)?;
+        let rows = solved(plan, &mut solver, part);
+        waiting().push(solver);
+        store.write(plan, part, &rows)?;
+        Ok((rows.first, rows.results))
+    };
+    let work = |index: usize, tell: &mut dyn FnMut(Result<(u64, Vec<CaseResult>)>)| tell(part(open[index]));
+    side_by_side(open.len(), threads, work, |_, part| {
+        match part {
+            Ok((first, results)) => tally.add(first, &results),
+            Err(error) => failed = failed.take().or(Some(error)),
+        }
+        let go_on = progress(&tally);
+        if failed.is_some() || tally.disagreement.is_some() { ControlFlow::Break(()) } else { go_on }
+    });
+    failed.map_or(Ok(tally), Err)
+}
+
+fn solved(plan: &SweepPlan, solver: &mut CaseSolver, part: u64) -> Rows {
+    let cases = plan.cases_of(part);
+    let count = (cases.end - cases.start) as usize;
+    let columns = |number: usize| -> Vec<Vec<f64>> { (0..number).map(|_| Vec::with_capacity(count)).collect() };
+    let (axes, figures) = (plan.design.axes().len(), plan.figures.len());
+    let mut rows = Rows {
+        first: cases.start,
+        values: columns(axes),
+        figures: columns(figures),
+        results: Vec::with_capacity(count),
+    };
+    let (mut values, mut found) = (vec![0.0; axes], vec![0.0; figures]);
+    for case in cases {
+        // A panic is a bug; the case is refused with its message, and the sweep continues.
+        let result = guarded(|| solver.solve(case, &mut values, &mut found)).unwrap_or_else(|panic| {
+            found.fill(f64::NAN);
+            let text = one_line(panic_text(panic.as_ref()).unwrap_or_default());
+            CaseResult { refusal: Some(sentences::a_case_panicked(&text)), verdict: None }
+        });
+        rows.results.push(result);
+        rows.values.iter_mut().zip(&values).for_each(|(column, value)| column.push(*value));
+        rows.figures.iter_mut().zip(&found).for_each(|(column, value)| column.push(*value));
+    }
+    rows
+}

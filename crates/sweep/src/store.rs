@@ -1,0 +1,202 @@
+//! The directory of a sweep: its plan, its parts, and the joined table.
+
+use std::fs::{self, File};
+use std::io::{self, Read, Seek, SeekFrom};
+use std::path::{Path, PathBuf};
+
+use files::{OutputTarget, put, read_text, replace};
+use linkage::error::{Error, ErrorKind, Result};
+use parquet::errors::ParquetError;
+
+use crate::plan::SweepPlan;
+use crate::sentences;
+use crate::table::{self, Rows};
+
+/// Name of the stored plan.
+const PLAN: &str = "sweep.json";
+/// Name of the joined table.
+pub const TABLE: &str = "cases.parquet";
+/// Directory of the parts.
+const PARTS: &str = "parts";
+
+/// A directory with the results of one sweep.
+#[derive(Clone, Debug)]
+pub struct SweepStore {
+    directory: PathBuf,
+}
+
+/// The error of a file or directory that cannot be used.
+pub(crate) fn broken(path: &Path, error: &dyn std::fmt::Display) -> Error {
+    Error::new(ErrorKind::Io, sentences::cannot_be_used(&path.display(), error))
+        .help(sentences::CHOOSE_ANOTHER_DIRECTORY)
+}
+
+/// An error while a table is written; errors of the file system are kept apart.
+enum Failure {
+    Io(io::Error),
+    Table(ParquetError),
+}
+
+impl Failure {
+    fn at(self, path: &Path) -> Error {
+        match self {
+            Failure::Io(error) => broken(path, &error),
+            Failure::Table(error) => broken(path, &error),
+        }
+    }
+}
+
+/// A table of this program at `at`, in a directory with its plan. After a loss of power, a part may be empty.
+fn target(at: &Path) -> OutputTarget<'_> {
+    OutputTarget::Made(at, &|bytes| bytes.is_empty() || bytes.starts_with(b"PAR1"))
+}
+
+impl From<io::Error> for Failure {
+    fn from(error: io::Error) -> Failure {
+        Failure::Io(error)
+    }
+}
+
+impl From<ParquetError> for Failure {
+    fn from(error: ParquetError) -> Failure {
+        Failure::Table(error)
+    }
+}
+
+impl SweepStore {
+    /// Opens or creates the directory of a sweep.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Input`] if the directory holds another sweep, or other files.
+    /// [`ErrorKind::Io`] if the directory cannot be read or written.
+    pub fn open(directory: &Path, plan: &SweepPlan) -> Result<SweepStore> {
+        let store = SweepStore { directory: directory.into() };
+        let (at, text) = (directory.join(PLAN), plan.stored());
+        match read_text(&at) {
+            Ok(stored) if stored == text => {}
+            Ok(_) => {
+                let message = sentences::holds_another_sweep(&directory.display());
+                return Err(Error::new(ErrorKind::Input, message).help(sentences::CHOOSE_ANOTHER_DIRECTORY));
+            }
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                let first = fs::read_dir(directory).ok().and_then(|mut entries| entries.next()?.ok());
+                if let Some(first) = first {
+                    let name = first.file_name().to_string_lossy().into_owned();
+                    let message = sentences::holds_other_files(&directory.display(), &files::visible(&name));
+                    return Err(Error::new(ErrorKind::Input, message).help(sentences::CHOOSE_ANOTHER_DIRECTORY));
+                }
+                fs::create_dir_all(directory).map_err(|error| broken(directory, &error))?;
+                let target = OutputTarget::Made(&at, &|_| false);
+                let write = |mut file: &File| io::Write::write_all(&mut file, text.as_bytes());
+                // Another process of the same sweep has written the plan meanwhile.
+                match replace::<io::Error>(&target, write) {
+                    Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
+                        return SweepStore::open(directory, plan);
+                    }
+                    result => result.map_err(|error| broken(&at, &error))?,
+                }
+            }
+            Err(error) => return Err(broken(&at, &error)),
+        }
+        let parts = store.directory.join(PARTS);
+        if !store.is_complete() {
+            fs::create_dir_all(&parts).map_err(|error| broken(&parts, &error))?;
+        }
+        Ok(store)
+    }
+
+    /// Opens the directory of an earlier run, and reads its plan.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Io`] if the directory has no plan, and the errors of [`SweepPlan::of_stored`].
+    pub fn found(directory: &Path) -> Result<(SweepStore, SweepPlan)> {
+        let text = read_text(&directory.join(PLAN)).map_err(|error| {
+            let message = format!("{}: {error}", sentences::no_sweep_in(&directory.display()));
+            Error::new(ErrorKind::Io, message).help(sentences::NAME_THE_DIRECTORY_OF_A_SWEEP)
+        })?;
+        Ok((SweepStore { directory: directory.into() }, SweepPlan::of_stored(&text)?))
+    }
+
+    /// Joins the shards in some directories to one table in the directory `to`, if it is not there yet.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Input`] if the directories are of different sweeps. The errors of [`SweepStore::found`],
+    /// [`SweepStore::open`] and [`SweepStore::join`].
+    pub fn merged(directories: &[PathBuf], to: &Path) -> Result<(SweepStore, SweepPlan)> {
+        let found = directories.iter().map(|own| SweepStore::found(own)).collect::<Result<Vec<_>>>()?;
+        let (stores, mut plans): (Vec<SweepStore>, Vec<SweepPlan>) = found.into_iter().unzip();
+        if let Some(other) = plans.iter().position(|plan| plan.stored() != plans[0].stored()) {
+            let [first, other] = [0, other].map(|index| directories[index].display().to_string());
+            let message = sentences::are_of_different_sweeps(&first, &other);
+            return Err(Error::new(ErrorKind::Input, message).help(sentences::NAME_THE_SHARDS_OF_ONE_SWEEP));
+        }
+        let plan = plans.swap_remove(0);
+        let store = SweepStore::open(to, &plan)?;
+        if !store.is_complete() {
+            store.join(&plan, &stores)?;
+        }
+        Ok((store, plan))
+    }
+
+    /// The joined table.
+    #[must_use]
+    pub fn table(&self) -> PathBuf {
+        self.directory.join(TABLE)
+    }
+
+    /// Whether the joined table exists.
+    #[must_use]
+    pub fn is_complete(&self) -> bool {
+        self.table().is_file()
+    }
+
+    /// The directory.
+    #[must_use]
+    pub fn directory(&self) -> &Path {
+        &self.directory
+    }
+
+    /// The file of a part. It exists until the parts are joined.
+    #[must_use]
+    pub fn part(&self, part: u64) -> PathBuf {
+        self.directory.join(PARTS).join(format!("{part:09}.parquet"))
+    }
+
+    /// Whether a part is stored. After a loss of power, a part may be there without its end; it is then not stored.
+    #[must_use]
+    pub fn has(&self, part: u64) -> bool {
+        let ends = |mut file: File| {
+            let mut end = [0; 4];
+            file.seek(SeekFrom::End(-4)).and_then(|_| file.read_exact(&mut end)).is_ok_and(|()| end == *b"PAR1")
+        };
+        File::open(self.part(part)).is_ok_and(ends)
+    }
+
+    /// Writes the rows of a part. What a killed run has left beside the parts goes with them when they are joined.
+    pub(crate) fn write(&self, plan: &SweepPlan, part: u64, rows: &Rows) -> Result<()> {
+        let at = self.part(part);
+        put::<Failure>(&target(&at), |file| Ok(table::write(plan, rows, file)?)).map_err(|failure| failure.at(&at))
+    }
+
+    /// Joins all parts to one table, and removes the parts of this directory.
+    /// Parts may be in the directories `others` of further shards.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Input`] if a part is missing. [`ErrorKind::Io`] if a part cannot be read.
+    pub fn join(&self, plan: &SweepPlan, others: &[SweepStore]) -> Result<()> {
+        let mut parts = Vec::new();
+        for part in 0..plan.parts() {
+            let Some(holder) = std::iter::once(self).chain(others).find(|store| store.has(part)) else {
+                let cases = plan.cases_of(part);
+                let message = sentences::a_part_is_missing(&part, &cases.start, &(cases.end - 1));
+                return Err(Error::new(ErrorKind::Input, message).help(sentences::RUN_THE_MISSING_SHARD));
+            };
+            parts.push(holder.part(part));
+        }
+        let at = self.table();
+        let fill = |file: &File| Ok(table::join(plan, parts.iter(), file)?);
+        replace::<Failure>(&target(&at), fill).map_err(|failure| failure.at(&at))?;
+        let own = self.directory.join(PARTS);
+        fs::remove_dir_all(&own).map_err(|error| broken(&own, &error))
+    }
+}

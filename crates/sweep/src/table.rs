@@ -1,0 +1,178 @@
+//! The table of cases as Parquet: a row for each case.
+//!
+//! Columns, in this order:
+//! - `case`, the index from 0;
+//! - the varied numbers, named by their keys;
+//! - the figures, absent in a refused case and if a figure does not exist;
+//! - `state`: `solved` or `refused`;
+//! - `reason` of a refusal;
+//! - `proof`: the verdict of a proven case, or the message of the error that ended the proof.
+//!
+//! The metadata contain the plan (`linkproof.sweep`) and the unit of each column (`linkproof.units`, JSON).
+
+use std::fs::File;
+use std::path::Path;
+use std::sync::Arc;
+
+use parquet::basic::{Compression, Encoding, LogicalType, Repetition, Type as PhysicalType, ZstdLevel};
+use parquet::column::writer::ColumnCloseResult;
+use parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
+use parquet::errors::ParquetError;
+use parquet::file::metadata::KeyValue;
+use parquet::file::properties::{WriterProperties, WriterPropertiesPtr};
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
+use parquet::schema::types::{ColumnPath, Type, TypePtr};
+
+use crate::design::DesignKind;
+use crate::plan::{CaseResult, SweepPlan};
+
+/// Rows of one part of the table, column by column.
+pub(crate) struct Rows {
+    pub first: u64,
+    /// Values of the varied numbers, by axis.
+    pub values: Vec<Vec<f64>>,
+    /// Figures, by figure.
+    pub figures: Vec<Vec<f64>>,
+    pub results: Vec<CaseResult>,
+}
+
+/// State of a case.
+pub const SOLVED: &str = "solved";
+/// State of a case without a solution.
+pub const REFUSED: &str = "refused";
+
+fn schema(plan: &SweepPlan) -> Result<TypePtr, ParquetError> {
+    let field = |name: &str, physical: PhysicalType, repetition: Repetition, logical: Option<LogicalType>| {
+        Type::primitive_type_builder(name, physical)
+            .with_repetition(repetition)
+            .with_logical_type(logical)
+            .build()
+            .map(Arc::new)
+    };
+    let text = |name: &str, repetition| field(name, PhysicalType::BYTE_ARRAY, repetition, Some(LogicalType::String));
+    let mut fields = vec![field("case", PhysicalType::INT64, Repetition::REQUIRED, None)?];
+    for axis in plan.design.axes() {
+        fields.push(field(&axis.key, PhysicalType::DOUBLE, Repetition::REQUIRED, None)?);
+    }
+    for figure in &plan.figures {
+        fields.push(field(&figure.text, PhysicalType::DOUBLE, Repetition::OPTIONAL, None)?);
+    }
+    fields.push(text("state", Repetition::REQUIRED)?);
+    fields.push(text("reason", Repetition::OPTIONAL)?);
+    if plan.prove_every.is_some() {
+        fields.push(text("proof", Repetition::OPTIONAL)?);
+    }
+    Type::group_type_builder("cases").with_fields(fields).build().map(Arc::new)
+}
+
+/// Plan and units, which the joined table has.
+fn metadata(plan: &SweepPlan) -> Vec<KeyValue> {
+    let units = serde_json::Value::Object(plan.columns().map(|(name, unit)| (name.into(), unit.into())).collect());
+    let entry = |key: &str, value: String| KeyValue::new(key.to_string(), value);
+    vec![entry("linkproof.sweep", plan.stored()), entry("linkproof.units", units.to_string())]
+}
+
+fn properties(plan: &SweepPlan, metadata: Option<Vec<KeyValue>>) -> WriterPropertiesPtr {
+    // The values of figures are nearly all different: a dictionary or a compression of them only costs time.
+    let mut properties = WriterProperties::builder()
+        .set_created_by(format!("linkproof {}", env!("CARGO_PKG_VERSION")))
+        .set_key_value_metadata(metadata)
+        .set_dictionary_enabled(false)
+        .set_column_encoding("case".into(), Encoding::DELTA_BINARY_PACKED)
+        .set_column_compression("reason".into(), Compression::ZSTD(ZstdLevel::default()));
+    for text in ["state", "reason", "proof"] {
+        properties = properties.set_column_dictionary_enabled(text.into(), true);
+    }
+    if plan.design.kind() == DesignKind::Grid {
+        for axis in plan.design.axes() {
+            let column = ColumnPath::new(vec![axis.key.clone()]);
+            properties = properties.set_column_dictionary_enabled(column, true);
+        }
+    }
+    Arc::new(properties.build())
+}
+
+/// Writes one column of a row group. `present` marks the rows of an optional column that have a value.
+fn column<T: DataType>(
+    group: &mut SerializedRowGroupWriter<'_, &File>,
+    values: &[T::T],
+    present: Option<&[i16]>,
+) -> Result<(), ParquetError> {
+    let mut writer = group.next_column()?.ok_or_else(|| ParquetError::General("too few columns".into()))?;
+    writer.typed::<T>().write_batch(values, present, None)?;
+    writer.close()
+}
+
+fn numbers(group: &mut SerializedRowGroupWriter<'_, &File>, values: &[f64]) -> Result<(), ParquetError> {
+    let present: Vec<i16> = values.iter().map(|value| i16::from(!value.is_nan())).collect();
+    let values: Vec<f64> = values.iter().copied().filter(|value| !value.is_nan()).collect();
+    column::<DoubleType>(group, &values, Some(&present))
+}
+
+fn texts<'r>(
+    group: &mut SerializedRowGroupWriter<'_, &File>,
+    texts: impl Iterator<Item = Option<&'r str>>,
+) -> Result<(), ParquetError> {
+    let (mut values, mut present) = (Vec::new(), Vec::new());
+    for text in texts {
+        present.push(i16::from(text.is_some()));
+        values.extend(text.map(ByteArray::from));
+    }
+    column::<ByteArrayType>(group, &values, Some(&present))
+}
+
+/// Writes the rows of one part as a table of one row group.
+pub(crate) fn write(plan: &SweepPlan, rows: &Rows, to: &File) -> Result<(), ParquetError> {
+    let mut writer = SerializedFileWriter::new(to, schema(plan)?, properties(plan, None))?;
+    let mut group = writer.next_row_group()?;
+    let cases: Vec<i64> = (rows.first..).take(rows.results.len()).map(|case| case as i64).collect();
+    column::<Int64Type>(&mut group, &cases, None)?;
+    for values in &rows.values {
+        column::<DoubleType>(&mut group, values, None)?;
+    }
+    for values in &rows.figures {
+        numbers(&mut group, values)?;
+    }
+    let [solved, refused] = [SOLVED, REFUSED].map(ByteArray::from);
+    let state = |own: &CaseResult| if own.refusal.is_none() { &solved } else { &refused };
+    let states: Vec<ByteArray> = rows.results.iter().map(|own| state(own).clone()).collect();
+    column::<ByteArrayType>(&mut group, &states, None)?;
+    texts(&mut group, rows.results.iter().map(|own| own.refusal.as_deref()))?;
+    if plan.prove_every.is_some() {
+        texts(&mut group, rows.results.iter().map(|own| own.verdict.as_deref()))?;
+    }
+    group.close()?;
+    writer.close()?;
+    Ok(())
+}
+
+/// Joins the tables of all parts, in their order, without decoding them.
+pub(crate) fn join(
+    plan: &SweepPlan,
+    parts: impl Iterator<Item = impl AsRef<Path>>,
+    to: &File,
+) -> Result<(), ParquetError> {
+    let mut writer = SerializedFileWriter::new(to, schema(plan)?, properties(plan, Some(metadata(plan))))?;
+    for part in parts {
+        let file = File::open(part)?;
+        let reader = SerializedFileReader::new(file.try_clone()?)?;
+        for group in reader.metadata().row_groups() {
+            let mut out = writer.next_row_group()?;
+            for metadata in group.columns() {
+                let close = ColumnCloseResult {
+                    bytes_written: metadata.compressed_size() as u64,
+                    rows_written: group.num_rows() as u64,
+                    metadata: metadata.clone(),
+                    bloom_filter: None,
+                    column_index: None,
+                    offset_index: None,
+                };
+                out.append_column(&file, close)?;
+            }
+            out.close()?;
+        }
+    }
+    writer.close()?;
+    Ok(())
+}

@@ -1,0 +1,30 @@
+//! `linkproof merge`.
+
+use std::path::PathBuf;
+
+use super::outputs::{Outputs, results};
+use super::sweep::{goal, told};
+use linkage::error::Result;
+use sweep::{SweepStore, SweepSummary};
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = include_str!("help/merge.txt").trim_ascii_end())]
+pub(super) struct Args {
+    /// Directories of the shards, or the one directory in which all shards are stored
+    #[arg(required = true, value_name = "DIR")]
+    directories: Vec<PathBuf>,
+    #[command(flatten)]
+    outputs: Outputs<Merged>,
+}
+
+results! { Merged {
+    Results = "directory of the joined table [default: the first DIR]",
+} }
+
+pub(super) fn merge(args: &Args) -> Result<()> {
+    let to = args.outputs.first(Merged::Results).unwrap_or(&args.directories[0]);
+    let (store, plan) = SweepStore::merged(&args.directories, to)?;
+    let goal = goal(None, &plan)?;
+    let summary = SweepSummary::of(&plan, &store.table(), goal)?;
+    told(&plan, &summary, goal, &store)
+}
