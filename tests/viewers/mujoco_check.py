@@ -13,6 +13,7 @@ Errors are then compared only with MuJoCo's error, not with fixed limits, and no
 import contextlib
 import csv
 import io
+import json
 import math
 import subprocess
 import sys
@@ -75,6 +76,8 @@ class Scenario:
     def __init__(self, linkproof, path):
         self.toml = tomllib.loads(Path(path).read_text())
         self.name = self.toml["name"]
+        # Loads in SI units: a number of the file may be a formula.
+        self.loads = json.loads(told(linkproof, "export", path, "-o", "-.json"))["loads"]
         drive = self.toml["drive"]
         self.drives = [table["joint"] for table in (drive if isinstance(drive, list) else [drive])]
         self.points = {p for link in self.toml["links"].values() for p in link["points"]} - set(self.toml["ground"]["points"])
@@ -110,15 +113,16 @@ def loads_beyond(scenario, model, data, name):
     force, moment = np.zeros(2), 0.0
     joint = model.joint(name)
     carried, place = joint.bodyid[0], data.xanchor[joint.id][:2]
-    for number, load in enumerate(scenario.toml.get("loads", []), start=1):
+    for number, load in enumerate(scenario.loads, start=1):
         if load["type"] in ("resistance", "force"):
-            body = model.body(load["link"]).id
+            link = load["link"] if load["type"] == "resistance" else load["at"]["link"]
+            body = model.body(link).id
             while body not in (0, carried):
                 body = model.body_parentid[body]
             if body != carried:
                 continue
             if load["type"] == "resistance":
-                moment -= math.copysign(load["moment_N_m"], data.body(load["link"]).cvel[2])
+                moment -= math.copysign(load["moment_N_m"], data.body(link).cvel[2])
             else:
                 actuator = model.actuator(f"load.{number}")
                 at, axes = actuator.trnid

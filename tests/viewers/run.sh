@@ -67,23 +67,27 @@ sorted() {
         python "$here/check.py" "$@"
     fi
 }
-failed=0
+# Names of the checks that failed: a traceback far above would be overlooked.
+failed=
 # The readers of recordings mostly wait for each other, so they run in parallel with MuJoCo.
 if [ "$count" -gt "$scenarios" ]; then
     sorted other "$@" &
     readers=$!
 fi
-if [ "$scenarios" -gt 0 ]; then sorted toml "$@" || failed=1; fi
-if [ -n "${readers:-}" ]; then wait "$readers" || failed=1; fi
+if [ "$scenarios" -gt 0 ]; then sorted toml "$@" || failed="$failed mujoco_check.py"; fi
+if [ -n "${readers:-}" ]; then wait "$readers" || failed="$failed check.py"; fi
 if [ "$everything" ]; then
-    python "$here/mujoco_check.py" "$linkproof" --singular "$top"/scenarios/variants60/*.toml || failed=1
+    python "$here/mujoco_check.py" "$linkproof" --singular "$top"/scenarios/variants60/*.toml || failed="$failed mujoco_check.py"
     # The viewers themselves.
     pictures="$top/target/viewers-pictures"
-    python "$here/rerun_check.py" "$linkproof" "$pictures" "$top/recordings/ov7_base.mcap" "$fresh/crank_rocker.mcap" || failed=1
-    "$here/foxglove.sh" "$pictures" "$fresh/compressor.mcap" "$fresh/crank_rocker.mcap" || failed=1
-    python "$here/live_check.py" "$linkproof" "$pictures" "$top/target/foxglove" || failed=1
-    python "$here/kills.py" "$linkproof" 20 || failed=1
+    python "$here/rerun_check.py" "$linkproof" "$pictures" "$top/recordings/ov7_base.mcap" "$fresh/crank_rocker.mcap" || failed="$failed rerun_check.py"
+    "$here/foxglove.sh" "$pictures" "$fresh/compressor.mcap" "$fresh/crank_rocker.mcap" || failed="$failed foxglove.sh"
+    python "$here/live_check.py" "$linkproof" "$pictures" "$top/target/foxglove" || failed="$failed live_check.py"
+    python "$here/kills.py" "$linkproof" 20 || failed="$failed kills.py"
     # Motions under forces, with the peers of `linkproof bench`.
-    python "$here/peers_check.py" "$linkproof" || failed=1
+    python "$here/peers_check.py" "$linkproof" || failed="$failed peers_check.py"
 fi
-exit $failed
+if [ -n "$failed" ]; then
+    echo "failed:$failed" >&2
+    exit 1
+fi
