@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Cost of many four-bars: `linkproof sweep` with ten figures of forces and motion, `Ensemble.simulate` with positions only.
+"""Cost of many four-bars: `linkproof sweep` with ten figures of forces and motion, and with two figures of positions;
+`Ensemble.simulate` of pylinkage with positions only.
 
     python pylinkage_sweep.py LINKPROOF [CASES [ROUNDS]]
 
-Both programs run in turn, on the same cores. The shortest times of a pose and their ratios are printed.
+The programs run in turn, on the same cores. The shortest times of a pose and their ratios are printed.
 """
 
 import csv
@@ -25,6 +26,7 @@ GROUND = 100
 FIGURES = ["max:joint.O.f_N", "max:joint.A.f_N", "max:joint.B.f_N", "max:joint.C.f_N", "maxabs:drive.torque_N_m",
            "rms:joint.C.fx_N", "range:point.E.x_mm", "at_max:point.E.y_mm", "maxabs:link.rocker.alpha_rad_s2",
            "mean:link.coupler.omega_rad_s"]
+OF_POSITIONS = ["range:point.E.x_mm", "at_max:point.E.y_mm"]
 POSES = 360
 # Members of one call, which returns half a gigabyte. More of them cost the same a pose, far fewer only half.
 MEMBERS = 20_000
@@ -44,7 +46,7 @@ def ensemble(numbers):
     x, y = pin(*numbers[0])
     rocker = RRRDyad(crank.output, c, distance1=numbers[0][1], distance2=numbers[0][2], x=x, y=y, name="B")
     linkage = Linkage([o, c, crank, rocker], name="four-bar")
-    places = [[(0, 0), (GROUND, 0), (own[0], 0), pin(*own)] for own in numbers]
+    places = [[(0, 0), (GROUND, 0), (lengths[0], 0), pin(*lengths)] for lengths in numbers]
     return Ensemble(linkage, numpy.array(numbers), numpy.array(places, dtype=float))
 
 
@@ -63,8 +65,8 @@ def main(linkproof, cases="100000", rounds="5"):
     random = numpy.random.default_rng(1)
     numbers = random.uniform(*numpy.array(list(VARIED.values())).T, (MEMBERS, len(VARIED))).tolist()
     members = ensemble(numbers)
-    with tempfile.TemporaryDirectory() as own:
-        run = lambda *words: subprocess.run([linkproof, *words], cwd=own, check=True, capture_output=True, text=True).stdout
+    with tempfile.TemporaryDirectory() as place:
+        run = lambda *words: subprocess.run([linkproof, *words], cwd=place, check=True, capture_output=True, text=True).stdout
         run("new", "four-bar")
         # Both programs give the same positions.
         setting = [word for key, number in zip(VARIED, numbers[0]) for word in ("--set", f"{key}={number!r}")]
@@ -73,16 +75,21 @@ def main(linkproof, cases="100000", rounds="5"):
         apart = numpy.abs(members.simulate(POSES)[0, :, 3] - expected[1:]).max()
         assert apart < 1e-6, f"{apart} mm apart"
         vary = [word for key, (low, high) in VARIED.items() for word in ("--vary", f"{key}={low}:{high}")]
-        figures = [word for figure in FIGURES for word in ("--figure", figure)]
-        sweep = ["sweep", "four_bar.toml", "--set", "grid.step_deg=1", "--sobol", str(cases), *vary, *figures]
-        ours, theirs = [], []
+        sweep = ["sweep", "four_bar.toml", "--set", "grid.step_deg=1", "--sobol", str(cases), *vary]
+        asked = {"all forces, ten figures": FIGURES, "positions, two figures": OF_POSITIONS}
+        ours, theirs = {name: [] for name in asked}, []
         for number in range(int(rounds)):
-            ours.append(spent(lambda: run(*sweep, "-o", str(number))) / (cases * (POSES + 1)))
+            for name, figures in asked.items():
+                words = [word for figure in figures for word in ("--figure", figure)]
+                done = spent(lambda: run(*sweep, *words, "-o", f"{len(figures)}_{number}"))
+                ours[name].append(done / (cases * (POSES + 1)))
             theirs.append(spent(lambda: members.simulate(POSES)) / (MEMBERS * POSES))
-        (our_time, our_clock), (their_time, their_clock) = numpy.min(ours, axis=0), numpy.min(theirs, axis=0)
-    print(f"linkproof sweep, all forces, ten figures: {our_time * 1e9:.1f} ns a pose of processor time, {our_clock * 1e9:.1f} by the clock")
-    print(f"Ensemble.simulate, positions only: {their_time * 1e9:.1f} ns a pose of processor time, {their_clock * 1e9:.1f} by the clock")
-    print(f"ratio: {their_time / our_time:.1f} of processor time, {their_clock / our_clock:.1f} by the clock on {os.cpu_count()} cores")
+    best = numpy.min(theirs, axis=0)
+    print(f"Ensemble.simulate, positions only: {best[0] * 1e9:.1f} ns a pose of processor time, {best[1] * 1e9:.1f} by the clock")
+    for name, found in ours.items():
+        time, clock = numpy.min(found, axis=0)
+        print(f"linkproof sweep, {name}: {time * 1e9:.1f} ns a pose of processor time, {clock * 1e9:.1f} by the clock")
+        print(f"  ratio: {best[0] / time:.1f} of processor time, {best[1] / clock:.1f} by the clock on {os.cpu_count()} cores")
 
 
 main(*sys.argv[1:])

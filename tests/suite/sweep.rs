@@ -94,6 +94,34 @@ fn figures_have_the_bits_of_solve() {
     }
 }
 
+/// A moment of resistance reverses with its link; two of them on one link are added.
+#[test]
+fn figures_under_resistance_have_the_bits_of_solve() {
+    let place = Place::empty();
+    place.ok("new --shipped");
+    place.ok("new four-bar");
+    let loaded = std::fs::read_to_string(place.path("four_bar.toml")).unwrap()
+        + "\n[[loads]]\ntype = \"resistance\"\nlink = \"rocker\"\nmoment_N_m = 3\n"
+        + "\n[[loads]]\ntype = \"resistance\"\nlink = \"rocker\"\nmoment_N_m = 0.1\n";
+    std::fs::write(place.path("loaded.toml"), loaded).unwrap();
+    for (file, key) in [("scenarios/crank_rocker.toml", "links.coupler.mass_kg"), ("loaded.toml", "rocker_mm")] {
+        let (from, to) = if key == "rocker_mm" { (80.0, 100.0) } else { (20.0, 40.0) };
+        place.ok(&format!(
+            "sweep {file} --vary {key}={from}:{to}:5 --figure maxabs:drive.torque_N_m --figure at=40:joint.B.fx_N -o out"
+        ));
+        for row in rows(&place.path("out/cases.parquet")) {
+            let table = Table::of(&place.ok(&format!("solve {file} --set {key}={:?}", number(&row, key))));
+            let torque =
+                table.column("drive.torque_N_m").into_iter().map(f64::abs).reduce(|a, b| if b > a { b } else { a });
+            assert_eq!(number(&row, "maxabs:drive.torque_N_m"), torque.unwrap());
+            let at =
+                table.column("crank_rad").iter().position(|angle| (angle.to_degrees() - 40.0).abs() < 1e-9).unwrap();
+            assert_eq!(number(&row, "at=40:joint.B.fx_N"), table.column("joint.B.fx_N")[at]);
+        }
+        std::fs::remove_dir_all(place.path("out")).unwrap();
+    }
+}
+
 /// A crank that is too long cannot turn; a ground that is too long cannot be assembled. No case is dropped.
 #[test]
 fn impossible_cases_are_refused_with_their_reasons() {

@@ -33,7 +33,7 @@ pub use seats::{Seat, Seats};
 
 /// An angular velocity below this fraction of the largest angular velocity of any link counts as rounding error.
 /// A link with such an angular velocity has no sense of rotation.
-const STANDSTILL: f64 = 1e-12;
+pub const STANDSTILL: f64 = 1e-12;
 
 /// A complete, checked problem that any solver accepts.
 ///

@@ -25,8 +25,8 @@ pub(super) struct Body {
     pub(super) inertia: f64,
     /// Joints at which later groups are attached to the link.
     pub(super) hanging: Vec<Action>,
-    /// Moments of resistance on the link.
-    pub(super) loads: Vec<Load>,
+    /// Sum of the moments of resistance on the link (N m).
+    pub(super) resistance: Option<f64>,
 }
 
 /// Reads the constants from a case.
@@ -60,19 +60,17 @@ impl Reader<'_> {
         let joints = self.case.mechanism.joints();
         let hanging = joints.ids().filter(|&joint| self.settled[joint] && joints[joint].on(link).is_some());
         let body = &self.case.mechanism.links()[link];
+        let resistances = self.case.loads.iter().filter_map(Load::resistance).filter(|(loaded, _)| *loaded == link);
         Body {
             link: self.layout.link(link).expect("the link moves"),
             mass: body.mass,
             mass_centre: body.mass_centre,
             inertia: body.inertia,
             hanging: hanging.map(|joint| self.action(joint, link)).collect(),
-            loads: self
-                .case
-                .loads
-                .iter()
-                .filter(|load| load.sensed_link() == Some(link) && self.case.can_turn(link))
-                .cloned()
-                .collect(),
+            resistance: resistances
+                .filter(|_| self.case.can_turn(link))
+                .map(|(_, moment)| moment)
+                .reduce(|sum, moment| sum + moment),
         }
     }
 }

@@ -11,6 +11,7 @@ use super::bodies::Body;
 use super::groups::{Arm, Driver, Dyad, Groups, Part};
 use super::lanes::{Lanes, Plane, Window};
 use super::poses::{ACCELERATION, ALPHA, DIRECTION, OMEGA, ORIGIN, VELOCITY};
+use linkage::case::STANDSTILL;
 use linkage::math::Vec2;
 use linkage::trajectory::Stage;
 
@@ -39,6 +40,22 @@ impl Groups {
             reach = reach + own;
         }
         tile.put(self.layout.reach(), reach);
+    }
+
+    /// Zero in poses in which every link with a moment of resistance turns; NaN in poses in which its angular velocity
+    /// may be a rounding error.
+    #[inline(always)]
+    pub(super) fn standstill<S: Simd>(&self, tile: &Window<S>) -> Lanes<S> {
+        let (zero, doubt) = (Lanes::splat(tile.simd, 0.0), Lanes::splat(tile.simd, f64::NAN));
+        let mut found = zero;
+        for loaded in self.bodies().filter(|body| body.resistance.is_some()) {
+            let speed = tile.get(loaded.link + OMEGA).abs();
+            for other in self.bodies() {
+                let least = tile.get(other.link + OMEGA).abs() * STANDSTILL;
+                found = found + speed.exceeds(least).of(zero, doubt);
+            }
+        }
+        found
     }
 
     /// Computes the reactions from the last group to the first, then the reactions and balancing moments of the driving
@@ -217,8 +234,11 @@ impl Body {
         let acceleration = tile.vector(self.link + ACCELERATION) + arm.turned() * alpha - arm * (omega * omega);
         let mut force = (Plane::splat(tile.simd, gravity) - acceleration) * self.mass;
         let mut moment = alpha * -self.inertia;
-        for load in &self.loads {
-            moment = moment + omega.map(|omega| load.moment_in(omega, 0.0));
+        if let Some(size) = self.resistance {
+            let zero = Lanes::splat(tile.simd, 0.0);
+            let backwards = zero.exceeds(omega).of(zero + size, zero);
+            force = force + Vec2::zeros();
+            moment = moment + omega.exceeds(zero).of(zero - size, backwards);
         }
         moment = moment + (origin + arm - pole).cross(force);
         for action in &self.hanging {

@@ -126,6 +126,16 @@ impl Groups {
         Some(Groups { layout, gravity: case.gravity, drivers, parts, columns })
     }
 
+    /// The links of driving links and dyads.
+    #[inline(always)]
+    pub(super) fn bodies(&self) -> impl Iterator<Item = &Body> {
+        let of_dyads = self.parts.iter().filter_map(|(part, _)| match part {
+            Part::Dyad(dyad) => Some(&dyad.arms),
+            Part::Chain(_) => None,
+        });
+        self.drivers.iter().map(|driver| &driver.body).chain(of_dyads.flatten().map(|arm| &arm.body))
+    }
+
     /// The higher groups and their first columns in the working memory.
     pub(super) fn chains(&self) -> impl Iterator<Item = (&Chain, usize)> {
         self.parts.iter().filter_map(|(part, first)| match part {

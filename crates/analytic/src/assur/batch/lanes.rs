@@ -64,16 +64,6 @@ impl<S: Simd> Lanes<S> {
         Lanes { value: self.simd.sqrt_f64s(self.value), ..self }
     }
 
-    /// Applies `f` to every lane.
-    #[inline(always)]
-    pub(super) fn map(self, f: impl Fn(f64) -> f64) -> Self {
-        let mut column = self.to_column();
-        for lane in &mut column[..S::F64_LANES] {
-            *lane = f(*lane);
-        }
-        Lanes::of_column(self.simd, &column)
-    }
-
     #[inline(always)]
     pub(super) fn abs(self) -> Self {
         Lanes { value: self.simd.abs_f64s(self.value), ..self }

@@ -21,7 +21,8 @@ const CLEAR_SINE: f64 = 0.01;
 /// A quarter is half of the corresponding fraction.
 const CLEAR_CHANGE: f64 = 0.25;
 
-/// Solver for cases of one structure and grid: a crank on the ground at constant speed, and RRR dyads without loads.
+/// Solver for cases of one structure and grid: a crank on the ground at constant speed, and RRR dyads, without loads
+/// other than moments of resistance.
 /// The results equal those of [`PoseSolver`](crate::PoseSolver), bit by bit.
 /// Cases that may pass a dead point are not solved.
 #[derive(Debug)]
@@ -73,7 +74,7 @@ impl CaseBatch {
             && crank.input == Input::Angle
             && !crank.through
             && !case.is_free()
-            && case.loads.is_empty()
+            && case.loads.iter().all(|load| load.resistance().is_some_and(|(link, _)| case.can_turn(link)))
             && !case.has_friction();
         let rows = grid.ascending();
         let inputs: Vec<f64> = rows.iter().map(|&row| grid.inputs[row]).collect();
@@ -164,6 +165,7 @@ impl CaseBatch {
                 let own = dyad.doubt(*pace, [CLEAR_SINE, CLEAR_CHANGE], &tile, &work, *first);
                 tile.add_to(&mut doubt.0, own);
             }
+            tile.add_to(&mut doubt.0, groups.standstill(&tile));
             for own in &mut *tallies {
                 own.add(index.unwrap_or(0) * TILE, &crank.angles, &tile);
             }
