@@ -1,5 +1,5 @@
 //! Requirements on every engine, and errors that once occurred.
-//! Each error is a story with a number, a symptom and a cause.
+//! Each error has a symptom and a cause; those with a number are stories in `docs/stories.md`.
 
 mod accuracy;
 mod chains;

@@ -87,7 +87,7 @@ fn alone(centre: Vec2) -> Spec {
 
 /// Symptom: for a balanced rotor without gravity, ten numbers were inconclusive, "of scale: inf".
 /// Cause: all forces and moments of the rotor are zero, and the motion gave no scale for them.
-/// Now the mass and the speed of the rotor give the scale.
+/// The mass and the speed of the rotor give the scale.
 #[test]
 fn regress_a_balanced_rotor_agrees_without_any_force() {
     let mut spec = alone(Vec2::zeros());
@@ -104,7 +104,7 @@ fn regress_a_balanced_rotor_agrees_without_any_force() {
 
 /// Symptom: 31 of the 54 numbers of pendulums hanging at rest were inconclusive.
 /// Cause: without any motion, the scale was only rounding.
-/// Now the nominal speed in the file gives the scale.
+/// The nominal speed in the file gives the scale.
 #[test]
 fn regress_a_mechanism_in_equilibrium_agrees_though_nothing_moves() {
     let mut spec = alone(Vec2::new(0.15, 0.0));

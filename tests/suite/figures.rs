@@ -136,7 +136,6 @@ fn val_crank_rocker_mean_reduced_inertia_and_resistance() {
         let means = analytic::reduced::means::means_over_turn(&case, solver).unwrap();
         assert_abs_diff_eq!(means.inertia, 0.164846013, epsilon = 0.5e-9);
         // The exact mean is 100 N m times twice the swing, divided by one revolution.
-        // The computed mean differs from the exact mean by the error at the two kinks.
         assert_abs_diff_eq!(means.resistance, 100.0 * 2.0 * 32.0 / 360.0, epsilon = 5e-5);
     }
 }

@@ -245,7 +245,7 @@ fn pdf_and_png_hold_the_same_charts() {
     assert_eq!(f64::from(pixels), 12.0 * size[0]);
 }
 
-/// Every command that writes a drawing also writes it as PDF and as PNG.
+/// Further commands that write drawings also write them as PDF and as PNG.
 #[test]
 fn drawings_of_other_commands_are_written_as_pdf_too() {
     let place = Place::new();

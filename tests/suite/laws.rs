@@ -13,7 +13,7 @@ use scenario::Scenario;
 
 use crate::common::{assert_within, shipped, states};
 
-/// The shipped scenario of an oscillating drive, with another law and grid.
+/// The shipped scenario `cycloidal_start`, with another law and grid.
 fn swing(law: &str, grid: &str) -> Scenario {
     let text = include_str!("../../scenarios/cycloidal_start.toml");
     let text = &text[..text.find("[[oracle]]").unwrap()];

@@ -145,7 +145,8 @@ pub(crate) fn numbers_as(cells: &[TableCell], precision: Precision) -> Vec<Round
     if are_rounded && !chosen(&found) { with(telling) } else { found }
 }
 
-/// If at least this many whole numbers end with zeros, the column counts as rounded to fewer digits.
+/// If at least this many whole numbers have more digits than all other cells only because of trailing zeros, the column
+/// counts as rounded to fewer digits.
 /// By chance, one whole number in ten ends with zero.
 const FEW: usize = 2;
 

@@ -4,7 +4,7 @@ use crate::cell::{Precision, TableCell, numbers, numbers_as};
 use crate::instants::chosen;
 use formula::Rounded;
 
-/// Number of digits that single precision always represents.
+/// Number of significant digits of single precision, rounded down: 24 bits are 7.2 digits.
 const SINGLE: u16 = 7;
 
 /// The numbers of a column of a file, each with the uncertainty caused by the printing of its digits.

@@ -21,7 +21,7 @@ pub struct TextTable {
     pub names: Vec<String>,
     /// Numbers of the columns, each with the uncertainty caused by the printing of its digits.
     pub columns: Vec<Vec<Rounded>>,
-    /// Line number of every row, from 1; empty if the file has no lines.
+    /// Line number of every row, from 1; empty if the table does not come from a text.
     pub lines: Vec<u32>,
 }
 

@@ -175,7 +175,7 @@ pub fn unwritten(what: &str, error: &io::Error, needs: Option<u64>, usual: &str)
     Error::new(ErrorKind::Io, message).help(way_out)
 }
 
-/// A size in words.
+/// A size in words, such as `875 kB`.
 pub fn size(bytes: u64) -> String {
     match bytes {
         0..10_000 => format!("{bytes} bytes"),

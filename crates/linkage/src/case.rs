@@ -45,7 +45,7 @@ pub struct Case {
     /// For every link: the representative of the link's class.
     /// A class contains the links whose angles differ only by constants.
     classes: Vec<LinkId>,
-    /// Speed below which a joint counts as standing still (rad/s): the rounding error of the drives' top speeds.
+    /// Speed at or below which a joint counts as standing still (rad/s): the rounding error of the drives' top speeds.
     standstill: f64,
 }
 
@@ -65,12 +65,13 @@ impl Case {
     /// Every error names the faulty part by its key.
     /// [`ErrorKind::Input`](crate::ErrorKind::Input) if drives, loads, start pose or modes do not belong to the
     /// mechanism.
-    /// [`ErrorKind::Input`](crate::ErrorKind::Input) also if a number in one of these parts is NaN or infinite.
+    /// [`ErrorKind::Input`](crate::ErrorKind::Input) also if a number in one of these parts is NaN, infinite or out of
+    /// range.
     /// [`ErrorKind::Input`](crate::ErrorKind::Input) also if the structure does not match mechanism and drives.
-    /// [`ErrorKind::Geometry`](crate::ErrorKind::Geometry) if a joint is open in the start pose or a driven joint does
-    /// not have its start coordinate.
-    /// [`ErrorKind::Unsupported`](crate::ErrorKind::Unsupported) for a combination of drives that this version does not
-    /// solve.
+    /// [`ErrorKind::Geometry`](crate::ErrorKind::Geometry) if a joint is open in the start pose, a driven joint does
+    /// not have its start coordinate, or a crank has no length.
+    /// [`ErrorKind::Unsupported`](crate::ErrorKind::Unsupported) for an input that the driven joint does not have, and
+    /// for a combination of drives that this version does not solve.
     /// The errors of [`Structure::of`](crate::mechanism::Structure::of) and [`Grid::check`] are passed on.
     pub fn new(parts: CaseParts) -> Result<Case> {
         check::all(&parts)?;
@@ -155,7 +156,7 @@ impl Case {
     /// Returns this case with the given motor of the crank, or without a motor.
     ///
     /// # Errors
-    /// The errors of [`Case::new`] if a number of the motor is NaN or infinite.
+    /// The errors of [`Case::new`], for example if a number of the motor is NaN or out of range.
     pub fn with_motor(&self, motor: Option<Motor>) -> Result<Case> {
         self.with(|parts| *parts.drives.crank_mut() = self.crank().with_motor(motor))
     }
@@ -196,13 +197,14 @@ impl Case {
         self.subjects().flat_map(rows).collect()
     }
 
-    /// Whether the angle of a link is requested.
+    /// Whether unwrapped angles of links are needed. They are not needed if single channels are requested and none of
+    /// these channels is the angle of a link.
     #[must_use]
     pub fn wants_angles(&self) -> bool {
         self.only.as_ref().is_none_or(|only| only.iter().any(|own| own.kind.reading == Reading::Link(OfLink::Angle)))
     }
 
-    /// The crank: the driving link whose angle identifies an instant.
+    /// The first drive (the crank), whose input identifies an instant.
     #[inline]
     pub fn crank(&self) -> &Drive {
         self.drives.crank()
@@ -290,8 +292,10 @@ impl Case {
         self.drives.len() > 1 && self.drives.iter().any(|drive| drive.constant_speed().is_none())
     }
 
-    /// Change of the variable that determines the pose, in which every driving link turns by at most `turn` (rad).
-    /// The variable is the input of the first drive or, as [`Case::goes_by_time`] states, the time.
+    /// Change of the variable that determines the pose: the time (s) if [`Case::goes_by_time`], otherwise the input of
+    /// the first drive.
+    /// During the change of time, every driving link turns by at most `turn` (rad). The change of input is
+    /// [`Case::step`].
     #[must_use]
     pub fn stride(&self, turn: f64) -> f64 {
         if self.goes_by_time() { turn / self.drives.top_speed(self.mechanism.size()) } else { self.step(turn) }

@@ -64,7 +64,7 @@ pub enum ErrorSubject {
     Group(String),
 }
 
-/// Key in a description, to which an error refers.
+/// Key in a scenario, to which an error refers.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct KeyPath {
     text: String,
@@ -80,7 +80,7 @@ impl KeyPath {
         KeyPath { text: format!("{path} ({})", links.join(", ")), path: path.len(), links }
     }
 
-    /// Dotted path of the key from the top of the description: `joints.A`.
+    /// Dotted path of the key from the top of the scenario: `joints.A`.
     #[must_use]
     pub fn path(&self) -> &str {
         &self.text[..self.path]
@@ -315,19 +315,20 @@ impl Error {
         self.0.out_of_reach
     }
 
-    /// The remedies, each of them an alternative to the others; empty if none is known.
+    /// The remedies, each of them an alternative to the others; empty if no remedy is known.
     #[must_use]
     pub fn advice(&self) -> &[Advice] {
         &self.0.advice
     }
 
-    /// The remedy in words, if known. The text does not mention command-line options.
+    /// The remedy and how far the run got, in words; `None` if neither is known. The text does not mention command-line
+    /// options.
     #[must_use]
     pub fn way_out(&self) -> Option<String> {
         self.way_out_by(Advice::to_string)
     }
 
-    /// The remedy in words, if known. `tell` puts each piece of advice into words.
+    /// Does the same as [`Error::way_out`], but `tell` puts each piece of advice into words.
     #[must_use]
     pub fn way_out_by(&self, tell: impl Fn(&Advice) -> String) -> Option<String> {
         let parts = [Advice::sentence(&self.0.advice, tell), self.0.reached.map(|reached| reached.to_string())];

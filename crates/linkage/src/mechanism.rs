@@ -45,8 +45,7 @@ pub struct Mechanism {
     /// The last entry is the total number of equations.
     rows: Vec<usize>,
     /// Size of the mechanism (m), used in the computation of every pose.
-    /// The size is computed only once, because the computation compares the distances between all pairs of points of a
-    /// link.
+    /// The size is stored, because its computation compares the distances between all pairs of points of a link.
     /// On a link with many points, the number of pairs is large.
     size: f64,
 }
@@ -401,7 +400,7 @@ mod tests {
         assert_eq!(four_bar().size(), 4.0);
     }
 
-    /// Size of a link hinged at its only point.
+    /// Size of a mechanism whose only moving link is hinged at its only point.
     fn of_single_point(mass: f64, centre: f64, inertia: f64) -> f64 {
         let mut own = link("a", &[("O", 0.0, 0.0)]);
         (own.mass, own.mass_centre.x, own.inertia) = (mass, centre, inertia);

@@ -32,7 +32,7 @@ crate::sentences! {
     hangs_on_a_moving_link_but_the_motion(names) = "{names} is attached to a moving link, but the motion is prescribed";
     GIVE_THE_CRANK_ANGLE_OF_THE_START = "give the crank angle of the start within a turn";
     starts_turns_away_the_limit(names, turns, value) = "{names} starts {turns} turns from zero; the limit is {value}";
-    has_a_number_that_is_not_finite(names, drive) = "{names} has a number that is not finite: {drive}";
+    has_a_number_that_is_not_finite(names, drive) = "{names} has a number that is not finite or out of range: {drive}";
     joint_or_link_is_driven_already(names) = "{names}: joint or link is driven already";
     GIVE_THE_CRANK_A_LENGTH = "give the crank a length";
     moves_nothing_all_joints_of_the_link(names) = "{names} moves no point: all joints of the link lie at one point";

@@ -8,7 +8,7 @@ use std::cell::Cell;
 use crate::error::{Advice, Error, ErrorKind, Result};
 
 crate::words! {
-    /// What is counted.
+    /// Kinds of counted work.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
     pub enum Count: name {
         /// Computed poses of the whole mechanism, including intermediate poses between requested poses.

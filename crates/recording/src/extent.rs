@@ -4,7 +4,7 @@ use crate::viewers::{FrameTransform, FrameTransforms, Pose, SceneEntity, SceneUp
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::LinkPose;
 
-/// Corners of everything that a scene draws, over all of its frames (m).
+/// Lower left and upper right corner of all lines, areas and cylinders of a scene, over all of its frames (m).
 pub fn corners<'a>(links: &SceneUpdate, frames: impl Iterator<Item = &'a FrameTransforms>) -> [Vec2; 2] {
     let mut corners = [Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY)];
     let mut take = |at: Vec2| {

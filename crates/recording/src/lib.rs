@@ -6,7 +6,9 @@
 //! |---|---|---|
 //! | `/<side>/grid` | `linkproof.Grid` | every sample |
 //! | `/<side>/link/<name>`, `/<side>/point/<name>` | `linkproof.Link`, `linkproof.Point` | every sample |
-//! | `/<side>/frame`, `/<side>/drive` | `linkproof.Frame`, `linkproof.Drive` | every sample |
+//! | `/<side>/frame` | `linkproof.Frame` | every sample |
+//! | `/<side>/drive`, `/<side>/drive/<joint>` | `linkproof.Drive`; `linkproof.DriveThrust` of a slide | every sample |
+//! | `/<side>/transmission/<name>` | `linkproof.Transmission` | every sample |
 //! | `/<side>/joint/<name>` | `linkproof.Joint`; `linkproof.Slider` of a prismatic joint; both with `Rubbing` before the name if the joint has friction | every sample |
 //! | `/error/link/<name>`, ... | `linkproof.LinkError`, ...: um, urad, mN | every sample |
 //! | `/mechanism/links` | `foxglove.SceneUpdate` | once |

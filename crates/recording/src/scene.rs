@@ -10,10 +10,10 @@ use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{GROUND, Link, LinkId, LinkPose, Mechanism};
 use linkage::trajectory::{Channel, Trajectory};
 
-/// Usual upper limit of the number of frames. A long recording has more frames than this limit, so that each second of
-/// log time has at least [`FRAMES_PER_SECOND`] frames.
+/// Usual upper limit of the number of frames. For a long recording, [`FRAMES_PER_SECOND`] is the upper limit.
 const FRAMES: f64 = 400.0;
-/// Lower limit of the number of frames per second of log time, if there are enough samples.
+/// Upper limit of the number of frames per second of log time. At least half as many frames remain if there are enough
+/// samples.
 const FRAMES_PER_SECOND: f64 = 50.0;
 
 /// Everything that can be drawn of a recording.

@@ -19,7 +19,7 @@ linkage::sentences! {
     // read.rs
     EVERY_TOPIC_OF_A_SIDE_NEEDS = "each topic of a side needs one message for each of its grid messages, with the same sequence number";
     in_the_recording_the_side(path, name, what) = "in the recording {path}, the side \"{name}\" lacks samples of {what}";
-    A_SIDE_NEEDS_A_TOPIC_SIDE = "a side needs a topic `/<side>/grid` with the fields t_s and crank_rad";
+    A_SIDE_NEEDS_A_TOPIC_SIDE = "a side needs a topic `/<side>/grid` with the fields t_s and crank_rad, joint_rad or slide_m";
     the_recording_holds_no_trajectory(path) = "the recording {path} contains no trajectory";
     NAME_A_RECORDING_MCAP_WHICH_A_RUN = "name a recording (.mcap) that a run has written";
     the_file(path, what) = "the file {path} {what}";

@@ -7,7 +7,7 @@ use linkage::math::Vec2;
 
 /// Paint of one side.
 /// The sides are drawn on top of each other.
-/// The first side is broad and pale; each later side is thinner than the previous side and in front of it.
+/// The first side is broad and pale. Each later side is in front of the previous side and, up to the fourth, thinner.
 /// Where two sides agree, both colours are visible; where the sides differ, their colours separate.
 #[derive(Clone, Copy)]
 pub struct SidePaint {

@@ -86,7 +86,7 @@ pub fn topic_name(side: &str, subject: ChannelSubject, of: &str) -> String {
 
 type Columns<'a> = Vec<(&'static ChannelKind, &'a [f64])>;
 
-/// The columns of each subject (link, point, joint, frame, drive). Subjects are in the order of their first column.
+/// The columns of each subject, such as a link or the frame. Subjects are in the order of their first column.
 /// All columns of a sliding joint are together.
 fn by_subject(trajectory: &Trajectory) -> Vec<(ChannelSubject, &str, Columns<'_>)> {
     let mut subjects: Vec<(ChannelSubject, &str, Columns)> = Vec::new();

@@ -9,7 +9,7 @@ use crate::common::by_night;
 /// Scenario, passage in its text, its replacement, and the words that must name the fault.
 type Fault = (&'static str, &'static str, &'static str, &'static str);
 
-/// All faults of `faults.rs`.
+/// The faults of `faults.rs`, except those of `small_faults_are_found`.
 const CRANK_ROCKER: &[Fault] = &[
     ("crank_rocker", "mass_kg = 34.7", "mass_kg = 35.047", "mass of coupler: 35"),
     ("crank_rocker", "mass_kg = 2.6", "mass_kg = 2.626", "mass of crank: 2.6"),

@@ -28,7 +28,7 @@ fn pendulum(pairs: usize) -> [f64; 2] {
     [(n + 1.0) / 3.0 + n, G * ((n + 1.0) / 2.0 + n)]
 }
 
-/// Angle and speed of theta'' = -c cos theta at instants `step` apart, by Taylor series of order 24.
+/// Angle and speed of theta'' = -c cos theta at instants `step` apart, by Taylor series of degree 25.
 /// The solution is exact to rounding and uses no code of the crates.
 fn by_series(c: f64, [mut theta, mut omega]: [f64; 2], step: f64, count: usize) -> Vec<[f64; 2]> {
     const ORDER: usize = 24;

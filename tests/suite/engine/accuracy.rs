@@ -101,7 +101,6 @@ fn gap_of_a_step(case: &Case, state: &State, step: f64) -> f64 {
 /// Story 64.
 /// At a step of 0.08 deg of the crank, loops open by 1.02e-7 of the mechanism's size.
 /// At every crank angle, the opening is the local error of one step, to 3 % of its largest value.
-/// The earlier value 1e-7 was for a crank half as long.
 /// With two substeps the opening is a quarter.
 /// In an extrapolated run, only the rounding error of the combination remains.
 #[test]
@@ -161,8 +160,8 @@ fn regress_70_two_substeps_meet_all_accuracy_goals_at_once() {
     assert_within!(largest, 1e-7, "{largest:e}");
 }
 
-/// The opening of 1e-7 was stated for a crank of half the length.
-/// At equal steps, the loop opens less with the half crank than with the whole crank.
+/// With a crank of half the length, the loop opens by less than 1e-7 of the mechanism's size.
+/// With the whole crank, it opens by more.
 #[test]
 fn regress_64_half_the_crank_leaves_gaps_below_1e_7() {
     let whole_crank = whole("crank_rocker");

@@ -46,7 +46,7 @@ fn a_class_is_written_filled_and_marked() {
     }
     let text = place.ok("mark class");
     assert!(text.contains("student_003") && text.matches(" 100").count() == 3, "{text}");
-    // One wrong sign: exit code 1, and the cause in every result.
+    // One quantity with the wrong sign: exit code 1, and the cause in every result.
     fill(&place, "class", "student_002", |_, quantity, answer| match quantity {
         "link.guide.omega_rad_s" => format!("{}", -answer.parse::<f64>().unwrap()),
         _ => answer.into(),

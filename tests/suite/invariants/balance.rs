@@ -16,7 +16,7 @@ use linkage::mechanism::LinkId;
 struct Instant<'a> {
     case: &'a Case,
     around: Around,
-    /// Largest speed of a link (rad/s).
+    /// Largest angular velocity of a link (rad/s).
     fastest: f64,
     /// Mass of all links (kg).
     mass: f64,

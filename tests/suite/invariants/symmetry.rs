@@ -32,7 +32,7 @@ fn pairs(solver: &dyn Solver, sample: &DyadSpecimen, two: &Case, sense: f64) -> 
 struct Expected {
     place: Box<dyn Fn(Vec2) -> Vec2>,
     angle: Box<dyn Fn(f64) -> f64>,
-    /// Factors of angular velocity, acceleration and drive torque.
+    /// Factors of angular velocity, angular acceleration and drive torque.
     omega: f64,
     alpha: f64,
     torque: f64,

@@ -86,7 +86,7 @@ fn with_table(name: &str, grid: &str) -> Scenario {
     Scenario::parse(&text, &path).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// At the crank angle of a jump, the second value applies, on both sides and in both senses of rotation.
+/// At the crank angle of a jump, the second value applies on both analytic sides.
 #[test]
 fn val_a_table_jumps_at_its_crank_angle() {
     let case = with_table("crank_rocker.toml", "angles_deg = [0, 89.99999, 90, 90.00001, 180, 359.99999, 360]\n").case;

@@ -180,8 +180,8 @@ impl CaseBuilder {
     }
 
     /// Adds a driving link that follows a motion law.
-    /// The first drive starts at [`CaseBuilder::start`]; a further drive starts at the start that is set when this
-    /// method is called.
+    /// The first drive starts at the input set by [`CaseBuilder::start`], before or after this call.
+    /// A further drive starts at the input that [`CaseBuilder::start`] has set before this call.
     pub fn driven(self, joint: &str, law: MotionLaw) -> Self {
         let start = self.start;
         self.driven_from(joint, start, law)
@@ -259,9 +259,10 @@ impl CaseBuilder {
     /// Checks the input and returns the case.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] for an unknown link, point or joint, with a list of the known names.
+    /// [`ErrorKind::Input`] for an unknown link, point, joint or group, with a list of the known names.
     /// [`ErrorKind::Input`] also for a mechanism without ground or crank.
-    /// The errors of [`Mechanism::new`], [`Structure::of`], [`first_pose`] and [`Case::new`] are passed on.
+    /// The errors of [`Mechanism::new`], [`Mechanism::with_transmissions`], [`Structure::of`], [`first_pose`] and
+    /// [`Case::new`] are passed on.
     pub fn build(mut self) -> Result<Case> {
         if self.links.first().is_none_or(|link| link.name != "ground") {
             return Err(missing(

@@ -15,7 +15,7 @@ use crate::mechanism::{AssemblyMode, DrivingLink, GROUND, GroupKind, LinkPose, M
 /// The reach is the mechanism's size or the largest distance of a link's origin from the world's origin, whichever is
 /// larger.
 /// The sine of the angle between the two axes of a prismatic joint is also an opening; its limit is this number itself.
-/// In the first poses of all shipped scenarios, the openings are at most 1e-15 m (`tests/suite/start.rs`).
+/// In the first poses of all shipped scenarios, the openings are at most 1e-12 of the reach (`tests/suite/start.rs`).
 /// If the pose belongs to a different mechanism, the opening is far larger.
 const LARGEST_OPENING: f64 = 1e-9;
 

@@ -26,7 +26,7 @@ impl Case {
     /// `law` gives the law of motion for the kind of input. The grid consists of `times` (s).
     ///
     /// # Errors
-    /// The errors of [`Structure::of`] and [`Case::new`].
+    /// The errors of [`Structure::of`], [`Mechanism::with_transmissions`] and [`Case::new`].
     pub fn driven_at(&self, joint: JointId, law: impl FnOnce(Input) -> MotionLaw, times: Vec<f64>) -> Result<Case> {
         let driven: Vec<DrivenJoint> = self.structure_at(joint)?.drivers.iter().map(DrivenJoint::from).collect();
         let mechanism = self.with_start_beside(joint)?;

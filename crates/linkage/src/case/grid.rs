@@ -48,14 +48,15 @@ impl Grid {
     }
 
     /// Upper limit of the absolute input values of a grid, in turns.
-    /// Solvers follow the branch from zero to every value. An angle above this limit loses its last digits to rounding.
+    /// Solvers follow the branch from the start to every value. An angle above this limit loses its last digits to
+    /// rounding.
     pub const MOST_TURNS: f64 = 1e5;
 
     /// Checks that all times and angles are finite and that all angles are within [`Grid::MOST_TURNS`].
     /// Also checks that the law of every drive is defined at all times.
     ///
     /// # Errors
-    /// A message that names the fault. The crank is free but the grid consists of crank angles, the law does not reach
+    /// A message that names the fault: the crank is free but the grid consists of crank angles, the law does not reach
     /// an input at exactly one time, a time is outside the law of a drive, or the inputs are too large or not finite.
     pub fn check(&self, drives: &Drives) -> std::result::Result<(), String> {
         self.check_crank(drives.crank())?;
@@ -116,7 +117,7 @@ pub enum When {
 }
 
 impl When {
-    /// The crank angle (rad), if the value is valid at a crank angle.
+    /// The input (SI unit), such as the crank angle, if the value is valid at an input.
     #[must_use]
     pub fn crank(self) -> Option<f64> {
         if let When::Crank(crank) = self { Some(crank) } else { None }

@@ -56,7 +56,8 @@ pub enum CaseNumber {
     Zero(usize),
     /// Input of a drive at t = 0 (rad or m).
     Start(usize),
-    /// A number of the law of a drive: its speed; speed and time; rise and time; or amplitude, period and phase.
+    /// A number of the law of a drive: its speed; speed and time; rise and time; amplitude, period and phase; or, for a
+    /// free motion, nominal and initial speed.
     Law {
         /// Number of the drive.
         drive: usize,
@@ -82,7 +83,8 @@ pub enum CaseNumber {
 }
 
 impl Case {
-    /// All numbers of the case with their names, in the order links, joints, gravity, drives, loads.
+    /// All numbers of the case with their names. Plane coordinates and vectors come first (links, joints, gravity,
+    /// loads), then masses and moments of inertia, the numbers of drives and the numbers of loads.
     /// Not included are tables, formulas, motors and transmissions, and pose and grid, which follow from other numbers.
     #[must_use]
     pub fn numbers(&self) -> Vec<(CaseNumber, f64)> {

@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use crate::math::{Piecewise, just_below};
 
-/// The jumps of a table are moved back by this angle (rad), which is much larger than rounding errors.
-/// At the stated crank angle, all solvers therefore find the value after the jump.
+/// The jumps of a table are moved back by this angle (rad) or slide (m), which is much larger than rounding errors.
+/// At the stated input, all solvers therefore find the value after the jump.
 const BEFORE: f64 = 4e-9;
 
 /// A table over a slide keeps its end values beyond both ends. It does so over the distance (1 m + |first slide| +
@@ -72,7 +72,7 @@ impl Course {
         }
     }
 
-    /// Whether all numbers are finite. For a table, also whether the period is above zero.
+    /// Whether a constant is finite. For a table: whether the knots are finite and the period is above zero.
     #[must_use]
     pub fn is_sound(&self) -> bool {
         match self {

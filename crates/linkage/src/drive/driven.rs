@@ -61,7 +61,8 @@ pub struct Drive {
 }
 
 impl Drive {
-    /// Returns a drive that follows `law` and has no motor. The other arguments are the fields of the same names.
+    /// Returns the drive of a crank that follows `law` and has no motor. The other arguments are the fields of the same
+    /// names.
     pub fn prescribed(joint: JointId, link: LinkId, zero: f64, start: f64, law: MotionLaw) -> Self {
         let motion = DriveMotion::Prescribed { law, motor: None };
         Drive { input: Input::Angle, joint, link, zero, start, motion, through: false }
@@ -95,7 +96,7 @@ impl Drive {
         }
     }
 
-    /// State of the driving link at time `t` (s), as in [`MotionLaw::at`]. For a free link, the state in its nominal
+    /// Input, rate and acceleration at time `t` (s), as in [`MotionLaw::at`]. For a free link, those of its nominal
     /// motion.
     #[inline]
     pub fn at(&self, t: f64) -> InputState {
@@ -280,7 +281,7 @@ impl Drive {
     }
 
     /// Angle of the driving link's frame (rad, unwrapped) for a coordinate measured as in [`Drive::coordinate`].
-    /// `None` if the drive does not turn the link.
+    /// `None` unless the input is an [`Input::Angle`].
     #[inline]
     #[must_use]
     pub fn link_angle(&self, coordinate: f64) -> Option<f64> {

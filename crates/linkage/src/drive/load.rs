@@ -258,7 +258,8 @@ impl Load {
         }
     }
 
-    /// All parts of the load, for reading or changing; links and points first.
+    /// The parts of the load except its joint, for reading or changing; links and points first.
+    /// A torsion spring has the part [`LoadPart::Acts`] only if it acts on one side.
     pub fn parts(&mut self) -> Vec<LoadPart<'_>> {
         fn amount<'a>(name: &'static str, value: &'a mut f64) -> LoadPart<'a> {
             LoadPart::Number { role: LoadRole::Amount, name, value }
@@ -418,7 +419,7 @@ impl Load {
         }
     }
 
-    /// Coefficient of a [friction](Load::Friction).
+    /// Absolute value of the coefficient of a [friction](Load::Friction).
     fn friction(&self) -> Option<f64> {
         if let &Load::Friction { coefficient, .. } = self { Some(coefficient.abs()) } else { None }
     }

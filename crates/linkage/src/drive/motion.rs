@@ -150,6 +150,7 @@ impl MotionLaw {
     }
 
     /// First time (s) at which the driving link has turned by the angle `gone` (rad). For `gone` = 0 the result is 0.
+    /// At constant speed, the time is negative for an angle against the sense of the motion.
     /// NaN if the law never reaches the angle.
     /// NaN also if a table or formula reaches the angle more than once, or if a harmonic reaches it more than once
     /// within one period.

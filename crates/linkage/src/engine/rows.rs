@@ -1,6 +1,6 @@
 //! The states of a whole run in one block of memory, reduced to the numbers that the requested channels need.
 //!
-//! A [`State`] has five separate lists, and each list has memory for every stage.
+//! A [`State`] has six separate lists, with memory for every stage.
 //! For a run of many instants, separate states would take more memory than the numbers themselves.
 
 use std::collections::BTreeMap;
@@ -34,7 +34,7 @@ struct Layout {
     joints: usize,
     /// The joints that transmit a moment, if forces are stored.
     sliding: Vec<JointId>,
-    /// Numbers of transmissions and drives whose forces are stored.
+    /// Number of transmissions, and number of drives, whose forces are stored.
     transmissions: usize,
     drives: usize,
 }

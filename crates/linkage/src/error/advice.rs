@@ -6,7 +6,7 @@ use std::fmt;
 
 /// One remedy. Several remedies of one error are alternatives.
 ///
-/// [`Advice::Text`] is advice about the text of a description, for a person to read. A program can act on every other
+/// [`Advice::Text`] is advice about the text of a scenario, for a person to read. A program can act on every other
 /// variant.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Advice {

@@ -191,7 +191,7 @@ impl Curve {
         values().fold(f64::NEG_INFINITY, f64::larger) - values().fold(f64::INFINITY, f64::smaller)
     }
 
-    /// Whether all numbers of the curve are finite.
+    /// Whether the numbers of the curve are finite. Of a table, only the knots are tested.
     #[must_use]
     pub fn is_finite(&self) -> bool {
         match self {

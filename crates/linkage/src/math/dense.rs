@@ -96,7 +96,8 @@ impl Lu {
     }
 }
 
-/// Factors a matrix of any order in place. Returns the sign of the row permutation, and the determinant.
+/// Factors a matrix of any order in place. Returns the sign of the row permutation, and the determinant; `None` if the
+/// matrix is singular.
 fn factor(a: &mut [f64], pivots: &mut [usize], inverse: &mut [f64]) -> Option<(f64, f64)> {
     let n = pivots.len();
     let (mut sign, mut product) = (1.0, 1.0);

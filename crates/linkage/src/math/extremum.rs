@@ -10,7 +10,7 @@ const REFINEMENTS: usize = 44;
 /// If the function has several extremes in the interval, the result encloses one of them.
 /// After about 40 steps the interval's length, divided by its original length, is the square root of the rounding
 /// error.
-/// More than 40 steps gain nothing.
+/// Further steps gain little.
 /// NaN counts as less than any number.
 ///
 /// # Errors

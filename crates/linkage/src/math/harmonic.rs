@@ -145,8 +145,7 @@ fn between(coefficients: &[Complex<f64>], from: f64, to: f64) -> f64 {
 fn roots(polynomial: &[Complex<f64>]) -> Option<Vec<Complex<f64>>> {
     let n = polynomial.len() - 1;
     let value = |a: Complex<f64>| polynomial.iter().rev().fold(Complex::new(0.0, 0.0), |sum, c| sum * a + c).norm();
-    // There is one more candidate for a than there are roots inside the circle, so at least one candidate is far from
-    // all roots.
+    // There is one more candidate for a than there are roots, so at least one candidate is far from all roots.
     let candidates = (0..n + 1).map(|k| Complex::from_polar(0.5, TAU * k as f64 / (n + 1) as f64));
     let a = candidates.max_by(|&a, &b| value(a).total_cmp(&value(b)))?;
     let mut mapped = vec![Complex::new(0.0, 0.0); n + 1];

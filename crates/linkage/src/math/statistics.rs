@@ -1,4 +1,4 @@
-//! Order statistics of residuals.
+//! Statistics of lists of numbers: quantiles, means, differences and ranges.
 
 use std::f64::consts::TAU;
 

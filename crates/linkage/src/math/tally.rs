@@ -104,7 +104,8 @@ impl Tally {
         }
     }
 
-    /// Adds eight rows, the first of which is `row`, a multiple of eight. Behind the last row, its value is repeated.
+    /// Adds eight rows, the first of which is `row`, a multiple of eight. After the last row, the caller repeats its
+    /// value.
     pub fn add(&mut self, row: usize, values: &[f64; LANES]) {
         match self {
             Tally::Max(peak) => peak.add(row, *values),
@@ -136,8 +137,9 @@ impl Tally {
         self.value_as(|value| value)
     }
 
-    /// The statistic of the values `shown(value)`, if this function grows with the value, is odd, and the statistic is
-    /// no mean. Its bits are those of a statistic whose values were shown one by one.
+    /// The statistic of the values `shown(value)`. The function `shown` must be odd and grow with the value.
+    /// The bits are those of a statistic whose values were converted one by one.
+    /// For a mean, root mean square or column, `shown` is not applied.
     #[must_use]
     pub fn value_as(&self, shown: impl Fn(f64) -> f64) -> f64 {
         match self {
@@ -151,7 +153,7 @@ impl Tally {
         }
     }
 
-    /// The rows on which the statistic rests: the first extreme ones, or none if all rows count.
+    /// The rows that determine the statistic: the first rows with the extreme values; `None` if all rows count.
     #[must_use]
     pub fn rows(&self) -> [Option<usize>; 2] {
         match self {

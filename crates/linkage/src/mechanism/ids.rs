@@ -99,7 +99,7 @@ ids! {
     TransmissionId,
 }
 
-/// One value for each link, joint or group, in the order of their numbers.
+/// One value for each link, joint, group or transmission, in the order of their numbers.
 /// A list of this type can be indexed only with the numbers of these items. In all other respects the list behaves like
 /// a slice.
 ///

@@ -264,7 +264,7 @@ impl Joint {
         Some([slide, speed, second_derivative + slide * first.0.omega * first.0.omega])
     }
 
-    /// Rate of the joint's coordinate (rad/s or m/s), and its second derivative.
+    /// First and second time derivative of the joint's coordinate (rad/s and rad/s^2, or m/s and m/s^2).
     #[inline]
     #[must_use]
     pub fn rates(&self, motions: &[Motion]) -> [f64; 2] {

@@ -54,7 +54,9 @@ impl Structure {
     /// # Errors
     /// [`ErrorKind::Input`] if links have no connection to the ground, or if the mobility differs from the number of
     /// drives.
-    /// [`ErrorKind::Input`] also if one part of the mechanism is over-constrained while a second part is free to move.
+    /// [`ErrorKind::Input`] also if one part of the mechanism is over-constrained while a second part is free to move,
+    /// or if prismatic and driven joints alone form a closed loop.
+    /// [`ErrorKind::Input`] also if a drive comes before the drive of the link that carries it.
     /// [`ErrorKind::Input`] also if the start joint of a transmission is driven, or if the start joints do not fit the
     /// groups of the mechanism.
     pub fn of<T: Copy + Into<DrivenJoint>>(mechanism: &Mechanism, drives: &[T]) -> Result<Self> {

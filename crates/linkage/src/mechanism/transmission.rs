@@ -167,7 +167,8 @@ impl Transmission {
     /// Finds the geometry of a transmission between these links and joints; `size` is the size of the mechanism (m).
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] if a member has no axle or guide on the carrier, or if the numbers allow no contact.
+    /// [`ErrorKind::Input`] if members and carrier are not three links, if a member has no axle or guide on the
+    /// carrier, if the numbers allow no contact, or if the efficiencies are out of range.
     pub fn of(links: &PerLink<Link>, joints: &PerJoint<Joint>, size: f64, design: TransmissionDesign) -> Result<Self> {
         let TransmissionDesign { links: [first, second], carrier, .. } = design;
         if first == second || design.links.contains(&carrier) {

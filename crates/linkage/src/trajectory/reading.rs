@@ -30,7 +30,7 @@ pub enum ChannelSubject {
 }
 
 impl ChannelSubject {
-    /// Whether a mechanism has exactly one subject of this kind, so that the subject needs no name.
+    /// Whether a mechanism has at most one subject of this kind, so that the subject needs no name.
     #[must_use]
     pub fn is_whole(self) -> bool {
         match self {

@@ -62,7 +62,7 @@ impl Load {
         }
     }
 
-    /// Free length or free angle, with its unit (m or rad).
+    /// Free length, free slide or free angle, with its unit (m or rad); `None` for a load without one.
     pub fn rest(&mut self) -> Option<(&mut f64, &'static str)> {
         self.parts().into_iter().find_map(|part| match part {
             LoadPart::Number { role: LoadRole::Rest { unit }, name: _, value } => Some((value, unit)),

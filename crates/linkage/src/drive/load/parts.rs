@@ -84,7 +84,7 @@ pub enum LoadRole {
     Size,
     /// The number is a length of the joint (m), which must not be negative.
     Extent,
-    /// The number is the free length (m) or free angle (rad), at which the load vanishes.
+    /// The number is the free length or slide (m) or the free angle (rad), at which the load vanishes.
     Rest {
         /// Unit of the number: `m` or `rad`.
         unit: &'static str,

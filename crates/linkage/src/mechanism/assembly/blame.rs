@@ -9,7 +9,7 @@ use crate::sentences;
 /// A group whose configuration makes it impossible to place a later group.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Blame {
-    /// Index, in the structure, of the group to blame.
+    /// Index of the group to blame in [`Structure::at_start`].
     pub group: GroupId,
     /// Number of the group's configuration with which the later group can be placed, counted from 1.
     pub rank: usize,
@@ -17,7 +17,7 @@ pub struct Blame {
     pub mode: AssemblyMode,
 }
 
-/// Index of the group to which an error of [`first_choices`] refers.
+/// Index, in [`Structure::at_start`], of the group to which an error of [`first_choices`] refers.
 #[must_use]
 pub fn group_of(mechanism: &Mechanism, structure: &Structure, error: &Error) -> Option<GroupId> {
     match error.part() {

@@ -11,12 +11,12 @@ use crate::sentences;
 /// A group may have given joints, whose coordinates are known. `pose` must then contain the links of every body in the
 /// right pose relative to each other, as in [`Structure::driving_pose`](crate::mechanism::Structure::driving_pose).
 /// A driven link must already be placed in `pose`.
-/// A dyad has up to two configurations, a group of four links up to six.
+/// A dyad has up to two configurations, a group of four bodies up to six.
 ///
 /// # Errors
-/// [`ErrorKind::Geometry`](crate::ErrorKind::Geometry) if there is no configuration.
-/// [`ErrorKind::Unsupported`](crate::ErrorKind::Unsupported) for groups of more than four links, whose configurations
-/// are not all known.
+/// [`ErrorKind::Geometry`](crate::ErrorKind::Geometry) if there is no configuration, or if the group can move.
+/// [`ErrorKind::Unsupported`](crate::ErrorKind::Unsupported) for groups of more than four bodies and for groups with
+/// transmissions, whose configurations are not all known.
 pub fn configurations(mechanism: &Mechanism, group: &Group, pose: &Pose) -> Result<Vec<Configuration>> {
     if group.kind == GroupKind::Driven {
         return Ok(vec![Configuration { mode: AssemblyMode::Only, links: vec![pose.0[group.links[0]]] }]);

@@ -112,7 +112,7 @@ impl Layout {
 /// In class IV the base is the last ternary link.
 ///
 /// # Errors
-/// [`ErrorKind::Geometry`] if there is no configuration.
+/// [`ErrorKind::Geometry`] if there is no configuration, or if the group can move while its outer joints are held.
 /// [`ErrorKind::Unsupported`] if the group is neither of the two kinds that this module handles.
 pub(super) fn configurations(mechanism: &Mechanism, group: &Group, pose: &Pose) -> Result<Vec<Configuration>> {
     let layout = Layout::of(mechanism, group, pose).ok_or_else(|| {

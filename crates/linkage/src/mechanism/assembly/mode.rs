@@ -8,11 +8,11 @@ crate::words! {
     /// The assembly mode of a group: which real configuration it has.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum AssemblyMode: name {
-        /// Dyad: the inner joint lies to the left of the directed line from the first link's outer joint to the second
-        /// link's outer joint.
+        /// RRR dyad: the inner joint lies to the left of the directed line from the first link's outer joint to the
+        /// second link's outer joint.
         Left = "left",
-        /// Dyad: the inner joint lies to the right of the directed line from the first link's outer joint to the second
-        /// link's outer joint.
+        /// RRR dyad: the inner joint lies to the right of the directed line from the first link's outer joint to the
+        /// second link's outer joint.
         Right = "right",
         /// RRP dyad: along the axis of its prismatic pair, the inner joint lies ahead of the outer pin.
         /// RPR dyad: along the axis of its prismatic pair, the outer pin of the pair's second link lies ahead of
@@ -22,7 +22,7 @@ crate::words! {
         /// RPR dyad: along the axis of its prismatic pair, the outer pin of the pair's second link lies behind
         /// the outer pin of the pair's first link.
         Behind = "behind",
-        /// RPP or PRP dyad, which has only one configuration.
+        /// RPP or PRP dyad, or driven link: there is only one configuration.
         Only = "only",
         /// Higher group: the configuration that the group has in the start pose and keeps during the motion.
         Followed = "followed",
@@ -50,7 +50,7 @@ pub struct Configuration {
     pub links: Vec<LinkPose>,
 }
 
-/// The required first pose of one group. The links are in the order of
+/// The required first pose of one group. The mode refers to the links in the order of
 /// [`Group::links`](crate::mechanism::Group::links).
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct StartGroup {
@@ -69,9 +69,10 @@ pub struct StartGroup {
 pub struct ConfigurationChoice {
     /// Assembly mode of the configuration.
     pub mode: AssemblyMode,
-    /// Largest distance of the configuration's points from their approximate positions (m), if any were given.
+    /// Largest distance of the configuration's points from their approximate positions (m), if any were used.
     pub nearest_m: Option<f64>,
     /// Largest distance of the second nearest configuration's points from their approximate positions (m).
-    /// `None` if there is only one configuration, or if not all configurations are known.
+    /// `None` if there is only one configuration, if not all configurations are known, or if no approximate positions
+    /// were used.
     pub next_m: Option<f64>,
 }

@@ -18,7 +18,7 @@ pub enum GroupKind {
     Rpp,
     /// Dyad with two outer prismatic pairs and an inner revolute pair.
     Prp,
-    /// Any group with more than two rigid bodies, and any group of several links with a transmission.
+    /// Any group with more than two rigid bodies, and any group of two bodies with a transmission.
     Higher,
     /// A link whose pose follows from a given joint on a link of an earlier group, or from a transmission between
     /// earlier links. Such a link is a driving link (class I).
@@ -45,7 +45,7 @@ impl GroupKind {
         }
     }
 
-    /// Letters of a dyad's pairs, in the order outer, inner, outer; `None` for higher groups.
+    /// Letters of a dyad's pairs, in the order outer, inner, outer; `None` for higher groups and driven links.
     #[must_use]
     pub fn letters(self) -> Option<&'static str> {
         match self {
@@ -141,7 +141,7 @@ impl Group {
         found.next().is_none().then_some(first)
     }
 
-    /// Letters of a dyad's pairs ("RRP"); for higher groups the number of pairs.
+    /// Letters of a dyad's pairs ("RRP"); for any other group the numbers of inner and outer pairs, in words.
     #[must_use]
     pub fn pairs(&self) -> String {
         self.kind

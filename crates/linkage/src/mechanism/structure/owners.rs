@@ -8,8 +8,8 @@ use petgraph::graph::{DiGraph, NodeIndex};
 use crate::error::{Error, ErrorKind, Result};
 use crate::mechanism::{DrivenJoint, GROUND, JointId, LinkId, Mechanism, TransmissionId};
 
-/// Checks Laman's condition for plane bodies: the joints among k links, the ground included, have at most 3 k - 3
-/// equations.
+/// Checks Laman's condition for plane bodies: the joints and drives among k links, the ground included, have at most
+/// 3 k - 3 equations.
 /// The function tests an equivalent condition for each joint in turn. The test adds three copies of one of the joint's
 /// equations.
 /// All equations, the copies included, must still find owners. No link, the ground included, may own more than three

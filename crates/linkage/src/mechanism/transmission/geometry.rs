@@ -11,11 +11,12 @@ use crate::math::{Vec2, cross, rotated, turned};
 pub struct Member {
     /// The link.
     pub link: LinkId,
-    /// Axle of a wheel in the frame of the carrier (m); for a rack, the foot of the pinion's axle on the pitch line.
+    /// Axle of a wheel, cam or swinging follower in the frame of the carrier (m). For a rack, the foot of the pinion's
+    /// axle on the pitch line; for a sliding follower, the joint's point on the carrier.
     pub place: Vec2,
-    /// Pitch radius (m); 0 for a rack.
+    /// Pitch radius (m); 0 for a rack, cam or follower.
     pub radius: f64,
-    /// The axle of a wheel in the frame of the link (m); for a rack, the joint's point on the link.
+    /// The axle in the frame of the link (m); for a member that slides, the joint's point on the link.
     pub local: Vec2,
 }
 

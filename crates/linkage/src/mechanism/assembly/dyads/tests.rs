@@ -43,7 +43,7 @@ impl Case {
     }
 
     /// Rotates `link` until the axis of the prismatic `joint` on `link` agrees with the axis of this joint on the
-    /// second link.
+    /// joint's other link.
     fn with_turned(&self, mut pose: Pose, joint: JointId, link: LinkId) -> Pose {
         let other = self.joint(joint).other(link).link;
         let angle = |axis: Vec2| axis.y.atan2(axis.x);
