@@ -18,7 +18,8 @@ use linkage::math::{KeepNan, Motion, Vec2, unit};
 use linkage::mechanism::{GROUND, JointSide, LinkId};
 use linkage::solver::State;
 
-/// Rotation (rad) of the fastest free link in the tiny step that makes the start velocities consistent.
+/// Rotation (rad) of the fastest driving link in the tiny step that makes the start velocities consistent.
+/// If all driving links start from rest, the tiny step is this fraction of the engine's step.
 const SETTLING_TURN: f64 = 1e-4;
 
 /// If a link's initial speed is below this fraction of the fastest link's speed, the link counts as being at rest.
@@ -41,7 +42,7 @@ pub(super) struct Acting {
     /// For each load that opposes the motion of a point: the velocity of this point one step earlier. NaN for other
     /// loads, and before the first step.
     swept: Vec<Vec2>,
-    /// Speed that each link at rest reaches in the trial step. Without a trial step, the speeds are 0.
+    /// Angular velocity (rad/s) that each link reaches in the trial step. Without a trial step, the values are 0.
     setting_off: Vec<f64>,
     loads: Vec<Wrench>,
     /// The loads plus the loads that compensate added masses.

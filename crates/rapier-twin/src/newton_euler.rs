@@ -177,7 +177,7 @@ impl NewtonEuler {
         Ok(())
     }
 
-    /// Number of stages with two unknowns, and number of stages with more unknowns.
+    /// Number of stages with two unknowns, and number of all other stages.
     pub fn stages(&self) -> [usize; 2] {
         let pairs = self.stages.iter().filter(|stage| matches!(stage, Stage::Pair(..))).count();
         [pairs, self.stages.len() - pairs]

@@ -54,7 +54,7 @@ impl LinkFrame {
         self.origin + rotated(self.direction, local)
     }
 
-    /// Rotation of the link since the frame `before` (rad, without sign), with a relative error of at most 4e-4.
+    /// Rotation of the link since the frame `before` (rad, without sign), with a relative error of at most 4.2e-4.
     /// If the frames store only a direction and full turns, the result is at most half a turn.
     #[inline]
     pub fn turn_since(&self, before: &LinkFrame) -> f64 {

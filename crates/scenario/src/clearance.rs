@@ -25,7 +25,7 @@ const RADIUS: FileKey = optional(
 .means("rounding radius: positive for a line, not negative for a polygon or a part of the housing");
 const CORNERS: FileKey = optional("corners", ValueKind::Tables, "a line")
     .means("three or more positions: the corners of a filled polygon, convex or not, in either sense");
-const LINE: FileKey = optional("line", ValueKind::Tables, "through the points of the link, if `corners` is missing")
+const LINE: FileKey = optional("line", ValueKind::Tables, "for a link without `corners`: through its points")
     .means("positions joined by capsules; a single position is a disc");
 
 /// Descriptions of the keys that this module reads.

@@ -21,7 +21,8 @@ pub(super) struct Limb {
 /// Equations that determine some of the components after the components of earlier stages are known.
 #[derive(Debug)]
 pub(super) enum Stage {
-    /// Two equations for both components of a cut joint. The first field is the index of the first component.
+    /// Two equations for two components, usually those of a cut joint. The first field is the index of the first
+    /// component.
     Pair(usize, [Row; PAIR]),
     /// All remaining components, with workspace for the system.
     All { rows: Vec<Row>, terms: Vec<usize>, values: Vec<f64>, matrix: Lu },
