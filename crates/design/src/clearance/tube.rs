@@ -159,7 +159,8 @@ pub struct Tubes<'a> {
     /// Both ends of the range (rad), in the direction of motion.
     pub range: [f64; 2],
     first: u64,
-    /// Size of the mechanism including its distance from the world origin (m).
+    /// Largest length in the positions (m): the mechanism's size, plus the largest distance of a ground point from the
+    /// origin, plus `extent`.
     pub scale: f64,
     kept: BTreeMap<RangePart, Rc<Slice>>,
     /// Number of poses computed by the analytic solver (side 1).
