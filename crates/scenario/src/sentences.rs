@@ -247,7 +247,7 @@ linkage::sentences! {
     CHECK_THE_UNIT_A_LINK_THAT_IS_SO = "check the unit; if the link really is so large, add a point at the mass centre";
     the_mass_centre_of_link_is_away(link, far, far_2) = "the mass centre of link \"{link}\" is {far} m away from all its points, {far_2} times the largest link";
     CHECK_THE_UNITS_OF_ITS_SPEED = "check the units of the link's speed and length";
-    at_rad_link_of_has_points(speed, link, link_2) = "at {speed} rad/s, link \"{link}\" of {link_2} m has points that are faster than light";
+    at_rad_link_of_has_points(speed, link, link_2) = "at the speed {speed} (rad/s or m/s), link \"{link}\" of {link_2} m has points that are faster than light";
     // motion.rs
     A_TABLE_OF_ANGLES_NEEDS_TWO = "a table needs at least two points with different values";
     WRITE_THE_POINTS_IN_ASCENDING_ORDER = "write the points in ascending order of time, each time once";

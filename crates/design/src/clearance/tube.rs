@@ -258,7 +258,8 @@ impl<'a> Tubes<'a> {
             *tube = Tube { centre, at, rate, direction, spin, off: rounding, twist: ROUNDING, half };
         }
         for (drive, [_, bend]) in case.drives.iter().zip(&courses) {
-            // A crank turns about its pivot on the ground. A link on a driven guide of the ground moves along the guide.
+            // A crank turns about its pivot on the ground.
+            // A link on a driven guide of the ground moves along the guide.
             let pivot = case.mechanism.joints()[drive.joint].on(drive.link).unwrap_or_else(Vec2::zeros);
             let (tube, motion) = (&mut tubes[drive.link], &state.motions[drive.link]);
             if drive.input == Input::Angle {
