@@ -1,5 +1,5 @@
-//! Batches of cases that differ only in points and masses of links, for a crank at constant speed, dyads and figures of
-//! channels.
+//! Batches of cases that differ only in points, masses and moments of inertia of links, for a crank at constant speed,
+//! dyads with three pins without loads, and figures of channels.
 //! The figures equal, bit by bit, those of a case that is read and solved alone. All other cases are solved that way.
 
 use analytic::assur::batch::{CaseBatch, PoseQuantity, PoseTally};

@@ -11,7 +11,7 @@
 //! Let F' be the derivative of F, and A an approximate inverse of F' at the middle.
 //! Then T(x) = x - A F(x) maps the box |x - x0| <= r into itself and contracts if
 //!
-//!   |A| |F(x0)| + (|1 - A F'(middle)| + |A| |F' - F'(middle)|) r <= r.
+//!   |A| |F(x0)| + (|1 - A F'(middle)| + |A| |F' - F'(middle)|) r < r.
 //!
 //! The box then contains exactly one pose for every crank angle, and this pose continues the pose at the middle.
 //! The branch is thus proven without sampling.
