@@ -16,8 +16,7 @@ fn case_of(text: &str) -> Case {
     Scenario::parse(text, Path::new("setting_off.toml")).unwrap_or_else(|error| panic!("{error}")).case
 }
 
-/// Both analytic sides, and both builds of Rapier in double precision with the time step `step` (s), each with its
-/// bound.
+/// Both analytic sides, and the engines `rapier` and `impulse` with the time step `step` (s), each with its bound.
 fn solvers(step: f64) -> Vec<(Box<dyn Solver>, f64)> {
     let mut all: Vec<(Box<dyn Solver>, f64)> = vec![(Box::new(AssurSolver), 1e-11), (Box::new(NewtonSolver), 1e-11)];
     for name in ["rapier", "impulse"] {
@@ -53,8 +52,8 @@ fn regress_a_motor_with_a_lossy_reducer_starts_forwards() {
 }
 
 /// A weight on the crankshaft, in closed form: alpha = (M - m g s) / (J + m s^2).
-/// M is the motor's moment times the efficiency if the motor lifts the weight.
-/// M is that moment divided by the efficiency if the weight drives the motor back.
+/// M is the motor's torque times the ratio.
+/// M is multiplied by the efficiency if the motor lifts the weight, and divided by it if the weight drives the motor.
 /// Symptom: side 2 took the motor's losses in the forward direction at t = 0, although the crank starts backwards.
 #[test]
 fn regress_a_weight_that_drives_the_motor_meets_its_losses() {

@@ -120,7 +120,7 @@ fn regress_a_dead_point_does_not_affect_the_driving_link() {
 /// Symptom: at a change point in free motion side 2 took ever smaller steps, and had no answer after ten minutes.
 /// With an even number of loops, side 2 passed the change point with errors up to 8e-7 rad.
 /// Cause: with an even number of loops, the determinant of the whole system kept its sign.
-/// Free motions now pass change points, see `dynamics/through.rs`; free motions with several driving links do not.
+/// Free motions pass change points, see `dynamics/through.rs`; free motions with several driving links do not.
 #[test]
 fn regress_a_free_motion_continues_at_a_change_point() {
     for pairs in [1, 2] {

@@ -49,7 +49,8 @@ fn text<'r>(row: &'r Row, name: &str) -> &'r str {
     }
 }
 
-/// Every figure of every case is computed from the table of `solve` too, and must be equal, bit by bit.
+/// Every figure of every case is computed from the table of `solve` too. Both must be equal, bit by bit; root mean
+/// squares only except for rounding.
 #[test]
 fn figures_have_the_bits_of_solve() {
     let place = Place::empty();
@@ -223,7 +224,7 @@ fn ten_kills_do_not_change_the_bytes() {
         let mut child = Command::cargo_bin("linkproof").unwrap();
         child.current_dir(place.path("")).args(sweep.split(' ')).args(["-o", "killed", "--jobs", "2"]);
         let mut child = child.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
-        // Killed when one to four further parts of a thousand are stored, at different moments within a part.
+        // Killed when one to four further parts of 600 are stored, at different moments within a part.
         let wanted = parts() + 1 + round % 4;
         while parts() < wanted && child.try_wait().unwrap().is_none() {
             sleep(Duration::from_micros(200));

@@ -21,12 +21,12 @@ const SAMPLE_STEP: f64 = PI / 360.0;
 /// The factor allows for rounding errors of both sums.
 const ROUNDING: f64 = 1.0 + 1e-9;
 
-/// Largest magnitude of a quantity over a range of crank angles, and the crank angle of this magnitude.
+/// Largest magnitude of a quantity over the range, and the input of the drive at this magnitude.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Peak {
     /// Largest magnitude (N; N m for a moment).
     pub value: f64,
-    /// Crank angle of the largest magnitude (rad, as the scenario defines it).
+    /// Crank angle (rad) or slide (m) of the largest magnitude, as the scenario defines it.
     pub crank: f64,
 }
 
@@ -41,7 +41,7 @@ pub struct Peaks {
     pub shaking_force: Peak,
     /// Magnitude of the balancing moment on the crank (N m), or of the driving force of a slide (N).
     pub balancing_moment: Peak,
-    /// Magnitude of the moment or force of every further drive.
+    /// Magnitude of the moment (N m) or force (N) of every further drive.
     pub further_drives: Vec<Peak>,
     /// Magnitude of the force of each transmission along its line of action (N).
     pub transmissions: Vec<Peak>,
@@ -64,7 +64,7 @@ pub struct FrictionLoss {
     pub largest: f64,
     /// Work lost by the friction over the range (J), not negative.
     pub work: f64,
-    /// Largest product of the normal force and the sliding speed of the contact (W).
+    /// Largest product of the normal force and the sliding speed of the contact (W); 0 for a transmission.
     /// Divided by the bearing area, this value is the product of bearing pressure and speed.
     pub pressure_speed: f64,
 }

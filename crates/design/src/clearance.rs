@@ -111,7 +111,7 @@ pub struct ClearanceWork {
 /// Result of a clearance question.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ClearanceResult {
-    /// Range of crank angles (rad), in the direction of motion.
+    /// Range of the [range variable](RangeVariable) (rad, m or s), in the direction of motion.
     pub range: [f64; 2],
     /// Results of all pairs of the question.
     pub pairs: Vec<PairClearance>,
@@ -163,7 +163,7 @@ impl ClearanceResult {
 /// For a free motion with one degree of freedom, the range spans the crank angles at the instants of the grid.
 ///
 /// # Errors
-/// [`ErrorKind::Unsupported`] for a free motion with several degrees of freedom.
+/// [`ErrorKind::Unsupported`] for a cam, and for a free motion with several degrees of freedom.
 /// The errors of [`analytic::PoseSolver::solve`] for crank angles that the mechanism cannot reach.
 pub fn find(case: &Case, question: &ClearanceQuestion, progress: Progress) -> Result<ClearanceResult> {
     let range = range(case)?;
@@ -255,8 +255,8 @@ pub fn poses(case: &Case, cranks: &[f64]) -> Result<Vec<Vec<Motion>>> {
     cranks.iter().map(&mut at).collect()
 }
 
-/// Returns the crank angles at the instants of the grid (rad).
-/// For a motion under forces, the angles come from the solution of the motion.
+/// Returns the [range variable](RangeVariable) at the instants of the grid (rad, m or s).
+/// For a motion under forces, the crank angles come from the solution of the motion.
 fn cranks(case: &Case) -> Result<Vec<f64>> {
     if let Some(cam) = case.mechanism.transmissions().iter().find(|own| own.cam.is_some()) {
         let error = Error::new(ErrorKind::Unsupported, sentences::clearance_knows_no_cams(&cam.name()));
@@ -273,7 +273,7 @@ fn cranks(case: &Case) -> Result<Vec<f64>> {
     Ok(AssurSolver.solve(&case.wanting(Wanted::of(&[Stage::Positions])))?.inputs().to_vec())
 }
 
-/// Returns the first and the last crank angle of the grid, in the direction of motion (rad).
+/// Returns the first and the last value of the [range variable](RangeVariable), in the direction of motion.
 /// If the poses repeat after a turn, the range is limited to one turn.
 fn range(case: &Case) -> Result<[f64; 2]> {
     let [low, mut high] = ends(cranks(case)?);

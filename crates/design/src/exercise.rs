@@ -208,7 +208,7 @@ pub fn positions(scenario: &Scenario, count: usize, transmission: f64) -> Result
 /// The scenario as an exercise with its original numbers, without published numbers and formulas.
 ///
 /// # Errors
-/// The errors of [`with_numbers`] and of reading its result.
+/// The errors of [`check_motion`], of [`with_numbers`] and of reading its result.
 pub fn as_given(scenario: &Scenario, name: &str) -> Result<Scenario> {
     check_motion(scenario)?;
     let text = with_numbers(&scenario.text, name, &[])?;

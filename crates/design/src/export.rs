@@ -1,4 +1,4 @@
-//! Export of a mechanism as a model file for simulation and display in another program.
+//! Export of a mechanism as a model for MuJoCo, and of the profiles of its cams.
 
 pub mod cam;
 pub mod mjcf;

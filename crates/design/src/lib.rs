@@ -1,4 +1,4 @@
-//! Design of a mechanism from results that other crates have proven. This crate is not part of the proof.
+//! Design of a mechanism from the results of the analytic solvers. This crate is not part of the proof.
 //! The crate covers bearings, clearance, diagrams, exercises, export, flywheel, motor choice, plans,
 //! sensitivities and synthesis.
 

@@ -30,7 +30,8 @@ pub use self::tolerance::{APART, KeyTolerance, LinearLimit, ToleranceStack, stac
 /// # Errors
 /// [`ErrorKind::Input`] for an unknown key or quantity, or a figure without a value.
 /// [`ErrorKind::Unsupported`] for a mechanism with friction or transmissions, for a free motion, for a motion through
-/// change points, and for a key whose derivative is not known. The errors of the solver.
+/// change points, and for a key whose derivative is not known. [`ErrorKind::Numeric`] if the two solutions differ.
+/// [`ErrorKind::Geometry`] if the pose at an instant is singular. The errors of the solver.
 pub fn sensitivity(scenario: &Scenario, question: &SensitivityQuestion) -> Result<Sensitivity> {
     sensitivity_by(scenario, &CaseSlopes::of(scenario, &question.asked)?, question)
 }
@@ -118,7 +119,7 @@ fn claim(figure: &TurnFigure, case: &Case) -> Result<Claim> {
     Ok(claim)
 }
 
-/// The rows that determine the figures, in ascending order: all rows if one figure is a mean.
+/// The rows that determine the figures, in ascending order: all rows if one figure is a mean or a root mean square.
 fn rows(sampled: &[(SampledFigure, Vec<f64>)], count: usize) -> Vec<usize> {
     if sampled.iter().any(|(found, _)| found.rows.is_empty()) {
         return (0..count).collect();

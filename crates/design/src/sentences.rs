@@ -156,7 +156,7 @@ linkage::sentences! {
     a_drive_with_the_law(drive) = "a drive with the law \"{drive}\"";
     a_load_of_type(sort) = "a load of type \"{sort}\"";
     a_load_of_type_that_acts(sort) = "a load of type \"{sort}\" that acts in one sense or on one side only";
-    a_load_of_type_with_a_table(sort) = "a load of type \"{sort}\" with a table over the crank angle";
+    a_load_of_type_with_a_table(sort) = "a load of type \"{sort}\" with a table";
     LEAVE_IT_OUT_OF_THE_SCENARIO = "leave it out of the scenario, and add it to the model by hand";
     the_losses_of(name) = "the efficiency of \"{name}\"";
     a_cam(name) = "cam \"{name}\"";

@@ -245,7 +245,7 @@ impl Start<'_> {
     }
 }
 
-/// Whether two poses are equal, except for rounding errors and full turns.
+/// Whether every link has the same direction in two poses, except for rounding errors.
 fn is_same(one: &Pose, other: &Pose) -> bool {
     one.0.iter().zip(&other.0).all(|(a, b)| (unit(a.angle) - unit(b.angle)).norm() <= SAME)
 }

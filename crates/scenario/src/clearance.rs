@@ -66,7 +66,8 @@ const AREA: f64 = 5e-3;
 /// The number of squares grows with the inverse of the tolerance.
 const SMALLEST_AREA: f64 = 1e-5;
 /// Lower limit of a tolerance, divided by the mechanism's size.
-/// `FARTHEST` is the upper limit of an outline's extent, divided by the mechanism's size.
+/// `FARTHEST` is the upper limit of an outline's extent, divided by the sum of the mechanism's size and the largest
+/// distance of a ground point from the origin.
 /// Beyond these two limits the results would be rounding errors.
 const FINEST: f64 = 1e-10;
 const FARTHEST: f64 = 1e6;

@@ -45,7 +45,7 @@ fn fill(table: &mut Table, mut engine: EngineSettings) {
             Slot::Route(route) => route.get().map(|route| value(route.name())),
         };
         if let Some(item) = item {
-            // Quantities in SI.
+            // The first spelling is the key in SI units.
             table.insert(&key.spellings()[0], item);
         }
     }

@@ -1,5 +1,5 @@
 //! Scenario files: reads TOML and returns a [`Case`]. docs/scenario.md describes the format.
-//! Only this module converts units.
+//! Only this crate converts the units of files.
 //! Every error names file, line and key, states what was found, and says how to correct the mistake.
 
 pub mod accepted;
@@ -217,7 +217,7 @@ impl Scenario {
     /// The engine settings are free: the proof finds them. `name` must be usable in file names.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] for a name with characters other than lower-case letters, digits and `_`.
+    /// [`ErrorKind::Input`] for a name that cannot be used in file names.
     pub fn of_case(name: &str, case: Case) -> Result<Scenario> {
         if !is_name(name) {
             let message = sentences::cannot_be_the_name_of_a_scenario(&name);
@@ -247,8 +247,7 @@ impl Scenario {
 
     /// This scenario, restricted to the channels that `words` request. The words have the syntax of `want` in
     /// `[channels]`.
-    /// Figures of the whole mechanism are left out. Published numbers of channels that are not requested are left out
-    /// too.
+    /// Figures of the whole mechanism, and numbers and claims about channels that are not requested, are left out.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for a word that requests nothing.
@@ -378,8 +377,7 @@ fn finished(
     let mut formulas = self::formula::read(source.parameters.list().to_vec(), stated.formulas, &case, &mut faults);
     faults.end()?;
     if !asked.set.is_empty() {
-        // Published numbers are valid for the parameters of the file only. If the parameters are replaced, the numbers
-        // are therefore removed.
+        // Published numbers are valid for the numbers of the file only, so they are removed if a number is replaced.
         oracles.clear();
     }
     if !placed.is_own_branch {

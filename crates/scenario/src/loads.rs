@@ -322,8 +322,8 @@ fn check_crank(row: &TomlTable, points: &[(f64, f64)], turns: Option<u32>, smoot
     if !jumps && before(1).is_some_and(|before| !(last > before)) {
         return Err(row.fault(sentences::THE_CRANK_ANGLES_OF_THE_TABLE).help(sentences::WRITE_THE_POINTS_IN_ASCENDING));
     }
-    // Degrees are rounded when they are converted to radians.
-    // The margin 1e-12 therefore refuses a point at the end of the period even if rounding has moved it below the end.
+    // Degrees are rounded when they are converted to radians, hence the margin 1e-12.
+    // The last point of a spline lies before the end of the period, that of straight lines may lie at the end.
     let Some(turns) = turns else { return Ok(()) };
     let (length, period) = (last - first, TAU * f64::from(turns));
     if length > period * (1.0 - 1e-12) && (smooth || length > period * (1.0 + 1e-12)) {

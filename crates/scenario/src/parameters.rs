@@ -16,10 +16,10 @@ pub struct Parameter {
     unit: Option<&'static NamedUnit>,
 }
 
-/// A conversion of units, which is a factor: the number for 1 is the derivative.
+/// A conversion of units by a factor. The conversion of 1 is this factor, and the derivative.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Conversion {
-    /// `None` for a number that stays.
+    /// Unit of the given number; `None` if the number is not converted.
     from: Option<&'static NamedUnit>,
     /// The wanted unit in SI.
     to: f64,

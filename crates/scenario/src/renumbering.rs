@@ -161,8 +161,8 @@ impl Renumbering {
     }
 
     /// Writes the numbers of links and joints for the varied numbers `values`.
-    /// `false` if a number may not be allowed. Some numbers may already be written then, and the file must be read to
-    /// get the message.
+    /// `false` if a number is not allowed or has no value. Some numbers may already be written then, and the file must
+    /// be read to get the message.
     #[must_use]
     pub fn write(&mut self, values: &[f64], links: &mut [Link], joints: &mut [Joint]) -> bool {
         self.written(values, links, joints).is_some()

@@ -127,7 +127,7 @@ linkage::sentences! {
     CHECK_THE_UNIT_AND_SIZE_OF_THE_GRID = "check the unit and size of the grid, and the law of the drive";
     GIVE_THE_GRID_BY_TIME_FROM_TO_STEP = "give the grid by time (`from_s`, `to_s`, `step_s`, or a list `times_s`)";
     THE_GRID_IS_GIVEN_TWICE = "the grid is given twice";
-    KEEP_ONE_OF_A_RANGE_FROM_TO_STEP = "keep one of: a range (`from`, `to`, `step`), a list of crank angles (`angles`), a list of times (`times`)";
+    KEEP_ONE_OF_A_RANGE_FROM_TO_STEP = "keep one of: a range (`from`, `to`, `step`), a list of crank angles (`angles`), of slides (`slides`) or of times (`times`)";
     A_GRID_GOES_BY_CRANK_ANGLE = "define a grid by crank angle (`from_deg`, `to_deg`, `step_deg`) or by time (`from_s`, `to_s`, `step_s`), or list its values (`angles_deg`, `times_s`)";
     GIVE_EVERY_INSTANT_ONCE_FOR_EXAMPLE = "give every instant once, for example `times_s = [0, 0.1, 0.3]`";
     values_and_of_the_list_are_the_same(pair, pair_2) = "values {pair} and {pair_2} of the list are the same";
@@ -199,7 +199,7 @@ linkage::sentences! {
     found_but_a_table_repeats(other, most_turns) = "found {other}, but a table repeats after 1 to {most_turns} turns of the crank";
     A_TABLE_REPEATS_AFTER_A_TURN = "a table repeats after one turn or after `turns` turns: leave out its last point if it repeats the first";
     the_table_is_longer_than_its_period(u64) = "the table is longer than its period, {u64} deg";
-    WRITE_THE_POINTS_IN_ASCENDING = "write the points in ascending order of the input, each input once";
+    WRITE_THE_POINTS_IN_ASCENDING = "write the points in ascending order of the input; in a table of straight lines, two points with the same input are a jump";
     GIVE_THE_INPUT = "give the crank angle, or the slide of the first drive";
     A_TABLE_OVER_A_SLIDE_IS_NOT_PERIODIC = "a table over a slide has slides in all rows, straight lines and no `turns`";
     GIVE_SLIDES_IN_ALL_ROWS = "give `crank_m` or `crank_mm` in all rows, and leave out `turns` and `interpolation`";
@@ -247,7 +247,7 @@ linkage::sentences! {
     CHECK_THE_UNIT_A_LINK_THAT_IS_SO = "check the unit; if the link really is so large, add a point at the mass centre";
     the_mass_centre_of_link_is_away(link, far, far_2) = "the mass centre of link \"{link}\" is {far} m away from all its points, {far_2} times the largest link";
     CHECK_THE_UNITS_OF_ITS_SPEED = "check the units of the link's speed and length";
-    at_rad_link_of_has_points(speed, link, link_2) = "at {speed} rad/s, link \"{link}\" of {link_2} m has points that are faster than light";
+    at_rad_link_of_has_points(speed, link, link_2) = "at the speed {speed} (rad/s or m/s), link \"{link}\" of {link_2} m has points that are faster than light";
     // motion.rs
     A_TABLE_OF_ANGLES_NEEDS_TWO = "a table needs at least two points with different values";
     WRITE_THE_POINTS_IN_ASCENDING_ORDER = "write the points in ascending order of time, each time once";

@@ -37,7 +37,7 @@ pub struct OracleSeries {
 pub struct OraclePoint {
     /// The instant of the value.
     pub at: When,
-    /// Largest rounding error of the instant (rad or s), if a table prints the instant.
+    /// Largest rounding error of the instant (rad, m or s), if a table prints the instant.
     /// The rounding error is 0 for numbers in the scenario itself.
     pub at_error: f64,
     /// Value in the channel's SI unit.
@@ -201,7 +201,7 @@ impl Rows {
         !self.is_time && self.unit.suffix == "deg"
     }
 
-    /// The instant of a row in a motion with this [`end`], and the largest error of the instant (rad or s).
+    /// The instant of a row in a motion with this [`end`], and the largest error of the instant (rad, m or s).
     /// If a rounded time lies slightly beyond the motion, it is moved to the end of the motion.
     ///
     /// # Errors

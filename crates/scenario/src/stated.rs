@@ -51,7 +51,7 @@ pub struct FileSections<'a> {
     pub source: Option<String>,
     /// Links and joints. After a mistake, links and joints are only suitable for display.
     pub mechanism: Mechanism,
-    /// Drives of the mechanism; `None` after a mistake.
+    /// Drives of the mechanism; `None` after a mistake, and if the file has no drive.
     pub drives: Option<Drives>,
     /// Input of the first drive at t = 0 (rad or m), as the file states it.
     pub crank: f64,

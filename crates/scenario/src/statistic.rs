@@ -92,7 +92,8 @@ pub struct SampledFigure {
     /// The figure, in the unit of its quantity.
     pub value: f64,
     /// The row of the extreme; for a [`Statistic::Range`], the rows of the largest and of the smallest value.
-    /// Empty for a mean, because all instants determine it. Of several equal extremes, the first row counts.
+    /// Empty for a mean and a root mean square, because all instants determine them. Of several equal extremes, the
+    /// first row counts.
     pub rows: Vec<usize>,
 }
 
@@ -199,7 +200,7 @@ impl TurnFigure {
             return fault(message, sentences::NAME_AN_INSTANT_OF_THE_GRID);
         };
         for row in (0..values.len()).step_by(LANES) {
-            // Behind the last value, it is repeated.
+            // The last value fills the remaining lanes.
             tally.add(row, &std::array::from_fn(|lane| values[(row + lane).min(values.len() - 1)]));
         }
         Ok(SampledFigure { value: tally.value(), rows: tally.rows().into_iter().flatten().collect() })

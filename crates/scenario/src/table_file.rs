@@ -17,7 +17,7 @@ use linkage::case::{Case, When};
 use linkage::error::{Advice, Error, ErrorKind, Place, Result};
 use linkage::mechanism::is_unseen;
 
-/// Crank angles (rad), or times (s), that differ by less than this limit belong to the same row.
+/// Inputs (rad or m), or times (s), that differ by at most this limit belong to the same row.
 const SAME: f64 = 1e-9;
 
 /// Memory for a row of a table during reading (bytes): the row's position in the text, and its instant.

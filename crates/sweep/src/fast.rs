@@ -1,5 +1,5 @@
-//! Batches of cases that differ only in points and masses of links, for a crank at constant speed, dyads and figures of
-//! channels.
+//! Batches of cases that differ only in points, masses and moments of inertia of links, for a crank at constant speed,
+//! dyads with three pins without loads, and figures of channels.
 //! The figures equal, bit by bit, those of a case that is read and solved alone. All other cases are solved that way.
 
 use analytic::assur::batch::{CaseBatch, PoseQuantity, PoseTally};
@@ -15,7 +15,7 @@ use crate::figure::{FigureKind, SweepFigure, angle_of_sine, is_plain_dyad};
 
 /// How a figure follows from the quantities of poses, given by their places in the list.
 enum FastFigure {
-    /// A statistic, whose root is taken if `is_root`, then in its unit.
+    /// A statistic, or its square root if `is_root`, divided by `unit`.
     Value { at: usize, is_root: bool, unit: f64 },
     /// The input at an extreme.
     Place(usize),
@@ -126,8 +126,8 @@ impl Figures<'_> {
         let claim = Claim::of_channels(&own.quantity, &self.case.all_channels()).ok()?;
         if let (NodeShape::Name(_), [(_, printed)]) = (&claim.tree.shape, &claim.channels[..]) {
             let (tally, unit) = (self.grid.tally(own.statistic)?, printed.to_si(1.0));
-            // Root and unit of an extreme are taken once. A place needs all values as they are shown, because different
-            // values may be equal when they are shown.
+            // The root and the unit are applied to the extreme alone.
+            // The input at an extreme needs all values with root and unit, which may make different values equal.
             let is_late = !is_place && !matches!(own.statistic, Statistic::Mean | Statistic::Rms);
             let mut quantity = self.quantity(printed)?;
             let is_root = is_late && printed.magnitude;

@@ -25,8 +25,8 @@ linkage::sentences! {
     TAKE_A_LATIN_HYPERCUBE = "take a Latin hypercube, or vary fewer numbers";
     // figure.rs
     A_FIGURE_IS =
-        "a figure is a statistic and a quantity, such as `maxabs:drive.torque_N_m`, or transmission_angle_deg, reach_from, \
-         reach_to, verdict:FORMULA";
+        "a figure is a statistic and a quantity, such as `maxabs:drive.torque_N_m`, the input at an extreme, such as \
+         `at_max:joint.A.f_N`, or transmission_angle_deg, reach_from, reach_to, verdict:FORMULA";
     no_figure(text) = "`{text}` is not a figure";
     no_formula_claims(name) = "the file has no formula `{name}` that claims a channel";
     is_one_number_already(quantity) = "`{quantity}` is one number for the whole motion, so it has no statistic";

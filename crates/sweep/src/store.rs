@@ -162,7 +162,7 @@ impl SweepStore {
         self.directory.join(PARTS).join(format!("{part:09}.parquet"))
     }
 
-    /// Whether a part is stored. After a loss of power, a part may be there without its end; it is then not stored.
+    /// Whether a part is stored. A part whose end is missing after a loss of power counts as not stored.
     #[must_use]
     pub fn has(&self, part: u64) -> bool {
         let ends = |mut file: File| {
@@ -172,7 +172,7 @@ impl SweepStore {
         File::open(self.part(part)).is_ok_and(ends)
     }
 
-    /// Writes the rows of a part. What a killed run has left beside the parts goes with them when they are joined.
+    /// Writes the rows of a part. Unfinished files of a killed run are removed with the parts when they are joined.
     pub(crate) fn write(&self, plan: &SweepPlan, part: u64, rows: &Rows) -> Result<()> {
         let at = self.part(part);
         put::<Failure>(&target(&at), |file| Ok(table::write(plan, rows, file)?)).map_err(|failure| failure.at(&at))

@@ -6,9 +6,10 @@
 //! - the figures, absent in a refused case and if a figure does not exist;
 //! - `state`: `solved` or `refused`;
 //! - `reason` of a refusal;
-//! - `proof`: the verdict of a proven case, or the message of the error that ended the proof.
+//! - `proof`, if the sweep has proofs: the verdict of a proven case, or the message of the error that ended the proof.
 //!
-//! The metadata contain the plan (`linkproof.sweep`) and the unit of each column (`linkproof.units`, JSON).
+//! The metadata of the joined table contain the plan (`linkproof.sweep`), and the units of the varied numbers and
+//! figures (`linkproof.units`, JSON).
 
 use std::fs::File;
 use std::path::Path;

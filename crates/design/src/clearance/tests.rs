@@ -1,4 +1,4 @@
-//! Closed-form checks: a lever over a wall, a plate on a slider, areas of sectors and strips.
+//! Distances, collisions and swept areas of simple mechanisms, against closed forms.
 
 use std::f64::consts::{PI, TAU};
 
@@ -207,7 +207,7 @@ fn the_collision_of_a_long_thin_lever_is_located() {
     assert!(found.open.is_empty() && (meeting.cranks[1] - 1.0).abs() < 1e-9, "{meeting:?}");
 }
 
-/// The proven bound includes the rounding errors of the nearest points and of both tracks.
+/// The proven bound allows for the rounding errors of the nearest points and of the crank's track.
 #[test]
 fn a_proven_distance_allows_for_rounding() {
     let case = slider_crank();
@@ -387,8 +387,6 @@ fn tubes_contain_the_motion() {
                 }
             }
         }
-        // The largest error is hardly larger than its second-order term: h^2 / 2 times accelerations of up to 0.5
-        // m/rad2.
         assert!(widest < 0.005, "{widest}");
     }
 }

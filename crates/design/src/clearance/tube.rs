@@ -11,7 +11,7 @@
 //! Let F' be the derivative of F, and A an approximate inverse of F' at the middle.
 //! Then T(x) = x - A F(x) maps the box |x - x0| <= r into itself and contracts if
 //!
-//!   |A| |F(x0)| + (|1 - A F'(middle)| + |A| |F' - F'(middle)|) r <= r.
+//!   |A| |F(x0)| + (|1 - A F'(middle)| + |A| |F' - F'(middle)|) r < r.
 //!
 //! The box then contains exactly one pose for every crank angle, and this pose continues the pose at the middle.
 //! The branch is thus proven without sampling.
@@ -159,7 +159,8 @@ pub struct Tubes<'a> {
     /// Both ends of the range (rad), in the direction of motion.
     pub range: [f64; 2],
     first: u64,
-    /// Size of the mechanism including its distance from the world origin (m).
+    /// Largest length in the positions (m): the mechanism's size, plus the largest distance of a ground point from the
+    /// origin, plus `extent`.
     pub scale: f64,
     kept: BTreeMap<RangePart, Rc<Slice>>,
     /// Number of poses computed by the analytic solver (side 1).
@@ -257,7 +258,8 @@ impl<'a> Tubes<'a> {
             *tube = Tube { centre, at, rate, direction, spin, off: rounding, twist: ROUNDING, half };
         }
         for (drive, [_, bend]) in case.drives.iter().zip(&courses) {
-            // A crank turns about its pivot on the ground. A link on a driven guide of the ground moves along the guide.
+            // A crank turns about its pivot on the ground.
+            // A link on a driven guide of the ground moves along the guide.
             let pivot = case.mechanism.joints()[drive.joint].on(drive.link).unwrap_or_else(Vec2::zeros);
             let (tube, motion) = (&mut tubes[drive.link], &state.motions[drive.link]);
             if drive.input == Input::Angle {

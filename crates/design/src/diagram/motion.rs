@@ -1,6 +1,5 @@
 //! Motion diagrams over one turn of the crank, or over the stroke of a slide.
 //! The diagrams show displacement, velocity and acceleration: exact, and by graphical methods.
-//!
 
 use super::method::{Method, apply};
 use crate::sentences;

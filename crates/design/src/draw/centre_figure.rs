@@ -134,8 +134,8 @@ impl Paper {
         self.clipped([*first, last])
     }
 
-    /// An arrow towards a centre outside the window. The arrow starts at the centre's guide, at an end of `line`, or
-    /// near the middle of the window.
+    /// An arrow towards a centre outside the window. The arrow starts at the centre's guide or at an end of `line`;
+    /// without both, at the edge (a centre at infinity) or in the middle of the window.
     fn toward(&self, centre: &InstantCentre, line: Option<[Vec2; 2]>) -> Option<[Vec2; 2]> {
         let middle = (self.window[0] + self.window[1]) / 2.0;
         let (start, direction) = match (centre.place, &centre.origin) {

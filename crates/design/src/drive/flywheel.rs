@@ -27,12 +27,12 @@ const CLOSE: f64 = 1e-12;
 
 impl Flywheel {
     /// The flywheel with which the steady motion has the coefficient of non-uniformity `wanted`.
-    /// If the coefficient is already below `wanted` without a flywheel, the flywheel has no inertia.
+    /// If the coefficient is at most `wanted` without a flywheel, the inertia is 0.
     /// Regula falsi (Illinois) finds the inertia. Each step solves for the exact steady motion.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for a coefficient that is not positive.
-    /// [`ErrorKind::Numeric`] for a coefficient that no flywheel reaches.
+    /// [`ErrorKind::Numeric`] for a coefficient that no flywheel reaches, or if the search does not converge.
     /// The errors of [`ReducedModel::regime`].
     pub fn of(model: &ReducedModel, wanted: f64, accuracy: f64) -> Result<Self> {
         if !(wanted > 0.0 && wanted.is_finite()) {

@@ -27,8 +27,8 @@ fn profiles(case: &Case) -> Result<Vec<(&str, Vec<Vec2>)>> {
     Ok(found)
 }
 
-/// The profiles of all cams as a table with its header: the cam, its angle at the contact (deg), the point in the frame
-/// of the cam (m).
+/// The profiles of all cams as a table with its header: the cam, the cam's coordinate at the contact (deg), the point
+/// of contact in the frame of the cam (m).
 ///
 /// # Errors
 /// [`ErrorKind::Input`] if the mechanism has no cam.

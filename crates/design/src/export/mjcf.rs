@@ -12,7 +12,7 @@
 //! - A transmission is a fixed tendon of constant length; the length is a sum of joint coordinates times factors.
 //!   The tendon's force acts as moments.
 //!   Reactions of axles therefore lack the radial part of tooth forces and the tension of strands.
-//! - A drive is a rotor ([`MjcfModel::rotor`]) on the driven hinge.
+//! - A prescribed drive is a rotor ([`MjcfModel::rotor`]) on the driven joint; for a slide, a mass of the same number.
 //!   The rotor's inertia is so large that its speed is practically constant: the speed changes by 1e-9 of its value per
 //!   radian.
 //!   The speed is constant with any integrator and at any step.
@@ -57,8 +57,8 @@ use linkage::solver::Solver;
 ///
 /// # Errors
 /// [`ErrorKind::Input`](linkage::ErrorKind::Input) for a step that is not positive and finite.
-/// [`ErrorKind::Unsupported`](linkage::ErrorKind::Unsupported) for names that MuJoCo does not accept, and for loads and
-/// drives that MJCF cannot express.
+/// [`ErrorKind::Unsupported`](linkage::ErrorKind::Unsupported) for names that MuJoCo does not accept, and for loads,
+/// drives and transmissions that MJCF cannot express.
 /// The errors of the solver.
 pub fn mjcf(case: &Case, solver: &dyn Solver, name: &str, step: f64) -> Result<String> {
     let start = first_state(case, solver)?;

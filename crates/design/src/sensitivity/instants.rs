@@ -65,8 +65,8 @@ fn poses(case: &Case, rows: &[usize]) -> Result<Vec<(Vec<Motion>, Vec<f64>)>> {
 /// The quantities of the claims with their derivatives by the keys, at the rows.
 ///
 /// # Errors
-/// [`ErrorKind::Unsupported`] for a case that [`CaseNumbers::lifted`] refuses.
-/// [`ErrorKind::Geometry`] for a singular pose.
+/// [`ErrorKind::Unsupported`] for a case that [`CaseNumbers::lifted`] refuses, and for a law by table if the instants
+/// keep their inputs. [`ErrorKind::Geometry`] for a singular pose, and if the input stands still.
 pub(super) fn derived(
     case: &Case,
     slopes: &CaseSlopes,

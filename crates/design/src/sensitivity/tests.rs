@@ -33,7 +33,8 @@ fn precise_figures(scenario: &Scenario, found: &Sensitivity, key: &CaseKey, valu
     found.figures.iter().map(one).collect()
 }
 
-/// A small change of a key: a fraction of the smallest number of its unit that is not zero.
+/// A small change of a key: 0.4 % of the key's size; for dimensions and parameters, of the smallest nonzero number of
+/// the same unit.
 fn small_change(key: &CaseKey, all: &[CaseKey]) -> f64 {
     let alike = all.iter().filter(|own| own.unit == key.unit && own.value != 0.0).map(|own| own.value.abs());
     match key.sort {

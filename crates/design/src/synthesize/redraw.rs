@@ -35,7 +35,7 @@ const OWN: [&str; 3] = ["oracle", "formula", "source"];
 /// The new text has the task's name, and `comment` at the top.
 /// Sections that are valid only for the original dimensions are left out, and the comment names them.
 /// Approximate positions at the start are replaced by the positions of the mechanism found.
-/// If the task states the mass of bars, every link gets the masses of slender bars.
+/// If the task states the mass of bars, every moving link with several points gets the masses of slender bars.
 /// These bars join the link's first point to each of its other points.
 ///
 /// # Errors

@@ -39,6 +39,8 @@ pub struct OutputNames {
 /// - the point with the name that the task uses, if the output link has the name that the task uses;
 /// - the point of the output link without a joint, if there is just one such point.
 ///
+/// If the output is a coordinate, the output point is found by the rules of the working point, on all moving links.
+///
 /// # Errors
 /// [`ErrorKind::Input`] if these rules leave the output undecided.
 /// [`ErrorKind::Unsupported`] for several drives, and for a drive that does not turn a crank.

@@ -159,7 +159,8 @@ impl Task {
     /// # Errors
     /// [`ErrorKind::Unsupported`] for mechanisms with several degrees of freedom.
     /// [`ErrorKind::Unsupported`] if a transmission angle is limited and the mechanism has higher groups.
-    /// [`ErrorKind::Input`] if no dimension may vary, or if a count of the search is outside its limits.
+    /// [`ErrorKind::Input`] if no dimension may vary, if an acceleration is limited but the output has no point, or if
+    /// a count of the search is outside its limits.
     pub fn check(&self) -> Result<()> {
         let wrong = |kind: ErrorKind, key: &str, message: &'static str, help: &'static str| {
             Err(Error::new(kind, message).key(key).help(help))

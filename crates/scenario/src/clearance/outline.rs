@@ -74,7 +74,7 @@ impl Outline {
     /// The outline of a bar is one capsule. The outline of a single point is a disc.
     ///
     /// # Errors
-    /// [`Flaw::Few`] without a point, [`Flaw::NoNumber`].
+    /// [`Flaw::Few`] without a point, [`Flaw::Many`], [`Flaw::NoNumber`].
     pub fn of_points(places: &[Vec2], radius: f64) -> Result<Outline, Flaw> {
         check(places, radius, 1)?;
         let extent = extent(places);

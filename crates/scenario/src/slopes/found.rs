@@ -20,7 +20,7 @@ linkage::words! {
         Law = "law",
         /// A number of a load.
         Load = "load",
-        /// A component of gravity, the start of a motion, or the zero of an input.
+        /// A component of gravity, the start of a motion, the zero of an input, or the input of a row of a load.
         Other = "other",
     }
 }

@@ -64,7 +64,7 @@ fn tube(random: &mut Random, half: f64) -> Tube {
     }
 }
 
-/// Random joint of two links, with the tubes of both links. The joint nearly closes at the middle.
+/// Random joint of two links, with the tubes of both links. A prismatic joint nearly closes at the middle.
 /// The sample also states which of the two links belong to the group.
 struct Sample {
     joint: Joint,

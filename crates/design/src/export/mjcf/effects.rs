@@ -32,7 +32,7 @@ pub(super) fn sites(xml: &mut Xml, forces: &Forces, link: LinkId) {
     }
 }
 
-/// Writes the tendons. Fixed tendons are sums of angles on which frictions and actuators act.
+/// Writes the tendons. Fixed tendons are sums of joint coordinates, for frictions, actuators and transmissions.
 /// Spatial tendons are springs and dampers between points.
 pub(super) fn tendons<'a>(xml: &mut Xml, model: &MjcfModel, forces: &'a Forces) {
     let long: Vec<_> = model.frictions.iter().filter(|friction| !friction.own_hinge).collect();

@@ -28,7 +28,7 @@ pub(super) enum Target {
     },
 }
 
-/// A force or moment `constant + stiffness * length + damping * rate`, limited to a range.
+/// A force or moment `bias[0] + bias[1] * length + bias[2] * rate` (SI), limited to `range`.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Actuator {
     pub name: String,

@@ -12,7 +12,7 @@ fn refused(what: String, help: &'static str) -> Error {
 /// Checks that a load can be written.
 ///
 /// # Errors
-/// [`ErrorKind::Unsupported`] with the name of a load that MJCF cannot express.
+/// [`ErrorKind::Unsupported`] with the type of a load that MJCF cannot express.
 pub(super) fn check(load: &Load) -> Result<()> {
     const ALONE: &str = sentences::LEAVE_IT_OUT_OF_THE_SCENARIO;
     let sort = load.sort();

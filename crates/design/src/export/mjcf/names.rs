@@ -9,7 +9,7 @@ use linkage::mechanism::{Joint, LinkId, Mechanism, Transmission};
 /// Name that MuJoCo gives to the ground.
 const WORLD: &str = "world";
 
-/// Site at the joint's point on `link`.
+/// Name of the site at the joint's point on `link`.
 pub(super) fn side(joint: &Joint, link: LinkId) -> String {
     format!("{}.{}", joint.name, if joint.first.link == link { "first" } else { "second" })
 }

@@ -47,7 +47,8 @@ impl AssurLead {
 }
 
 /// Construction of the singular point's acceleration from the accelerations of the leads' second ends.
-/// A line across each lead goes through the end of the lead's normal parts. The two lines meet in the acceleration.
+/// A line across each lead goes through the end of the lead's normal parts. The two lines meet at the end of the
+/// point's acceleration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AssurTrial {
     /// Accelerations of the second ends of both leads (m/s^2).
@@ -125,7 +126,7 @@ pub(super) fn meeting(leads: [&AssurLead; 2]) -> Vec2 {
     first.ends[0] + first.along * (cross(second.ends[0] - first.ends[0], second.along) / slant)
 }
 
-/// Construction of an acceleration: lines across the leads through `feet` meet in the acceleration.
+/// Construction of an acceleration: lines across the leads through `feet` meet at the end of the acceleration.
 pub(super) fn trial(leads: [&AssurLead; 2], far: [Vec2; 2], feet: [Vec2; 2]) -> AssurTrial {
     let parts = [0, 1].map(|side| feet[side].dot(&leads[side].along));
     AssurTrial { far, feet, at: oblique(leads, parts) }

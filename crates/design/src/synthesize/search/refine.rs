@@ -171,7 +171,7 @@ pub(super) fn of_share(share: f64, variable: &Variable) -> f64 {
 }
 
 /// The variable that is the crank's zero.
-/// `None` if the bounds of this variable do not span a full turn, or if the mechanism has a higher group.
+/// `None` if the zero is fixed, if its bounds do not span a full turn, or if the mechanism has a higher group.
 /// This variable is periodic, because it only shifts the motion along the crank angle.
 pub(super) fn free_zero(task: &Task) -> Option<usize> {
     let TaskNumber::Free(index) = task.zero else { return None };
