@@ -27,7 +27,7 @@ use scenario::Scenario;
 const REVOLUTE: [&str; 5] = ["crank_rocker", "ov7_base", "ov7_new", "ov7_new_tabulated", "fourth_class"];
 const SLIDERS: [&str; 5] = ["compressor", "six_bar_slider", "quick_return", "scotch_yoke", "tangent"];
 
-/// All scenarios, each with crank angles that it can reach.
+/// All scenarios of the two lists, each with crank angles that it can reach.
 fn all() -> impl Iterator<Item = (&'static str, f64)> {
     let names = REVOLUTE.into_iter().chain(SLIDERS);
     names.flat_map(|name| angles().map(move |degrees| (name, degrees_of(name, degrees))))

@@ -1,4 +1,4 @@
-//! Prismatic joints on the analytic side: against closed forms, differences, and the laws of momentum and power.
+//! Prismatic joints on the analytic sides: against closed forms, differences, and the laws of momentum and power.
 
 use crate::common::sliders::{self, SPEED, Sample};
 use crate::common::{assert_within, centre, centre_acceleration, states};

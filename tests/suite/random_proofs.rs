@@ -122,7 +122,8 @@ const WORK: f64 = 2e4;
 /// Tests every family of higher groups.
 /// The surroundings of the group change from family to family; with more draws, each family is tested in all
 /// surroundings.
-/// Three of the tested mechanisms disagreed falsely in velocities before the bound included the error of the sweeps.
+/// Symptom: three of the tested mechanisms disagreed falsely in velocities. Cause: the bound did not include the error
+/// of the sweeps.
 #[test]
 fn regress_random_higher_groups_never_disagree() {
     let mut counts = BTreeMap::new();
@@ -158,7 +159,7 @@ fn regress_random_higher_groups_never_disagree() {
 
 /// Symptom: reactions disagree by 80 % at an instant a ten-thousandth of a degree before the rocker reverses. Cause:
 /// the moment of resistance jumps when the rocker reverses, and the engine's rocker reverses slightly too early. The
-/// verdict must be inconclusive.
+/// verdict must not be `disagree`.
 #[test]
 fn regress_a_load_jump_within_the_engine_error_never_disagrees() {
     let text = include_str!("../../scenarios/crank_rocker.toml");

@@ -108,7 +108,8 @@ const REFERENCE: &str = "reference";
 /// Compares two parties channel by channel, within the known errors of both plus the allowed tolerance.
 ///
 /// # Errors
-/// [`ErrorKind::Input`] if the parties have no instant or no channel in common.
+/// [`ErrorKind::Input`] if the parties have no instant or no channel in common, or if `how` names a side or channel
+/// that does not exist.
 /// The errors of the analytic sides.
 pub fn compare(parties: [ComparedParty; 2], how: &ComparisonRule) -> Result<PartyComparison> {
     let names = parties.each_ref().map(|party| party.name.clone());

@@ -165,7 +165,8 @@ pub fn prove_against(scenario: &Scenario, engine_case: &Case, options: &Options)
     joined(scenario, engine_case, options, &mut |_| {}).map_err(|error| explained(&scenario.case, error))
 }
 
-/// Solves a case with side 1: all its requested channels on its grid, accurate to rounding.
+/// Solves a case with side 1: all its requested channels on its grid, accurate to rounding; a free motion,
+/// to its integration error.
 ///
 /// ```
 /// use linkproof::{Scenario, solve};

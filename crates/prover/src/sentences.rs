@@ -66,8 +66,8 @@ linkage::sentences! {
     AS_RPM_FOR_RAD = "as rpm for rad/s";
     MULTIPLIED_BY_THE_REDUCER_RATIO = "multiplied by the reducer's ratio once more";
     DIVIDED_BY_THE_REDUCER_RATIO = "divided by the reducer's ratio once more";
-    AS_KG_FOR_OR_MM_FOR = "as kg for g, or mm for m";
-    AS_FOR_KG_OR_FOR_MM = "as g for kg, or m for mm";
+    AS_KG_FOR_OR_MM_FOR = "as kg for g, or m for mm";
+    AS_FOR_KG_OR_FOR_MM = "as g for kg, or mm for m";
     // diagnosis/late.rs
     MINUTES_TAKEN_FOR_SECONDS = "minutes taken for seconds";
     SECONDS_TAKEN_FOR_MINUTES = "seconds taken for minutes";

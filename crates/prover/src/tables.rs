@@ -20,8 +20,9 @@ use linkage::error::{Error, ErrorKind, Result};
 /// Reads a file. The first bytes identify Parquet; any other file is text with separated columns.
 ///
 /// # Errors
-/// [`ErrorKind::Io`] if the file cannot be read.
+/// [`ErrorKind::Io`] if the file cannot be read, or if a Parquet file is damaged.
 /// [`ErrorKind::Input`], with the location, if it is not a table of numbers.
+/// [`ErrorKind::Unsupported`] for a Parquet file, in a build without the feature `parquet`.
 pub fn load(path: impl AsRef<Path>) -> Result<Raw> {
     load_within(path.as_ref(), &|_, _| Ok(()))
 }

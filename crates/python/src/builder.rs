@@ -110,7 +110,8 @@ impl Builder {
         slf
     }
 
-    /// Drive a joint at constant speed (rad/s, counter-clockwise positive). The first driven joint is the crank.
+    /// Drive a joint at constant speed (rad/s, counter-clockwise positive; m/s for a prismatic joint).
+    /// The first driven joint is the crank.
     #[pyo3(signature = (joint, speed, /))]
     fn crank<'py>(mut slf: PyRefMut<'py, Self>, joint: &str, speed: f64) -> PyRefMut<'py, Self> {
         slf.changed(|inner| inner.crank(joint, speed));

@@ -86,13 +86,13 @@ fn word(judged: &JudgedFormula) -> &'static str {
 
 #[pymethods]
 impl FormulaCheck {
-    /// The verdict: `agree`, `disagree`, `expected` or `inconclusive`.
+    /// The verdict: `agree`, `disagree` or `inconclusive`.
     #[getter]
     fn verdict(&self) -> &'static str {
         self.inner.verdict.word()
     }
 
-    /// Smallest ratio of a bound to its difference; `None` unless everything agrees.
+    /// Smallest ratio of a bound to its difference; `None` unless the verdict is `agree`.
     #[getter]
     fn margin(&self) -> Option<f64> {
         margin(&self.inner.verdict)

@@ -156,7 +156,7 @@ impl Comparison {
         self.verdict.word()
     }
 
-    /// Smallest ratio of a bound to its difference; `None` unless everything agrees.
+    /// Smallest ratio of a bound to its difference; `None` unless the verdict is `agree`.
     #[getter]
     fn margin(&self) -> Option<f64> {
         margin(&self.verdict)

@@ -129,13 +129,13 @@ impl Proof {
         &self.inner.scenario
     }
 
-    /// The verdict: `agree`, `disagree`, `expected` or `inconclusive`.
+    /// The verdict: `agree`, `disagree` or `inconclusive`.
     #[getter]
     fn verdict(&self) -> &'static str {
         self.inner.verdict.word()
     }
 
-    /// Whether the verdict is `agree`, or `expected`: only known findings disagree.
+    /// Whether the verdict is `agree`. Known findings do not count against it.
     #[getter]
     fn is_proven(&self) -> bool {
         match self.inner.verdict {
@@ -144,7 +144,7 @@ impl Proof {
         }
     }
 
-    /// Smallest ratio of a bound to its residual, without a unit; `None` unless everything agrees.
+    /// Smallest ratio of a bound to its residual, without a unit; `None` unless the verdict is `agree`.
     #[getter]
     fn margin(&self) -> Option<f64> {
         margin(&self.inner.verdict)
@@ -210,7 +210,7 @@ impl Proof {
         Solution::of(py, self.inner.reference_trajectory.clone())
     }
 
-    /// The motion computed by an engine, by default the first; `None` if the engine failed at its start.
+    /// The motion computed by an engine, by default the first; `None` if the engine gave no motion.
     #[pyo3(signature = (engine=None, /))]
     fn solution(&self, py: Python<'_>, engine: Option<&str>) -> PyResult<Option<Py<Solution>>> {
         self.engine(py, engine)?.trajectory.clone().map(|own| Solution::of(py, own)).transpose()

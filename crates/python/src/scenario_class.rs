@@ -60,7 +60,7 @@ impl Scenario {
         Ok(Scenario { inner: Arc::new(changes.applied(scenario)?), built: None, changes })
     }
 
-    /// The start that is asked for, for work that reads the text of the file again.
+    /// The requested start, for work that reads the text of the file again.
     ///
     /// # Errors
     /// [`ErrorKind::Input`](linkproof::parts::ErrorKind::Input) for a mechanism that was built in code.

@@ -90,10 +90,10 @@ impl Sensitivity {
     ///
     /// `worst`: sum of the sizes of derivative times tolerance. `root_sum_square`: root of the sum of their squares.
     /// `linear_deviation`, `sampled_deviation`: standard deviation by the derivatives, and of the sample.
-    /// `sampled_shift`,
-    /// `sampled_least`, `sampled_most`: mean, smallest and largest value of the sample minus the nominal value.
-    /// `unsolved`: number of samples without a solution. `multiple`: multiple of all tolerances; `linear` says that
-    /// linear theory differs "from" it on, holds "until_unsolved", or holds "beyond" it.
+    /// `sampled_shift`, `sampled_least`, `sampled_most`: mean, smallest and largest value of the sample minus the
+    /// nominal value. `unsolved`: number of samples without a solution. `multiple`: multiple of all tolerances.
+    /// `linear`: linear theory does not hold from this multiple on ("from"); holds below it, where a mechanism cannot
+    /// be solved ("until_unsolved"); or holds up to it, the largest multiple tried ("beyond").
     #[getter]
     fn stacks(&self) -> Table {
         let all = || self.found.figures.iter().zip(&self.stacks);
@@ -145,7 +145,7 @@ impl Scenario {
     /// by: keys, such as "crank_mm" or "links.crank.mass_kg". By default the parameters that the mechanism uses, or
     /// else its dimensions, masses, laws and loads.
     /// tolerances: a dictionary from keys to the largest deviation in either sense, in the unit of the key.
-    /// samples: number of random mechanisms within the tolerances, from 10 to 100000. seed: seed of these.
+    /// samples: number of random mechanisms within the tolerances, from 10 to 100000. seed: seed of the samples.
     #[pyo3(signature = (figures, by=None, *, tolerances=None, samples=300, seed=1))]
     fn sensitivity(
         &self,

@@ -52,7 +52,7 @@ linkage::sentences! {
     // sweep.rs
     VARY_A_KEY_BY = "write vary={\"crank_mm\": \"20:60:41\"} for a grid, \"20:60\", \"normal(40, 0.02)\" or \"normal(40, 0.02, 39.9, 40.1)\" for samples, or a tuple such as (20, 60, 41) or (20, 60); a key is a parameter, or the path of a number, such as \"links.crank.mass_kg\"";
     these_are_no_values(key) = "the values of `{key}` are neither a text nor a tuple of two or three numbers";
-    SAMPLES_ARE_TAKEN_IN_ONE_WAY = "samples are taken in one way";
+    SAMPLES_ARE_TAKEN_IN_ONE_WAY = "found several kinds of samples";
     GIVE_ONE_OF_RANDOM_LATIN_SOBOL = "give one of `random`, `latin` and `sobol`, or none of them for a grid";
     a_sweep_takes_its_start_from_the_file(name) = "a sweep of \"{name}\" takes start and instants from the file";
     WRITE_THEM_IN_THE_FILE = "write `[start]` and `[grid]` in the text of the scenario, or vary a number of them, such as \"grid.step_deg\"";
@@ -62,7 +62,7 @@ linkage::sentences! {
     GIVE_A_WHOLE_NUMBER_ABOVE_0 = "give a whole number above 0";
     NO_DIRECTORY_IS_NAMED = "no directory is named";
     NAME_THE_DIRECTORIES_OF_SHARDS = "name the directories that the shards have written";
-    A_SHARE_NEEDS_A_DIRECTORY = "a share of the cases is stored for others to join";
+    A_SHARE_NEEDS_A_DIRECTORY = "a share of the cases or a plan needs a directory";
     NAME_A_DIRECTORY_WITH_OUT = "name a directory with `out`";
     the_proof_of_a_case_disagrees(case) = "the proof of case {case} disagrees, which has stopped the sweep";
     prove_the_case(setting) = "read the report: `scenario.set({setting}).prove().report()`";
@@ -74,11 +74,11 @@ linkage::sentences! {
     solve_the_other_cases(directory) = "solve the other shards, then call `linkproof.resume(\"{directory}\")`";
     there_is_no_case(case) = "there is no case {case}";
     cases_are_counted_from_0(cases) = "cases are counted from 0; the sweep has {cases}";
-    there_is_no_figure(figure) = "found the figure \"{figure}\"";
+    there_is_no_figure(figure) = "the sweep has no figure \"{figure}\"";
     // sensitivity.rs
     the_tolerance_is_not_above_zero(key, limit) = "the tolerance of `{key}` is {limit}";
     GIVE_A_NUMBER_ABOVE_ZERO = "give the largest deviation in either sense, above 0, in the unit of the key";
     A_SAMPLE_IS_TOO_SMALL_OR_LARGE = "a sample has from 10 to 100000 mechanisms";
-    GIVE_MORE_OR_FEWER_SAMPLES = "give a number in between";
+    GIVE_MORE_OR_FEWER_SAMPLES = "give a number from 10 to 100000";
     a_sensitivity_of(name, figures, keys) = "<linkproof.Sensitivity of {name}: {figures} figures by {keys} keys>";
 }

@@ -67,7 +67,7 @@ impl Solution {
 
 #[pymethods]
 impl Scenario {
-    /// Solve the scenario analytically, accurate to rounding.
+    /// Solve the scenario analytically, accurate to rounding; a free motion, to its integration error.
     ///
     /// Returns a `Solution`: an array of the shape (rows,) for every name, in the unit with which the name ends.
     /// The numbers equal those of `linkproof solve`, bit by bit. Other Python threads can run meanwhile.

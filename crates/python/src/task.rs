@@ -36,7 +36,7 @@ pub(crate) fn released<T: Send + 'static>(
 
 /// Does the same as [`released`], with reports on the way: `hear` receives them on the calling thread, with Python's
 /// lock.
-/// `work` gets a break from its report once nobody waits for it any more, because of Ctrl-C or an exception of `hear`.
+/// After Ctrl-C or an exception of `hear`, the report function of `work` returns a break.
 ///
 /// # Errors
 /// The errors of [`released`] and of `hear`.

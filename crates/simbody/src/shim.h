@@ -40,7 +40,7 @@ typedef struct linkproof_loop {
     double on_second[2];
 } linkproof_loop;
 
-/* State of a body, in world axes. Force and moment are zero if reactions were not requested. */
+/* State of a body, in world axes. Force, moment and drive are zero if reactions were not requested. */
 typedef struct linkproof_body_state {
     double coordinate;
     double rate;         /* Of the coordinate. */

@@ -18,7 +18,7 @@ use scenario::Scenario;
 use super::{plans, scenario};
 use crate::common::assert_within;
 
-/// The states of a case at the start and at a later instant.
+/// The states of a case at the start and at two later crank angles, if they can be reached.
 fn states(case: &Case) -> Vec<State> {
     let start = case.crank().start;
     let later = [0.15, 0.4].map(|share| start + case.crank().sense() * share);

@@ -124,8 +124,8 @@ fn chord_errors_of_a_piston_match_the_closed_form() {
             .iter()
             .map(|found| {
                 for (k, value) in found.values.iter().enumerate() {
-                    // The bound is at most the rounding error of displacements (1e-16 of 0.3 m), divided by the square
-                    // of the step.
+                    // The bound exceeds the rounding error of displacements (1e-16 of 0.3 m) divided by the square of
+                    // the step.
                     let bound = 1e-12 * scale(found.method.gives());
                     assert_within!((value - by_hand(found.method, k)).abs(), bound, "{:?} {k}", found.method);
                 }

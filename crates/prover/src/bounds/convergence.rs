@@ -125,7 +125,7 @@ impl Convergence {
     }
 
     /// Limit of the runs, extrapolated from the middle and the finest run: y(h/2) + (y(h/2) - y(h)) / (2^p - 1).
-    /// p is the formal order. `None` if the observed order is too far from the formal order.
+    /// p is the formal order. `None` if the observed order is NaN or too far from the formal order.
     #[must_use]
     pub fn limit(&self, single: &[f64], half: &[f64], periodic: bool) -> Option<Vec<f64>> {
         if !((self.observed - self.formal).abs() <= BEARS_OUT * self.formal) {
@@ -162,6 +162,7 @@ impl Convergence {
 
 /// Order of convergence observed between two runs at steps h and h/2.
 /// A reference gives the true errors of both runs. The order is log2 of the ratio of their root mean square errors.
+/// `None` if a trajectory lacks the channel.
 ///
 /// # Errors
 /// If the grids differ.

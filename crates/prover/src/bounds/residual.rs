@@ -79,7 +79,7 @@ pub fn scales(trajectory: &Trajectory) -> Vec<f64> {
 /// The scale of such a channel is a tenth of the natural size of its quantity.
 /// This scale corresponds to the scale of a constant channel: a tenth of the channel's value.
 ///
-/// If the whole trajectory consists of rounding errors, the natural sizes are those in `built`.
+/// If a natural size is only the rounding error of the size in `built`, the size in `built` replaces it.
 /// Examples are a balanced rotor without gravity and a mechanism in equilibrium.
 #[must_use]
 pub(crate) fn scales_beyond(errors: &[f64], trajectory: &Trajectory, built: &Built) -> Vec<f64> {

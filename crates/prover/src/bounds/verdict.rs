@@ -122,8 +122,8 @@ impl Verdict {
 
     /// Verdict on a number whose bound comes from an engine's own runs. The bound is the sum of `parts`; `scale` is the
     /// channel's scale.
-    /// The verdict is inconclusive if the runs do not confirm the bound, or if the bound exceeds the fraction `wanted`
-    /// of the scale.
+    /// The verdict is inconclusive in three cases: the runs do not confirm the bound; the bound exceeds the fraction
+    /// `wanted` of the scale, and `value` is at most three times the bound; the scale is zero, and `value` is not.
     pub fn of_estimate(
         value: f64,
         scale: f64,
@@ -211,8 +211,7 @@ impl Check {
     }
 
     /// A check of a relative number whose bound comes from an engine's own runs.
-    /// As for channels, the check is inconclusive if the runs do not confirm the bound or if the bound exceeds the
-    /// fraction `wanted`.
+    /// The check is inconclusive in the cases of [`Verdict::of_estimate`], with the scale 1.
     pub fn estimated(
         family: impl Into<String>,
         value: f64,

@@ -24,7 +24,7 @@ pub enum FormulaCause {
     Slip(FormulaSlip),
     /// Constant error, in the unit of the claim; positive if the formula's value is too large.
     Offset(f64),
-    /// Constant factor by which the formula is too large.
+    /// Constant ratio of the formula's value to the mechanism's value.
     Factor(f64),
     /// A term or factor of the derivation is missing.
     Missing(Missing),
@@ -159,7 +159,8 @@ const TOLD: usize = 3;
 const NEAR: f64 = 0.02;
 
 /// Finds why the formula called `name` is wrong on a trajectory. The search uses at most `limit` operations.
-/// Returns no cause if the formula claims nothing or if nothing simple explains the error.
+/// Returns no cause if no formula called `name` makes a claim, if `limit` is 0, or if nothing simple explains the
+/// error.
 ///
 /// # Errors
 /// If the trajectory lacks a channel of the claim.

@@ -20,7 +20,7 @@ pub struct KnownTrajectory<'a> {
     crank_name: &'a str,
     /// Columns whose signed sums are the rate and the acceleration of the input. `None` if a column is missing.
     crank: [Option<InputColumns>; 2],
-    /// Columns of the input of a motion under forces. `None` if a column is missing.
+    /// Columns of the input of a motion under forces. `None` in a prescribed motion, and if a column is missing.
     /// The error of the input is its integration error.
     angle: Option<InputColumns>,
     /// Values of the whole mechanism, in SI units.
@@ -35,7 +35,7 @@ pub(super) struct Column<'a> {
     error: Box<dyn Fn(usize) -> f64 + 'a>,
     /// The other component of the vector, if the claim is a magnitude.
     across: Option<Box<Column<'a>>>,
-    /// SI unit divided by the claim's unit.
+    /// The claim's unit in SI units.
     factor: f64,
 }
 
@@ -154,7 +154,8 @@ impl<'a> KnownTrajectory<'a> {
         })
     }
 
-    /// Input values of the formulas at an instant.
+    /// Input values of the formulas at an instant: the input itself (crank angle or slide), the time, and the
+    /// input's rate and acceleration.
     pub(super) fn inputs(&self, row: usize) -> [Rounded; 4] {
         let of = |columns: &Option<InputColumns>| {
             let mut sum = Rounded::exact(0.0);
@@ -169,7 +170,7 @@ impl<'a> KnownTrajectory<'a> {
         [self.crank(row), Rounded::nearly(self.trajectory.times()[row]), omega, alpha]
     }
 
-    /// Crank angle at an instant (rad, in the scenario's convention).
+    /// Value of the input at an instant (rad or m, in the scenario's convention).
     pub fn crank(&self, row: usize) -> Rounded {
         let mut phi = Rounded::nearly(self.trajectory.inputs()[row]);
         let columns = self.angle.iter().flatten();

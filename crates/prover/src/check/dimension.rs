@@ -30,12 +30,12 @@ pub(super) struct Dimensions<'a> {
     /// Indices of the formulas by name.
     steps: BTreeMap<&'a str, usize>,
     parameters: BTreeMap<&'a str, &'a Parameter>,
-    /// Number of names looked up since the last call of `work`.
+    /// Number of formulas inspected and names looked up since the last call of `work`.
     looked: Cell<u64>,
 }
 
 impl<'a> Dimensions<'a> {
-    /// Determines the dimensions of the formula `of`, which makes a claim, and of all formulas before it.
+    /// Determines the dimension of the claim of the formula `of`, and the dimensions of all formulas before it.
     pub(super) fn of(formulas: &'a Formulas, of: usize, claim: &Claim) -> Self {
         let steps = formulas.list.iter().enumerate().map(|(index, own)| (own.name.as_str(), index)).collect();
         let named = |own: &'a Parameter| own.names().map(move |(name, _)| (name, own));
@@ -129,7 +129,7 @@ fn claimed(claim: &Claim) -> Known {
     if !claim.unit().is_empty() {
         return of_unit(claim.unit());
     }
-    // The dimension is unknown if the claim is reduced to the crank, because its text contains masses as plain numbers.
+    // The dimension is unknown if the claim is reduced to the crank, because its expression has masses as numbers.
     if claim.channels.iter().any(|(name, _)| !claim.text.contains(name.as_str())) {
         return None;
     }
@@ -162,7 +162,7 @@ fn of_unit(unit: &str) -> Known {
     })
 }
 
-/// Common dimension of two parts that are added, compared, or divided into a ratio.
+/// Common dimension of two parts that are added, compared, or are the arguments of `atan2`.
 fn same(one: Known, other: Known) -> Result<Known, Unsound> {
     match (one, other) {
         (Some(one), Some(other)) if one != other => Err(Unsound),

@@ -9,8 +9,8 @@ use linkage::error::Result;
 use scenario::{Claim, Formula, Formulas};
 
 /// A claim and its derivatives along a trajectory.
-/// The claim and its derivatives are functions of the claim's values, its channels, and the first and second
-/// derivatives of these channels.
+/// The claim and its derivatives are functions of values of the whole mechanism, of the claim's channels, and of the
+/// first and second derivatives of these channels.
 pub(super) struct Claimed<'a> {
     program: Program,
     columns: Vec<Column<'a>>,
@@ -71,7 +71,7 @@ pub(super) fn pairs(
     Ok(rows.iter().map(|&row| at(row)).collect())
 }
 
-/// Graph of a claim over its values, its channels, and their first and second derivatives.
+/// Graph of a claim over values of the whole mechanism, the claim's channels, and their first and second derivatives.
 pub(super) fn graph_of(claim: &Claim) -> (FormulaGraph, NodeId) {
     let (figures, channels) = (claim.figures.iter().map(|(name, _)| name), claim.channels.iter().map(|(name, _)| name));
     let names: Vec<&str> = figures.chain(channels).map(String::as_str).collect();

@@ -72,7 +72,7 @@ pub struct JudgedFormula {
     pub name: String,
     /// The quantity that the formula claims to give.
     pub claim: String,
-    /// Unit of the claimed values; empty for an expression of several channels.
+    /// Unit of the claimed values; empty for a derivative, and for an expression of several channels.
     pub unit: &'static str,
     /// Number of derivatives with respect to time (s): 0, 1 or 2.
     pub order: usize,
@@ -101,7 +101,7 @@ const TELLING: f64 = 1e-6;
 /// If a formula's error is at most this multiple of the mechanism's error, no digits count as lost.
 /// The limit allows for a few products of numbers that are known as accurately as the mechanism's numbers.
 const NO_WORSE: f64 = 1e3;
-/// If the bound is not decisive at more than this fraction of the instants, the judgement is inconclusive.
+/// If digits count as lost at more than this fraction of the instants, the judgement is inconclusive.
 const MOST_LOST: f64 = 0.03;
 
 /// Whether the mechanism's value is defined.

@@ -18,7 +18,7 @@ pub(in crate::check) use monomials::Monomials;
 /// A term or a factor that is missing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Missing {
-    /// The formula with the missing term or factor.
+    /// Name of the formula that lacks the term or factor.
     pub formula: String,
     /// The part of the formula to which the term must be added, or which must be multiplied; `None` for the whole
     /// formula.

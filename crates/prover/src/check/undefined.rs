@@ -38,7 +38,7 @@ impl fmt::Display for Undefined {
 }
 
 /// Finds where the formula called `name` has no value on a course. Also returns the operations used.
-/// `None` if the formula has a value everywhere or claims nothing.
+/// `None` if the formula has a value everywhere, does not exist, claims nothing, or if no operation at fault is found.
 ///
 /// # Errors
 /// If the course lacks a channel of the claim.

@@ -1,5 +1,5 @@
-//! Brings two tables to the same instants: selects common rows, or interpolates the first table at the instants of the
-//! second.
+//! Brings two tables or recordings to the same instants: selects common rows, or interpolates the first at the instants
+//! of the second.
 //!
 //! Values that are interpolated between the rows of a table carry the interpolation error.
 

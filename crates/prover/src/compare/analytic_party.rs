@@ -22,7 +22,7 @@ use linkage::math::KeepNan;
 use linkage::trajectory::{Channel, Trajectory};
 use scenario::{Claim, Scenario, within};
 
-/// Values of all channels of a scenario, at the scenario's own instants.
+/// Values of all requested channels of a scenario, at the scenario's own instants.
 pub(super) fn held(scenario: &Scenario) -> Result<Held> {
     let channel = |channel: &Channel| Claim::of_channels(&channel.to_string(), std::slice::from_ref(channel)).ok();
     let claims: Vec<Claim> = scenario.case.channels().iter().filter_map(channel).collect();
@@ -148,7 +148,7 @@ fn as_well_known(mut held: Held, own: &Held) -> Held {
 pub(super) struct Drift {
     /// Uncertainty by claim, in the claim's unit.
     pub claims: Vec<Vec<f64>>,
-    /// Uncertainty of the crank angle (rad).
+    /// Uncertainty of the input (rad or m).
     pub crank: Vec<f64>,
 }
 

@@ -322,7 +322,7 @@ impl Stage {
         Some(&self.bounds[place].0)
     }
 
-    /// The diagnosis of some channels. The fraction `left` of the difference is added to their bounds.
+    /// The diagnosis of some channels. Each bound is at least the fraction `left` of the channel's largest difference.
     fn diagnosis(&self, of: &[&Compared], left: f64) -> Option<Diagnosis> {
         let judged: Vec<SuspectChannel> = self
             .found

@@ -23,8 +23,7 @@ pub use columns::RowPair;
 pub struct Compared {
     /// The channel or expression, in its unit.
     pub claim: Claim,
-    /// Scale, in the claim's unit: half the range over the whole run of a scenario or recording, and at least a
-    /// thousandth of the natural size of the quantity.
+    /// Scale over the whole run of a scenario or recording, in the claim's unit: see [`scales`](crate::bounds::scales).
     /// For tables and expressions of channels the scale comes from the compared numbers.
     /// The scale does not depend on the selection of compared channels.
     pub scale: f64,

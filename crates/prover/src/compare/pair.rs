@@ -23,9 +23,9 @@ pub(super) struct Side {
 /// The comparison of two parties.
 #[derive(Default)]
 pub struct SidePair {
-    /// Names in the recordings; empty for a party that is not a recording.
+    /// Names of the sides in the recordings; empty for a party that is not a recording.
     pub names: [String; 2],
-    /// Channel by channel, in the order of the second party.
+    /// Channel by channel, in the order of the party that sets the instants.
     pub channels: Vec<Compared>,
     /// Checks of the analytic sides against each other if a scenario was solved, and of the crank angle if both parties
     /// have it.
@@ -36,7 +36,7 @@ pub struct SidePair {
     pub unshared: usize,
     /// Channels that only one of the two parties has.
     pub alone: [Vec<String>; 2],
-    /// The first row at which time or crank angle goes backwards: the number of the row, the previous instant, and the
+    /// The first row at which time or crank angle reverses: the number of the row, the previous instant, and the
     /// instant of the row. See [`RowKey::turns_back`](crate::tables::RowKey::turns_back).
     pub turns_back: Option<(usize, [f64; 2])>,
     /// Two rows of one instant that contradict each other, in the party that sets the instants.

@@ -127,9 +127,9 @@ pub struct Since {
 }
 
 /// For every channel that exceeds its bound, the first such instant; the earliest channel first.
-/// If several channels exceed their bounds at the same instant, positions come before rates and forces.
-/// Among the positions, and among the rates and forces, the channel with the larger ratio of difference to bound comes
-/// first.
+/// If several channels exceed their bounds at the same instant, they are in the order of their stages: positions,
+/// velocities, accelerations, reactions, balancing moment.
+/// Within a stage, the channel with the larger ratio of difference to bound comes first.
 #[must_use]
 pub fn since(reference: &Trajectory, suspect: &Trajectory, judged: &[SuspectChannel]) -> Vec<Since> {
     let rows = ascending(reference.times());

@@ -97,7 +97,8 @@ fn mass_centres(case: &Case) -> Vec<(Change, Make)> {
     found
 }
 
-/// For every link, three changed cases: without mass and moment of inertia, without weight, and without inertia forces.
+/// For every link, up to three changed cases: without mass and moment of inertia, without weight, and without inertia
+/// forces.
 fn masses(case: &Case) -> Vec<(Change, Make)> {
     let mut found = Vec::new();
     let heavy = |(_, link): &(LinkId, &Link)| link.mass > 0.0;

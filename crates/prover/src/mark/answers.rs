@@ -45,9 +45,10 @@ pub(crate) fn is_of(table: &CellTable) -> Option<&str> {
 /// Columns and rows may be in any order. An empty cell has no answer. A decimal comma is accepted.
 ///
 /// # Errors
-/// [`ErrorKind::Input`], with file, line and column, in these cases: the table belongs to another sheet;
-/// a column is missing or unknown; the sheet does not ask for the position of a row; two rows have the same position;
-/// a cell is not a number.
+/// [`ErrorKind::Input`], with file, line and column, in these cases: the text is not a table; the table belongs to
+/// another sheet; the first column is not that of the positions; a column is missing, unknown or repeated; a row has
+/// too many cells; the sheet does not ask for the position of a row; two rows have the same position; a cell is not a
+/// number.
 pub fn read_answers(text: &str, path: &Path, name: &str, sheet: &AnswerSheet) -> Result<StudentAnswers> {
     let file = path.display();
     let wrong = |message: String, help: &str| Error::new(ErrorKind::Input, message).help(help);

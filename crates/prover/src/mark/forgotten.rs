@@ -7,6 +7,8 @@
 //! Let point P2 of the second link slide on the line through P1 of the first link, with the axis e, the normal n and
 //! the slide s. Then
 //! n . (a2 - a1) - alpha1 s = 2 omega1 s' + n . (omega2^2 r2 - omega1^2 r1).
+//! a1 and a2 are the accelerations of P1 and P2 without their centripetal parts.
+//! r1 and r2 are the vectors from the origins of the link frames to P1 and P2.
 
 use super::cause::MarkCause;
 use super::hypothesis::Hypothesis;
@@ -28,7 +30,8 @@ enum LeftOut {
     Coriolis(JointId),
 }
 
-/// The hypotheses of this file. There are none if the mechanism has transmissions, or if the input is not an angle.
+/// The hypotheses of this file. There are none if the sheet asks for no acceleration, if the mechanism has
+/// transmissions, or if the input is not an angle.
 pub(super) fn all(sheet: &AnswerSheet) -> Vec<Hypothesis> {
     let (case, mechanism) = (&sheet.case, &sheet.case.mechanism);
     let asks = sheet.columns.iter().any(|column| column.stage() == Stage::Accelerations);

@@ -96,7 +96,7 @@ fn worst_instants<'a>([reference, other]: [&'a Trajectory; 2], known: &Known) ->
 pub struct Beyond {
     /// The channel.
     pub channel: Channel,
-    /// First instant at which the difference is too large (s), and its crank angle (rad).
+    /// First instant at which the difference is too large (s), and the value of the input there (rad or m).
     pub since: (f64, f64),
     /// Largest ratio of difference to allowed difference.
     pub margin: f64,

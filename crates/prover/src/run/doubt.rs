@@ -116,7 +116,8 @@ impl Doubt {
         self.0.iter().map(|own| !is_out(own)).collect()
     }
 
-    /// Fraction of the instants that are left out now but would be kept with a finer step.
+    /// Fraction of the instants, without the two ends of the motion, that are left out but would be kept with a finer
+    /// step.
     pub(super) fn too_coarse(&self) -> f64 {
         let out = self.0.iter().filter(|own| own.by_step).count().saturating_sub(ENDS);
         out as f64 / self.0.len().max(1) as f64

@@ -87,8 +87,8 @@ pub struct SettingsSearch {
 /// Why a search of settings ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SearchEnd {
-    /// Every channel has the target accuracy, or every channel is conclusive and the work allowed for further
-    /// refinement is spent.
+    /// Every channel has the target accuracy; or every channel is conclusive and the work allowed for further
+    /// refinement is spent; or a channel converges steadily with too low an order.
     Decided,
     /// A finer step would add more rounding error than the truncation error that it removes.
     Rounding,

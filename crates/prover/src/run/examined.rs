@@ -9,8 +9,8 @@ use crate::diagnosis::{DiagnosedParty, Diagnosis, DiagnosisInput, PartyStanding,
 use linkage::case::{Case, Grid};
 use linkage::trajectory::{Channel, Trajectory};
 
-/// Examines the party that contradicts all others.
-/// Without such a party, examines the first engine that disagrees, or else the side that is not the reference.
+/// Examines the analytic side that contradicts all other parties.
+/// Without such a side, examines the first engine that disagrees, or else the side that is not the reference.
 /// `None` if no channel disagrees.
 pub(super) fn of(
     case: &Case,

@@ -43,8 +43,7 @@ const ULPS: f64 = 16.0;
 
 /// Assumed ratio of a side's integration error to the side's difference from its run with a tighter tolerance. The run
 /// with a tighter tolerance also has an error.
-/// A ratio of 3.2 was measured with steps that crossed knots of a load's table. In the present program steps end at
-/// knots.
+/// A ratio of 3.2 was measured with steps that crossed knots of a load's table. The integrator's steps end at knots.
 const SAFETY: f64 = 4.0;
 
 /// Relative rounding error of a stage in a pose of this condition number.
@@ -121,8 +120,8 @@ pub(super) struct Known {
     /// Factor on the rounding error of every channel, from the distances of mass centres ([`lever`]) and of the origin
     /// ([`placed`]).
     levers: Vec<f64>,
-    /// Absolute crank angle at every instant of a prescribed motion (rad). Both sides receive this angle rounded to a
-    /// double.
+    /// Absolute value of the input at every instant of a prescribed motion (rad or m). Both sides receive this value
+    /// rounded to a double.
     turned: Vec<f64>,
     /// Whether a channel is an angle.
     /// The rounding error of an angle is relative to the angle with all its revolutions, so it already covers the
@@ -395,8 +394,8 @@ mod tests {
         case.on(Grid::of_inputs(case.crank(), cranks.to_vec())).unwrap()
     }
 
-    /// This test repeats a former fault: the sides disagreed at 90 deg, where the condition number is 1. The fault
-    /// occurred for four-bars in a row and for a single four-bar far from the origin.
+    /// Symptom: at 90 deg, where the condition number is 1, the sides disagreed for four-bars in a row and for a single
+    /// four-bar far from the origin.
     /// Positions are known to the last digit of their distance from the origin, and each four-bar adds its rounding
     /// error.
     #[test]

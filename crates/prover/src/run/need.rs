@@ -147,8 +147,8 @@ const MOST_VAGUE: usize = 2;
 const BRINGS: f64 = 0.7;
 /// If more sweeps reduce the bound to at most this fraction, the additional sweeps are worth their work.
 const HELPS: f64 = 0.5;
-/// If finer steps widen the bound in this number of consecutive rounds, rounding is to blame, however small the
-/// rounding part of the bound is.
+/// If half the step at least doubles the bound in this number of consecutive rounds, rounding is to blame, however
+/// small the rounding part of the bound is.
 const MOST_WIDER: usize = 2;
 /// If more sweeps have helped little, this number of rounds passes before more sweeps are tried again.
 const PATIENCE: usize = 3;
@@ -160,7 +160,7 @@ pub(super) struct Stall {
     before: Option<Need>,
     /// Number of consecutive rounds without an order of convergence.
     vague: usize,
-    /// Number of consecutive rounds in which half the step has made the bound wider.
+    /// Number of consecutive rounds in which half the step has at least doubled the bound.
     wider: usize,
     /// Sweeps and need of the previous round, if more sweeps are being tried.
     tried: Option<(usize, Need)>,

@@ -132,7 +132,7 @@ impl Options {
         self
     }
 
-    /// Number of engines that are judged in one proof.
+    /// Number of engines that these options give, at least 1.
     #[must_use]
     pub fn engine_count(&self) -> usize {
         self.settings.engines.value().map_or(1, |engines| engines.len().max(1))

@@ -142,9 +142,9 @@ fn side_checks_find_three_times_their_bound_and_pass_a_fifth() {
 
 /// Symptom: 1e-9 deg from a dead centre the crank pin's acceleration was wrong by 176 %, but the check between the
 /// sides did not find it.
-/// The check's scale was the largest acceleration of the mechanism. The check's condition number was that of the worst
-/// group.
-/// The check has since used the numbers from which the channel itself is computed.
+/// Cause: the check's scale was the largest acceleration of the mechanism, and its condition number was that of the
+/// worst group.
+/// The check must use the numbers from which the channel itself is computed.
 #[test]
 fn regress_a_driving_link_has_its_own_bound_near_a_dead_point() {
     let folded = [

@@ -122,7 +122,7 @@ impl Solved {
 pub struct Claimed {
     /// The judgement of every claim, against each of the two sides.
     pub judgement: Judgement,
-    /// The checks of the sides themselves.
+    /// The checks on both sides.
     pub checks: Vec<Check>,
     /// The overall verdict.
     pub verdict: Verdict,

@@ -32,16 +32,16 @@ pub struct Instants {
 pub enum By {
     /// Times.
     Time,
-    /// Crank angles.
+    /// Values of the input, such as crank angles.
     Crank,
 }
 
 /// The instants by which rows are matched.
 #[derive(Clone, Debug)]
 pub struct RowKey {
-    /// Times (s), or crank angles (rad).
+    /// Times (s), or values of the input (rad or m).
     pub values: Vec<Rounded>,
-    /// Whether the values are crank angles.
+    /// Whether the values are values of the input.
     pub is_crank: bool,
 }
 

@@ -12,7 +12,7 @@ const ANGLES: usize = 10;
 /// The number of products of two steps grows with the square of this number.
 const STEPS: usize = 60;
 
-/// An expression that varies with the crank angle.
+/// An expression that varies with the crank angle, or the constant 1.
 #[derive(Clone, Debug)]
 pub(super) struct Entry {
     pub(super) tree: FormulaTree,

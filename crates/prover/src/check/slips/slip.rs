@@ -15,7 +15,7 @@ pub struct FormulaSlip {
     pub written: String,
     /// The corrected part.
     pub right: String,
-    /// Whether the slip occurs everywhere in the formula and in the steps that the formula uses.
+    /// Whether the slip is at every occurrence: in the formula alone, or also in the steps that the formula uses.
     pub everywhere: bool,
 }
 
@@ -29,7 +29,7 @@ linkage::words! {
         Branch = "another branch",
         /// A wrong unit, such as degrees in place of radians, revolutions per minute, or millimetres.
         Unit = "a unit",
-        /// A wrong function, such as a sine in place of a cosine.
+        /// A wrong or missing function, such as a sine in place of a cosine.
         Function = "another function",
         /// A square or a root that is missing or superfluous.
         Power = "a power",
@@ -44,11 +44,11 @@ linkage::words! {
         Exchanged = "two quantities exchanged",
         /// A term too many.
         Term = "a term too many",
-        /// A reference angle that is wrong by a quarter or half a revolution.
+        /// A reference angle that is wrong by a quarter, half or whole revolution, or has the opposite direction.
         Reference = "another reference angle",
         /// A factor or divisor that is a small number.
         Factor = "a factor",
-        /// A product in place of a quotient or of a power.
+        /// A product, quotient or power in place of another of these, or an inverted quotient.
         Operator = "a product for a quotient",
         /// Parentheses that are missing or at a wrong position.
         Parentheses = "parentheses",

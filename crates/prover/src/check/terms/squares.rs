@@ -1,5 +1,6 @@
 //! Finds terms that are missing from wrong numbers, by least squares over quantities of the mechanism.
-//! The quantities are sines and cosines of the links' angles, squares of their speeds, and their accelerations.
+//! The quantities are functions of the crank angle, the time, and the links' angles and rates, and the velocities and
+//! accelerations of points.
 
 use crate::check::KnownTrajectory;
 use linkage::math::{ColumnVector, KeepNan, Matrix};
