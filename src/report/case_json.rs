@@ -7,6 +7,7 @@ use super::pretty::pretty;
 use linkage::case::Case;
 use linkage::drive::load::{Acts, LoadPart};
 use linkage::drive::{Course, Drive, DriveMotion, Load, MotionLaw, Motor, MotorLaw, On};
+use linkage::input::Input;
 use linkage::math::Vec2;
 use linkage::mechanism::{JointSide, LinkId};
 use linkage::solver::State;
@@ -74,24 +75,29 @@ fn side(case: &Case, side: JointSide) -> Value {
 }
 
 fn drive(case: &Case, drive: &Drive) -> Value {
+    let unit = if drive.input == Input::Slide { "m" } else { "rad" };
     let motion = match &drive.motion {
-        DriveMotion::Prescribed { law, .. } => law_of(law),
+        DriveMotion::Prescribed { law, .. } => law_of(law, unit),
         DriveMotion::Free { initial_speed, nominal_speed, motor } => json!({
-            "law": "free", "initial_speed_rad_s": initial_speed, "sense": nominal_speed.signum(),
+            "law": "free", format!("initial_speed_{unit}_s"): initial_speed, "sense": nominal_speed.signum(),
             "motor": motor.as_ref().map(motor_of),
         }),
     };
     json!({
         "joint": case.mechanism.joints()[drive.joint].name, "link": name(case, drive.link),
-        "zero_rad": drive.zero, "start_rad": drive.start, "motion": motion,
+        format!("zero_{unit}"): drive.zero, format!("start_{unit}"): drive.start, "motion": motion,
     })
 }
 
-fn law_of(law: &MotionLaw) -> Value {
+/// A motion law of an input in the unit `unit`: rad or m.
+fn law_of(law: &MotionLaw, unit: &str) -> Value {
+    let speed_key = format!("speed_{unit}_s");
     match law {
-        MotionLaw::ConstantSpeed(omega) => json!({ "law": law.name(), "speed_rad_s": omega }),
-        MotionLaw::Ramp { speed, time } => json!({ "law": law.name(), "speed_rad_s": speed, "time_s": time }),
-        MotionLaw::Cycloidal { rise, time } => json!({ "law": law.name(), "rise_rad": rise, "time_s": time }),
+        MotionLaw::ConstantSpeed(omega) => json!({ "law": law.name(), speed_key: omega }),
+        MotionLaw::Ramp { speed, time } => json!({ "law": law.name(), speed_key: speed, "time_s": time }),
+        MotionLaw::Cycloidal { rise, time } => {
+            json!({ "law": law.name(), format!("rise_{unit}"): rise, "time_s": time })
+        }
         // A curve has only its name, because a spline has no short form.
         MotionLaw::Curve(_) => json!({ "law": law.name() }),
     }

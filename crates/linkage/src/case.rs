@@ -298,7 +298,11 @@ impl Case {
     /// [`Case::step`].
     #[must_use]
     pub fn stride(&self, turn: f64) -> f64 {
-        if self.goes_by_time() { turn / self.drives.top_speed(self.mechanism.size()) } else { self.step(turn) }
+        if self.drives.further().is_empty() {
+            return self.step(turn);
+        }
+        let time = turn / self.drives.top_speed(self.mechanism.size());
+        if self.goes_by_time() { time } else { time * self.crank().at(0.0).rate.abs() }
     }
 
     /// Change of the input that corresponds to a rotation of a driving link by `turn` (rad). A slide changes by the

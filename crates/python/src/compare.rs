@@ -67,8 +67,10 @@ impl ComparisonWish {
         };
         let mut rule = ComparisonRule { by, interpolates, only, ..ComparisonRule::default() };
         rule.allowed.extend(mapping.allowed.iter().cloned());
-        for (given, size) in allowed.into_iter().zip([Size::Absolute, Size::Relative, Size::OfValue]) {
-            put(given, size, &mut rule.allowed)?;
+        let kinds: [(&str, fn(f64) -> Size); 3] =
+            [("absolute", Size::Absolute), ("relative", Size::Relative), ("of_value", Size::OfValue)];
+        for (given, kind) in allowed.into_iter().zip(kinds) {
+            put(given, kind, &mut rule.allowed)?;
         }
         Ok(ComparisonWish { other, mapping, rule })
     }
@@ -106,14 +108,18 @@ fn mapping(map: &Bound<'_, PyAny>, other: &Other) -> PyResult<Mapping> {
     Ok(mapping)
 }
 
-/// Adds allowed differences: one number for all channels, or a number for each channel.
-fn put(given: Option<Bound<'_, PyAny>>, size: fn(f64) -> Size, to: &mut Vec<Allowed>) -> PyResult<()> {
+/// Adds the allowed differences of the argument `name`: one number for all channels, or a number for each channel.
+fn put(
+    given: Option<Bound<'_, PyAny>>,
+    (name, size): (&'static str, fn(f64) -> Size),
+    to: &mut Vec<Allowed>,
+) -> PyResult<()> {
     let Some(given) = given else { return Ok(()) };
     let py = given.py();
     let mut push = |of: Option<String>, number: f64| {
         if !(number >= 0.0) {
             let message = sentences::this_difference_is_negative(&number);
-            return Err(argument("absolute", message, sentences::GIVE_A_DIFFERENCE_OF_0_OR_MORE)).or_raised(py);
+            return Err(argument(name, message, sentences::GIVE_A_DIFFERENCE_OF_0_OR_MORE)).or_raised(py);
         }
         to.push(Allowed { of, size: size(number) });
         Ok(())

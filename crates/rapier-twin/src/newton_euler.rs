@@ -190,13 +190,13 @@ impl NewtonEuler {
         let of = |row: &Row| (stands[row.number].pass(), &needs[row.number * width..][..width]);
         for stage in stages {
             match stage {
-                Stage::Pair(term, rows) => {
+                Stage::Pair(terms, rows) => {
                     let (mut matrix, mut right) = ([[0.0; PAIR]; PAIR], [0.0; PAIR]);
                     for ((entries, right), row) in matrix.iter_mut().zip(&mut right).zip(rows) {
                         *right = row.equation(of(row), components, |column, value| entries[column] = value);
                     }
                     let Some(values) = solve_pair(matrix, right) else { return false };
-                    components[*term..][..PAIR].copy_from_slice(&values);
+                    terms.iter().zip(values).for_each(|(&term, value)| components[term] = value);
                 }
                 Stage::All { rows, terms, values, matrix } => {
                     matrix.clear();

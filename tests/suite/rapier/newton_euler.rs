@@ -16,7 +16,8 @@ use linkage::solver::State;
 use rapier_twin::newton_euler::NewtonEuler;
 use scenario::Scenario;
 
-/// All shipped scenarios and study variants, by name.
+/// All shipped scenarios and study variants, by name; and a train in which the forces of the first and the last
+/// transmission are computed together, but not that of the transmission between them.
 fn shipped() -> Vec<(String, Case)> {
     let top = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios");
     let toml = |directory: &Path| {
@@ -26,6 +27,7 @@ fn shipped() -> Vec<(String, Case)> {
     let mut files = [toml(&top), toml(&top.join("variants60"))].concat();
     files.sort();
     let case = |path: &PathBuf| (path.display().to_string(), Scenario::load(path).unwrap().case);
+    files.push(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/suite/rapier/planetary_side.toml"));
     files.iter().map(case).collect()
 }
 

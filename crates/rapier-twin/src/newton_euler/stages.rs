@@ -21,9 +21,8 @@ pub(super) struct Limb {
 /// Equations that determine some of the components after the components of earlier stages are known.
 #[derive(Debug)]
 pub(super) enum Stage {
-    /// Two equations for two components, usually those of a cut joint. The first field is the index of the first
-    /// component.
-    Pair(usize, [Row; PAIR]),
+    /// Two equations for two components, usually those of a cut joint. The first field has their indices.
+    Pair([usize; PAIR], [Row; PAIR]),
     /// All remaining components, with workspace for the system.
     All { rows: Vec<Row>, terms: Vec<usize>, values: Vec<f64>, matrix: Lu },
 }
@@ -88,7 +87,7 @@ pub(super) fn stages(limbs: &[Limb], cut: &[Range<usize>]) -> Vec<Stage> {
         unknown.retain(|term| !terms.contains(term));
         let rows: Vec<Row> = rows.into_iter().map(|number| Row::of(number, &limbs[number], &terms)).collect();
         stages.push(match <[Row; PAIR]>::try_from(rows) {
-            Ok(pair) => Stage::Pair(terms[0], pair),
+            Ok(pair) => Stage::Pair([terms[0], terms[1]], pair),
             Err(rows) => {
                 let (values, matrix) = (vec![0.0; terms.len()], Lu::new(terms.len()));
                 Stage::All { rows, terms, values, matrix }

@@ -6,6 +6,7 @@ use crate::sentences;
 use linkage::case::Case;
 use linkage::drive::Load;
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::input::Input;
 use linkage::math::{KeepNan, Vec2, rotated, unit};
 use linkage::mechanism::{
     Coordinate, GROUND, JointId, JointKind, LinkId, PerLink, SpanningTree, Transmission, TreeBranch,
@@ -88,18 +89,23 @@ impl<'a> MjcfModel<'a> {
         if size > 0.0 { size } else { 1.0 }
     }
 
-    /// Inertia (kg m^2) of the rotor that keeps the speed of a prescribed drive.
-    pub fn rotor(&self) -> f64 {
+    /// Inertia of the rotor that keeps the speed of a prescribed drive (kg m^2; of a slide kg).
+    pub fn rotor(&self, input: Input) -> f64 {
         let (size, links) = (self.size(), self.case.mechanism.links());
-        // Moment of inertia with all mass at the distance `size` from a point.
-        ROTOR * (links.iter().map(|link| link.inertia).sum::<f64>() + self.mass() * size * size)
+        // All mass at the distance `size` from a point.
+        let inertia = ROTOR * (links.iter().map(|link| link.inertia).sum::<f64>() + self.mass() * size * size);
+        if input == Input::Slide { inertia / (size * size) } else { inertia }
     }
 
-    /// Inertia (kg m^2) that turns with a driven hinge: the rotor of a prescribed drive, or the inertia of a free
-    /// link's motor.
+    /// Inertia that moves with a driven joint (kg m^2; of a slide kg): the rotor of a prescribed drive, or the inertia
+    /// of a free link's motor.
     pub(super) fn armature(&self, joint: JointId) -> Option<f64> {
         let drive = self.case.drives.iter().find(|drive| drive.joint == joint)?;
-        if drive.is_free() { Some(drive.moving_inertia()).filter(|own| *own > 0.0) } else { Some(self.rotor()) }
+        if drive.is_free() {
+            Some(drive.moving_inertia()).filter(|own| *own > 0.0)
+        } else {
+            Some(self.rotor(drive.input))
+        }
     }
 
     /// Whether a joint is driven.
