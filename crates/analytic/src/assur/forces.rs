@@ -94,8 +94,8 @@ impl Kinetostatics {
         }
     }
 
-    /// Writes to `state` the reaction in every joint (first link on second; N, N m), the forces of the transmissions (N)
-    /// and the balancing moments and driving forces of the drives (N m, N).
+    /// Writes to `state` the reaction in every joint (first link on second; N, N m), the forces of the transmissions
+    /// (N), and the balancing moments and driving forces (N m, N).
     /// The pose must be the last one that `plan` has solved. Loads may use the state's angles.
     ///
     /// # Errors

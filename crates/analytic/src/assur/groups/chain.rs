@@ -115,7 +115,7 @@ pub struct Chain {
     determinant: f64,
     square: f64,
     slopes: Vec<f64>,
-    /// Driven coordinates at the last pose (rad, m), and their changes from there to the requested pose, times `scales`.
+    /// Driven coordinates at the last pose (rad, m), and their changes to the requested pose, times `scales`.
     at: Vec<f64>,
     step: Vec<f64>,
     /// Directions of the links at the last pose, restored if a step fails.
@@ -329,8 +329,8 @@ impl Chain {
         self.determinant
     }
 
-    /// Computes the slides from the poses of the links: from the start pose when the group is placed for the first time,
-    /// and from the expected poses in [`Chain::positions_like`].
+    /// Computes the slides from the poses of the links: from the start pose when the group is first placed, and from
+    /// the expected poses in [`Chain::positions_like`].
     fn read_slides(&mut self, motions: &[Motion]) {
         for (slide, node) in self.slides.iter_mut().zip(&self.contours.nodes) {
             let from = motions[node.parent.link].point(node.parent.local);
