@@ -3,7 +3,7 @@
 //! The inner joint is an intersection of two circles. The joint lies on the same side of the line between the outer
 //! joints as in the start pose.
 //! The angular velocities follow from the relative velocity of the outer joints, projected on the two links.
-//! Equations of moments about the inner joint give the forces.
+//! Equations of moments about the inner joint and about the first outer joint give the forces.
 
 use crate::sentences;
 use linkage::case::Case;

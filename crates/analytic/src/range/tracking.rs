@@ -106,7 +106,7 @@ pub(super) struct Tracker<'a> {
     /// size (m) for a slide.
     crank: usize,
     unit: f64,
-    /// Signs that make every group's determinant positive at the start.
+    /// Signs: a dyad's determinant gets the sign of its `transmission_sine`, that of a higher group is positive at first.
     signs: Vec<f64>,
     /// Direction of the smallest singular value at the last pose. The inverse iteration at the next pose starts from
     /// this direction.
@@ -119,7 +119,7 @@ impl<'a> Tracker<'a> {
     /// Starts at the start pose of a case.
     ///
     /// # Errors
-    /// [`ErrorKind::Geometry`] if the start pose is singular; the errors of [`gearings`] and [`Tracker::allowed`].
+    /// [`ErrorKind::Geometry`] if the start pose is singular; the errors of [`lost`], [`gearings`], [`Tracker::allowed`].
     pub(super) fn new(case: &'a Case) -> Result<(Self, Point)> {
         let drive = case.crank();
         let other = case.mechanism.joints()[drive.joint].other(drive.link);
@@ -222,7 +222,7 @@ impl<'a> Tracker<'a> {
     }
 
     /// Solves all equations and `across . (q - from) = distance` by Newton's method from `q`.
-    /// `None` if the first correction is longer than `most` or the method does not converge.
+    /// `None` if a correction is longer than `most` or the method does not converge.
     fn correct(
         &self,
         mut q: ColumnVector,
