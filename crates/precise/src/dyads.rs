@@ -38,7 +38,8 @@ struct Dyad {
 /// Like [`solve`](super::solve), for a mechanism of dyads with three revolute pairs.
 ///
 /// # Errors
-/// The errors of [`solve`](super::solve), and [`ErrorKind::Unsupported`] if the mechanism has a group of another kind.
+/// The errors of [`solve`](super::solve). [`ErrorKind::Unsupported`] if the mechanism has a group of another kind,
+/// loads, or a drive other than one crank at constant speed.
 pub fn solve(case: &Case) -> Result<Trajectory> {
     let task = Task::of(case)?;
     let numbers = CaseNumbers::of(case)?;

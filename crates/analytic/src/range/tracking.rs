@@ -106,7 +106,7 @@ pub(super) struct Tracker<'a> {
     /// size (m) for a slide.
     crank: usize,
     unit: f64,
-    /// Signs: a dyad's determinant gets the sign of its `transmission_sine`, that of a higher group is positive at first.
+    /// Signs that give a dyad's determinant the sign of its transmission sine; others are positive at the start.
     signs: Vec<f64>,
     /// Direction of the smallest singular value at the last pose. The inverse iteration at the next pose starts from
     /// this direction.
@@ -119,7 +119,7 @@ impl<'a> Tracker<'a> {
     /// Starts at the start pose of a case.
     ///
     /// # Errors
-    /// [`ErrorKind::Geometry`] if the start pose is singular; the errors of [`lost`], [`gearings`], [`Tracker::allowed`].
+    /// [`ErrorKind::Geometry`] if the start pose is singular; the errors of [`gearings`] and [`Tracker::allowed`].
     pub(super) fn new(case: &'a Case) -> Result<(Self, Point)> {
         let drive = case.crank();
         let other = case.mechanism.joints()[drive.joint].other(drive.link);
