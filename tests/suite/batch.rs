@@ -311,7 +311,7 @@ fn a_case_batch_has_the_bits_of_the_pose_solver() {
     }
 }
 
-/// A parallelogram passes a dead point between two instants; the pose solver refuses it there.
+/// A case batch does not solve a case that cannot be assembled; the pose solver gives the error.
 #[test]
 fn a_case_batch_leaves_dead_points_to_the_pose_solver() {
     let case = shipped("crank_rocker.toml").case;
@@ -320,7 +320,7 @@ fn a_case_batch_leaves_dead_points_to_the_pose_solver() {
     let case = case.on(Grid::of_times(case.crank(), times)).unwrap();
     let mut batch = CaseBatch::of(&case).unwrap();
     assert!(batch.solve(Stage::Positions, &mut []));
-    // The coupler becomes so long that the dyad cannot be assembled everywhere.
+    // The coupler becomes so long that the dyad cannot be assembled.
     batch.renumber(|links, joints| {
         let stretch = |place: &mut linkage::math::Vec2| *place *= 3.0;
         links[2].points.iter_mut().for_each(|point| stretch(&mut point.local));

@@ -31,7 +31,8 @@ pub struct Mode {
 pub struct Modes {
     /// Configurations of the group. If not all configurations are known, the list contains only the followed one.
     pub modes: Vec<Mode>,
-    /// Reason why not all configurations are known, for groups of more than four links; `None` if the list is complete.
+    /// Reason why not all configurations are known, for trains and for groups of more than four links.
+    /// `None` if the list is complete.
     pub unknown: Option<String>,
 }
 

@@ -71,8 +71,9 @@ pub struct GroupMeasures {
     /// Crank angle (rad, in the scenario's convention).
     pub crank: f64,
     /// Determinant and condition number of each group, in the order of the structure.
-    /// The determinant of a dyad is positive in the mode
-    /// [`AssemblyMode::Left`](linkage::mechanism::AssemblyMode::Left).
+    /// The determinant of a dyad with two modes is positive in the modes
+    /// [`AssemblyMode::Left`](linkage::mechanism::AssemblyMode::Left) and
+    /// [`AssemblyMode::Ahead`](linkage::mechanism::AssemblyMode::Ahead).
     /// The determinant of a higher group is positive at the start.
     pub groups: Vec<GroupCondition>,
 }

@@ -3,7 +3,7 @@
 //! The inner joint is an intersection of two circles. The joint lies on the same side of the line between the outer
 //! joints as in the start pose.
 //! The angular velocities follow from the relative velocity of the outer joints, projected on the two links.
-//! Equations of moments about the inner joint give the forces.
+//! Equations of moments about the inner joint and about the first outer joint give the forces.
 
 use crate::sentences;
 use linkage::case::Case;
@@ -38,7 +38,8 @@ struct Dyad {
 /// Like [`solve`](super::solve), for a mechanism of dyads with three revolute pairs.
 ///
 /// # Errors
-/// The errors of [`solve`](super::solve), and [`ErrorKind::Unsupported`] if the mechanism has a group of another kind.
+/// The errors of [`solve`](super::solve). [`ErrorKind::Unsupported`] if the mechanism has a group of another kind,
+/// loads, or a drive other than one crank at constant speed.
 pub fn solve(case: &Case) -> Result<Trajectory> {
     let task = Task::of(case)?;
     let numbers = CaseNumbers::of(case)?;

@@ -54,7 +54,8 @@ impl<'a, S: Scalar> Whole<'a, S> {
     /// the angle (rad) of every link.
     /// If `keeps_input` is true, all derivatives are taken at a constant input of the first drive. The time at which
     /// the drive reaches this input then has derivatives with respect to the numbers of its law.
-    /// `None` if the pose is singular. `None` also if the time must have derivatives but the drive stands still.
+    /// `None` if the pose is singular, or if Newton's method does not converge. `None` also if the time must have
+    /// derivatives but the drive stands still.
     #[must_use]
     pub fn near(&self, motions: &[Motion], angles: &[f64], time: f64, keeps_input: bool) -> Option<Snapshot<S>> {
         let frame = |motion: &Motion| Frame {

@@ -48,7 +48,7 @@ impl<S: Scalar> Frame<S> {
     }
 }
 
-/// A force at the world's origin (N), and its moment about the origin (N m).
+/// A force (N), and a moment about the world's origin (N m).
 pub(crate) type Wrench<S> = (Vector<S>, S);
 
 /// The whole mechanism at one instant.
@@ -65,7 +65,7 @@ pub struct Snapshot<S> {
     pub(crate) efforts: Vec<S>,
     /// Resultant of all loads on the ground.
     pub(crate) on_ground: Wrench<S>,
-    /// World angle of the crank, unwrapped.
+    /// Coordinate of the first drive: of a crank, its world angle, unwrapped.
     pub(crate) crank: S,
     /// Time of the instant (s).
     pub time: S,
@@ -86,7 +86,7 @@ impl<S: Scalar> Snapshot<S> {
         }
     }
 
-    /// Weight and inertia of a link, as a force at the world's origin and the moment about the origin.
+    /// Weight and inertia of a link.
     pub(crate) fn inertia(&self, numbers: &CaseNumbers<S>, link: LinkId) -> Wrench<S> {
         let own = &numbers.links[link];
         let frame = &self.frames[link];

@@ -5,7 +5,8 @@
 //! The second method accepts any [`Scalar`]: with [`Dual`] numbers it gives the exact derivatives of every channel with
 //! respect to the [`CaseNumbers`] of the case.
 //! Neither method shares equations or code with the analytic sides; only the case is common.
-//! The crank angle is computed from the time of the instant in full precision: start + speed t.
+//! The inputs of the drives are computed from the time of the instant in full precision, except those of tables and
+//! formulas.
 
 mod dual;
 pub mod dyads;

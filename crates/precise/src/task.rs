@@ -1,4 +1,4 @@
-//! The cases that this reference solver supports, and the crank's motion.
+//! The cases that the solver of dyads supports, and the crank's motion.
 
 use crate::sentences;
 use linkage::case::Case;

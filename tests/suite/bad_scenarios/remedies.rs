@@ -87,9 +87,8 @@ fn names(says: &str, key: &str) -> bool {
     says.split(|c: char| !c.is_alphanumeric() && c != '_').any(|word| word == key)
 }
 
-/// Calls `look` with every key of the shipped scenarios: its file, its text, and the key.
-/// Many keys occur often, so only the first two occurrences of a key are tried in all sections `NAME.*` with one
-/// `NAME`.
+/// Calls `look` with the keys of the shipped scenarios: the file, its text, and the key.
+/// Of a key that occurs often in sections with the same first word, only the first two occurrences are tried.
 fn for_each_key(mut look: impl FnMut(&Path, &str, &Key) -> Option<String>) {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let all = ["scenarios", "scenarios/formulas"].map(|directory| files_in(root.join(directory)).unwrap());

@@ -271,7 +271,7 @@ fn bearings_are_reported_in_json() {
     }
 }
 
-/// The reported least and greatest values of inertia and resistance equal those of the table in the answer.
+/// The reported least and greatest values of inertia and resistance are near those of the table in the answer.
 /// The slope column is the derivative of the inertia column.
 #[test]
 fn a_drive_is_reported_in_json_and_its_run_up_in_csv() {

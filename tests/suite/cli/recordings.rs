@@ -207,7 +207,7 @@ fn declared(bytes: &[u8]) -> BTreeMap<String, BTreeMap<String, bool>> {
     found
 }
 
-/// The layout for PlotJuggler refers to its recording and to recorded curves, even if there is nothing to draw.
+/// The layout for PlotJuggler refers to its recording, and only to recorded curves, even if few channels are recorded.
 #[test]
 fn plotjuggler_layouts_name_recorded_curves() {
     let place = Place::new();

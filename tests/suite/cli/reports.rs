@@ -107,7 +107,8 @@ fn proofs() -> [Proof; 3] {
     [disagrees, open, failed]
 }
 
-/// The JUnit report and the Markdown report state party, verdict and reason for each case.
+/// The JUnit report states party, verdict and reason for each case.
+/// The Markdown report counts the verdicts, and lists the first ten reasons of each scenario.
 #[test]
 fn reports_have_every_verdict_with_judge_and_reason() {
     let proofs = proofs();

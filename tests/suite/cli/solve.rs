@@ -10,7 +10,7 @@ const ON_LINKS: &str = "angle_rad omega_rad_s alpha_rad_s2 x_m y_m vx_m_s vy_m_s
 const AT_POINTS: &str = "x_m y_m vx_m_s vy_m_s ax_m_s2 ay_m_s2";
 
 /// Channels of the mechanism as a whole.
-/// The documented header lists links, points, joints and drive, each in the order of the file.
+/// They follow the links, points and joints in the documented header.
 const WHOLE: [&str; 4] = ["frame.fx_N", "frame.fy_N", "frame.moment_N_m", "drive.torque_N_m"];
 
 fn header(links: &[&str], points: &[&str], joints: &[&str]) -> Vec<String> {

@@ -15,7 +15,7 @@ pub struct Damaged {
     pub what: Vec<String>,
 }
 
-/// All scenario files of the repository, in the order of their paths.
+/// All TOML files below `scenarios/`, in the order of their paths.
 pub static SHIPPED: LazyLock<Vec<(PathBuf, String)>> = LazyLock::new(|| {
     let mut open = vec![Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios")];
     let mut found = Vec::new();
@@ -223,7 +223,7 @@ fn damage(random: &mut RandomSource, text: &mut String) -> String {
     }
 }
 
-/// Replaces the grid: reversed, empty, of one instant, far away, very fine, or a list.
+/// Replaces the grid: reversed, empty, of one instant, far away, very fine, with contradictory keys, or a list.
 fn grid(random: &mut RandomSource, text: &mut String) -> String {
     const GRIDS: [&str; 14] = [
         "from_deg = 360\nto_deg = 0\nstep_deg = 1",
@@ -256,7 +256,7 @@ fn one(random: &mut RandomSource, all: Vec<Range<usize>>) -> Option<Range<usize>
     (!all.is_empty()).then(|| all[random.index(all.len())].clone())
 }
 
-/// Positions of the numbers that are values of keys.
+/// Positions of the numbers that are values of keys or elements of lists.
 fn numbers(text: &str) -> Vec<Range<usize>> {
     words(text, |letter| letter.is_ascii_alphanumeric() || "+-._".contains(letter))
         .into_iter()
@@ -267,7 +267,7 @@ fn numbers(text: &str) -> Vec<Range<usize>> {
         .collect()
 }
 
-/// Places of bare keys.
+/// Positions of bare keys, and of words before a closing bracket.
 fn keys(text: &str) -> Vec<Range<usize>> {
     words(text, |letter| letter.is_ascii_alphanumeric() || "-_".contains(letter))
         .into_iter()

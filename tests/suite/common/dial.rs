@@ -33,7 +33,7 @@ fn scale() -> f64 {
     *SCALE
 }
 
-/// Whether a residual is within its bound times the factor.
+/// Whether a residual is at most its bound times the factor; always true with the factor zero.
 pub fn accepts(value: f64, bound: f64) -> bool {
     scale() == 0.0 || value <= scale() * bound
 }

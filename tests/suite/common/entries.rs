@@ -35,7 +35,8 @@ pub fn scenario(text: &str) -> Option<Scenario> {
     }
 }
 
-/// Checks that an error of a scenario file states kind, location and key, and has a message.
+/// Checks that an error of a scenario file has a message and a location, and is not a numerical error.
+/// Unless the error concerns the whole file, it must also name a key.
 pub fn explains(error: &Error, text: &str) {
     let shown = format!("{error}");
     assert!(!error.message().trim().is_empty(), "an error without a message");

@@ -1,5 +1,5 @@
 //! Random mechanisms with a higher group, alone or together with dyads.
-//! Any joint of the group may be prismatic.
+//! Some of the groups have prismatic joints.
 
 use linkage::math::Vec2;
 

@@ -187,8 +187,8 @@ const BLOCK_PLACE: Vec2 = Vec2::new(-0.01, 0.02);
 
 /// RPR: crank 0.1 m, block on its pin, sliding on a rocker about (0.25, 0.05).
 ///
-/// With the guide at eta, A = C + t e + h n (h constant): v . n = t eta', v . e = t' - h eta', a . n = t eta'' + 2 t'
-/// eta' - h eta'^2, a . e = t'' - t eta'^2 - h eta''.
+/// With the guide at eta, A = C + t e + h n (h constant): v . n = t eta', v . e = t' - h eta',
+/// a . n = t eta'' + 2 t' eta' - h eta'^2, a . e = t'' - t eta'^2 - h eta''.
 pub fn swinging_guide() -> Sample {
     let links = vec![
         link("ground", &[("O", Vec2::zeros()), ("C", PIVOT)], [0.0; 4]),

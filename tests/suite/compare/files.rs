@@ -190,7 +190,7 @@ fn nan_does_not_agree_and_missing_cells_are_counted() {
         assert!(told.starts_with("AGREE: all 15 channels agree at 41 times, 45 of 615 values"), "{marker}: {told}");
         assert!(told.contains("left out: up to 38 instants"), "{marker}: {told}");
     }
-    // A row is used only if every column of the mapping has a number in this row.
+    // A row is used for a channel only if every column in the channel's expression has a number in this row.
     fs::write(place.path("some.csv"), "t_s,a,b\n0,0,\n0.01,1,60\n").unwrap();
     let line = "compare scenarios/crank_rocker.toml some.csv --map ln(a-2)+b=link.rocker.angle_deg --rel 100";
     place.refused(line, &["line 3 of the table", "ln(-1) is undefined"]);

@@ -37,7 +37,7 @@ fn compared(place: &Place, text: &str) -> (i32, String) {
     (outcome.code, all.split_whitespace().collect::<Vec<_>>().join(" "))
 }
 
-/// Duration of one revolution at 130 rpm.
+/// Duration of one revolution at 130 rpm (s).
 const TURN: f64 = 60.0 / 130.0;
 
 #[test]

@@ -14,8 +14,8 @@ type Mistake = (&'static str, fn(&mut Columns), &'static [&'static str]);
 
 struct Columns {
     time: Vec<f64>,
-    /// Angle, angular velocity and angular acceleration of a link, motion of the link's mass centre, and the driving
-    /// moment.
+    /// Angle, angular velocity and angular acceleration of a link, position and x acceleration of its mass centre, and
+    /// the driving moment. Columns of zeros are omitted.
     all: Vec<(String, Vec<f64>)>,
     /// Angle of another link.
     other: Vec<f64>,

@@ -1,8 +1,7 @@
 //! Many poses of one case in one call.
 //!
 //! Several crank angles are solved at once, as many as fit into the machine's registers.
-//! The case must consist of driving links, RRR dyads and higher groups on pins, and all loads must be moments of
-//! resistance.
+//! [`Batch::is_vectorised`] lists the conditions on the case.
 //! Each pose of such a case can be solved without the other poses.
 //! Any other case is solved pose by pose.
 
@@ -89,15 +88,20 @@ impl<'a> Batch<'a> {
     }
 
     /// Whether several poses are solved at once.
-    /// A vectorised solution requires that all groups are RRR dyads or groups of four or six links on pins, and that
-    /// all loads are moments of resistance.
+    /// A vectorised solution requires that
+    /// - all drives are cranks on the ground; if there are several, their speeds are constant,
+    /// - all groups are RRR dyads or groups of four or six links on pins,
+    /// - there are no transmissions, and all loads are moments of resistance,
+    /// - the drive does not pass change points.
+    ///
     /// If `false`, the case is solved pose by pose.
     #[must_use]
     pub fn is_vectorised(&self) -> bool {
         self.groups.is_some()
     }
 
-    /// Number of poses so far that were solved one by one because the vectorised solution failed.
+    /// Number of poses so far that were solved one by one: those for which the vectorised solution failed, or all poses
+    /// of a case that is not vectorised.
     #[must_use]
     pub fn solved_singly(&self) -> usize {
         self.singly

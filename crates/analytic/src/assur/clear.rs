@@ -86,7 +86,8 @@ impl PoseSolver<'_> {
 
     /// Searches for the smallest clearance of a group between the present crank angle and `target`, by bisection on its
     /// slope.
-    /// Refuses the step if the smallest clearance is zero within rounding error.
+    /// Refuses the step if the smallest clearance is zero within rounding error, or if a pose in between cannot be
+    /// assembled.
     #[cold]
     fn search(&mut self, group: GroupId, target: f64, ends: [SingularityDistance; 2]) -> Result<(), OutOfReach> {
         let ([mut low, mut high], [mut before, mut after]) = ([self.crank, target], ends);

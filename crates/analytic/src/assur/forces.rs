@@ -3,7 +3,7 @@
 //!
 //! By d'Alembert's principle, every link carries m (g - a) at its mass centre, the moment -J alpha, its loads, and the
 //! forces of the groups attached to it.
-//! Each kind of group has one file.
+//! The files `rrr`, `sliding`, `shaped` and `higher` treat the groups, `driving` the driving links.
 
 mod body;
 mod driving;
@@ -50,7 +50,7 @@ pub(super) struct Kinetostatics {
     /// One load per loaded link, if all loads are moments of resistance and there is no friction; otherwise `None`.
     /// Moments of resistance do not depend on the link's position.
     resistances: Option<Vec<(LinkId, Load)>>,
-    /// Whether any drive moves a joint other than the crank's joint.
+    /// Whether any drive moves a slide or a joint between moving links.
     drives_joints: bool,
     /// The joints with friction, if there are any, and the loads before friction is added.
     dry: Option<Box<(Dry, Vec<Wrench>)>>,
@@ -94,9 +94,8 @@ impl Kinetostatics {
         }
     }
 
-    /// Writes to `state` the reaction in every joint (first link on second; N, N m) and the balancing moments on the
-    /// driving links (N m).
-    /// The balancing moments follow from the equilibrium of the driving links about their pivots.
+    /// Writes to `state` the reaction in every joint (first link on second; N, N m), the forces of the transmissions
+    /// (N), and the balancing moments and driving forces (N m, N).
     /// The pose must be the last one that `plan` has solved. Loads may use the state's angles.
     ///
     /// # Errors

@@ -240,7 +240,7 @@ impl Gauges {
         let mut gauges = vec![f64::NAN; self.watched.len()];
         for (index, watched) in direct() {
             let group = &plan.steps()[watched.group];
-            // If a group has no clearance, its sine is NaN and does not count as near zero.
+            // A group without a clearance has no sine and does not count as singular.
             if group.sine(&motions).is_some_and(|sine| sine < 10.0 * SINGULAR) {
                 return Err(passed(watched.group));
             }

@@ -248,8 +248,8 @@ impl SolutionPlan {
         !self.steps.iter().any(|step| matches!(step, Step::Chain(_)))
     }
 
-    /// Computes the positions of all links (m) for the world angles of the driving links (rad), in the order of
-    /// [`Structure::drivers`].
+    /// Computes the positions of all links (m) for the driven coordinates `angles`, in the order of
+    /// [`Structure::drivers`]: the world angle of a crank, a joint angle (rad) or a slide (m).
     /// Higher groups start from the last pose in `motions`.
     ///
     /// # Errors
@@ -363,8 +363,8 @@ impl SolutionPlan {
         Ok(())
     }
 
-    /// Writes the bounds of the ground and of the driving links. Each driving link turns at a constant multiple of the
-    /// crank's speed, given in `ratios`.
+    /// Writes the bounds of the ground and of the driving links that are cranks. Each of them turns at a constant
+    /// multiple of the first crank's speed, given in `ratios`.
     pub(in crate::assur) fn bound_drivers(&self, ratios: &[f64], links: &mut Bounds) {
         links.fill(None);
         links[GROUND] = Some(Bound::REST);
@@ -403,8 +403,8 @@ impl SolutionPlan {
         self.steps.iter().map(|step| step.clearance(motions))
     }
 
-    /// Computes the velocities of all links (m/s, rad/s) for the angular velocities `omegas` of the driving links
-    /// (rad/s). Positions must be known.
+    /// Computes the velocities of all links (m/s, rad/s) for the rates `omegas` of the driven coordinates (rad/s or
+    /// m/s). Positions must be known.
     #[inline]
     pub fn velocities(&mut self, omegas: &[f64], motions: &mut [Motion]) {
         self.tally.one(Count::Velocities);

@@ -27,6 +27,7 @@ pub(super) const HALVINGS: u32 = 20;
 const MEET: &str = sentences::THERE_THE_LINKS_OF_THE_GROUP;
 
 /// Steps from crank angle to crank angle on one branch and solves the pose at each angle, without allocation.
+/// If the first drive moves a slide, the functions take the slide (m) in place of a crank angle.
 /// If several drives have separate laws, the crank angle does not determine the pose.
 /// The solver then steps in time: its functions take a time (s) in place of a crank angle (rad).
 #[derive(Debug)]
@@ -64,7 +65,7 @@ impl<'a> PoseSolver<'a> {
     /// Starts at the start pose of the case, which fixes the branch.
     ///
     /// # Errors
-    /// [`ErrorKind::Geometry`] if the start pose is singular.
+    /// [`ErrorKind::Geometry`] if the start pose is singular or cannot be assembled.
     pub fn new(case: &'a Case) -> Result<Self> {
         let plan = SolutionPlan::of(&case.mechanism, &case.structure, &case.modes);
         let by_time = case.goes_by_time();
@@ -124,11 +125,14 @@ impl<'a> PoseSolver<'a> {
     /// (rad/s) and acceleration `alpha` (rad/s^2).
     /// The rates of further drives follow from their speed ratios at that crank angle.
     /// Only stages up to `deepest` are computed. The results of later stages keep the values of earlier calls.
-    /// The links' angles also keep the values of earlier calls: see [`PoseSolver::with_angles`].
+    /// The links' angles also keep the values of earlier calls, unless the loads need them: see
+    /// [`PoseSolver::with_angles`].
     ///
     /// # Errors
     /// [`ErrorKind::Geometry`] if the crank angle cannot be reached on the branch. The error states the group that
     /// fails and the crank angle.
+    /// [`ErrorKind::Numeric`] if friction locks the mechanism or leaves the forces undetermined, or if reactions grow
+    /// without bound at a change point.
     pub fn solve(&mut self, crank: f64, omega: f64, alpha: f64, deepest: Stage) -> Result<&State> {
         // The solution in one pass needs 1 / omega. One pass is therefore used only if omega is a normal number.
         self.in_one_pass = deepest >= Stage::Accelerations && omega.is_normal();
@@ -255,7 +259,7 @@ impl<'a> PoseSolver<'a> {
         self.step_to(target, HALVINGS)
     }
 
-    /// Writes to the inputs the world angles of all driving links at a crank angle.
+    /// Writes the coordinates of all drives at a crank angle to the inputs.
     #[inline(always)]
     pub(super) fn turn(&mut self, crank: f64) {
         self.inputs[0] = self.zero + crank;
@@ -488,7 +492,7 @@ fn drive_further(case: &Case, crank: f64, rate: f64, rates: &mut [f64]) {
     rates.iter_mut().zip(ratios.skip(1)).for_each(|(own, ratio)| *own = rate * ratio);
 }
 
-/// The world angles of the driving links other than the crank.
+/// The coordinates of the drives other than the first.
 #[inline(never)]
 fn turn_further(case: &Case, crank: f64, angles: &mut [f64]) {
     let t = case.crank().time_of(crank);

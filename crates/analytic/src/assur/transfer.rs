@@ -44,10 +44,9 @@ pub(crate) struct TransferSide<'a> {
     matrix: Lu,
     right: Vec<f64>,
     loads: Vec<Wrench>,
-    /// Change points of a mechanism with one driving link. A mechanism with several driving links cannot pass change
-    /// points.
+    /// Change points; `None` with several driving links or with friction, where change points cannot be passed.
     passing: Option<Passing>,
-    /// Clearances of the groups at the last pose; used only with several driving links.
+    /// Clearances of the groups at the last pose; used only if `passing` is `None`.
     sines: Vec<Option<f64>>,
     /// The argument `held` of the last call of `accelerate` in a window around a change point.
     held: Option<Held>,

@@ -20,7 +20,7 @@ const SAME: f64 = 1e-9;
 
 impl PoseSolver<'_> {
     /// Follows one whole turn towards the crank angle `target`, and skips the following turns if they equal this turn.
-    /// At most a few turns then remain.
+    /// Less than one turn then remains.
     /// No turns are skipped if the mechanism is not back at its old pose after one turn.
     /// No turns are skipped if further drives or change points make the turns differ from each other.
     pub(super) fn skip_turns(&mut self, target: f64) -> Result<()> {

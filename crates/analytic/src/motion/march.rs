@@ -216,8 +216,8 @@ fn end_on_bound<const N: usize, F: Flow<N>>(
     Ok(Stop::Bound(passed.0))
 }
 
-/// Position in the last step, before `beyond`, at which the state passes a bound. The position is as accurate as the
-/// library's interpolation.
+/// Position in the last step, before `beyond`, at which the state passes a bound. The position is as accurate as
+/// [`Course::at`].
 fn crossing<const N: usize, F: Flow<N>>(
     flow: &F,
     course: &Course<N>,

@@ -11,8 +11,8 @@ use linkage::math::{Motion, Vec2};
 use linkage::mechanism::{GROUND, JointId, JointSide as Place, LinkId};
 use linkage::solver::State;
 
-/// The driving links at one instant, in the order of the drives: angles in the world (rad), angular velocities (rad/s)
-/// and accelerations (rad/s^2).
+/// The driven coordinates at one instant, in the order of the drives: angles (rad; of a crank in the world) or slides
+/// (m), with their rates and accelerations.
 /// A drive that follows its law has the values of the law.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Inputs {

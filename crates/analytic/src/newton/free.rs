@@ -32,8 +32,9 @@ pub(super) struct Embedded<'a> {
     free: Vec<usize>,
     /// Columns V of all drives, one after the other.
     columns: Vec<f64>,
-    /// Contains a0 at first, and Q - M a0 afterwards.
+    /// a0.
     rest: Vec<f64>,
+    /// Q - M a0.
     force: Vec<f64>,
     matrix: Lu,
     right: Vec<f64>,

@@ -28,7 +28,7 @@ const SETTLED: f64 = 1e-14;
 const ROUNDING: f64 = 1e-10;
 
 /// The free drives of a motion: the velocities of all links for a unit rate of each drive (the columns V), the indices
-/// of the free drives, and the actions on the links.
+/// of the free drives, and the data of motor, loads and losses.
 pub(super) struct Freedom<'a> {
     pub(super) columns: &'a [f64],
     pub(super) free: &'a [usize],
@@ -132,7 +132,7 @@ impl System<'_> {
                     }
                 };
                 let own: Vec<f64> = rows.clone().map(|row| self.lambda[row] + self.beside[row]).collect();
-                // A positive lever acts against the sense of the sliding.
+                // The sense of sliding and the lever have opposite signs.
                 let (normal, slopes) = of_multipliers(&friction, &own, joint.slides(), -lever);
                 let place = self.centre(joint.second.link) + self.arm(joint.second.link, joint.second.local);
                 for (link, sign) in ends {

@@ -18,8 +18,8 @@ const WORTH: f64 = 3.0;
 const SAME: f64 = 1e-9;
 
 impl System<'_> {
-    /// Follows one whole turn towards `t`, and skips the following turns if they equal this turn. At most a few turns
-    /// then remain.
+    /// Follows one whole turn towards `t`, and skips the following turns if they equal this turn. Less than one turn
+    /// then remains.
     /// No turns are skipped if the mechanism is not back at its old pose after one turn.
     /// No turns are skipped if there are several drives, if the drive is a slide, or if its speed is not constant.
     pub(super) fn skip_turns(&mut self, t: f64) -> Result<()> {

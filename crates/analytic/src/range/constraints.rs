@@ -28,12 +28,12 @@ pub(super) struct FirstMember {
     transmission: TransmissionId,
     /// Indices of the coordinates and their factors.
     first: Vec<(usize, f64)>,
-    /// Unit of the second member's coordinate (1 or m).
+    /// Unit of the second member's coordinate: 1, or the mechanism's size (m).
     unit: f64,
 }
 
 impl Gearing {
-    /// The sum, and the first member's terms times the derivative of the law.
+    /// The sum minus the law, and the first member's terms times minus the derivative of the law.
     fn at(&self, mechanism: &Mechanism, q: &ColumnVector) -> (f64, Vec<(usize, f64)>) {
         let sum = |terms: &[(usize, f64)]| terms.iter().map(|&(index, factor)| factor * q[index]).sum::<f64>();
         let Some(FirstMember { transmission, first, unit }) = &self.law else { return (sum(&self.terms), Vec::new()) };

@@ -106,7 +106,7 @@ pub(super) struct Tracker<'a> {
     /// size (m) for a slide.
     crank: usize,
     unit: f64,
-    /// Signs that make every group's determinant positive at the start.
+    /// Signs that give a dyad's determinant the sign of its transmission sine; others are positive at the start.
     signs: Vec<f64>,
     /// Direction of the smallest singular value at the last pose. The inverse iteration at the next pose starts from
     /// this direction.
@@ -222,7 +222,7 @@ impl<'a> Tracker<'a> {
     }
 
     /// Solves all equations and `across . (q - from) = distance` by Newton's method from `q`.
-    /// `None` if the first correction is longer than `most` or the method does not converge.
+    /// `None` if a correction is longer than `most` or the method does not converge.
     fn correct(
         &self,
         mut q: ColumnVector,

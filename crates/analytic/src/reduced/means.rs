@@ -29,8 +29,10 @@ pub fn moment_of_inertia(case: &Case, motions: &[Motion]) -> f64 {
     sum / motions[case.crank().link].omega.powi(2)
 }
 
-/// Reduced moment of resistance (N m): minus the power of gravity and loads divided by the driving link's speed.
-/// The moment is positive where the drive must do work against gravity and loads.
+/// Reduced moment of resistance (N m): minus the power of gravity and loads divided by the driving link's angular
+/// velocity.
+/// This is the moment with which the drive balances gravity and loads, counter-clockwise positive. Where the drive must
+/// do work, the moment has the sign of the angular velocity.
 #[must_use]
 pub fn moment_of_resistance(case: &Case, state: &State) -> f64 {
     let power =
@@ -169,7 +171,7 @@ pub fn kinks(case: &Case) -> Result<Kinks> {
 pub struct Means {
     /// Mean reduced moment of inertia (kg m^2).
     pub inertia: f64,
-    /// Mean reduced moment of resistance (N m).
+    /// Mean reduced moment of resistance (N m), with the sign of [`moment_of_resistance`].
     pub resistance: f64,
 }
 

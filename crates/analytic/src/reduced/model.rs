@@ -65,7 +65,7 @@ pub struct ReducedModel<'a> {
     kinks: Kinks,
     /// Crank angles of the boundaries between pieces. The boundaries are the kinks of one period.
     /// If there are no kinks, the start of the period is the only boundary.
-    /// If the motion has limits, the limits are included.
+    /// If the motion has limits, the crank angles [`LIMIT_MARGIN`] inside the limits are included.
     boundaries: Vec<f64>,
     /// Sense of the transfer function of each link in `sensed`, on each piece of one period: +1 or -1.
     /// The values are ordered by piece: all links on the first piece, then all links on each following piece.

@@ -17,7 +17,7 @@ use linkage::trajectory::Stage;
 /// Even two reversals between neighbouring poses are detected, from the slopes of the angular velocity.
 const POSES: u32 = 120;
 /// The search for a return to the first pose ends after this number of turns of the crank. The analysis of the range of
-/// motion uses the same limit.
+/// motion uses the same limit, except for mechanisms with transmissions.
 const MOST_TURNS: u32 = 12;
 /// If the crank turns at 1 rad/s and a link turns more slowly than this (rad/s), the link's angular velocity is
 /// rounding error.

@@ -19,7 +19,7 @@ use super::super::spec::{Spec, four_bar};
 /// Upper limit of the condition number of a higher group.
 /// For comparison, a dyad with a transmission angle of 10 degrees has the condition number 11.4.
 const CONDITION: f64 = 25.0;
-/// Upper limit of the speed of a link divided by the speed of the crank.
+/// Upper limit of a link's angular velocity (rad/s) and of a joint's velocity (m/s), at a crank speed of 1 rad/s.
 const FASTEST: f64 = 8.0;
 /// If the safe range of crank angles (rad) is shorter than this value, the specimen is rejected.
 const SHORTEST: f64 = 0.3;

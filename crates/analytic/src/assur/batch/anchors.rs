@@ -24,7 +24,7 @@ const KEPT: usize = OF_START - 1;
 /// Distance between two anchors (rad). The distance is slightly smaller than the longest step of [`PoseSolver`], so
 /// that rounding does not make it larger than this step.
 const STEP: f64 = FOLLOWED_STEP * (1.0 - 1e-9);
-/// Largest number of intervals in one direction, about three hundred turns. Poses farther away are solved one by one.
+/// Largest number of intervals in one direction, about 278 turns. Poses farther away are solved one by one.
 const MOST: usize = 50_000;
 
 /// The anchors of a case in both directions of its crank.
@@ -41,7 +41,7 @@ struct Way<'a> {
     /// Distance between two anchors (rad), with its sign.
     step: f64,
     links: Vec<LinkId>,
-    /// Direction of every link at the outermost anchor, with its first and second transfer functions.
+    /// Direction of each of these links at the outermost anchor, with its first and second transfer functions.
     last: Vec<(Vec2, [f64; 2])>,
     intervals: Vec<f64>,
     count: usize,
@@ -52,7 +52,7 @@ impl<'a> Anchors<'a> {
     /// Returns the anchors for the higher groups of a case; `None` if it has no higher group.
     ///
     /// # Errors
-    /// The errors of [`PoseSolver::new`].
+    /// The errors of [`PoseSolver::new`] and [`PoseSolver::solve`].
     pub(super) fn of(case: &'a Case, groups: &Groups) -> Result<Option<Self>> {
         let links: Vec<LinkId> = groups.chains().flat_map(|(chain, _)| chain.links().to_vec()).collect();
         if links.is_empty() {

@@ -23,7 +23,7 @@ pub(super) struct Body {
     pub(super) mass: f64,
     pub(super) mass_centre: Vec2,
     pub(super) inertia: f64,
-    /// Joints at which later groups are attached to the link.
+    /// Actions of the joints at which later groups are attached to the link.
     pub(super) hanging: Vec<Action>,
     /// Sum of the moments of resistance on the link (N m).
     pub(super) resistance: Option<f64>,

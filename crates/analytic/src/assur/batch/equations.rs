@@ -106,8 +106,7 @@ impl Driver {
 }
 
 impl Arm {
-    /// World vector from the base link's origin to the outer joint, and the position, velocity and acceleration of the
-    /// joint. Only values up to the stage `deepest` are computed.
+    /// Position, velocity and acceleration of the outer joint, in world axes. Those beyond the stage `deepest` are 0.
     #[inline(always)]
     fn base<S: Simd>(&self, deepest: Stage, tile: &Window<S>) -> [Plane<S>; 3] {
         let zero = Plane::splat(tile.simd, Vec2::zeros());
@@ -129,7 +128,7 @@ impl Arm {
 }
 
 impl Dyad {
-    /// Computes the motion of both links. Returns NaN for poses that cannot be assembled.
+    /// Computes the motion of both links. Returns r1 x r2 (m^2), or NaN for poses that cannot be assembled.
     /// The operations and their order are those of [`crate::assur::groups::Rrr`], so that the bits are the same.
     #[inline(always)]
     fn turn<S: Simd>(&self, deepest: Stage, tile: &mut Window<S>, work: &mut Window<S>, column: usize) -> Lanes<S> {
@@ -179,10 +178,10 @@ impl Dyad {
         product
     }
 
-    /// Zero in poses that are clear of dead points, and so is the way to the next pose; elsewhere NaN.
-    /// The sine of the transmission angle is s = D / (l1 l2), its rate is (r1 . r2) (omega2 - omega1) / (l1 l2), and
-    /// `pace` (s) is the time between two poses: s must be larger than `least`, and s' times `pace` at most `share`
-    /// of s.
+    /// Returns 0 where the pose and the motion to the next pose are clear of dead points, elsewhere NaN.
+    /// The sine of the transmission angle is s = (r1 x r2) / (l1 l2).
+    /// Its rate is s' = (r1 . r2) (omega2 - omega1) / (l1 l2), and `pace` (s) is the time between two poses.
+    /// |s| must be larger than `least`, and |s'| times `pace` smaller than `share` times |s|.
     #[inline(always)]
     pub(super) fn doubt<S: Simd>(
         &self,

@@ -14,11 +14,11 @@ use super::poses::{ALPHA, DIRECTION, Layout, OMEGA};
 use super::tally::PoseTally;
 use crate::assur::groups::SolutionPlan;
 
-/// Smallest allowed sine of a transmission angle.
+/// The magnitude of the sine of every transmission angle must be larger.
 const CLEAR_SINE: f64 = 0.01;
 /// Largest allowed change of the sine of a transmission angle between two instants, as a fraction of the sine.
-/// Near a dead point the square of the sine s is linear in time, so that s is zero after the time s / (2 s').
-/// A quarter is half of the corresponding fraction.
+/// Near a dead point the square of the sine s is linear in time, so that s is zero after the time t = s / (2 s').
+/// The change s' t is then half of s; the limit is half of this change.
 const CLEAR_CHANGE: f64 = 0.25;
 
 /// Solver for cases of one structure and grid: a crank on the ground at constant speed, and RRR dyads, without loads
@@ -121,8 +121,11 @@ impl CaseBatch {
     }
 
     /// Solves all instants of the grid up to the stage `deepest`, and computes the statistics `tallies`.
-    /// `false` if a pose cannot be assembled, if a number is not finite, or if a dyad may pass a dead point between two
-    /// instants. [`PoseSolver`](crate::PoseSolver) then solves the case or gives the error.
+    /// Returns `false` in the cases below. [`PoseSolver`](crate::PoseSolver) then solves the case or gives the error.
+    /// - A pose cannot be assembled, or a number is not finite.
+    /// - A dyad is near a dead point, or may pass one between two instants.
+    /// - An angle with whole turns is requested, and the rows are not in the order of time or the link's direction at
+    ///   the start is nearly -x.
     pub fn solve(&mut self, deepest: Stage, tallies: &mut [PoseTally]) -> bool {
         tallies.iter_mut().for_each(|own| own.start(&self.case, self.layout));
         let arch = self.arch;
@@ -138,7 +141,8 @@ struct AllTiles<'a> {
 }
 
 impl CaseBatch {
-    /// Solves one tile, of the start without its index. `doubt` becomes NaN where a dead point may be near.
+    /// Solves the tile `index` of the grid, or the start pose if `index` is `None`. `doubt` becomes NaN where a dead
+    /// point may be near.
     #[inline(always)]
     fn solve_tile<S: Simd>(
         &mut self,
@@ -186,7 +190,7 @@ impl WithSimd for AllTiles<'_> {
                 return false;
             }
         }
-        // Velocities tell how near a dead point is.
+        // The check for dead points needs velocities.
         let deepest = if deepest < Stage::Velocities { Stage::Velocities } else { deepest };
         for index in 0..batch.cranks.len() {
             batch.solve_tile(simd, deepest, Some(index), tallies, &mut doubt);

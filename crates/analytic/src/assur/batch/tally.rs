@@ -74,7 +74,7 @@ pub fn spans(case: &Case, group: GroupId) -> [Vec2; 2] {
 pub struct PoseTally {
     /// The quantity.
     pub quantity: PoseQuantity,
-    /// Unit of the values (SI).
+    /// Unit of the values, as a multiple of the SI unit.
     pub unit: f64,
     /// The statistic of the last case.
     pub tally: Tally,
@@ -100,7 +100,7 @@ enum Reading {
 }
 
 impl PoseTally {
-    /// A statistic of a quantity in the unit `unit` (SI).
+    /// A statistic of a quantity in the unit `unit`, a multiple of the SI unit.
     #[must_use]
     pub fn of(quantity: PoseQuantity, unit: f64, tally: Tally) -> PoseTally {
         PoseTally { quantity, unit, tally, reading: Reading::Given, fault: Eight([0.0; TILE]) }
@@ -144,7 +144,7 @@ impl PoseTally {
         };
     }
 
-    /// Whether the quantity depends on the poses before.
+    /// Whether the quantity depends on earlier poses.
     pub(super) fn needs_start(&self) -> bool {
         matches!(self.reading, Reading::Angle(..))
     }
@@ -156,7 +156,8 @@ impl PoseTally {
         last.x > 0.0 || last.y.abs() > 1e-6
     }
 
-    /// Adds the rows of a part of a tile, with the bits of the [sampler](linkage::solver::Sampler).
+    /// Adds the rows of a part of a tile. The values have the same bits as those of the
+    /// [sampler](linkage::solver::Sampler).
     /// `row` is the first row of the tile, and `given` has the angles of the crank.
     #[inline(always)]
     pub(super) fn add<S: Simd>(&mut self, row: usize, given: &Eight, tile: &Window<S>) {

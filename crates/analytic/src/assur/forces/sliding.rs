@@ -1,7 +1,8 @@
 //! Joint reactions of the four dyads with prismatic joints.
 //!
 //! A revolute joint transmits a force. A prismatic joint transmits a force across its axis and a moment.
-//! F and M are the known force and moment on a link, u and w the vectors from the pole to the outer joints.
+//! F_a and M_a are the known force and moment on link a, F_b and M_b those on link b, F and M those on both links.
+//! u and d are the vectors from the pole to the outer joints of links a and b; e and b are the axes.
 //! R is the force on link a at its outer joint.
 //! RRP: u x R = -M_a about the inner joint, e . (R + F) = 0 for the whole dyad.
 //! RPR, with R on the second link of the prismatic joint: e . (R + F_b) = 0 for the second link, and d x R = -M about
@@ -46,7 +47,7 @@ impl Sliding {
         }
         let links = order.map(|k| group.links[k]);
         let outer = order.map(|k| group.outer[k]);
-        // World direction of the axis, which is fixed to the first link of its joint.
+        // The first link of a joint, and the axis in its frame.
         let axis = |joint: JointId| {
             let link = joints[joint].first.link;
             (link, joints[joint].axis_on(link).unwrap_or_else(Vec2::zeros))

@@ -21,7 +21,7 @@ pub(in crate::assur) struct Bound {
     /// Speed and acceleration of the reference point (m per rad and m per rad^2 of the crank angle).
     pub(super) speed: f64,
     pub(super) second: f64,
-    /// Angular velocity and angular acceleration of the link (per unit of crank angle).
+    /// Angular velocity and angular acceleration of the link (rad per rad and rad per rad^2 of the crank angle).
     pub(super) turn: f64,
     pub(super) spin: f64,
 }

@@ -4,7 +4,8 @@
 //! prismatic joints cannot form a loop.
 //! The tree also contains all joints with a given coordinate. Every remaining revolute joint closes a contour.
 //! A link with a revolute joint to its parent has its angle as an unknown; a link with a prismatic joint has a slide.
-//! Each contour gives two equations, and each given coordinate one: theta - theta(parent) = q, or slide = q.
+//! Each contour gives two equations, and each given coordinate one: theta - theta(parent) = q, or slide = q; with -q if
+//! the link is the joint's first link.
 //! Each transmission gives one equation too (`train.rs`).
 //! There are as many unknowns as equations.
 //! The gap of a closing joint is the sum of the link and slide vectors along both paths to this joint.
@@ -68,15 +69,15 @@ const SMALLEST_STEP: f64 = 1e-6;
 const SINGULAR: f64 = 1e-6;
 
 /// Returns `direction` rotated by a small angle (rad).
-/// The result is accurate to the seventh order of the angle, and its length is 1 within rounding error.
+/// The error is of the seventh order of the angle, and the length of the result is 1 within rounding error.
 #[inline]
 fn slightly_turned(direction: Vec2, angle: f64) -> Vec2 {
     let square = angle * angle;
     let sine = angle * (1.0 - square * (1.0 / 6.0 - square * (1.0 / 120.0)));
     let cosine = 1.0 - square * (0.5 - square * (1.0 / 24.0 - square * (1.0 / 720.0)));
     let turned = rotated(direction, Vec2::new(cosine, sine));
-    // Restores unit length with an approximate inverse root. The length before this correction differs from 1 by at
-    // most 1e-8, and the remaining error is of the order of the square of this difference.
+    // Restores unit length with an approximate inverse root. The length before this correction differs from 1 by about
+    // 1e-8 at most, and the remaining error is of the order of the square of this difference.
     turned * (1.5 - 0.5 * turned.norm_squared())
 }
 
@@ -108,13 +109,13 @@ pub struct Chain {
     jacobian: Lu,
     unknown: Vec<f64>,
     branch: f64,
-    /// Determinant at the last pose, its square, and the derivatives of the square with respect to the driving angles
-    /// (1/rad).
+    /// Determinant at the last pose, its square, and the derivatives of the square with respect to the components of
+    /// `step`.
     /// Every step corrects the derivatives along the direction of the step (Broyden's update).
     determinant: f64,
     square: f64,
     slopes: Vec<f64>,
-    /// Driving angles at the last pose, and the changes from there to the requested pose (rad).
+    /// Driven coordinates at the last pose (rad, m), and their changes to the requested pose, times `scales`.
     at: Vec<f64>,
     step: Vec<f64>,
     /// Directions of the links at the last pose, restored if a step fails.
@@ -328,9 +329,8 @@ impl Chain {
         self.determinant
     }
 
-    /// Computes the slides of the start pose from the motions of the links.
-    /// This computation is possible because the links are still in the start pose when the group is placed for the
-    /// first time.
+    /// Computes the slides from the poses of the links: from the start pose when the group is first placed, and from
+    /// the expected poses in [`Chain::positions_like`].
     fn read_slides(&mut self, motions: &[Motion]) {
         for (slide, node) in self.slides.iter_mut().zip(&self.contours.nodes) {
             let from = motions[node.parent.link].point(node.parent.local);

@@ -89,7 +89,7 @@ impl Rpr {
         self.gauge
     }
 
-    /// Limit of the gauge during a step of the crank. `farthest` is the largest squared distance of the pins at the
+    /// Limit of the gauge during a step of the crank. `farthest` is a bound of the squared distance of the pins at the
     /// ends of the step (m^2). `step` is the crank's rotation in the step (rad).
     /// Inside the step, the distance of the pins exceeds the larger distance at the ends by at most `step` times the
     /// sum of the pins' speeds.

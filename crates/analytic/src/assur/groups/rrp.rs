@@ -16,7 +16,7 @@ use super::pin::Pin;
 use linkage::math::{Motion, Vec2, turned};
 use linkage::mechanism::{AssemblyMode, Group, LinkId, Mechanism};
 
-/// If the guide moves, a bound is valid for this number of crank steps.
+/// If the guide turns, a bound is valid for this number of crank steps.
 const FAR: f64 = 16.0;
 
 /// RRP dyad, prepared for solving.
@@ -98,7 +98,7 @@ impl Rrp {
 
     /// Limit of the gauge during a step of the crank.
     /// h = n . (Q - P), so that |h''| <= |a| + 2 omega |v| + (alpha + omega^2) |Q - P|.
-    /// v and a are the velocity and acceleration of Q relative to P.
+    /// v and a are the velocity and acceleration of Q relative to P, omega and alpha the rates of the guide's angle.
     pub(super) fn limit(&self, links: &Bounds, motions: &[Motion], step: f64) -> Option<Limit> {
         let way = FAR * step;
         let (pin, zero, link, distance) = self.outer_rates(links, motions, way)?;

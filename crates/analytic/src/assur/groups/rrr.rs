@@ -236,7 +236,7 @@ impl Rrr {
         self.gauge
     }
 
-    /// Speeds and accelerations of the outer joints; `None` if a carrying link has no bounds.
+    /// Bounds of the speeds and accelerations of the outer joints; `None` if a carrying link has no bounds.
     fn outer_rates(&self, links: &Bounds) -> Option<[[f64; 2]; 2]> {
         let [first, second] = self.arms.map(|arm| links[arm.base.link].map(|link| link.at(arm.base.local)));
         Some([first?, second?])

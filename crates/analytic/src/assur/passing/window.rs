@@ -29,8 +29,7 @@ const WIDTHS: [f64; 11] = [0.5, 0.4, 0.3, 0.2, 0.15, 0.1, 0.07, 0.05, 0.03, 0.02
 /// one.
 /// The failing window contains another singular pose, towards which reactions may grow without bound.
 const CLEAR: f64 = 0.5;
-/// A change point is passed only if the error of the second transfer functions, divided by the largest of them, is
-/// below this value.
+/// A change point is passed only if [`Window::error`] is below this value.
 const WORST: f64 = 1e-6;
 /// Largest distance between two change points that counts as an effect of rounding or curvature, divided by the
 /// distance between the innermost nodes.
@@ -105,7 +104,7 @@ impl Window {
                 let (least, most) =
                     sines.iter().fold((f64::INFINITY, 0.0f64), |(a, b), &sine| (a.smaller(sine), b.larger(sine)));
                 // The larger of two condition numbers: about the inverse sine of the innermost pose, and the number
-                // that explains the error of the second transfer functions.
+                // that explains the error of the transfer functions.
                 window.condition =
                     (WEIGHTS * most / least / window.reach).larger((error / (ULPS * f64::EPSILON)).cbrt());
                 Ok(window)
@@ -229,7 +228,8 @@ impl Window {
         node.plan.steps().ids().map(|group| node.plan.determinant(group)).collect()
     }
 
-    /// Error of the second transfer functions at the change point, divided by the largest transfer function.
+    /// Error of the first and second transfer functions of the links' angles at the change point, divided by the
+    /// largest of them or 1, whichever is larger.
     /// The error is the change of the result when the outermost or the innermost pair of nodes is left out, whichever
     /// is larger.
     /// Without the outermost pair, the change shows the error of the polynomials; without the innermost pair, the

@@ -69,7 +69,7 @@ mod tests {
         let polynomial = Osculating::through(&points);
         for x in [-0.3, -0.1, 0.0, 0.07, 0.25] {
             let found = polynomial.at(x)[0];
-            // Bounds for rounding errors: a few units in the last place of f, s f and 9 s^2 f, with s up to 19 and f up
+            // Bounds for rounding errors: a few units in the last place of f, s f and 9 s^2 f, with s up to 21 and f up
             // to 3.3.
             for (k, bound) in [(0, 1e-14), (1, 1e-13), (2, 16.0 * f64::EPSILON * 9.0 * 19.0 * 19.0)] {
                 assert!((found[k] - of(x)[k][0]).abs() < bound, "{x} {k}: {}", found[k] - of(x)[k][0]);

@@ -32,8 +32,7 @@ const WIDTHS: [f64; 11] = [0.5, 0.36, 0.25, 0.18, 0.12, 0.08, 0.06, 0.04, 0.025,
 /// If the path is lost in a window, the next half width is at most this fraction of the failing half width.
 /// The cause of a lost path is another singular pose nearby, towards which multipliers may grow without bound.
 const CLEAR: f64 = 0.5;
-/// A change point is passed only if the error of the second derivatives, divided by the largest derivative, is below
-/// this value.
+/// A change point is passed only if [`Window::error`] is below this value.
 const WORST: f64 = 1e-6;
 /// Number of secant steps that improve the position of a change point.
 const SECANTS: usize = 4;
@@ -199,7 +198,7 @@ impl Window {
     }
 
     /// Relative error: largest difference of the two polynomials for the second derivatives, divided by the largest
-    /// derivative.
+    /// first or second derivative or 1, whichever is larger.
     fn error(&self) -> f64 {
         let (mut most, mut scale) = (0.0f64, 1.0f64);
         for x in COMPARED.map(|share| share * self.reach) {

@@ -61,9 +61,9 @@ pub struct Transfer {
     /// The conditional driver: 0, 1 or 2 as in [`Triad::leads`].
     pub driver: usize,
     /// Factor by which rounding errors of the angles can be amplified, at least 1.
-    /// The factor follows from the inverse sines of two angles.
-    /// The first angle is between the base link and the ground lead that does not drive.
-    /// The second angle is between lead 3 and the path of its head.
+    /// The factor is the inverse of the product of a sine and a cosine.
+    /// The sine is that of the angle between the base link and the ground lead that does not drive.
+    /// The cosine is that of the angle between lead 3 and the path of its head.
     pub condition: f64,
 }
 

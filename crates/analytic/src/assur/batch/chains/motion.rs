@@ -14,13 +14,13 @@ use crate::assur::groups::Hangs;
 use linkage::math::Vec2;
 use linkage::trajectory::Stage;
 
-/// Largest accepted correction of an interpolated direction (rad). The square of this correction is below rounding
-/// error.
+/// The sum of the corrections of a group's interpolated directions must be smaller (rad).
+/// The square of this sum is below rounding error.
 const LAST_CHANGE: f64 = 1e-8;
 
 impl Chain {
-    /// Computes the motion of all links. Returns NaN for poses that Newton's method does not reach from the starting
-    /// values.
+    /// Computes the motion of all links. Returns 0, or NaN for poses that one Newton correction does not reach on the
+    /// branch.
     #[inline(always)]
     pub(in crate::assur::batch) fn turn<S: Simd>(
         &self,

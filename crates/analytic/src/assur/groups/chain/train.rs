@@ -67,8 +67,8 @@ impl Term {
         self.sign * self.now
     }
 
-    /// Derivative (`order` 1 or 2) of a coordinate outside the group; `of_link` returns the derivative of a link's
-    /// angle.
+    /// Derivative (`order` 1 or 2) of the term, 0 if it depends on an unknown; `of_link` returns the derivative of a
+    /// link's angle.
     fn known(&self, order: usize, of_link: impl Fn(&Motion) -> f64, motions: &[Motion]) -> f64 {
         match &self.of {
             _ if self.column.is_some() => 0.0,
@@ -144,7 +144,7 @@ impl Train {
     }
 
     /// Right-hand side of the equation for the rates of the unknowns (`order` 1) or their derivatives (`order` 2):
-    /// `of_link` is the rate of a known angle. For order 2, the velocities must be known.
+    /// `of_link` returns the derivative of this order of a link's angle. For order 2, the velocities must be known.
     pub(super) fn known(&self, order: usize, of_link: impl Fn(&Motion) -> f64, motions: &[Motion]) -> f64 {
         let [first, second] = self
             .terms
