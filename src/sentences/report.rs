@@ -11,7 +11,7 @@ linkage::sentences! {
     positions_are_requested(count) = "{count} positions are requested";
     give_positions_between(least, most) = "give a number from {least} to {most}";
     // draw/motion.rs
-    THE_GRID_HAS_ONE_INSTANT = "the driving link does not turn fully, and the grid has only one instant";
+    THE_GRID_HAS_ONE_INSTANT = "the positions are spaced in time, but the grid has only one instant";
     GIVE_A_GRID_OVER_THE_MOTION = "give a grid that covers the motion";
     // draw.rs
     formula_and_class(formula, class) = "{formula}, class {class}";

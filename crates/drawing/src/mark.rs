@@ -105,8 +105,8 @@ roles! {
     Slot = "slot": Link, Paper, 0.6, Links;
     /// Cylinder of a moving link, in which a piston slides.
     Cylinder = "cylinder": Link, Paper, 0.6, Links;
-    /// Pitch circle of a wheel, with a stroke that turns with the wheel; pitch line of a rack; profile of a cam, and the
-    /// roller or face that touches it.
+    /// Pitch circle of a wheel, with a stroke that turns with the wheel; pitch line of a rack; profile of a cam, and
+    /// the roller or face that touches it.
     Wheel = "wheel": Link, None, 0.45, Links;
     /// Strand of a belt.
     Strand = "strand": Link, None, 0.45, Links;

@@ -32,8 +32,8 @@ const DRUM: f64 = 5.4;
 pub struct LoadSign {
     /// Index of the load in the loads of its case.
     pub load: usize,
-    /// Point at which the arrow is drawn: for a force the point on which it acts, for a moment a pin of the link (else a
-    /// point or the mass centre), for a load along a slide the joint's point on the moving link that slides.
+    /// Point at which the arrow is drawn: for a force the point on which it acts, for a moment a pin of the link (else
+    /// a point or the mass centre), for a load along a slide the joint's point on the moving link that slides.
     pub at: JointSide,
 }
 
