@@ -57,7 +57,7 @@ use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use linkage::error::Result;
 use output::End;
 
-/// Largest width of the help (columns).
+/// Largest width of the list of commands in the help (columns).
 const WIDEST: usize = 100;
 
 /// Builds planar mechanisms twice, analytically and as a Rapier multibody, and proves that the two agree.
@@ -116,8 +116,8 @@ commands! {
         Draw(draw::Args) = draw::draw,
         /// Velocity and acceleration plans at one instant, as a table, as JSON or drawn to scale
         Plan(plan::Args) = plan::plan,
-        /// Velocity and acceleration by the chord method, velocity and displacement by graphical integration, and their
-        /// errors
+        /// Velocity and acceleration by chords and tangents, velocity and displacement by graphical integration, and
+        /// their errors
         Diagram(diagram::Args) = diagram::diagram,
         /// Graphs for print: channels, formulas and magnitudes over crank angle, time or each other, and hodographs:
         /// SVG, PDF, PNG and CSV
@@ -244,13 +244,11 @@ mod tests {
         Cli::command().debug_assert();
     }
 
-    /// Commands whose only module is `src/cli/NAME.rs`.
-    /// The code of the solvers, of the scenario or of the documents does the work of these commands.
+    /// Commands without a module or crate of their name besides `src/cli/NAME.rs`.
     const ONLY_HERE: [&str; 10] =
         ["merge", "completions", "docs", "inspect", "list", "man", "new", "schema", "solve", "view"];
 
-    /// The code of the command `NAME` is in `src/cli/NAME.rs`, and in the module `NAME` of the crate that does the
-    /// work.
+    /// The code of the command `NAME` is in `src/cli/NAME.rs`, and in the module or crate `NAME` that does the work.
     #[test]
     fn every_command_has_a_room_of_its_name() {
         let top = Path::new(env!("CARGO_MANIFEST_DIR"));

@@ -71,7 +71,7 @@
 //! ```
 //!
 //! All values are in SI units and world axes (x right, y up, angles counter-clockwise from +x).
-//! Only scenario files use other units, as suffixes of the keys.
+//! Other units are suffixes of names: keys of scenario files, and channels in formulas, such as `angle_deg`.
 
 #[doc(hidden)]
 #[macro_use]

@@ -7,8 +7,8 @@ static SCENARIOS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/scenarios");
 static CATALOGUES: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/catalogues");
 const FINDINGS: &[u8] = include_bytes!("../docs/findings.md");
 
-/// Directory of study scenarios. Study scenarios are not embedded: they are half of all scenarios, and no help text
-/// mentions them.
+/// Directory of study scenarios. Study scenarios are not embedded: they are nearly half of all scenarios, and no help
+/// text mentions them.
 const STUDY: &str = "variants60";
 
 fn below(directory: &'static Dir<'static>, path: &str, found: &mut Vec<(String, &'static [u8])>) {

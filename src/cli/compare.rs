@@ -56,7 +56,8 @@ pub(super) struct Args {
     /// Match rows by time or by crank angle [default: by time, if A and B both have times]
     #[arg(long, value_name = "WHAT", value_parser = word(["time", "crank"], by))]
     by: Option<By>,
-    /// Interpolate the first of two tables between its rows; the interpolation error is added to the bound
+    /// Interpolate A between its rows, if A and B are tables or recordings; the interpolation error is added to the
+    /// bound
     #[arg(long)]
     interpolate: bool,
     /// Side of the recordings that is compared, such as reference or engine [default: all]

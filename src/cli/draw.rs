@@ -19,7 +19,7 @@ pub(super) struct Args {
     /// Scenario files; `-` for standard input
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
-    /// Picture to write: .svg, .pdf, .png, or one turn of the crank as .gif or .webp; `-` for SVG on standard output
+    /// Picture to write: .svg, .pdf, .png, or the motion as .gif or .webp; `-` for SVG on standard output
     /// [default: FILE.svg, for several files mechanisms.svg, in this directory]
     #[arg(long, short, value_name = "PICTURE", value_parser = target)]
     output: Option<PathBuf>,
@@ -64,7 +64,7 @@ pub(super) struct Args {
     /// Frames of an animation [default: 48]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=720))]
     frames: Option<u32>,
-    /// Seconds that a turn takes in an animation [default: 4]
+    /// Duration of an animation in seconds [default: 4]
     #[arg(long, value_name = "S", value_parser = number::positive)]
     seconds: Option<f64>,
     /// Analytic solver

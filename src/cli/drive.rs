@@ -43,7 +43,7 @@ pub(super) struct Args {
     /// FILE is `-`
     #[arg(long, value_name = "FILE", value_parser = output::target)]
     run_up: Option<PathBuf>,
-    /// Duration of the run-up
+    /// Duration of the run-up in seconds
     #[arg(long, value_name = "S", default_value = "0.5", allow_hyphen_values = true, requires = "run_up", value_parser = number::positive)]
     seconds: f64,
     /// Number of equal time intervals of the run-up; the table has a row at both ends of each interval

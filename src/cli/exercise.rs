@@ -37,8 +37,8 @@ pub(super) struct Args {
     /// Largest change of a number, in per cent
     #[arg(long, value_name = "PERCENT", default_value = "20", value_parser = per_cent)]
     spread: f64,
-    /// Smallest allowed transmission angle, over the whole range and at the requested positions. If the original
-    /// mechanism has a smaller angle, the limit is three quarters of the sine of that angle
+    /// Smallest allowed transmission angle, over the whole range and at the requested positions. Its sine is reduced to
+    /// three quarters of the smallest sine of the original mechanism if this is less; at positions, of the largest sine
     #[arg(long, value_name = "DEG", default_value = "20", value_parser = angle)]
     transmission_deg: f64,
     /// Requested quantities: a channel, a magnitude (point.B.v_m_s, point.B.a_m_s2, joint.B.f_N), or a stage

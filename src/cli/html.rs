@@ -1,4 +1,4 @@
-//! Pages of `linkproof run --html`.
+//! Pages of `linkproof run -o PAGE.html`.
 
 use crate::sentences;
 use std::collections::{BTreeMap, BTreeSet};

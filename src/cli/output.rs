@@ -14,7 +14,7 @@ use linkage::error::{Error, ErrorKind, Result};
 use terminal_size::{Height, Width, terminal_size_of};
 
 /// Path for results, or `-` for standard output.
-/// Scenario files are refused, because a shell expands `--json scenarios/*.toml` to several scenario names.
+/// Scenario files are refused, because a shell expands `-o scenarios/*.toml` to several scenario names.
 /// The results would then overwrite the first scenario.
 pub(super) fn target(text: &str) -> std::result::Result<PathBuf, String> {
     let path = PathBuf::from(text);

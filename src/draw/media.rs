@@ -43,7 +43,7 @@ pub struct PictureOptions {
     pub width: Option<u32>,
     /// Frames of an animation; `None` for 48.
     pub frames: Option<usize>,
-    /// Time that a turn takes in an animation (s); `None` for 4.
+    /// Duration of an animation (s); `None` for 4.
     pub seconds: Option<f64>,
     /// Names of `traces`, `enlarged`, `positions` and `groups` in messages.
     #[doc(hidden)]
@@ -81,7 +81,7 @@ impl PictureOptions {
         self.positions.or((!self.enlarged.is_empty()).then_some(USUAL))
     }
 
-    /// Refuses options that contradict each other.
+    /// Refuses options that contradict each other, and a number of positions outside [`POSITIONS`].
     pub(super) fn check(&self, medium: Medium) -> Result<()> {
         let [_, enlarged, positions, groups] = self.keys();
         let given =

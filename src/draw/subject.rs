@@ -234,7 +234,7 @@ impl Drawn {
         let headings = if positions.heading.is_empty() { Vec::new() } else { vec![positions.heading.clone()] };
         let mut drawn = Drawn { traces, positions, headings, ..Drawn::new(draft_of(&scenario), when, shots) };
         let own = std::mem::replace(&mut drawn.travels, travels);
-        // A single picture shows the requested instant, which lies between two instants of the computed path.
+        // A single picture shows the requested instant, which may lie between two instants of the computed path.
         // The travels are therefore widened by the pose at this instant.
         if frames == 1 {
             drawn.travels.widen(&own);

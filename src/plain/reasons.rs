@@ -87,7 +87,7 @@ fn at_rest(proof: &Proof, width: Option<usize>, text: &mut String) {
     }
 }
 
-/// Reports instants that are not judged, each with the quantities concerned.
+/// Reports the number of instants that are not judged, and the quantities concerned.
 /// Also reports joints that rest, and followers that leave their cams.
 pub fn notes(proof: &Proof, width: Option<usize>, text: &mut String) {
     for engine in &proof.engines {

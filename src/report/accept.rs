@@ -123,8 +123,8 @@ fn counts(comparison: &FigureComparison) -> String {
 }
 
 /// Lists, for every channel that has changed, the figure with the largest change.
-/// Also lists the channels that are new, that are missing in this run, or that have a wider bound than the accepted
-/// bound.
+/// Also lists the channels that are new, that are missing in this run, or whose bound is much wider or much narrower
+/// than the accepted bound.
 fn changes(comparison: &FigureComparison, text: &mut String) {
     let worst_of = |channel: &&str| {
         let own = comparison.moved.iter().filter(|moved| moved.channel == *channel);

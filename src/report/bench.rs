@@ -33,7 +33,7 @@ pub(crate) fn error(errors: Errors, floor: f64) -> String {
     }
 }
 
-/// A ratio with three digits.
+/// A ratio with at most two decimals.
 pub(crate) fn short(ratio: f64) -> String {
     match ratio {
         ratio if ratio >= 99.95 => format!("{ratio:.0}"),
@@ -98,7 +98,7 @@ pub(crate) fn text(bench: &Bench) -> String {
 /// All points as CSV, with the machine's description in lines that begin with `#`.
 ///
 /// # Errors
-/// [`ErrorKind::Io`](linkage::ErrorKind::Io) if the table cannot be written.
+/// [`ErrorKind::Io`](linkage::error::ErrorKind::Io) if the table cannot be written.
 pub(crate) fn rows(bench: &Bench, machine: &Machine) -> Result<String> {
     let mut text = String::new();
     for (name, value) in machine {

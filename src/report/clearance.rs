@@ -184,7 +184,7 @@ pub(crate) fn json(scenarios: Vec<Value>) -> String {
 /// Distances of all pairs at the instants of a grid, as CSV with 17 significant digits.
 ///
 /// # Errors
-/// [`ErrorKind::Io`](linkage::ErrorKind::Io) if the table cannot be written.
+/// [`ErrorKind::Io`](linkage::error::ErrorKind::Io) if the table cannot be written.
 pub(crate) fn distances(
     asked: &ClearanceQuestion,
     input: Input,

@@ -9,12 +9,13 @@ use prover::numbers::percent;
 use prover::run::Proof;
 
 /// Outcomes of the files so far, in the order of the files.
-/// A row has scenario, verdict, worst item, this item's ratio of error to bound, and engine.
+/// A row has scenario, verdict, worst item, this item's ratio of error to bound, and the engine's step or accuracy, or
+/// the number of engines.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Closing(Vec<[String; 5]>);
 
 impl Closing {
-    /// Adds a proof: its verdict, and the item with the largest ratio of error to bound.
+    /// Adds a proof: its verdict, and its worst item.
     pub(crate) fn add(&mut self, proof: &Proof) {
         let [worst, share] = worst(proof);
         self.0.push([proof.scenario.clone(), proof.verdict.word().into(), worst, share, resolution(proof)]);
@@ -48,8 +49,9 @@ impl Closing {
     }
 }
 
-/// Name of the item with the largest ratio of error to bound, and this ratio.
-/// If all channels agree but a check disagrees or is open, the item is this check; otherwise the item is a channel.
+/// Name of the worst item, and its ratio of error to bound.
+/// The item is the channel that ranks highest. If all channels agree but a check disagrees or is open, the item is the
+/// check with the largest ratio.
 /// Checks that agree are ignored. The bound of a published number is half a unit of its last digit, so the ratio of
 /// such a check is usually near 1 and gives no information.
 fn worst(proof: &Proof) -> [String; 2] {

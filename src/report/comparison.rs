@@ -204,7 +204,7 @@ fn rows(all: &[Contender], put: impl Fn(&Quantity) -> Vec<String>) -> Vec<Vec<St
 /// The comparison as CSV, one row per quantity, with 17 significant digits in the shown units.
 ///
 /// # Errors
-/// The errors of [`csv`].
+/// The errors of [`as_csv`].
 pub(crate) fn table(all: &[Contender]) -> Result<String> {
     let exact = |quantity: &Quantity| {
         let number = |own: &Contender| {

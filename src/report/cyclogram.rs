@@ -105,7 +105,7 @@ pub(crate) fn text(cycle: &Cycle, width: Option<usize>) -> String {
 /// displacement and, if the task states it, a column with the required one, as fractions of the stroke.
 ///
 /// # Errors
-/// The errors of [`csv`].
+/// The errors of [`as_csv`].
 pub(crate) fn table(cycle: &Cycle) -> Result<String> {
     let mut rows = vec![vec!["shaft_deg".to_string()]];
     rows.extend((0..=360).map(|deg: u32| vec![deg.to_string()]));

@@ -1,4 +1,4 @@
-//! Velocity and acceleration by the chord method, and their errors.
+//! Motion diagrams by graphical methods, and the errors of these methods.
 
 use crate::sentences;
 use serde_json::json;

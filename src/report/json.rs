@@ -217,8 +217,8 @@ rows! {
         worst_t_s: f64 = residual.worst_time,
         #[serde(flatten)]
         worst: Keyed = keyed("worst_", residual.input.at(residual.worst_crank)),
-        /// Number of instants that are not judged: a drive or a loaded link reverses at these instants, or a free
-        /// motion begins.
+        /// Number of instants that are not judged: a drive or a loaded link reverses there, an acceleration or its rate
+        /// jumps, the mechanism passes a change point, or a free motion begins.
         left_out: usize = proof.left_out,
     }
 

@@ -44,7 +44,7 @@ fn extent(range: &Range, input: Input) -> String {
     }
 }
 
-/// A value of the input. If the crank rotates fully, its angle is reduced to the first turn.
+/// A value of the input. If the pose repeats after one turn of the crank, the angle is reduced to the first turn.
 fn shown(crank: f64, range: &Range, input: Input) -> String {
     numbers::fixed(input.shown(in_turn(crank, range)), 6)
 }

@@ -167,7 +167,8 @@ pub(super) fn sentence(proof: &Proof) -> String {
     }
 }
 
-/// The channels as a table with one row per quantity: its channel with the largest ratio of error to bound.
+/// The channels as a table with one row per quantity: its channel that ranks highest, by verdict, then by the ratio of
+/// error to bound.
 fn channels(channels: &[ChannelProof], width: Option<usize>) -> String {
     let input = channels.first().map(|own| own.residual.input).unwrap_or_default();
     let (word, unit) = (input.word(), input.shown_in().0);

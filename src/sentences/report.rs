@@ -11,7 +11,7 @@ linkage::sentences! {
     positions_are_requested(count) = "{count} positions are requested";
     give_positions_between(least, most) = "give a number from {least} to {most}";
     // draw/motion.rs
-    THE_GRID_HAS_ONE_INSTANT = "the driving link does not turn fully, and the grid has only one instant";
+    THE_GRID_HAS_ONE_INSTANT = "the positions are spaced in time, but the grid has only one instant";
     GIVE_A_GRID_OVER_THE_MOTION = "give a grid that covers the motion";
     // draw.rs
     formula_and_class(formula, class) = "{formula}, class {class}";
@@ -182,7 +182,7 @@ linkage::sentences! {
     // plain/reasons.rs
     it_rests(what, name, count, all, at, least, most) = "{what} {name} rests at {count} of {all} instants, and its friction is taken as zero there. At {at}, the friction at rest allows any moment or force of the drive from {least} to {most}.";
     the_follower_leaves_the_cam(name, count, all, at) = "The follower leaves cam \"{name}\": the force between them is negative at {count} of {all} instants, first at {at}. A stronger spring or a groove must hold it.";
-    up_to_of_instants_are_not_judged(most, proof, quantities, info) = "Up to {most} of {proof} instants are not judged in {quantities} ({info}): a drive or a loaded link reverses there, an acceleration or its rate jumps, or the motion begins.";
+    up_to_of_instants_are_not_judged(most, proof, quantities, info) = "Up to {most} of {proof} instants are not judged in {quantities} ({info}): a drive or a loaded link reverses there, an acceleration or its rate jumps, the mechanism passes a change point, or the motion begins.";
     checks_disagree_as_expected_see(count, told) = "\n{count} checks disagree as expected, see\n  {told}";
     and_more_3(open, tell) = "\n... and {open} more ({tell})";
     // report/accept.rs

@@ -16,7 +16,7 @@ use scenario::files_in;
 /// Proves every scenario of a folder (`*.toml`, without subfolders), each as a test with the name of its file.
 /// The path is relative to the directory of the package, because Cargo runs tests in this directory.
 ///
-/// `tests/scenarios.rs`, whole:
+/// The whole file `tests/scenarios.rs`:
 ///
 /// ```no_run
 /// fn main() -> std::process::ExitCode {
@@ -82,7 +82,7 @@ impl Folder {
         run(&Arguments::from_args(), self.trials()).exit_code()
     }
 
-    /// A test for each scenario.
+    /// A test for each scenario, and a failing test for each ignored name without a scenario.
     /// If the folder has no scenario or cannot be read, the result is one failing test that reports the error.
     fn trials(self) -> Vec<Trial> {
         let files = match files_in(&self.path) {

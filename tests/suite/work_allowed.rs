@@ -89,7 +89,7 @@ fn regress_planting_faults_keeps_to_the_work_limit() {
 
 /// Chains of parallelograms that swing through their change points.
 /// The impulses do not converge at change points, and four rounds of the search are enough to show this.
-/// Before the fix, the search spent 48 of 51 million sweeps on the impulses.
+/// Without this early end, the search spends 48 of 51 million sweeps on the impulses.
 #[test]
 fn regress_forces_without_progress_are_given_up_early() {
     let (proof, work) = proven(&shipped("n_four_bar_1.toml"), &Options::default());
@@ -102,7 +102,7 @@ fn regress_forces_without_progress_are_given_up_early() {
 
 /// The work for a proof of the engine's own forces has a limit.
 /// If the motion alone exceeds this limit, the settings of the forces are not searched for.
-/// Before the limit existed, the four-bar of this test took 118 million sweeps.
+/// Without this limit, the four-bar of this test takes 118 million sweeps.
 #[test]
 fn regress_forces_are_skipped_if_the_motion_used_their_work() {
     let (proof, work) = proven(&scenario("transmission_1_deg.toml"), &Options::default());

@@ -196,7 +196,7 @@ fn errors_in_unseen_tables_are_named() {
 
 /// Compares a table of a foreign program with a scenario.
 /// Returns the causes with their equivalents.
-/// If the table also has a single wrong row, each cause comes with the location of this row.
+/// If the table also has a single wrong row, each cause comes with the time of this row (s).
 fn told(scenario: &str, table: &str, lines: &[&str]) -> Vec<(Vec<String>, Option<f64>)> {
     let (right, path) = text(scenario);
     let mut mapping = Mapping::default();

@@ -105,7 +105,8 @@ roles! {
     Slot = "slot": Link, Paper, 0.6, Links;
     /// Cylinder of a moving link, in which a piston slides.
     Cylinder = "cylinder": Link, Paper, 0.6, Links;
-    /// Pitch circle of a wheel, with a stroke that turns with the wheel; or pitch line of a rack.
+    /// Pitch circle of a wheel, with a stroke that turns with the wheel; pitch line of a rack; profile of a cam, and
+    /// the roller or face that touches it.
     Wheel = "wheel": Link, None, 0.45, Links;
     /// Strand of a belt.
     Strand = "strand": Link, None, 0.45, Links;
@@ -131,9 +132,9 @@ roles! {
     MassQuarter = "mass-quarter": Quiet, Ink, 0.1, Stretched;
     /// Named point of a link that is not a joint.
     Tracer = "tracer": Link, None, 0.5, Joints;
-    /// Arrow in the direction in which a drive turns its link: the arc.
+    /// Arrow in the direction in which a drive moves its link: the arc, or the line for a slide.
     Drive = "drive": Text, None, 0.4, Signs;
-    /// Arrow in the direction in which a drive turns its link: the head.
+    /// Arrow in the direction in which a drive moves its link: the head.
     DriveHead = "drive-head": Text, Ink, 0.1, Signs;
     /// A motor: a circle, with the letter M beside it as [`Lettering::Motor`](crate::Lettering::Motor).
     Motor = "motor": Text, None, 0.4, Signs;

@@ -6,8 +6,8 @@ use linkage::math::{KeepNan, Vec2, turned, unit};
 use linkage::mechanism::{GROUND, JointId, JointSide, LinkId, Mechanism};
 use std::f64::consts::{PI, TAU};
 
-/// Arrow of a drive's direction: its radius, the angle that it spans (rad), and the angle from the driven link to the
-/// arrow's start.
+/// Arrow of a drive's direction: its radius in units of the sketch, the angle that it spans (rad), and the angle from
+/// the driven link to the arrow's start (rad).
 const DRIVE: f64 = 8.0;
 const SWEEP: f64 = 1.7;
 const AHEAD: f64 = 0.35;
@@ -15,11 +15,12 @@ const AHEAD: f64 = 0.35;
 const BESIDE: f64 = 5.5;
 /// Radius of a motor's circle, in units of the sketch.
 const MOTOR: f64 = 3.4;
-/// Length of an arrow's head, upper limit of this length divided by the arrow's length, and half width of the head.
+/// Length of an arrow's head in units of the sketch, upper limit of this length divided by the arrow's length, and half
+/// width of the head in units of the sketch.
 const HEAD: f64 = 2.8;
 const HEAD_SHARE: f64 = 0.45;
 const HALF: f64 = 0.9;
-/// Smallest and largest radius of a spiral, and its number of turns.
+/// Smallest and largest radius of a spiral in units of the sketch, its number of turns, and its number of drawn steps.
 const SPIRAL: [f64; 2] = [1.9, 4.6];
 const TURNS: f64 = 2.25;
 const STEPS: usize = 54;
@@ -31,8 +32,8 @@ const DRUM: f64 = 5.4;
 pub struct LoadSign {
     /// Index of the load in the loads of its case.
     pub load: usize,
-    /// Point at which the arrow is drawn: for a force the point on which it acts, for a moment a pin of the link,
-    /// for a load along a slide the joint's point on the moving link that slides.
+    /// Point at which the arrow is drawn: for a force the point on which it acts, for a moment a pin of the link (else
+    /// a point or the mass centre), for a load along a slide the joint's point on the moving link that slides.
     pub at: JointSide,
 }
 

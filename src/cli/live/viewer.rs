@@ -49,7 +49,7 @@ pub(super) struct Viewer<'a> {
 type Spoken = tungstenite::Result<()>;
 
 impl<'a> Viewer<'a> {
-    /// Agrees on a protocol with a viewer; `None` if the viewer supports none of the server's protocols.
+    /// Agrees on a protocol with a viewer; `None` if they share no protocol, or if the connection fails.
     pub(super) fn greeted(stream: TcpStream, stage: &'a Stage) -> Option<Viewer<'a>> {
         stream.set_nodelay(true).ok()?;
         stream.set_read_timeout(Some(GREETING)).ok()?;
@@ -84,7 +84,7 @@ impl<'a> Viewer<'a> {
         }
     }
 
-    /// Sends the name of the server, and the channels.
+    /// Sends the name of the server, the channels, and the playback state.
     fn introduce(&mut self) -> Spoken {
         let session = format!("{}-{}", std::process::id(), self.shown.changes);
         let reel = self.shown.reel.clone();

@@ -35,7 +35,7 @@ impl Target {
         DraftContents { name, title: title.into(), comment, speed: self.rpm * TAU / 60.0, bar: self.bar_kg_per_m }
     }
 
-    /// Writes the results. An invalid scenario name is reported before the scenario is run.
+    /// Writes the results. An invalid scenario name is reported before a file is written.
     fn deliver(&self, scenario: &str, told: &Told) -> Result<()> {
         self.outputs.of(ClosedForms::Scenario).try_for_each(|to| Scenario::parse(scenario, to).map(|_| ()))?;
         let result = |form| match form {

@@ -57,7 +57,7 @@ pub(super) fn search(args: &Args) -> Result<()> {
     let found = synthesize::search(&task, args.threads, &mut |part| bar.at(part))?;
     drop(bar);
     let values = redraw::round_values(&task, &found.values);
-    // The scenario is written and read back before the report. The reported figures are therefore those of the written
+    // The text of the scenario is read back before the report. The reported figures are therefore those of the written
     // scenario.
     let place = drawing.path.with_file_name(format!("{}.toml", task.name));
     let bare = Scenario::parse(&redraw::redrawn(&task, &drawing.text, &values, "")?, &place)?;

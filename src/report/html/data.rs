@@ -62,7 +62,8 @@ fn judgement(own: &ChannelProof, tell: Tell) -> Value {
     })
 }
 
-/// The moving parts, in picture units; a column is given by its index among the channels.
+/// The moving parts. Positions on links are in m, widths and the view in picture units.
+/// A column is given by its index among the channels.
 pub(super) fn motion(proof: &Proof, sketch: &Sketch, view: [f64; 4]) -> Value {
     let (mechanism, unit) = (&proof.scene.case.mechanism, sketch.unit);
     let channels = proof.reference_trajectory.channels();

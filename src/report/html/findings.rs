@@ -57,7 +57,7 @@ fn agrees(proof: &Proof) -> bool {
     grade(&proof.verdict) == Grade::Agree
 }
 
-/// Reports engines that failed, and engines with wrong exerted forces.
+/// Reports the failure of a single engine, and engines whose forces disagree.
 fn faults(proof: &Proof, told: &mut String) {
     for engine in &proof.engines {
         if let (Some(error), 1) = (&engine.failure, proof.engines.len()) {

@@ -11,7 +11,7 @@ use linkage::drive::{Motor, MotorLaw};
 use linkage::math::KeepNan;
 use linkage::trajectory::{Channel, Trajectory};
 
-/// Points of the motor's curve.
+/// Number of intervals of the motor's curve.
 const POINTS: u32 = 240;
 /// The speed axis of the motor's curve ends at this multiple of the largest speed of the run or of the no-load speed,
 /// whichever is larger.

@@ -82,7 +82,7 @@ impl<'a> Placed<'a> {
     }
 }
 
-/// The length (m) of a unit in a picture of this area: the picture is at most 120 units wide and 84 high.
+/// The length (m) of a unit in a picture of this area: the area is at most 120 units wide and 84 high.
 pub(super) fn unit(mechanism: &Mechanism, [x, y]: [[f64; 2]; 2]) -> f64 {
     let unit = ((x[1] - x[0]) / 120.0).larger((y[1] - y[0]) / 84.0);
     if unit > 0.0 { unit } else { drawing::unit(mechanism) }

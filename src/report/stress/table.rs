@@ -11,7 +11,7 @@ const HEADER: &str = "family dial sample party verdict group error bound channel
 /// Errors and bounds are divided by the channel's scale; missing numbers are empty cells.
 ///
 /// # Errors
-/// [`ErrorKind::Io`](linkage::ErrorKind::Io) if the table cannot be written.
+/// [`ErrorKind::Io`](linkage::error::ErrorKind::Io) if the table cannot be written.
 pub(crate) fn rows<'a>(family: &StressFamily, outcomes: impl Iterator<Item = &'a StressOutcome>) -> Result<String> {
     let mut rows = vec![HEADER.split(' ').map(String::from).collect::<Vec<_>>()];
     let width = rows[0].len();

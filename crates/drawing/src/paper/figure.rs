@@ -1,5 +1,5 @@
 //! A figure: lines, shapes and text, in millimetres with y upwards.
-//! These elements are stored until the figure is written as SVG.
+//! These elements are stored until the figure is written as SVG, PDF or bitmap.
 
 use svg::node::Blob;
 use svg::node::element::{Circle, Group, Line, Path, Title};

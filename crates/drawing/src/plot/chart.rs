@@ -28,8 +28,8 @@ pub struct PlotCurve {
     pub name: String,
     /// Pairs of values in the order of drawing. The curve has a gap at a pair that is not finite.
     pub points: Vec<[f64; 2]>,
-    /// Size of the rounding errors of the ordinates. If the range of the ordinates is at most twice this size, the
-    /// curve is drawn as a constant.
+    /// Size of the rounding errors of the ordinates. If the ordinates of all curves differ by at most twice the largest
+    /// of these sizes, the vertical axis is widened, so that the curves look constant.
     pub noise: f64,
     /// Marked points with their labels.
     pub marks: Vec<([f64; 2], String)>,

@@ -1,4 +1,4 @@
-//! Runs all methods and measures their times in rounds. Each round runs every method once.
+//! Runs all methods and measures their times in rounds. Each round runs the methods in turn.
 //! Because of the rounds, the load of other programs on the machine affects all methods alike.
 
 use super::ladder::{Planned, Runner};

@@ -35,8 +35,8 @@ pub struct AnsweredRun {
     /// Errors by stage, in the order of [`Stage::ALL`].
     /// `None` for a stage that was not requested, has failed, or has no channel in the answer of a peer.
     pub errors: [Option<Errors>; Stage::ALL.len()],
-    /// Stages in which a peer's numbers are wrong, and the fault in each of these stages.
-    /// Stages with wrong numbers count as failures.
+    /// Stages in which a peer's numbers are invalid, and the fault in each of these stages.
+    /// Stages with invalid numbers count as failures.
     pub failed: Vec<(Stage, String)>,
     /// Stages that are judged without some of their channels, and the channels that are missing in the peer's answer.
     /// A peer of an older version does not know the newest channels.

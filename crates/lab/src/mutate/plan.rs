@@ -49,7 +49,8 @@ impl MutationPlan {
 /// Plants all requested faults in a scenario. The result does not depend on the number of threads.
 ///
 /// # Errors
-/// The errors of the proof without a fault; [`ErrorKind::Input`] if that proof disagrees.
+/// The errors of the proof without a fault; [`ErrorKind::Input`] if that proof disagrees;
+/// [`ErrorKind::Unsupported`] if the allowed work is not enough.
 pub fn mutate(scenario: &Scenario, asked: &MutationPlan, progress: Progress) -> Result<Mutated> {
     let stage = Stage::new(scenario, &asked.options)?;
     if stage.verdict == "disagree" {
@@ -209,7 +210,7 @@ fn of_kind(stage: &Stage, kind: &'static FaultKind, asked: &MutationPlan) -> Res
 
 /// Smallest size that is tried, divided by the first size. Effects of smaller faults are below rounding error.
 const LEAST: f64 = 1e-16;
-/// Factor between successive sizes of the upward search.
+/// Largest factor between successive sizes of the search.
 /// Without a margin, the whole size divided by this factor is the first guess.
 const STEP: f64 = 10.0;
 /// The search ends if the smallest detected size is at most this multiple of an undetected size.

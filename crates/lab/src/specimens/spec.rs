@@ -112,13 +112,13 @@ pub struct Spec {
     pub start: f64,
     /// Gravity (m/s^2).
     pub gravity: Vec2,
-    /// Links with a moment of resistance.
+    /// Links with a moment of resistance (N m).
     pub loads: Vec<(String, f64)>,
     /// RRR dyads with their assembly modes.
     pub dyads: Vec<Dyad>,
     /// Start configurations of groups that are not RRR dyads and have more than one configuration.
     pub starts: Vec<Start>,
-    /// First crank angle, step and number of steps of the grid.
+    /// First crank angle (rad), step (rad) and number of steps of the grid.
     pub grid: (f64, f64, usize),
     /// The engine's step; if `None`, the text has no engine section.
     pub dt: Option<f64>,
@@ -249,7 +249,8 @@ impl Spec {
         other
     }
 
-    /// This mechanism with all lengths multiplied by `factor`. Masses and numbers in text sections are unchanged.
+    /// This mechanism with all lengths multiplied by `factor`, and moments of inertia by its square.
+    /// Masses and numbers in text sections are unchanged.
     pub fn larger(&self, factor: f64) -> Spec {
         let mut other = self.with_places(|at| at * factor);
         for (_, _, inertia) in other.links.iter_mut().filter_map(|body| body.mass.as_mut()) {

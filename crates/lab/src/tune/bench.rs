@@ -20,7 +20,7 @@ const COARSEST: f64 = 0.1;
 /// If no cost limit is known yet, the first number of sweeps tried is the smallest available number that is at least
 /// this constant.
 const ENOUGH: usize = 64;
-/// First step that is tried, as a multiple of the requested step.
+/// First step that is tried, as a multiple of the engine's usual or given step.
 /// A coarse step is cheap, and its cost predicts the cost of other steps.
 const COARSE_START: f64 = 4.0;
 /// When the number of sweeps is increased, the first step tried is this multiple of the step found before.
