@@ -48,6 +48,7 @@ mod sweep;
 mod synthesize;
 mod tune;
 mod view;
+mod watch;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -111,6 +112,8 @@ commands! {
         /// Show the structure of a mechanism (links, joints, mobility, driving link and Assur groups), its
         /// configurations and its range of motion
         Inspect(inspect::Args) = inspect::inspect,
+        /// Serve a page that shows the mechanism moving and its verdict whenever the file is saved
+        Watch(watch::Args) = watch::watch,
         /// Draw mechanisms, also those that cannot be assembled yet, and all configurations: SVG, PDF, PNG, animated
         /// GIF and WebP
         Draw(draw::Args) = draw::draw,
@@ -245,8 +248,8 @@ mod tests {
     }
 
     /// Commands without a module or crate of their name besides `src/cli/NAME.rs`.
-    const ONLY_HERE: [&str; 10] =
-        ["merge", "completions", "docs", "inspect", "list", "man", "new", "schema", "solve", "view"];
+    const ONLY_HERE: [&str; 11] =
+        ["merge", "completions", "docs", "inspect", "list", "man", "new", "schema", "solve", "view", "watch"];
 
     /// The code of the command `NAME` is in `src/cli/NAME.rs`, and in the module or crate `NAME` that does the work.
     #[test]

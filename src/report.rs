@@ -50,5 +50,7 @@ pub(crate) mod synthesize;
 pub(crate) mod table_csv;
 pub mod text;
 pub(crate) mod tune;
+#[cfg(feature = "watch")]
+pub(crate) mod watch;
 
 pub use crate::plain::Tell;

@@ -87,7 +87,7 @@ impl Pages {
 }
 
 /// The mechanism reduced to its crank, or the reason why it cannot be reduced.
-fn reduced(scenario: &Scenario) -> std::result::Result<Graphs, String> {
+pub(super) fn reduced(scenario: &Scenario) -> std::result::Result<Graphs, String> {
     let scenario = scenario.clone().nominal();
     let graphs = || {
         let model = ReducedModel::of(&scenario.case)?;

@@ -29,6 +29,8 @@ use thinned::Thinned;
 
 const TEMPLATE: &str = include_str!("html/page.html");
 const STYLE: &str = include_str!("html/page.css");
+/// A further part of the script under `linkproof watch`: points can be dragged, and the view is kept.
+const WATCHED: &str = include_str!("html/script/watched.js");
 /// The parts of the script; each part comes after the parts on which it depends.
 const SCRIPT: [&str; 9] = [
     include_str!("html/script/read.js"),
@@ -54,6 +56,41 @@ pub(crate) struct Beside<'a> {
 
 /// The page of a proof. `tell` puts the advice into words.
 pub(crate) fn page(proof: &Proof, beside: &Beside, tell: Tell) -> String {
+    filled_page(proof, beside, &Judged::of(proof, tell), tell, "")
+}
+
+/// The page of a proof under `linkproof watch`; of an unjudged motion, with `words` in place of the verdict.
+pub(crate) fn watched(proof: &Proof, beside: &Beside, words: Option<&str>, tell: Tell) -> String {
+    let judged = match words {
+        Some(words) => Judged { sentence: escaped(words), ..Judged::default() },
+        None => Judged::of(proof, tell),
+    };
+    filled_page(proof, beside, &judged, tell, WATCHED)
+}
+
+/// The parts of a page that depend on the verdict, as HTML.
+#[derive(Default)]
+struct Judged {
+    verdict: String,
+    sentence: String,
+    why: String,
+    findings: String,
+    checks: String,
+}
+
+impl Judged {
+    fn of(proof: &Proof, tell: Tell) -> Judged {
+        Judged {
+            verdict: words::verdict(proof),
+            sentence: words::sentence(proof),
+            why: findings::why(proof, tell),
+            findings: findings::others(proof, tell),
+            checks: words::checks(proof),
+        }
+    }
+}
+
+fn filled_page(proof: &Proof, beside: &Beside, judged: &Judged, tell: Tell, script: &str) -> String {
     let Beside { given, settings, reduced } = beside;
     let case = &proof.scene.case;
     let errors = thinned::errors(proof);
@@ -101,21 +138,21 @@ pub(crate) fn page(proof: &Proof, beside: &Beside, tell: Tell) -> String {
             ("name", &escaped(&proof.scenario)),
             ("title", &escaped(&proof.title)),
             ("style", &style),
-            ("verdict", &words::verdict(proof)),
-            ("sentence", &words::sentence(proof)),
-            ("why", &findings::why(proof, tell)),
-            ("findings", &findings::others(proof, tell)),
+            ("verdict", &judged.verdict),
+            ("sentence", &judged.sentence),
+            ("why", &judged.why),
+            ("findings", &judged.findings),
             ("picture", &picture),
             ("thinned", &told(&thinned)),
             ("input", input.noun()),
             ("reduced", &no_graphs),
-            ("checks", &words::checks(proof)),
+            ("checks", &judged.checks),
             ("structure", &words::structure(proof)),
             ("settings", &words::settings(settings)),
             ("scenario", &words::scenario(given)),
             ("version", env!("CARGO_PKG_VERSION")),
             ("data", &contained(&Value::Object(data).to_string())),
-            ("script", &SCRIPT.concat()),
+            ("script", &[&SCRIPT.concat(), script].concat()),
         ],
     )
 }

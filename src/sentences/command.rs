@@ -18,6 +18,18 @@ linkage::sentences! {
     GIVE_A_JOINT_WITHOUT_A_FURTHER_DRIVE = "only the first drive is replaced: give a joint that no further drive moves";
     A_DRAWING_SHOWS_THE_GROUPS = "a drawing shows the groups of one structure";
     LEAVE_IT_OUT_OR_WRITE_JSON = "leave it out or give one link, or write a .json";
+    // cli/watch.rs
+    watch_serves(address) = "page       {address}\n           open it in a browser; it follows the file. Ctrl-C ends it\n";
+    the_page_cannot_be_served(port, found) = "the page cannot be served at port {port}: {found}";
+    NAME_ANOTHER_PORT = "name another port, or leave the option out: the program then takes a free port";
+    WATCH_IS_NOT_BUILT = "this build has no server for the page";
+    BUILD_WITH_WATCH = "build with the cargo feature `watch`, or run `linkproof run FILE -o FILE.html` after each change";
+    // cli/watch/work.rs
+    THE_PROOF_RUNS = "The motion is solved analytically. The proof is running.";
+    THE_PROOF_FAILED = "The motion is solved analytically. The proof has failed, see the message.";
+    IT_IS_SHOWN_WITH_THE_VERDICT = "it is shown with the verdict";
+    AN_INTERNAL_ERROR = "internal error: the program has stopped this calculation";
+    REPORT_THE_FILE = "report the file to the authors";
     // cli/advice.rs
     such_as(name, to) = ", such as {name} {to}";
     ALL_OF_THEM_WITH_JSON = "-o FILE.json lists all of them";

@@ -90,7 +90,7 @@ pub struct Proof {
     pub reference: &'static str,
     /// Checks on the analytic sides, published numbers among them.
     pub checks: Vec<Check>,
-    /// The engines, in the requested order.
+    /// The engines, in the requested order. Only an [unjudged](Proof::unjudged) motion has none.
     pub engines: Vec<EngineProof>,
     /// Channels in which the reference and the engines do not all agree.
     /// Empty if there is only one engine: the verdicts on its channels then show the disagreement.
@@ -103,7 +103,7 @@ pub struct Proof {
     pub verdict: Verdict,
     /// The reference's trajectory.
     pub reference_trajectory: Trajectory,
-    /// Bound on the error of each reference channel over the whole run, in the channel's unit.
+    /// Bound on the error of each reference channel over the whole run, in the channel's unit. Empty if unjudged.
     pub reference_bounds: Vec<f64>,
     /// The part of the scenario's case that was solved, and the parts on which no requested channel depends.
     pub scene: Scene,
@@ -116,6 +116,33 @@ impl Proof {
     #[must_use]
     pub fn engine(&self) -> &EngineProof {
         &self.engines[0]
+    }
+
+    /// The motion by side 1, before any check and without engines.
+    /// The verdict is inconclusive, because no residual is known.
+    ///
+    /// # Errors
+    /// The errors of [`solve`].
+    pub fn unjudged(scenario: &Scenario) -> Result<Proof> {
+        let scene = scenario.case.scene()?;
+        let side = Reference::Assur;
+        let solved = side.solver().solve(&scene.case).map_err(|error| explained(&scene.case, error))?;
+        Ok(Proof {
+            scenario: scenario.name.clone(),
+            title: scenario.title.clone(),
+            formula: scene.case.structure.formula(&scene.case.mechanism),
+            reference: side.name(),
+            checks: Vec::new(),
+            engines: Vec::new(),
+            disputes: Vec::new(),
+            diagnosis: None,
+            diagnosis_is_cut: false,
+            verdict: Verdict::Inconclusive { reason: sentences::NOTHING_IS_COMPARED_YET.into(), advice: Vec::new() },
+            reference_trajectory: solved,
+            reference_bounds: Vec::new(),
+            scene,
+            work: Vec::new(),
+        })
     }
 
     /// Checks on the analytic sides and on all engines.

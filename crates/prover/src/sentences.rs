@@ -1,6 +1,8 @@
 //! All sentences that this crate can show, in one list.
 
 linkage::sentences! {
+    // run.rs
+    NOTHING_IS_COMPARED_YET = "nothing is compared yet";
     // accept.rs
     TOO_LITTLE_IS_KNOWN_NOW_OR_WHEN = "agreement with the accepted figures proves nothing: a bound is too wide, one of the two proofs does not agree, or there is no channel";
     NOT_AS_ACCEPTED = "differs from the accepted figures";

@@ -82,6 +82,9 @@ linkage::sentences! {
     GIVE_A_LARGER_TOLERANCE_OR_LEAVE = "give a larger tolerance, or leave it out";
     distances_are_found_to_and_no_better(size, finest) = "distances cannot be found more accurately than {size} m, {finest} of the mechanism's size";
     // edit.rs
+    no_plain_number(path) = "`{path}` is not a plain number, so it cannot be changed here";
+    no_point(point, link) = "the file has no coordinates x and y of the point \"{point}\" of \"{link}\"";
+    not_one_parameter(place) = "`{place}` is an expression, not one parameter: change its parameters";
     WRITE_IT_AS_ENGINE = "write it as `[engine]`";
     ENGINE_IS_NOT_A_SECTION = "`engine` is not a section";
     the_file_is_not_valid_toml(error) = "the file is not valid TOML: {error}";

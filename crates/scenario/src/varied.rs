@@ -5,8 +5,9 @@
 
 use crate::sentences;
 use std::collections::BTreeMap;
-use toml_edit::{DocumentMut, Item, TableLike, value};
+use toml_edit::{Item, TableLike, value};
 
+use super::edit::{document, number};
 use super::unit::{self, NamedUnit};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
@@ -41,10 +42,6 @@ pub struct VariedNumber {
 /// Keys and sections that are valid only for the original numbers.
 /// `engine` is one of them, because the best settings of an engine depend on the dimensions.
 const OWN: [&str; 5] = ["oracle", "formula", "source", "engine", "clearance"];
-
-fn document(text: &str) -> Result<DocumentMut> {
-    text.parse().map_err(|error| Error::new(ErrorKind::Input, sentences::the_file_is_not_valid_toml(&error)))
-}
 
 /// All numbers of a file that an exercise may change, in the order of the file.
 ///
@@ -100,10 +97,6 @@ fn each(item: &Item, path: &mut Vec<String>, put: &mut dyn FnMut(&[String], f64)
             (None, None) => {}
         },
     }
-}
-
-fn number(item: &Item) -> Option<f64> {
-    item.as_float().or_else(|| item.as_integer().map(|whole| whole as f64))
 }
 
 impl VariedNumber {
