@@ -26,7 +26,6 @@ linkage::sentences! {
     BUILD_WITH_WATCH = "build with the cargo feature `watch`, or run `linkproof run FILE -o FILE.html` after each change";
     // cli/watch/work.rs
     THE_PROOF_RUNS = "The motion is solved analytically. The proof is running.";
-    THE_PROOF_FAILED = "The motion is solved analytically. The proof has failed, see the message.";
     IT_IS_SHOWN_WITH_THE_VERDICT = "it is shown with the verdict";
     AN_INTERNAL_ERROR = "internal error: the program has stopped this calculation";
     REPORT_THE_FILE = "report the file to the authors";

@@ -76,5 +76,7 @@ mod tune;
 mod tutorial;
 mod units;
 mod variants60;
+#[cfg(feature = "watch")]
+mod watch;
 mod work_allowed;
 mod wrong_tables;

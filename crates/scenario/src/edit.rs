@@ -37,7 +37,9 @@ pub fn with_parameter(text: &str, key: &str, value: f64) -> Result<String> {
     let found = document.get_mut("parameters").and_then(|all| all.as_table_like_mut()).and_then(|all| all.get_mut(key));
     match found.filter(|item| number(item).is_some()) {
         Some(item) => put(item, value),
-        None => return Err(Error::new(ErrorKind::Input, sentences::no_plain_number(&format_args!("parameters.{key}")))),
+        None => {
+            return Err(Error::new(ErrorKind::Input, sentences::no_plain_number(&format_args!("parameters.{key}"))));
+        }
     }
     Ok(document.to_string())
 }

@@ -151,7 +151,8 @@ mod tests {
     #[test]
     fn results_of_older_drafts_are_dropped() {
         let desk = Desk::of("a.toml".into(), "one".into());
-        let of = |draft| Outcome { draft, stage: "moving", page: Arc::new(format!("page {draft}")), ..Outcome::default() };
+        let of =
+            |draft| Outcome { draft, stage: "moving", page: Arc::new(format!("page {draft}")), ..Outcome::default() };
         desk.publish(of(1));
         assert_eq!(desk.told(0)["page"], 2);
         assert_eq!(desk.put("two"), 2);

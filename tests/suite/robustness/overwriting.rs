@@ -74,7 +74,7 @@ const WRITERS: [Writer; 29] = [
 ];
 
 /// Commands that write no file, or only files that the caller names.
-const NAMED: [&str; 19] = [
+const NAMED: [&str; 20] = [
     "bearings",
     "check",
     "clearance",
@@ -94,6 +94,7 @@ const NAMED: [&str; 19] = [
     "solve",
     "synthesize",
     "tune",
+    "watch",
 ];
 
 /// A directory in which all tested commands can run.
