@@ -1,6 +1,6 @@
 //! The figures of a proof as cells of a table.
 
-use prover::numbers::{fixed, significant};
+use prover::numbers::{fixed, significant, with_unit};
 use prover::run::{Proof, ReportedFigure};
 
 /// Significant digits of a figure.
@@ -18,7 +18,7 @@ pub fn place(proof: &Proof) -> (&'static str, &'static str) {
 pub fn rows(proof: &Proof) -> Vec<[String; 4]> {
     let row = |own: ReportedFigure| {
         let at = own.rows.iter().map(|row| instant(proof, *row)).collect::<Vec<_>>().join(", ");
-        [own.label, significant(own.value, DIGITS), own.unit.replace("N_m", "N m"), at]
+        [own.label, significant(own.value, DIGITS), with_unit("", &own.unit).trim_start().to_string(), at]
     };
     proof.figures().into_iter().map(row).collect()
 }

@@ -4,6 +4,7 @@
 
 mod data;
 mod findings;
+mod formulas;
 mod graphs;
 mod loads;
 mod markup;
@@ -16,6 +17,7 @@ mod words;
 use crate::sentences;
 use std::collections::BTreeMap;
 
+use super::pretty::list;
 use crate::plain::Tell;
 use design::diagram::Graphs;
 use drawing::{Sketch, Travels};
@@ -60,8 +62,10 @@ pub(crate) fn page(proof: &Proof, beside: &Beside, tell: Tell) -> String {
     let reference = &proof.reference_trajectory;
     let placed = Placed::of(&case.mechanism, reference);
     let beside = placed.as_ref().map_or(0, |placed| loads::width(case) + plans::width(case, placed, 0));
-    let thinned = Thinned::of(proof, &errors, beside);
+    let curves = formulas::of(proof);
+    let thinned = Thinned::of(proof, &errors, beside + formulas::WIDTH * curves.len());
     let mut data = data::of(proof, &errors, &thinned, tell);
+    data.insert("formulas".into(), list(&curves, |own| own.json(&thinned.rows)));
     let input = case.crank().input;
     if input != Input::Angle {
         let (noun, word, (unit, _)) = (input.noun(), input.word(), input.shown_in());
@@ -104,6 +108,7 @@ pub(crate) fn page(proof: &Proof, beside: &Beside, tell: Tell) -> String {
             ("verdict", &words::verdict(proof)),
             ("sentence", &words::sentence(proof)),
             ("why", &findings::why(proof, tell)),
+            ("facts", &words::facts(proof)),
             ("findings", &findings::others(proof, tell)),
             ("picture", &picture),
             ("thinned", &told(&thinned)),

@@ -8,6 +8,8 @@ linkage::sentences! {
     both_sides_and(engines) = "Both analytic solutions and {engines}";
     the_simulation(engine) = "the {engine} simulation";
     the_simulations(engines) = "the simulations {engines}";
+    // report/html/words.rs, report/markdown.rs
+    FIGURES_OF_THE_MOTION = "Figures of the motion";
     // plain/machine.rs
     links_and_frame(count, links, names) = "{count} moving {links} on the frame: {names}";
     an_axis_at(joint, first, second, deg, on) = "{joint} ({first}, {second}; axis at {deg} deg on {on})";

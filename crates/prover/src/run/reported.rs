@@ -70,7 +70,9 @@ impl Proof {
     }
 
     fn usual(&self, usual: Usual) -> Option<ReportedFigure> {
-        self.found(&CaseFigure::unchecked(&usual.figure).ok()?, usual.label, usual.unit)
+        let found = self.found(&CaseFigure::unchecked(&usual.figure).ok()?, usual.label, usual.unit)?;
+        // A quantity that is zero throughout, such as a force between massless links, tells nothing.
+        (found.value != 0.0).then_some(found)
     }
 
     fn found(&self, asked: &CaseFigure, label: String, unit: &str) -> Option<ReportedFigure> {
@@ -96,7 +98,13 @@ impl Proof {
     /// ground that no drive moves. Without such a link, the driven links count as outputs.
     fn of_outputs(&self) -> Vec<ReportedFigure> {
         let case = &self.scene.case;
-        let driven = |link: LinkId| case.drives.iter().any(|drive| drive.link == link);
+        let driven = |link: LinkId| {
+            let mut drives = case.drives.iter();
+            drives.any(|drive| {
+                let joint = &case.mechanism.joints()[drive.joint];
+                [drive.link, joint.first.link, joint.second.link].contains(&link)
+            })
+        };
         let on_ground = case
             .mechanism
             .joints()
