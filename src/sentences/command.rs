@@ -11,8 +11,7 @@ linkage::sentences! {
          `linkproof run FILE --verbose` shows every bound";
     NEXT_DISAGREE =
         "next       correct the causes above, the first one first;\n           \
-         `linkproof run FILE -o PAGE.html` shows the curves of both,\n           \
-         `linkproof check FILE` judges the formulas alone";
+         `linkproof run FILE -o PAGE.html` shows the curves of both sides";
     // cli/accept.rs
     linkproof_accept_writes_it(file) = "`linkproof accept {file}` writes it";
     nothing_was_accepted_of_there(file, place) = "{file} has no accepted figures: {place} does not exist";

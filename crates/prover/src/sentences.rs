@@ -21,6 +21,7 @@ linkage::sentences! {
     too_much_everywhere(significant) = "too large by {significant} everywhere";
     in_instead_of(kind, formula, right, written, wherever) = "{kind}, in {formula}: `{right}` instead of `{written}`{wherever}";
     in_place_of(right, written) = "`{right}` instead of `{written}`";
+    it_should_be(right) = "right would be `{right}`";
     nothing_in_place_of(written) = "`{written}` too many";
     WHEREVER_IT_STANDS = " wherever it occurs";
     // check/course.rs

@@ -161,6 +161,8 @@ impl FormulaCause {
         match self {
             FormulaCause::Slip(FormulaSlip { kind, marks, .. }) if !marks.is_empty() => {
                 let change = |mark: &FormulaMark| match mark.right.as_str() {
+                    // The formula stands above.
+                    right if mark.at == (0..text.len()) => sentences::it_should_be(&right),
                     "" => sentences::nothing_in_place_of(&&text[mark.at.clone()]),
                     right => sentences::in_place_of(&right, &&text[mark.at.clone()]),
                 };

@@ -108,7 +108,8 @@ function plot(card, { name, unit, factor, own, engine, apart, reference, differe
     const bound = (own.bound || 0) * factor;
     const decade = (value, rounded) => rounded(Math.log10(value > 0 ? value : 1e-300));
     const highest = decade(Math.max(most, bound), Math.ceil);
-    const lowest = Math.max(Math.min(decade(most, Math.floor) - 2, highest - 3), highest - 12);
+    const below = bound > 0 ? decade(bound, Math.floor) : highest;
+    const lowest = Math.max(Math.min(decade(most, Math.floor) - 2, highest - 3, below), highest - 12);
     const [from, to] = [bottom + gap, end];
     const log = scale(lowest, highest, to, from, (value) => `1e${Math.round(value)}`);
     draw(svg, 'text', { x: 2, y: from - 8 }, `error, ${unit}`);
