@@ -29,7 +29,10 @@ pub mod cells;
 pub mod diagnosis;
 pub mod engines;
 pub mod errors;
+pub mod figures;
+pub mod formula_blocks;
 pub mod judged;
+pub mod machine;
 pub mod reasons;
 pub mod style;
 

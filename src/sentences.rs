@@ -2,12 +2,14 @@
 
 #[cfg(feature = "command")]
 mod command;
+mod machine;
 mod report;
 #[cfg(feature = "command")]
 mod sweep;
 
 #[cfg(feature = "command")]
 pub(crate) use command::*;
+pub(crate) use machine::*;
 pub(crate) use report::*;
 #[cfg(feature = "command")]
 pub(crate) use sweep::*;

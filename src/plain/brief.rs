@@ -1,11 +1,12 @@
-//! The short report of a proof: the verdict in one line, the worst channels, and all information that the user needs to
-//! act.
+//! The short report of a proof: the verdict, what the file says the mechanism is, its figures, and all information that
+//! the user needs to act.
 
 use super::cells::{flush, trimmed};
 use super::judged::{self, Grade, counts, grade, ranked, verdicts};
 use super::style::{self, wrapped};
-use super::{Tell, engines, reasons};
+use super::{Tell, engines, figures, machine, reasons};
 use crate::sentences;
+use linkage::math::KeepNan;
 use linkage::trajectory::{Channel, Trajectory, Unit};
 use prover::numbers;
 use prover::run::{EngineInfo, Proof};
@@ -52,12 +53,82 @@ fn of_engine(info: &EngineInfo) -> String {
     }
 }
 
+/// The verdict in one sentence for people: who agrees, and how well. `None` unless the proof agrees.
+#[must_use]
+pub fn agreement(proof: &Proof) -> Option<String> {
+    if grade(&proof.verdict) != Grade::Agree {
+        return None;
+    }
+    let names: Vec<&str> = proof.engines.iter().map(|engine| engine.info.name).collect();
+    let engines = match names.as_slice() {
+        [only] => sentences::the_simulation(&capital(only)),
+        several => sentences::the_simulations(&several.iter().map(|own| capital(own)).collect::<Vec<_>>().join(", ")),
+    };
+    let parties = sentences::both_sides_and(&engines);
+    let all = proof.reference_trajectory.channels();
+    let is_open = |channel: &&Channel| {
+        let own = proof.engines.iter().flat_map(|engine| &engine.channels);
+        !own.filter(|own| own.residual.channel == **channel).all(|own| grade(&own.verdict) == Grade::Agree)
+    };
+    let largest = largest_difference(proof).map_or_else(String::new, |(share, channel)| {
+        sentences::the_largest_difference(&numbers::percent(share), &channel.without_unit())
+    });
+    let open = all.iter().filter(is_open).count();
+    Some(match open {
+        0 => sentences::all_agree(&parties, &all.len(), &largest),
+        _ => sentences::most_agree(&parties, &(all.len() - open), &all.len(), &largest),
+    })
+}
+
+/// A name with a capital at its beginning.
+fn capital(name: &str) -> String {
+    let mut signs = name.chars();
+    signs.next().map_or_else(String::new, |first| first.to_uppercase().chain(signs).collect())
+}
+
+/// The largest residual of an agreeing channel as a fraction of the channel's range, and the channel.
+/// A channel that varies by no more than its bound has no range.
+fn largest_difference(proof: &Proof) -> Option<(f64, &Channel)> {
+    let shares = proof.engines.iter().flat_map(|engine| &engine.channels).filter_map(|own| {
+        let channel = &own.residual.channel;
+        let values = proof.reference_trajectory.column(channel)?;
+        let ends = values
+            .iter()
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.smaller(*value), high.larger(*value)]);
+        let range = ends[1] - ends[0];
+        (range > own.bound && grade(&own.verdict) == Grade::Agree).then(|| (own.residual.max / range, channel))
+    });
+    shares.max_by(|(one, _), (other, _)| one.total_cmp(other))
+}
+
+/// What the file says the mechanism is, and the figures of its motion.
+pub fn facts(proof: &Proof, width: Option<usize>, text: &mut String) {
+    text.push('\n');
+    for (what, told) in machine::rows(proof) {
+        say!(text, "{}", wrapped(&format!("{what:<11}{told}"), width, 11));
+    }
+    let rows = figures::rows(proof);
+    if rows.is_empty() {
+        return;
+    }
+    let (word, unit) = figures::place(proof);
+    let mut table = flush(&format!("figure | value> | unit | at {word}, {unit}"), width);
+    say!(text, "\n{}", trimmed(table.add_rows(rows)));
+}
+
 /// The short report, in lines of at most `width` columns; `tell` puts the advice into words.
 #[must_use]
 pub fn proof(proof: &Proof, tell: Tell, width: usize) -> String {
     let width = Some(width);
     let mut text = format!("{}\n", verdict_line(proof));
-    worst(proof, width, &mut text);
+    let grade = grade(&proof.verdict);
+    if let Some(told) = agreement(proof) {
+        say!(text, "{}", wrapped(&told, width, 0));
+        facts(proof, width, &mut text);
+    } else if proof.engines.iter().flat_map(|own| &own.channels).any(|own| judged::grade(&own.verdict) != Grade::Agree)
+    {
+        worst(proof, width, &mut text);
+    }
     let mut paragraph = |told: &str| say!(text, "\n{}", wrapped(told, width, 2));
     if proof.engines.len() > 1 {
         paragraph(&engines::disputes(proof));
@@ -68,11 +139,14 @@ pub fn proof(proof: &Proof, tell: Tell, width: usize) -> String {
         }
     }
     // If the proof agrees, undecided results do not change its verdict, so only the first reason is shown.
-    let most = if grade(&proof.verdict) == Grade::Agree { 1 } else { WORST };
+    let most = if grade == Grade::Agree { 1 } else { reasons::MOST };
     reasons::reasons(proof, tell, width, most, &mut text);
     reasons::diagnosed(proof, width, &mut text);
     reasons::notes(proof, width, &mut text);
     reasons::expected(proof, tell, &mut text);
+    if grade != Grade::Agree {
+        facts(proof, width, &mut text);
+    }
     text
 }
 

@@ -2,6 +2,7 @@
 //! This information states why something disagrees or is open, what was not judged, and which printed numbers are known
 //! to be wrong.
 
+use super::formula_blocks::{self, Line};
 use super::judged::{Grade, grade, unproven};
 use super::style::wrapped;
 use super::{Tell, diagnosis};
@@ -11,20 +12,107 @@ use linkage::case::FrictionSeat;
 use linkage::error::Advice;
 use linkage::input::Input;
 use linkage::math::statistics::distinct;
+use linkage::trajectory::Channel;
 use prover::bounds::{Check, Verdict};
 use prover::numbers::{input_in, quantity};
 use prover::run::Proof;
 
-/// Reasons why something disagrees or is open, with the remedies.
-/// `most` reasons are shown in full; disagreements come first.
+/// The reason why something disagrees or is open, and the number of verdicts with that reason.
+pub struct Reason {
+    key: String,
+    /// The first number with this reason, and the reason.
+    pub told: String,
+    /// Number of verdicts with this reason.
+    pub count: usize,
+}
+
+/// Largest number of blocks of a kind; further ones are only counted.
+pub const MOST: usize = 10;
+
+/// Wrong and open formulas, a block for each with value and derivatives together.
+#[must_use]
+pub fn formulas(proof: &Proof, tell: Tell, width: Option<usize>) -> Vec<String> {
+    let Some(judgement) = &proof.judgement else { return Vec::new() };
+    let mut lines = formula_blocks::lines(&proof.formulas, judgement);
+    let told = in_blocks(proof);
+    // A verdict of a check may differ from that of its formula if the bounds are scaled.
+    let is_told = |line: &Line| {
+        proof
+            .formula_checks()
+            .any(|(own, check)| own.name == line.judged.name && told.iter().any(|told| std::ptr::eq(*told, check)))
+    };
+    lines.retain(is_told);
+    formula_blocks::blocks(&lines, (&proof.formulas, judgement), tell, width, false)
+}
+
+/// The checks of formulas that [`formulas`] explains: unproven checks whose formula is unproven too.
+fn in_blocks(proof: &Proof) -> Vec<&Check> {
+    let both = proof.formula_checks();
+    both.filter(|(own, check)| {
+        [formula_blocks::grade(own), grade(&check.verdict)].iter().all(|own| *own != Grade::Agree)
+    })
+    .map(|(_, check)| check)
+    .collect()
+}
+
+/// Reasons why something disagrees or is open, with the remedies: a block for each cause, disagreements first.
+/// `most` blocks are shown.
 pub fn reasons(proof: &Proof, tell: Tell, width: Option<usize>, most: usize, text: &mut String) {
-    let open = unproven(proof);
-    for (name, verdict) in open.iter().take(most) {
-        let reason = format!("{name}: {}", verdict.reason(tell).unwrap_or_default());
-        say!(text, "\n{}", wrapped(&reason, width, 2));
+    let mut all = formulas(proof, tell, width);
+    all.extend(grouped(proof, tell).into_iter().map(|own| wrapped(&own.text(), width, 2)));
+    all.iter().take(most).for_each(|block| say!(text, "\n{block}"));
+    if all.len() > most {
+        say!(text, sentences::and_more_3(&(all.len() - most), &tell(&Advice::AllResults)));
     }
-    if open.len() > most {
-        say!(text, sentences::and_more_3(&(open.len() - most), &tell(&Advice::AllResults)));
+}
+
+impl Reason {
+    /// The reason, and the number of further verdicts with the same reason.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let more = match self.count {
+            1 => String::new(),
+            count => sentences::and_more_alike(&(count - 1)),
+        };
+        format!("{}{more}", self.told)
+    }
+}
+
+/// The distinct reasons of all verdicts, disagreements first. Formulas with a block of their own ([`formulas`]) are left
+/// out.
+pub fn grouped(proof: &Proof, tell: Tell) -> Vec<Reason> {
+    let mut all: Vec<Reason> = Vec::new();
+    let told = in_blocks(proof);
+    for (name, verdict) in unproven(proof) {
+        if told.iter().any(|check| std::ptr::eq(&check.verdict, verdict)) {
+            continue;
+        }
+        let reason = verdict.reason(tell).unwrap_or_default();
+        let key = key(&name, verdict, &reason);
+        match all.iter_mut().find(|own| own.key == key) {
+            Some(own) => own.count += 1,
+            None => all.push(Reason { key, told: format!("{name}: {reason}"), count: 1 }),
+        }
+    }
+    all
+}
+
+/// Key under which equivalent reasons are counted once.
+/// For an inconclusive verdict, the key is the reason without its numbers.
+/// For any other verdict, the key is the cause. If the reason states no cause, the key is the name without its side and
+/// channel.
+fn key(name: &str, verdict: &Verdict, reason: &str) -> String {
+    let bare = name.replace(" (assur)", "").replace(" (newton)", "");
+    let channel = bare.split([' ', '(']).next().unwrap_or_default();
+    match verdict {
+        Verdict::Inconclusive { .. } => reason.replace(|sign: char| sign.is_ascii_digit() || ".e-+".contains(sign), ""),
+        Verdict::Agree { .. } | Verdict::Expected { .. } | Verdict::Disagree { .. } => {
+            match reason.split_once("cause: ") {
+                Some((_, cause)) => cause.to_string(),
+                None if Channel::named(channel).is_some() => bare.replacen(channel, "", 1),
+                None => bare,
+            }
+        }
     }
 }
 
@@ -111,5 +199,26 @@ pub fn notes(proof: &Proof, width: Option<usize>, text: &mut String) {
         let (count, all, at) = ((0..forces.len()).filter(is_off).count(), forces.len(), reference.told(first));
         let told = sentences::the_follower_leaves_the_cam(&cam.name(), &count, &all, &input_in(at, 1));
         say!(text, "\n{}", wrapped(&told, width, 2));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equivalent_reasons_have_the_same_key() {
+        let open = Verdict::Inconclusive { reason: String::new(), advice: Vec::new() };
+        let wrong = Verdict::Disagree { place: String::new() };
+        let keys = [("a", "may reach 2.4 %"), ("b", "may reach 46 %")].map(|(name, why)| key(name, &open, why));
+        assert_eq!(keys[0], keys[1]);
+        let sides = ["x (assur), y", "x (newton), y"].map(|name| key(name, &wrong, "1 N is beyond the bound"));
+        assert_eq!(sides[0], sides[1]);
+        assert_ne!(sides[0], key("z (assur), y", &wrong, "1 N is beyond the bound"));
+        for suffix in ["", " (rapier)", " as the engine exerts it"] {
+            let names = ["link.crank.x_m", "point.B.y_m"].map(|name| format!("{name}{suffix}"));
+            let keys = names.map(|name| key(&name, &wrong, "1e-3 is beyond 1e-6"));
+            assert_eq!(keys[0], keys[1]);
+        }
     }
 }

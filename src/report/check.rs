@@ -2,80 +2,29 @@
 
 use crate::sentences;
 use std::cmp::Reverse;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use serde_json::{Value, json};
 
 use super::pretty::{list, pretty};
 use crate::plain::Tell;
 use crate::plain::cells::{counted, flush, trimmed};
+use crate::plain::formula_blocks::{Line, blocks, grade, is_consequence, is_expected, lines, of, values, wrong_values};
 use crate::plain::judged::Grade;
 use crate::plain::style::{self, wrapped};
-use prover::bounds::{Verdict, place_of_finding};
-use prover::check::{CUT, FormulaAtInstant, FormulaCause, FormulaOutcome, JudgedFormula, Missing, Term, WORDS};
-use prover::numbers::{beside, error, fixed, input_told, with_unit};
+use prover::bounds::Verdict;
+use prover::check::{FormulaAtInstant, FormulaCause, JudgedFormula, Missing, Term};
+use prover::numbers::{error, fixed};
 use prover::run::Reference;
 use prover::run::solved::Claimed;
 use scenario::{Formula, Scenario};
 
 /// Number of claims that the short report shows with their values.
 const WORST: usize = 3;
-/// Column at which the text below a formula begins.
-const INDENT: usize = 9;
-
-/// Grade of a claim.
-fn grade(judged: &JudgedFormula) -> Grade {
-    match judged.outcome() {
-        FormulaOutcome::Right | FormulaOutcome::Expected { .. } => Grade::Agree,
-        FormulaOutcome::Open { .. } => Grade::Open,
-        FormulaOutcome::Wrong => Grade::Disagree,
-    }
-}
-
-/// Whether a formula is wrong, as a finding says.
-fn is_expected(judged: &JudgedFormula) -> bool {
-    matches!(judged.outcome(), FormulaOutcome::Expected { .. })
-}
-
-/// One claim, judged by value or by a derivative, and the side that the claim fits worse.
-struct Line<'a> {
-    side: &'static str,
-    formula: &'a Formula,
-    judged: &'a JudgedFormula,
-    grade: Grade,
-}
-
-impl Line<'_> {
-    fn name(&self) -> String {
-        match self.judged.order {
-            0 => self.judged.name.clone(),
-            order => format!("  {}", WORDS[order]),
-        }
-    }
-}
-
-fn formulas(scenario: &Scenario) -> BTreeMap<&str, &Formula> {
-    scenario.formulas.list.iter().map(|formula| (formula.name.as_str(), formula)).collect()
-}
-
-fn lines<'a>(scenario: &'a Scenario, claimed: &'a Claimed) -> Vec<Line<'a>> {
-    let [first, second] = claimed.judgement.sides.pair();
-    let [one, two] = Reference::ALL.map(Reference::name);
-    let formulas = formulas(scenario);
-    let both = first.iter().zip(second).flat_map(|(own, other)| own.iter().zip(other));
-    let line = |(own, other): (&'a JudgedFormula, &'a JudgedFormula)| {
-        let formula = formulas.get(own.name.as_str()).expect("only the scenario's formulas are judged");
-        let [own, other] = [(one, own), (two, other)];
-        let (side, judged) = if grade(other.1) > grade(own.1) { other } else { own };
-        Line { side, formula, judged, grade: grade(judged) }
-    };
-    both.map(line).collect()
-}
-
 /// The verdict in one line.
 #[must_use]
 pub fn verdict_line(scenario: &Scenario, claimed: &Claimed) -> String {
-    let told = sentence(&lines(scenario, claimed), claimed);
+    let told = sentence(&lines(&scenario.formulas, &claimed.judgement), claimed);
     format!("{}: {}: {told}", scenario.name, style::verdict(&claimed.verdict))
 }
 
@@ -83,7 +32,7 @@ pub fn verdict_line(scenario: &Scenario, claimed: &Claimed) -> String {
 /// The report has the verdict, the formulas with the largest errors relative to their bounds, and the faults.
 #[must_use]
 pub fn brief(scenario: &Scenario, claimed: &Claimed, tell: Tell, width: usize) -> String {
-    let lines = lines(scenario, claimed);
+    let lines = lines(&scenario.formulas, &claimed.judgement);
     let wrong = wrong_values(&lines);
     let is_told =
         |line: &&Line| line.judged.worst.is_some() && !is_consequence(&wrong, line) && !is_expected(line.judged);
@@ -101,14 +50,14 @@ pub fn brief(scenario: &Scenario, claimed: &Claimed, tell: Tell, width: usize) -
     let header = format!("worst formula | at {at_unit}> | formula> | mechanism> | error> | bound> | unit");
     let table = trimmed(flush(&header, Some(width)).add_rows(rows));
     let mut text = format!("{}\n\n{table}\n", verdict_line(scenario, claimed));
-    reasons(&lines, claimed, tell, width, &mut text);
+    reasons(&lines, scenario, claimed, tell, width, &mut text);
     text
 }
 
 /// The whole report: the verdict, a line for each claim and derivative, and the faults.
 #[must_use]
 pub fn text(scenario: &Scenario, claimed: &Claimed, tell: Tell, width: usize) -> String {
-    let lines = lines(scenario, claimed);
+    let lines = lines(&scenario.formulas, &claimed.judgement);
     let at_unit = scenario.case.crank().input.shown_in().0;
     let mut table = flush(&format!("formula | claim | at {at_unit}> | error> | bound> | verdict"), Some(width));
     if let Some(claims) = table.column_mut(1) {
@@ -124,60 +73,14 @@ pub fn text(scenario: &Scenario, claimed: &Claimed, tell: Tell, width: usize) ->
         [line.name(), claim, at, off, bound, word.into()]
     }));
     let mut text = format!("{}\n\n{}\n", verdict_line(scenario, claimed), trimmed(&table));
-    reasons(&lines, claimed, tell, width, &mut text);
+    reasons(&lines, scenario, claimed, tell, width, &mut text);
     text
 }
 
-/// Values of the formula and of the mechanism, with enough digits to differ.
-fn values(at: FormulaAtInstant) -> [String; 2] {
-    let [found, right] = beside([at.formula, at.mechanism], at.bound);
-    [if at.formula.is_nan() { "no value".into() } else { found }, right]
-}
-
-/// Names of the formulas that are wrong by value.
-fn wrong_values<'a>(lines: &[Line<'a>]) -> BTreeSet<&'a str> {
-    let is_wrong_value = |line: &&Line| line.judged.order == 0 && line.grade == Grade::Disagree;
-    lines.iter().filter(is_wrong_value).map(|line| line.judged.name.as_str()).collect()
-}
-
-/// Whether a derivative is wrong only because the value of its formula is wrong; such a derivative is not
-/// reported.
-fn is_consequence(wrong: &BTreeSet<&str>, of: &Line) -> bool {
-    of.judged.order > 0 && wrong.contains(of.judged.name.as_str())
-}
-
 /// Faults and open points, with their reasons.
-fn reasons(lines: &[Line], claimed: &Claimed, tell: Tell, width: usize, text: &mut String) {
-    let wrong = wrong_values(lines);
-    let told = |line: &&Line| (line.grade != Grade::Agree || is_expected(line.judged)) && !is_consequence(&wrong, line);
-    let causes = causes(claimed);
-    for line in lines.iter().filter(told) {
-        say!(text, "\n{}", wrapped(&reason(line, tell), Some(width), INDENT));
-        let name = &line.judged.name;
-        if line.judged.order > 0 || line.judged.finding.is_some() {
-            continue;
-        }
-        let mut below = |told: &str| say!(text, "{}", wrapped(told, Some(width), INDENT));
-        let (undefined, is_cut) = (claimed.judgement.undefined.get(name), claimed.judgement.unsought.contains(name));
-        if let Some(undefined) = undefined {
-            below(&format!("  but    {undefined}."));
-        }
-        let Some(cause) = causes.get(name.as_str()) else { continue };
-        below(&match cause {
-            Some(found) if is_cut => sentences::cause_perhaps_another(&found, &CUT),
-            Some(
-                found @ (FormulaCause::Leaves { .. }
-                | FormulaCause::Mostly { .. }
-                | FormulaCause::Near { .. }
-                | FormulaCause::Constant),
-            ) => {
-                format!("  cause  {found}.")
-            }
-            Some(found) => sentences::cause_with_that_nothing_is_left(&found),
-            None if is_cut => sentences::cause_not_found(&CUT),
-            None if undefined.is_some() => continue,
-            None => sentences::CAUSE_NONE_THAT_IS_SIMPLE.into(),
-        });
+fn reasons(lines: &[Line], scenario: &Scenario, claimed: &Claimed, tell: Tell, width: usize, text: &mut String) {
+    for block in blocks(lines, (&scenario.formulas, &claimed.judgement), tell, Some(width), true) {
+        say!(text, "\n{block}");
     }
     for check in &claimed.checks {
         if let Some(reason) = check.verdict.reason(tell) {
@@ -214,50 +117,6 @@ fn sentence(lines: &[Line], claimed: &Claimed) -> String {
     }
 }
 
-fn reason(line: &Line, tell: Tell) -> String {
-    let JudgedFormula { claim, unit, order, .. } = line.judged;
-    let of = of(*order);
-    match line.judged.outcome() {
-        FormulaOutcome::Right => String::new(),
-        FormulaOutcome::Expected { finding } => {
-            sentences::is_wrong_as_the_finding_says(&line.judged.name, &tell(&place_of_finding(&finding)))
-        }
-        FormulaOutcome::Wrong if line.judged.since.is_none() => {
-            let finding = line.judged.finding.as_deref().unwrap_or_default();
-            sentences::agrees_although_the_finding(&line.judged.name, &tell(&place_of_finding(finding)))
-        }
-        FormulaOutcome::Open { reason, advice } => {
-            let advice: Vec<String> = advice.iter().map(tell).collect();
-            format!("{of}{}: {reason}; {}", line.judged.name, advice.join(", or "))
-        }
-        FormulaOutcome::Wrong => {
-            let mut text = sentences::is_not(&of, &line.judged.name, &line.formula.text, &claim, &line.side);
-            let says = |word: &str, at: FormulaAtInstant| {
-                let place = sentences::at_instant(&input_told(at.input.at(at.crank), 3), &fixed(at.time, 6));
-                let [found, right] = values(at);
-                let found = if at.formula.is_nan() { found } else { with_unit(&found, unit) };
-                let right = with_unit(&right, unit);
-                sentences::formula_mechanism(&word, &place, &found, &right)
-            };
-            if let (Some(since), Some(worst)) = (line.judged.since, line.judged.worst) {
-                text += &says("first", since);
-                if worst != since {
-                    text += &says("worst", worst);
-                }
-            }
-            text
-        }
-    }
-}
-
-/// The words before a name that say which derivative is judged.
-fn of(order: usize) -> String {
-    match order {
-        0 => String::new(),
-        order => sentences::the_of(&WORDS[order]),
-    }
-}
-
 fn cause_json(cause: &FormulaCause) -> Value {
     let term = |term: &Term| json!({ "coefficient": term.coefficient, "factor": term.factor, "of": term.of });
     let mut value = match cause {
@@ -267,7 +126,7 @@ fn cause_json(cause: &FormulaCause) -> Value {
         }),
         FormulaCause::Offset(offset) => json!({ "kind": "an offset", "offset": offset }),
         FormulaCause::Factor(factor) => json!({ "kind": "a factor", "factor": factor }),
-        FormulaCause::Missing(Missing { formula, beside, what, is_factor }) => {
+        FormulaCause::Missing(Missing { formula, beside, what, is_factor, .. }) => {
             let kind = if *is_factor { sentences::A_MISSING_FACTOR } else { sentences::A_MISSING_TERM };
             json!({ "kind": kind, "in": formula, "beside": beside, "missing": what })
         }
@@ -301,7 +160,9 @@ pub fn json(scenario: &Scenario, claimed: &Claimed, tell: Tell) -> String {
             "mechanism": at.mechanism, "difference": at.difference, "bound": at.bound,
         })
     };
-    let (causes, formulas) = (causes(claimed), formulas(scenario));
+    let causes = causes(claimed);
+    let formulas: BTreeMap<&str, &Formula> =
+        scenario.formulas.list.iter().map(|formula| (formula.name.as_str(), formula)).collect();
     let no_value = |judged: &JudgedFormula| {
         claimed.judgement.undefined.get(&judged.name).map(|undefined| {
             json!({

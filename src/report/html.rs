@@ -4,6 +4,7 @@
 
 mod data;
 mod findings;
+mod formulas;
 mod graphs;
 mod loads;
 mod markup;
@@ -16,6 +17,7 @@ mod words;
 use crate::sentences;
 use std::collections::BTreeMap;
 
+use super::pretty::list;
 use crate::plain::Tell;
 use design::diagram::Graphs;
 use drawing::{Sketch, Travels};
@@ -97,8 +99,10 @@ fn filled_page(proof: &Proof, beside: &Beside, judged: &Judged, tell: Tell, scri
     let reference = &proof.reference_trajectory;
     let placed = Placed::of(&case.mechanism, reference);
     let beside = placed.as_ref().map_or(0, |placed| loads::width(case) + plans::width(case, placed, 0));
-    let thinned = Thinned::of(proof, &errors, beside);
+    let curves = formulas::of(proof);
+    let thinned = Thinned::of(proof, &errors, beside + formulas::WIDTH * curves.len());
     let mut data = data::of(proof, &errors, &thinned, tell);
+    data.insert("formulas".into(), list(&curves, |own| own.json(&thinned.rows)));
     let input = case.crank().input;
     if input != Input::Angle {
         let (noun, word, (unit, _)) = (input.noun(), input.word(), input.shown_in());
@@ -141,6 +145,7 @@ fn filled_page(proof: &Proof, beside: &Beside, judged: &Judged, tell: Tell, scri
             ("verdict", &judged.verdict),
             ("sentence", &judged.sentence),
             ("why", &judged.why),
+            ("facts", &words::facts(proof)),
             ("findings", &judged.findings),
             ("picture", &picture),
             ("thinned", &told(&thinned)),

@@ -9,6 +9,7 @@ use super::pretty::rows;
 use crate::plain::Tell;
 use crate::plain::diagnosis::{cause, nature, standing};
 use crate::plain::judged::{Grade, grade};
+use crate::plain::machine;
 use linkage::case::LeftOut;
 use linkage::error::{Advice, Error};
 use linkage::input::InputValue;
@@ -17,7 +18,8 @@ use linkage::work::Work;
 use prover::bounds::{Check, Verdict};
 use prover::diagnosis::{Diagnosis, PartyStanding, Since};
 use prover::run::{
-    ChannelProof, Dispute, EngineInfo, EngineProof, ForceFault, LedgerEntry, Proof, SearchEnd, SettingsSearch,
+    ChannelProof, Dispute, EngineInfo, EngineProof, ForceFault, LedgerEntry, Proof, ReportedFigure, SearchEnd,
+    SettingsSearch,
 };
 
 /// Words by name.
@@ -54,6 +56,10 @@ rows! {
         reason: Option<String> = proof.verdict.reason(tell),
         structure: String = proof.formula.clone(),
         reference: Reference = Reference::of(proof.reference, times),
+        /// What the file says the mechanism is, in words.
+        machine: BTreeMap<&'static str, String> = machine::rows(proof).into_iter().collect(),
+        /// Figures of the motion.
+        figures: Vec<FigureRow> = proof.figures().iter().map(|own| FigureRow::of(own, proof)).collect(),
         /// Checks on the analytic sides.
         checks: Vec<CheckRow> = proof.checks.iter().map(|own| CheckRow::of(own, tell)).collect(),
         engines: Vec<Engine> = proof.engines.iter().map(|own| Engine::of(own, tell)).collect(),
@@ -66,6 +72,22 @@ rows! {
         left_out: Left = Left::of(left),
         /// The work of each part of the proof.
         work: Vec<Part> = proof.work.iter().map(Part::of).collect(),
+    }
+
+    struct FigureRow = |own: &ReportedFigure, proof: &Proof| {
+        let run = &proof.reference_trajectory;
+    } {
+        /// The figure as sweeps and files write it.
+        figure: String = own.figure.clone(),
+        words: String = own.label.clone(),
+        value: f64 = own.value,
+        unit: String = own.unit.clone(),
+        /// Instants at which the figure occurs: time (s) and input.
+        at: Vec<Keyed> = own.rows.iter().map(|row| {
+            let mut at = keyed("", run.told(*row));
+            at.insert("t_s".into(), run.times()[*row]);
+            at
+        }).collect(),
     }
 
     struct Left = |left: &LeftOut| {} {

@@ -32,7 +32,19 @@ pub fn text(outcomes: &Outcomes) -> String {
     for entry in entries {
         reasons(entry, &mut text);
     }
+    entries.iter().for_each(|entry| figures(entry, &mut text));
     text
+}
+
+/// The figures of a scenario, folded, because a comment may have many scenarios.
+fn figures(entry: &Entry, text: &mut String) {
+    let Some((head, rows)) = entry.figures.split_first() else { return };
+    say!(text, "\n<details><summary>{}: {}</summary>\n", line(&entry.name), sentences::FIGURES_OF_THE_MOTION);
+    say!(text, "{}\n|---|---:|---|---|", marked(head));
+    for row in rows {
+        say!(text, "{}", marked(&row.each_ref().map(|own| cell(own))));
+    }
+    say!(text, "\n</details>");
 }
 
 /// Faults and open points of a scenario, disagreements first.

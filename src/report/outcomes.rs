@@ -4,6 +4,7 @@ use std::path::Path;
 
 use super::compare;
 use crate::plain::Tell;
+use crate::plain::figures;
 use crate::plain::judged::{self, Grade, JudgedNumber, Sort, grade};
 use linkage::error::Error;
 use prover::bounds::Verdict;
@@ -32,6 +33,8 @@ pub(super) struct Entry {
     pub(super) verdict: &'static str,
     pub(super) cases: Vec<Case>,
     pub(super) error: Option<String>,
+    /// Figures of the motion as cells of a table with its header; empty for a comparison.
+    pub(super) figures: Vec<[String; 4]>,
 }
 
 /// The outcomes of a command, scenario by scenario, or comparison by comparison.
@@ -58,7 +61,14 @@ impl Outcomes {
             let channels = pair.channels.iter().map(|own| all.case("comparison", own.claim.text.clone(), &own.verdict));
             let checks = pair.checks.iter().map(|check| all.case(SIDES, check.name(), &check.verdict));
             let (name, cases) = (compare::who(paths, pair), channels.chain(checks).collect());
-            Entry { name, title: String::new(), verdict: pair.verdict().word(), cases, error: None }
+            Entry {
+                name,
+                title: String::new(),
+                verdict: pair.verdict().word(),
+                cases,
+                error: None,
+                figures: Vec::new(),
+            }
         };
         all.entries = comparison.pairs.iter().map(entry).collect();
         all
@@ -79,14 +89,20 @@ impl Outcomes {
         let error =
             proof.engines.iter().find_map(|engine| engine.failure.as_ref()).map(|own| own.message().to_string());
         let (name, title) = (proof.scenario.clone(), proof.title.clone());
-        self.entries.push(Entry { name, title, verdict: proof.verdict.word(), cases, error });
+        let (word, unit) = figures::place(proof);
+        let mut figures = figures::rows(proof);
+        if !figures.is_empty() {
+            figures.insert(0, ["figure".into(), "value".into(), "unit".into(), format!("at {word}, {unit}")]);
+        }
+        self.entries.push(Entry { name, title, verdict: proof.verdict.word(), cases, error, figures });
     }
 
     /// Adds a scenario that could not be proven.
     pub fn add_failure(&mut self, scenario: &str, error: &Error) {
         let error = Some(error.lines_by(self.tell));
         let name = scenario.to_string();
-        self.entries.push(Entry { name, title: String::new(), verdict: "error", cases: Vec::new(), error });
+        let (title, cases, figures) = (String::new(), Vec::new(), Vec::new());
+        self.entries.push(Entry { name, title, verdict: "error", cases, error, figures });
     }
 }
 

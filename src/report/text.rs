@@ -11,21 +11,21 @@ use prover::bounds::{Check, Verdict, overall};
 use prover::numbers;
 use prover::run::{ChannelProof, EngineInfo, EngineProof, Proof, SearchEnd, SettingsSearch};
 
-/// Number of reasons that are shown in full; further reasons are only counted.
-const REASONS: usize = 5;
-
 /// The whole report of one proof: verdict and worst channels, then everything else.
 /// `tell` puts the advice into words.
 /// Lines have at most `width` columns, if a width is given.
 #[must_use]
 pub fn proof(proof: &Proof, tell: Tell, width: Option<usize>) -> String {
     let mut text = format!("{}\n{}\n", brief::verdict_line(proof), sentence(proof));
+    if let Some(told) = brief::agreement(proof) {
+        say!(text, "{}", wrapped(&told, width, 0));
+    }
+    brief::facts(proof, width, &mut text);
     brief::worst(proof, width, &mut text);
     text.push('\n');
     let mut line = |what: &str, told: &str| {
         say!(text, "{}", wrapped(&format!("{what:<11}{told}"), width, 11));
     };
-    line("title", &proof.title);
     line("structure", &proof.formula);
     let instants = proof.reference_trajectory.times().len();
     line("reference", &format!("{}, {instants} instants", proof.reference));
@@ -53,7 +53,7 @@ pub fn proof(proof: &Proof, tell: Tell, width: Option<usize>) -> String {
     reasons::notes(proof, width, &mut text);
     say!(text, "\nChecks:\n{}", checks(proof, width));
     reasons::expected(proof, tell, &mut text);
-    reasons::reasons(proof, tell, width, REASONS, &mut text);
+    reasons::reasons(proof, tell, width, reasons::MOST, &mut text);
     reasons::diagnosed(proof, width, &mut text);
     text
 }

@@ -1,6 +1,17 @@
 //! Sentences of the command line, the only part that names options and commands.
 
 linkage::sentences! {
+    // cli/run/session.rs
+    NEXT_AGREE =
+        "next       `linkproof run FILE --verbose` shows every check and bound,\n           \
+         `linkproof run FILE -o PAGE.html` motion, curves and formulas,\n           \
+         `linkproof bearings FILE` the loads of the joints";
+    NEXT_OPEN =
+        "next       follow the advice above, or allow more work: `--budget 1e9`;\n           \
+         `linkproof run FILE --verbose` shows every bound";
+    NEXT_DISAGREE =
+        "next       correct the causes above, the first one first;\n           \
+         `linkproof run FILE -o PAGE.html` shows the curves of both sides";
     // cli/accept.rs
     linkproof_accept_writes_it(file) = "`linkproof accept {file}` writes it";
     nothing_was_accepted_of_there(file, place) = "{file} has no accepted figures: {place} does not exist";

@@ -246,9 +246,10 @@ linkage::sentences! {
     A_MISSING_TERM = "a missing term";
     A_MISSING_FACTOR = "a missing factor";
     the_of(order) = "the {order} of ";
-    formula_mechanism(word, place, found, right) = "\n  {word:6} {place}: formula {found}, mechanism {right}";
+    formula_mechanism(word, place, found, right) = "  {word:6} {place}: formula {found}, mechanism {right}";
     at_instant(at, fixed) = "{at}, t = {fixed} s";
-    is_not(of, judged, formula, claim, side) = "{of}{judged} = {formula}\n  is not {of}{claim} ({side})";
+    is_not(of, claim, side) = "  is not {of}{claim} ({side})";
+    in_the_step(cause, step) = "{cause}, in {step}";
     is_wrong_as_the_finding_says(name, place) = "{name}: wrong as printed, see {place}";
     agrees_although_the_finding(name, place) = "{name} agrees with the mechanism, although {place} calls it wrong: correct the finding or the formula";
     and_wrong_as_printed(right, wrong) = "{right} right and {wrong} wrong as printed";

@@ -7,6 +7,7 @@ mod clearance;
 mod drive;
 mod drivers;
 mod encodings;
+mod engineer;
 mod engines;
 mod export;
 mod files;

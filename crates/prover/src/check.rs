@@ -20,7 +20,7 @@ pub use course::{KnownTrajectory, needed, telling};
 pub use judge::judge;
 pub use judged::{FormulaAtInstant, FormulaOutcome, JudgedFormula};
 pub use missing::Missing;
-pub use slips::{FormulaSlip, SlipKind, planted};
+pub use slips::{FormulaMark, FormulaSlip, SlipKind, planted};
 pub use terms::{Term, Wrong, missing_in_numbers};
 pub use undefined::{Undefined, undefined};
 

@@ -29,6 +29,7 @@ mod planted;
 #[cfg(test)]
 mod planted_forces;
 mod problem;
+mod reported;
 mod runs;
 mod sensitivity;
 mod settle;
@@ -44,9 +45,11 @@ pub use ledger::{Ledger, LedgerEntry};
 pub use options::Options;
 pub use parties::Dispute;
 pub use problem::Problem;
+pub use reported::ReportedFigure;
 pub use settle::BUDGET;
 
 use crate::bounds::{Check, Verdict, overall};
+use crate::check::JudgedFormula;
 use crate::diagnosis::Diagnosis;
 use analytic::range::explained;
 use linkage::case::{Case, Scene};
@@ -55,7 +58,7 @@ use linkage::math::KeepNan;
 use linkage::solver::Progress;
 use linkage::trajectory::Trajectory;
 use linkage::work::limited;
-use scenario::Scenario;
+use scenario::{CaseFigure, Formulas, Scenario};
 
 /// Work that the analytic sides may always do, whatever the budget. This work takes a second or two.
 /// Without the analytic sides there is no result.
@@ -107,6 +110,12 @@ pub struct Proof {
     pub reference_bounds: Vec<f64>,
     /// The part of the scenario's case that was solved, and the parts on which no requested channel depends.
     pub scene: Scene,
+    /// The formulas of the scenario, with their claims.
+    pub formulas: Formulas,
+    /// Judgement of the formulas; `None` if no formula claims a requested channel.
+    pub judgement: Option<Judgement>,
+    /// Figures that the file requests for reports.
+    pub asked: Vec<CaseFigure>,
     /// The work done, part by part, and the work that was not needed.
     pub work: Vec<LedgerEntry>,
 }
@@ -141,8 +150,18 @@ impl Proof {
             reference_trajectory: solved,
             reference_bounds: Vec::new(),
             scene,
+            formulas: scenario.formulas.clone(),
+            judgement: None,
+            asked: scenario.figures.clone(),
             work: Vec::new(),
         })
+    }
+
+    /// The judged formulas, each with its check, in the order of the checks.
+    pub fn formula_checks(&self) -> impl Iterator<Item = (&JudgedFormula, &Check)> {
+        let sides = self.judgement.iter().flat_map(|own| own.sides.iter());
+        let judged = sides.flat_map(|(_, all)| all.iter().flatten());
+        judged.zip(self.checks.iter().filter(|check| formulas::is_of_formula(check)))
     }
 
     /// Checks on the analytic sides and on all engines.
@@ -263,6 +282,9 @@ fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: 
         reference_trajectory: own.trajectory.clone(),
         reference_bounds: sides.bounds(),
         checks: sides.checks,
+        formulas: scenario.formulas.clone(),
+        judgement: sides.judgement,
+        asked: scenario.figures.clone(),
         engines: proofs,
         disputes,
         verdict,

@@ -22,6 +22,9 @@ linkage::sentences! {
     too_little_everywhere(significant) = "too small by {significant} everywhere";
     too_much_everywhere(significant) = "too large by {significant} everywhere";
     in_instead_of(kind, formula, right, written, wherever) = "{kind}, in {formula}: `{right}` instead of `{written}`{wherever}";
+    in_place_of(right, written) = "`{right}` instead of `{written}`";
+    it_should_be(right) = "right would be `{right}`";
+    nothing_in_place_of(written) = "`{written}` too many";
     WHEREVER_IT_STANDS = " wherever it occurs";
     // check/course.rs
     was_not_asked_for(what) = "{what} was not requested";
@@ -107,6 +110,18 @@ linkage::sentences! {
     ITS_SHARE_OF_THE_WORK_THAT_WAS_ALLOWED = "the part of the work limit that the diagnosis may use is used up";
     REST_OF_THE_DIAGNOSIS = "rest of the diagnosis";
     WHAT_ORACLE_SAYS = "the data of [[oracle]]";
+    // run/reported.rs
+    smallest_transmission_angle(dyad) = "smallest transmission angle ({dyad})";
+    stroke_of(link) = "stroke of {link}";
+    swing_of(link) = "swing of {link}";
+    top_speed_of(link) = "largest speed of {link}";
+    speed_ratio_of(link, crank) = "mean speed ratio of {link} to {crank}";
+    joint_force_in(joint) = "largest force in joint {joint}";
+    contact_force_in(name) = "largest force in transmission {name}";
+    driving_force_at(joint) = "largest driving force at {joint}";
+    driving_torque_at(joint) = "largest driving torque at {joint}";
+    driving_power_at(joint) = "largest power of the drive at {joint}";
+    extent_of_the_path_of(point, axis) = "extent of the path of {point} along {axis}";
     // run/checks.rs
     REACTIONS_AND_SPEEDS_COME_FROM_THE_ENGINE = "reactions and speeds are read from the engine independently";
     BOTH_FROM_THE_SAME_ACCELERATIONS = "the moments from reactions and from powers use the same accelerations, so this checks the equations of motion and the loop velocities, but not the accelerations";

@@ -9,8 +9,8 @@ mod tests;
 pub use key::{FileKey, Section, ValueKind};
 
 use super::{
-    clearance, engine, formula, grid, joints, links, loads, motion, motor, oracle, settings, start, stated,
-    transmissions,
+    case_figure, clearance, engine, formula, grid, joints, links, loads, motion, motor, oracle, settings, start,
+    stated, transmissions,
 };
 
 /// All sections.
@@ -30,6 +30,7 @@ pub fn sections() -> impl Iterator<Item = &'static Section> {
         clearance::SECTIONS,
         oracle::SECTIONS,
         formula::SECTIONS,
+        case_figure::SECTIONS,
     ];
     all.into_iter().flatten()
 }

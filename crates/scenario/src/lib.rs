@@ -4,6 +4,7 @@
 
 pub mod accepted;
 mod asked;
+mod case_figure;
 mod claim;
 pub mod clearance;
 mod curve;
@@ -54,6 +55,7 @@ pub mod words;
 pub use self::claim::Claim;
 pub use self::formula::{Formula, Formulas};
 pub use asked::{StartRequest, Undecided};
+pub use case_figure::{CaseFigure, FigureKind, TRANSMISSION_ANGLE};
 pub use draft::Draft;
 pub use engine::{EngineName, EngineSettings};
 pub use family::ScenarioFamily;
@@ -122,6 +124,8 @@ pub struct Scenario {
     /// Outlines of the bodies and the question about the distances between the bodies, if the scenario asks this
     /// question.
     pub clearance: Option<ClearanceQuestion>,
+    /// Figures that the report of a proof shows; empty if the file requests none.
+    pub figures: Vec<CaseFigure>,
     /// For each group, the start that the file requests. The groups have the order of the structure at the start
     /// ([`Structure::at_start`]).
     pub starts: Vec<StartGroup>,
@@ -242,6 +246,7 @@ impl Scenario {
             oracles: Vec::new(),
             formulas: Formulas::over(Vec::new()),
             clearance: None,
+            figures: Vec::new(),
         })
     }
 
@@ -267,6 +272,11 @@ impl Scenario {
         for formula in &mut self.formulas.list {
             formula.claim = formula.claim.take().filter(|claim| is_wanted(claim));
         }
+        let has_all = |figure: &CaseFigure| {
+            let claim = figure.claim(&self.case, &self.formulas).ok().flatten();
+            claim.iter().flat_map(Claim::components).all(|channel| wanted.contains(&channel))
+        };
+        self.figures.retain(has_all);
         Ok(self)
     }
 
@@ -375,6 +385,8 @@ fn finished(
     let mut faults = Faults::none();
     let mut oracles = oracle::read(stated.oracles, &case, asked.memory, &mut faults);
     let mut formulas = self::formula::read(source.parameters.list().to_vec(), stated.formulas, &case, &mut faults);
+    let figures = stated.report.map(|table| case_figure::reported(table, &case, &formulas));
+    let figures = faults.kept(figures.unwrap_or_else(|| Ok(Vec::new()))).unwrap_or_default();
     faults.end()?;
     if !asked.set.is_empty() {
         // Published numbers are valid for the numbers of the file only, so they are removed if a number is replaced.
@@ -407,6 +419,7 @@ fn finished(
         oracles,
         formulas,
         clearance: stated.clearance,
+        figures,
         starts,
         choices,
     };

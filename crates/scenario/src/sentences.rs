@@ -37,6 +37,20 @@ linkage::sentences! {
     // asked.rs
     an_input_nearer_to_the_file(noun) = "a {noun} nearer to that of the file's start, or the number of a configuration";
     the_configuration_of_the_group(names, at, to, unit) = "the configuration of the group ({names}) at the start, {at}, cannot be followed to {to:.4} {unit}";
+    // case_figure.rs
+    A_FIGURE_IS =
+        "a figure is a statistic and a quantity, such as `maxabs:drive.torque_N_m`, the input at an extreme, such as \
+         `at_max:joint.A.f_N`, or transmission_angle_deg, reach_from, reach_to, verdict:FORMULA";
+    no_figure(text) = "`{text}` is not a figure";
+    no_formula_claims(name) = "the file has no formula `{name}` that claims a channel";
+    is_one_number_already(quantity) = "`{quantity}` is one number for the whole motion, so it has no statistic";
+    NO_FIGURE_IS_REPORTED = "the list of figures is empty";
+    A_REPORTED_FIGURE_IS =
+        "name figures such as `maxabs:drive.torque_N_m`, `at_max:joint.A.f_N` or transmission_angle_deg, or leave the \
+         section out";
+    is_no_figure_of_a_report(text) = "`{text}` does not follow from the solution at the instants of the grid";
+    the_figure_needs_the_channel(text, channel) = "`{text}` needs the channel {channel}, which `[channels]` does not request";
+    ASK_FOR_THE_CHANNEL = "add the channel to `want`, or leave the figure out";
     // claim.rs
     there_is_no_channel_here(name) = "there is no channel {name} here";
     NAME_ONE_OF_THIS_SCENARIO = "name one of this scenario, such as link.rocker.angle_deg or point.B.x_mm";

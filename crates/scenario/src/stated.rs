@@ -41,6 +41,7 @@ pub const SECTIONS: &[Section] = &[Section::at("").with(&[
     optional("clearance", ValueKind::Table, "none")
         .means("outlines of links and a housing, for contacts and smallest distances"),
     optional("formula", ValueKind::Tables, "none").means("derived formulas, and the quantities that they claim to be"),
+    optional("report", ValueKind::Table, "its usual figures").means("figures in the report of a proof"),
 ])];
 
 /// The sections of a file. Sections whose content depends on the whole case are still tables.
@@ -69,6 +70,8 @@ pub struct FileSections<'a> {
     pub engine_rel: f64,
     pub oracles: Vec<TomlTable<'a>>,
     pub formulas: Vec<TomlTable<'a>>,
+    /// The section `[report]`.
+    pub report: Option<TomlTable<'a>>,
     pub clearance: Option<ClearanceQuestion>,
 }
 
@@ -98,7 +101,7 @@ impl<'a> FileSections<'a> {
         let channels = root.optional_table("channels")?;
         let (engine, tolerances) = (root.optional_table("engine")?, root.optional_table("tolerances")?);
         let (oracles, clearance) = (root.tables("oracle")?, root.optional_table("clearance")?);
-        let formulas = root.tables("formula")?;
+        let (formulas, report) = (root.tables("formula")?, root.optional_table("report")?);
         // The parameters were read first, because all other sections may use them. The section is only marked as
         // requested here.
         root.optional_table("parameters")?;
@@ -165,6 +168,7 @@ impl<'a> FileSections<'a> {
             engine_rel: engine_rel.unwrap_or(ENGINE_REL),
             oracles,
             formulas,
+            report,
             clearance,
         })
     }

@@ -8,10 +8,12 @@ use linkage::case::{Case, Seat};
 use linkage::math::KeepNan;
 use linkage::math::tally::{LanePeak, Tally};
 use linkage::trajectory::{OfDrive, OfJoint, OfLink, Reading, Stage};
-use scenario::{Claim, FigureGrid, PrintedChannel, Renumbering, ScenarioFamily, Statistic, TurnFigure};
+use scenario::{
+    CaseFigure, Claim, FigureGrid, FigureKind, PrintedChannel, Renumbering, ScenarioFamily, Statistic, TurnFigure,
+};
 
 use crate::axis::SweepAxis;
-use crate::figure::{FigureKind, SweepFigure, angle_of_sine, is_plain_dyad};
+use crate::figure::{angle_of_sine, is_plain_dyad};
 
 /// How a figure follows from the quantities of poses, given by their places in the list.
 enum FastFigure {
@@ -47,7 +49,7 @@ struct Figures<'a> {
 
 impl FastCases {
     /// Prepares the cases of a sweep; `None` if they must be read and solved one by one.
-    pub(crate) fn of(axes: &[SweepAxis], figures: &[SweepFigure], family: &ScenarioFamily) -> Option<FastCases> {
+    pub(crate) fn of(axes: &[SweepAxis], figures: &[CaseFigure], family: &ScenarioFamily) -> Option<FastCases> {
         let member = family.member(&[]).ok()?;
         let keys: Vec<String> = axes.iter().map(|axis| axis.key.clone()).collect();
         let renumbering = Renumbering::of(family, &keys, &member)?;
@@ -108,7 +110,7 @@ impl FastCases {
 }
 
 impl Figures<'_> {
-    fn figure(&mut self, figure: &SweepFigure) -> Option<FastFigure> {
+    fn figure(&mut self, figure: &CaseFigure) -> Option<FastFigure> {
         let (own, is_place) = match &figure.kind {
             FigureKind::Turn(own) => (own, false),
             FigureKind::Place(own) => (own, true),

@@ -19,7 +19,6 @@ mod table;
 
 pub use axis::{Spread, SweepAxis};
 pub use design::{DesignKind, SweepDesign};
-pub use figure::SweepFigure;
 pub use groups::{RowGroup, SweepGroups};
 pub use plan::{CaseResult, CaseSolver, FORMAT, SweepPlan};
 pub use run::{Shard, SweepTally, run};

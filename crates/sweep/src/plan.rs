@@ -4,13 +4,13 @@ use std::path::{Path, PathBuf};
 
 use linkage::error::{Error, ErrorKind, Result};
 use prover::run::{Options, prove};
-use scenario::{Scenario, ScenarioFamily, StartRequest, unit};
+use scenario::{CaseFigure, Scenario, ScenarioFamily, StartRequest, unit};
 use serde::{Deserialize, Serialize};
 
 use crate::axis::SweepAxis;
 use crate::design::{DesignKind, SweepDesign};
 use crate::fast::FastCases;
-use crate::figure::{self, SweepFigure};
+use crate::figure;
 use crate::sentences;
 
 /// Everything on which the table of a sweep depends.
@@ -26,7 +26,7 @@ pub struct SweepPlan {
     /// The values of the varied numbers in each case.
     pub design: SweepDesign,
     /// The figures of every case.
-    pub figures: Vec<SweepFigure>,
+    pub figures: Vec<CaseFigure>,
     /// Cases whose index is a multiple of this number are proven, engines included; `None` for no proof.
     pub prove_every: Option<u64>,
     /// Number of cases that are stored together.
@@ -80,10 +80,13 @@ impl SweepPlan {
         let asked = StartRequest { set: set.clone(), ..StartRequest::default() };
         let scenario = Scenario::parse_as(&text, path, &asked)?;
         if figures.is_empty() {
-            return Err(Error::new(ErrorKind::Input, sentences::NO_FIGURE_IS_WANTED).help(sentences::A_FIGURE_IS));
+            return Err(Error::new(ErrorKind::Input, sentences::NO_FIGURE_IS_WANTED).help(CaseFigure::HELP));
         }
-        let figures = figures.iter().map(|text| SweepFigure::parse(text, &scenario)).collect::<Result<Vec<_>>>()?;
-        let units = figures.iter().map(|figure| figure.unit(&scenario)).collect();
+        let figures = figures
+            .iter()
+            .map(|text| CaseFigure::parse(text, &scenario.case, &scenario.formulas))
+            .collect::<Result<Vec<_>>>()?;
+        let units = figures.iter().map(|figure| figure.unit(&scenario.case, &scenario.formulas)).collect();
         let mut names: Vec<&str> = figures.iter().map(|figure| figure.text.as_str()).collect();
         names.extend(design.axes().iter().map(|axis| axis.key.as_str()));
         names.sort_unstable();
@@ -139,7 +142,7 @@ impl SweepPlan {
             Error::new(ErrorKind::Input, sentences::no_plan(error)).help(sentences::RUN_THE_SWEEP_WITH_THIS_VERSION)
         };
         let stored: Stored = serde_json::from_str(text).map_err(|error| wrong(&error))?;
-        let figures = stored.figures.iter().map(|text| SweepFigure::unchecked(text)).collect::<Result<_>>()?;
+        let figures = stored.figures.iter().map(|text| CaseFigure::unchecked(text)).collect::<Result<_>>()?;
         let plan = SweepPlan {
             text: stored.scenario,
             path: PathBuf::new(),
@@ -160,7 +163,7 @@ impl SweepPlan {
     pub fn family(&self) -> Result<ScenarioFamily<'_>> {
         let asked = StartRequest { set: self.set.clone(), ..StartRequest::default() };
         // A proof also judges the formulas of the file.
-        let is_judged = self.prove_every.is_some() || self.figures.iter().any(SweepFigure::is_of_formulas);
+        let is_judged = self.prove_every.is_some() || self.figures.iter().any(CaseFigure::is_of_formulas);
         ScenarioFamily::of(&self.text, &self.path, asked, is_judged)
     }
 

@@ -23,13 +23,6 @@ linkage::sentences! {
     TAKE_FEWER_CASES = "take fewer values or samples";
     sobol_has_dimensions(most, found) = "{found} numbers are varied, but the program has only {most} dimensions of Sobol's sequence";
     TAKE_A_LATIN_HYPERCUBE = "take a Latin hypercube, or vary fewer numbers";
-    // figure.rs
-    A_FIGURE_IS =
-        "a figure is a statistic and a quantity, such as `maxabs:drive.torque_N_m`, the input at an extreme, such as \
-         `at_max:joint.A.f_N`, or transmission_angle_deg, reach_from, reach_to, verdict:FORMULA";
-    no_figure(text) = "`{text}` is not a figure";
-    no_formula_claims(name) = "the file has no formula `{name}` that claims a channel";
-    is_one_number_already(quantity) = "`{quantity}` is one number for the whole motion, so it has no statistic";
     // plan.rs
     NO_FIGURE_IS_WANTED = "no figure is given";
     is_wanted_twice(name) = "two columns would be called `{name}`";

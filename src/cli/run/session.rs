@@ -13,6 +13,7 @@ use crate::cli::output::End;
 use crate::cli::record_args::Recorded;
 use crate::cli::{advice, load, output};
 use crate::plain::brief;
+use crate::plain::judged::grade;
 
 use crate::plain::style::Detail;
 use crate::report::closing::Closing;
@@ -113,7 +114,7 @@ impl<'a> Session<'a> {
         output::report(&match Detail::asked(args.quiet, args.verbose) {
             Detail::Verdict => format!("{}\n", brief::verdict_line(proof)),
             Detail::Whole => text::proof(proof, advice::told, output::width()),
-            Detail::Short => brief::proof(proof, advice::told, output::columns()),
+            Detail::Short => brief::proof(proof, advice::told, output::columns()) + &self.next(proof),
         })?;
         if args.explain {
             output::print(&format!("\n{}", explain::text(proof, &[recording_told(args)])))?;
@@ -122,6 +123,17 @@ impl<'a> Session<'a> {
             output::print(&text::residuals(proof))?;
         }
         Ok(())
+    }
+
+    /// What to do next, by the verdict. Several files have a table instead.
+    fn next(&self, proof: &Proof) -> String {
+        if self.args.files.len() > 1 {
+            return String::new();
+        }
+        format!(
+            "\n{}\n",
+            grade(&proof.verdict).of([sentences::NEXT_AGREE, sentences::NEXT_OPEN, sentences::NEXT_DISAGREE])
+        )
     }
 
     /// Whether the terminal shows more than verdicts.

@@ -4,8 +4,8 @@ use crate::sentences;
 use std::collections::BTreeMap;
 
 use super::markup::escaped;
-use crate::plain::brief;
 use crate::plain::judged::{self, JudgedNumber, Sort, grade};
+use crate::plain::{brief, figures, machine};
 use crate::report::text;
 use linkage::mechanism::{DrivingLink, JointId, LinkId, Mechanism};
 use prover::numbers::{error_in, fixed, significant};
@@ -27,7 +27,22 @@ pub(super) fn sentence(proof: &Proof) -> String {
     let engine = if proof.engines.len() == 1 { "Engine" } else { "Engines" };
     let parties: Vec<&str> = proof.engines.iter().map(|engine| engine.info.name).collect();
     let (judged, parties, at) = (text::sentence(proof), parties.join(", "), brief::resolution(proof));
-    escaped(&format!("{judged} Reference: {}. {engine}: {parties}; {at}.", proof.reference))
+    let agreement = brief::agreement(proof).map_or_else(String::new, |told| format!("{told} "));
+    escaped(&format!("{agreement}{judged} Reference: {}. {engine}: {parties}; {at}.", proof.reference))
+}
+
+/// What the file says the mechanism is, and the figures of its motion.
+pub(super) fn facts(proof: &Proof) -> String {
+    let told = machine::rows(proof).into_iter();
+    let told: String = told.map(|(what, own)| format!("<dt>{what}</dt><dd>{}</dd>\n", escaped(&own))).collect();
+    let figures = figures::rows(proof).into_iter().map(|cells| row(&cells.map(|own| escaped(&own)), ""));
+    let figures: String = figures.collect();
+    if figures.is_empty() {
+        return format!("<dl class=\"facts\">\n{told}</dl>\n");
+    }
+    let (word, unit) = figures::place(proof);
+    let heads = ["figure", "value", "unit", &format!("at {word}, {unit}")];
+    format!("<dl class=\"facts\">\n{told}</dl>\n{}", table(sentences::FIGURES_OF_THE_MOTION, &heads, figures))
 }
 
 /// Table of the checks and of the forces that engines themselves exert, sorted by the ratio of residual to bound.

@@ -3,17 +3,19 @@
 use crate::sentences;
 use std::collections::BTreeSet;
 use std::fmt;
+use std::ops::Range;
 
 use super::KnownTrajectory;
 use super::dimension::Dimensions;
 use super::missing::{Missing, missing};
-use super::slips::{self, FormulaSlip, Mended, SlipKind};
+use super::slips::{self, FormulaMark, FormulaSlip, Mended, SlipKind};
 use super::terms::{self, Term};
 use super::trial::{MOST_LEFT, Trial};
 use crate::numbers::{input_in, input_told, significant};
 use linkage::error::Result;
 use linkage::input::{Input, InputValue};
 use linkage::math::KeepNan;
+use linkage::math::statistics::distinct;
 use scenario::{Claim, Formulas};
 
 /// The simplest explanation of a wrong formula.
@@ -67,7 +69,7 @@ pub enum FormulaCause {
 impl fmt::Display for FormulaCause {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            FormulaCause::Slip(FormulaSlip { formula, kind, written, right, everywhere }) => {
+            FormulaCause::Slip(FormulaSlip { formula, kind, written, right, everywhere, .. }) => {
                 let wherever = if *everywhere { sentences::WHEREVER_IT_STANDS } else { "" };
                 write!(f, "{}", sentences::in_instead_of(&kind.words(), &formula, &right, &written, &wherever))
             }
@@ -78,7 +80,7 @@ impl fmt::Display for FormulaCause {
             FormulaCause::Factor(factor) => {
                 write!(f, "{}", sentences::too_large_by_the_factor_everywhere(&significant(*factor, 6)))
             }
-            FormulaCause::Missing(Missing { formula, beside, what, is_factor }) => {
+            FormulaCause::Missing(Missing { formula, beside, what, is_factor, .. }) => {
                 let noun = match is_factor {
                     true if what.starts_with('/') => sentences::DIVISOR_OR_A_FACTOR_TOO_MANY,
                     true => "factor",
@@ -130,6 +132,59 @@ impl fmt::Display for Term {
 }
 
 impl FormulaCause {
+    /// The formula that contains the cause, and the wrong parts of its text (byte ranges).
+    /// `None` if the cause has no place in a formula.
+    #[must_use]
+    pub fn place(&self) -> Option<(&str, Vec<Range<usize>>)> {
+        match self {
+            FormulaCause::Slip(slip) if slip.marks.is_empty() => None,
+            FormulaCause::Slip(slip) => Some((&slip.formula, slip.marks.iter().map(|mark| mark.at.clone()).collect())),
+            FormulaCause::Missing(missing) => {
+                missing.beside.as_ref().map(|_| (missing.formula.as_str(), vec![missing.at.clone()]))
+            }
+            FormulaCause::Mostly { cause, .. } => cause.place(),
+            FormulaCause::Offset(_)
+            | FormulaCause::Factor(_)
+            | FormulaCause::Terms(_)
+            | FormulaCause::Leaves { .. }
+            | FormulaCause::Several { .. }
+            | FormulaCause::Other(_)
+            | FormulaCause::Constant
+            | FormulaCause::Near { .. } => None,
+        }
+    }
+
+    /// The cause in words for a text that marks its place: only the marked parts are repeated.
+    /// `text` is the text of the formula that [`FormulaCause::place`] names.
+    #[must_use]
+    pub fn at_marks(&self, text: &str) -> String {
+        match self {
+            FormulaCause::Slip(FormulaSlip { kind, marks, .. }) if !marks.is_empty() => {
+                let change = |mark: &FormulaMark| match mark.right.as_str() {
+                    // The formula stands above.
+                    right if mark.at == (0..text.len()) => sentences::it_should_be(&right),
+                    "" => sentences::nothing_in_place_of(&&text[mark.at.clone()]),
+                    right => sentences::in_place_of(&right, &&text[mark.at.clone()]),
+                };
+                let told = distinct(marks.iter().map(change));
+                format!("{}: {}", kind.words(), told.join(", "))
+            }
+            FormulaCause::Mostly { cause, left } => {
+                sentences::for_the_most_part_with_that_of_the_difference(&cause.at_marks(text), &(100.0 * left))
+            }
+            FormulaCause::Slip(_)
+            | FormulaCause::Missing(_)
+            | FormulaCause::Offset(_)
+            | FormulaCause::Factor(_)
+            | FormulaCause::Terms(_)
+            | FormulaCause::Leaves { .. }
+            | FormulaCause::Several { .. }
+            | FormulaCause::Other(_)
+            | FormulaCause::Constant
+            | FormulaCause::Near { .. } => self.to_string(),
+        }
+    }
+
     /// Whether the cause explains the whole error.
     #[must_use]
     pub fn is_whole(&self) -> bool {

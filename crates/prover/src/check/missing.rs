@@ -7,6 +7,7 @@ mod dictionary;
 mod monomials;
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use super::dimension::Dimensions;
 use super::slips::{at_every_place, numbered, replaced, used_by};
@@ -25,6 +26,8 @@ pub struct Missing {
     pub beside: Option<String>,
     /// The missing expression with its sign: `+ m*g*s*cos(phi)`, `/ cos(beta)^3`.
     pub what: String,
+    /// Byte range of the part in the formula's text; of the whole text if `beside` is `None`.
+    pub at: Range<usize>,
     /// Whether the missing expression is a factor rather than a term.
     pub is_factor: bool,
 }
@@ -187,7 +190,8 @@ impl Candidate {
         let is_stranger = |name: &str| name != "pi" && names.iter().all(|(own, _)| *own != name);
         let strangers = what.names().iter().filter(|(name, _)| is_stranger(name)).count();
         let (what, is_factor) = (signed(operator, what), operator == Operator::Times);
-        let missing = Missing { formula: own.name.clone(), beside, what, is_factor };
+        let at = part.at.clone();
+        let missing = Missing { formula: own.name.clone(), beside, what, at, is_factor };
         Some(Candidate { changed: vec![(index, tree)], strangers, missing })
     }
 }

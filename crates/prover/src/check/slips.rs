@@ -6,6 +6,7 @@
 
 mod edits;
 mod everywhere;
+mod marks;
 mod places;
 mod rules;
 mod slip;
@@ -14,6 +15,7 @@ mod values;
 use super::dimension::Dimensions;
 use super::trial::Trial;
 use formula::{DerivationSheet, FormulaTree, NodeShape};
+pub use marks::FormulaMark;
 use places::quantities;
 pub(super) use places::{at_every_place, numbered, replaced, used_by};
 pub(super) use rules::with_parts;
@@ -58,7 +60,14 @@ pub(super) fn tried(trial: &mut Trial, dimensions: &Dimensions) -> Tried {
                     let right = filled(&right, &own.tree, trial.sheet.places(index));
                     let changed = vec![(index, replaced(&own.tree, number, &right))];
                     let (formula, written) = (own.name.clone(), part.to_string());
-                    let slip = FormulaSlip { formula, kind, written, right: right.to_string(), everywhere: false };
+                    let slip = FormulaSlip {
+                        formula,
+                        kind,
+                        written,
+                        right: right.to_string(),
+                        everywhere: false,
+                        marks: Vec::new(),
+                    };
                     tried.put_standing(trial, dimensions, &changed, [part, &right], slip);
                 }
             });

@@ -58,11 +58,19 @@ pub fn checks(judgement: &Judgement) -> Vec<Check> {
     judgement.sides.iter().flat_map(of_side).collect()
 }
 
+/// Beginning of the families of checks of formulas; the side follows.
+const FAMILY: &str = "formulas (";
+
+/// Whether a check is that of a formula.
+pub(super) fn is_of_formula(check: &Check) -> bool {
+    check.family.starts_with(FAMILY)
+}
+
 /// The check of a judged formula. `why` is the cause of its error, if known.
 fn check(side: Reference, judged: &JudgedFormula, why: &str) -> Check {
     let (value, bound) = judged.worst.map_or((0.0, 0.0), |worst| (worst.difference.abs(), worst.bound));
     let tolerance = Tolerance { bound, basis: BoundBasis::Formula { claimed: judged.claimed } };
-    let mut check = Check::new(format!("formulas ({side})"), value, tolerance, judged.unit).of(name(judged));
+    let mut check = Check::new(format!("{FAMILY}{side})"), value, tolerance, judged.unit).of(name(judged));
     match judged.outcome() {
         FormulaOutcome::Open { reason, advice } => check.verdict = Verdict::Inconclusive { reason, advice },
         FormulaOutcome::Expected { finding } => check.verdict = Verdict::Expected { finding, off: value },

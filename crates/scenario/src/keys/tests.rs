@@ -8,7 +8,8 @@ use crate::reader::asked;
 use crate::{Scenario, files_in};
 
 /// Changes of a scenario that make readers request keys that no scenario of the repository has.
-const CHANGES: [(&str, &str, &str); 18] = [
+const CHANGES: [(&str, &str, &str); 19] = [
+    ("crank_rocker", "[grid]", "[report]\nfigures = [\"maxabs:drive.torque_N_m\"]\n[grid]"),
     (
         "crank_rocker",
         "speed_rpm = 130",

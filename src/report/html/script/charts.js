@@ -78,13 +78,17 @@ function chart(card, index) {
   const engine = page.engines[shown.engine];
   const own = engine ? engine.channels[index] : {};
   const [unit, factor] = readUnit(channel.unit);
-  const reference = values(index);
-  const difference = errors(shown.engine, index);
+  const apart = 'engine minus reference';
+  plot(card, { name: channel.name, unit, factor, own, engine, apart, reference: values(index), difference: errors(shown.engine, index) });
+}
+
+/** A reference and a second curve, which is the reference plus `difference`, and below the size of the difference with its bound. */
+function plot(card, { name, unit, factor, own, engine, apart, reference, difference }) {
   const line = abscissa();
   const { width, left, right, upper, gap, lower, axis, head } = PLOT;
   const height = head + upper + axis + (difference ? gap + lower : 0);
   const told = own.bound === undefined ? '' : `; largest error ${digits(own.max * factor, 3)} of ${digits(own.bound * factor, 3)} ${unit} allowed: ${own.verdict}`;
-  const svg = draw(card, 'svg', { class: 'chart', viewBox: `0 0 ${width} ${height}`, role: 'img', 'aria-label': `${channel.name} over ${over === 'crank' ? input.noun : 'time'}${told}` });
+  const svg = draw(card, 'svg', { class: 'chart', viewBox: `0 0 ${width} ${height}`, role: 'img', 'aria-label': `${name} over ${over === 'crank' ? input.noun : 'time'}${told}` });
   const [x0, x1] = [left, width - right];
   const ends = range([line]);
   const xs = { ...scale(ends[0], ends[1] > ends[0] ? ends[1] : ends[0] + 1, x0, x1), line };
@@ -104,7 +108,8 @@ function chart(card, index) {
     const bound = (own.bound || 0) * factor;
     const decade = (value, rounded) => rounded(Math.log10(value > 0 ? value : 1e-300));
     const highest = decade(Math.max(most, bound), Math.ceil);
-    const lowest = Math.max(Math.min(decade(most, Math.floor) - 2, highest - 3), highest - 12);
+    const below = bound > 0 ? decade(bound, Math.floor) : highest;
+    const lowest = Math.max(Math.min(decade(most, Math.floor) - 2, highest - 3, below), highest - 12);
     const [from, to] = [bottom + gap, end];
     const log = scale(lowest, highest, to, from, (value) => `1e${Math.round(value)}`);
     draw(svg, 'text', { x: 2, y: from - 8 }, `error, ${unit}`);
@@ -127,8 +132,8 @@ function chart(card, index) {
     return best;
   };
   const valuesAt = (row) => {
-    const [ours, apart] = [reference[row] * factor, difference ? difference[row] * factor : NaN];
-    const engineTold = difference ? `, engine minus reference ${apart < 0 ? '−' : '+'}${digits(Math.abs(apart), 3)} ${unit}` : '';
+    const [ours, off] = [reference[row] * factor, difference ? difference[row] * factor : NaN];
+    const engineTold = difference ? `, ${apart} ${off < 0 ? '−' : '+'}${digits(Math.abs(off), 3)} ${unit}` : '';
     return `${digits(ours, 6)} ${unit}${engineTold}`;
   };
   svg.addEventListener('click', (event) => { setPlaying(false); goTo(rowUnder(event)); });

@@ -1,4 +1,4 @@
-// Hodographs, curves over the crank angle, and curves of the motor.
+// Hodographs, curves over the crank angle, curves of the motor, and formulas.
 
 /** A square picture around a pole, for vectors up to `most`: its element, and the map to positions in it. */
 function poled(parent, label, most, unit, size = 200) {
@@ -111,6 +111,24 @@ function setUpReduced() {
     const now = () => (motor.speed === null ? NaN : motor.sense * linear(values(motor.speed)));
     const told = `ratio ${digits(motor.ratio)}, efficiency ${digits(motor.efficiency)}; the dot is the instant shown`;
     curve(list, 'motor: moment on the crank over the crank\'s speed', [singles(motor.x), singles(motor.y)], ['crank, rad/s', 'M, N·m'], null, told, now);
+  }
+  return list.children.length > 0;
+}
+
+/** Every formula with the quantity that it claims; formulas that disagree are open. */
+function setUpFormulas() {
+  const list = byId('formula-list');
+  // The section is removed if there are no formulas.
+  if (list === null) return false;
+  list.replaceChildren();
+  for (const own of page.formulas) {
+    const details = put(list, 'details');
+    put(put(details, 'summary', '', `${own.name}, claimed to be ${own.claim}: `), 'span', own.verdict, own.verdict);
+    details.open = own.verdict === 'disagree';
+    const element = put(put(details, 'div', 'grid'), 'div', 'card');
+    const [reference, difference] = [singles(own.mechanism), singles(own.difference)];
+    const told = { name: own.name, unit: nice(own.unit), factor: 1, own, engine: null, apart: 'formula minus mechanism' };
+    later(element, () => plot(element, { ...told, reference, difference }));
   }
   return list.children.length > 0;
 }

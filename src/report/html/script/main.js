@@ -147,8 +147,9 @@ function setUp() {
   over = isOneWay && last > 0 ? 'crank' : 'time';
   choice.value = over;
   if (!isOneWay) choice.closest('label').remove();
-  choice.addEventListener('change', () => { over = choice.value; setUpCharts(); });
+  choice.addEventListener('change', () => { over = choice.value; setUpCharts(); setUpFormulas(); });
   setUpCharts();
+  if (!setUpFormulas()) byId('formulas').remove();
   if (!setUpHodographs()) byId('hodographs').remove();
   if (!setUpPlans()) byId('plans').remove();
   setUpReduced();

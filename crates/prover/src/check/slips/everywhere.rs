@@ -113,7 +113,14 @@ impl Search<'_, '_> {
         let changed: Vec<(usize, FormulaTree)> =
             self.scope.iter().map(|&index| (index, change(&list[index].tree))).collect();
         let [written, right] = replaced.map(|tree| tree.to_string().trim_matches('`').to_string());
-        let slip = FormulaSlip { formula: list[self.trial.index].name.clone(), kind, written, right, everywhere: true };
+        let slip = FormulaSlip {
+            formula: list[self.trial.index].name.clone(),
+            kind,
+            written,
+            right,
+            everywhere: true,
+            marks: Vec::new(),
+        };
         self.tried.put_standing(self.trial, self.dimensions, &changed, replaced, slip);
     }
 }

@@ -1,5 +1,6 @@
 //! A slip in writing, the kinds of slips, and the corrected formula.
 
+use super::marks::{FormulaMark, marks};
 use crate::check::dimension::Dimensions;
 use crate::check::trial::Trial;
 use formula::FormulaTree;
@@ -17,6 +18,8 @@ pub struct FormulaSlip {
     pub right: String,
     /// Whether the slip is at every occurrence: in the formula alone, or also in the steps that the formula uses.
     pub everywhere: bool,
+    /// The smallest wrong parts of the formula's text; empty if the slip is not in a formula.
+    pub marks: Vec<FormulaMark>,
 }
 
 linkage::words! {
@@ -89,8 +92,17 @@ pub(in crate::check) struct Tried {
 impl Tried {
     /// Judges a corrected slip.
     /// The correction is kept if the formula is then right, or closer to the mechanism than after earlier corrections.
-    pub(super) fn put(&mut self, trial: &mut Trial, changed: &[(usize, FormulaTree)], slip: FormulaSlip, rank: Rank) {
+    pub(super) fn put(
+        &mut self,
+        trial: &mut Trial,
+        changed: &[(usize, FormulaTree)],
+        mut slip: FormulaSlip,
+        rank: Rank,
+    ) {
         let Some(left) = trial.left(changed, 0.0) else { return };
+        let list = &trial.formulas.list;
+        let own = changed.iter().map(|(index, tree)| (&list[*index], tree)).find(|(own, _)| own.name == slip.formula);
+        slip.marks = own.map(|(own, tree)| marks(&own.text, &own.tree, tree)).unwrap_or_default();
         let mended = Mended { slip, rank, left, among: self.count };
         // A simpler correction counts as closer even if its remainder is slightly larger.
         if left == 0.0 {

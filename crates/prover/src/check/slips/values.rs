@@ -71,7 +71,14 @@ fn put(
     is_confused: bool,
 ) {
     let [written, right] = texts;
-    let slip = FormulaSlip { formula: formula.into(), kind: SlipKind::Value, written, right, everywhere: false };
+    let slip = FormulaSlip {
+        formula: formula.into(),
+        kind: SlipKind::Value,
+        written,
+        right,
+        everywhere: false,
+        marks: Vec::new(),
+    };
     // A corrected number leaves the units unchanged. A correction of a number without confused digits ranks after
     // missing terms.
     let rank = (false, !is_confused, changed[0].0 != trial.index, SlipKind::Value);
