@@ -19,7 +19,8 @@ pub(super) struct Args {
     /// Scenario files; `-` for standard input
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
-    /// Picture to write: .svg, .pdf, .png, .dxf at full size in mm, or one turn of the crank as .gif or .webp; `-` for SVG on standard output
+    /// Picture to write: .svg, .pdf, .png, .dxf at full size in mm, or one turn of the crank as .gif or .webp; `-` for
+    /// SVG on standard output
     /// [default: FILE.svg, for several files mechanisms.svg, in this directory]
     #[arg(long, short, value_name = "PICTURE", value_parser = target)]
     output: Option<PathBuf>,

@@ -38,7 +38,7 @@ pub enum Measure {
         /// The place that the length fixes, alone on a line, otherwise together with the length before or after it.
         to: usize,
         /// Where the length is drawn.
-        course: Course,
+        line: DimensionLine,
     },
     /// Horizontal (0) or vertical (1) distance of places of the ground from its first pivot.
     Offset {
@@ -71,7 +71,7 @@ pub enum Measure {
 
 /// Where a length is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Course {
+pub enum DimensionLine {
     /// Beside an edge of the link.
     Edge,
     /// Along a thin line between the two places.
@@ -113,26 +113,26 @@ fn lengths(mechanism: &Mechanism, link: LinkId) -> Vec<Dimension> {
             in_a_plane(&all, &own, &hull)
         }
     };
-    let of = |(from, to, course): (usize, usize, Course)| {
+    let of = |(from, to, line): (usize, usize, DimensionLine)| {
         let text = millimetres((all[to] - all[from]).norm());
-        Dimension { link, measure: Measure::Length { from, to, course }, text }
+        Dimension { link, measure: Measure::Length { from, to, line }, text }
     };
     pairs.into_iter().map(of).collect()
 }
 
 /// Lengths from the first place of a bar to all others. Those on one side of the first place are in separate rows.
-fn on_a_line(all: &[Vec2], own: &[usize]) -> Vec<(usize, usize, Course)> {
+fn on_a_line(all: &[Vec2], own: &[usize]) -> Vec<(usize, usize, DimensionLine)> {
     let (Some(&first), true) = (own.first(), own.len() > 1) else { return Vec::new() };
     let mut others: Vec<usize> = own[1..].to_vec();
     let way = |k: usize| all[k] - all[first];
     others.sort_by(|a, b| way(*a).norm().total_cmp(&way(*b).norm()));
     let row = |index: usize| (0..index).filter(|&k| way(others[k]).dot(&way(others[index])) > 0.0).count();
-    let course = |index: usize| if others.len() == 1 { Course::Edge } else { Course::Outside(row(index)) };
-    (0..others.len()).map(|index| (first, others[index], course(index))).collect()
+    let line = |index: usize| if others.len() == 1 { DimensionLine::Edge } else { DimensionLine::Outside(row(index)) };
+    (0..others.len()).map(|index| (first, others[index], line(index))).collect()
 }
 
 /// Lengths of triangles over the hull of a plate, then two lengths for every other place.
-fn in_a_plane(all: &[Vec2], own: &[usize], hull: &[usize]) -> Vec<(usize, usize, Course)> {
+fn in_a_plane(all: &[Vec2], own: &[usize], hull: &[usize]) -> Vec<(usize, usize, DimensionLine)> {
     let count = hull.len();
     // The thinnest triangle of the fan from a corner decides how exactly the lengths define the plate.
     let corner = |apex: usize, k: usize| hull[(apex + k) % count];
@@ -140,10 +140,10 @@ fn in_a_plane(all: &[Vec2], own: &[usize], hull: &[usize]) -> Vec<(usize, usize,
         (2..count).map(|k| sine(all, corner(apex, k), corner(apex, 0), corner(apex, k - 1))).fold(1.0, f64::smaller)
     };
     let apex = (0..count).max_by(|a, b| worst(*a).total_cmp(&worst(*b)).then(b.cmp(a))).unwrap_or(0);
-    let mut found = vec![(corner(apex, 0), corner(apex, 1), Course::Edge)];
+    let mut found = vec![(corner(apex, 0), corner(apex, 1), DimensionLine::Edge)];
     for k in 2..count {
-        let last = if k + 1 == count { Course::Edge } else { Course::Across };
-        found.push((corner(apex, k - 1), corner(apex, k), Course::Edge));
+        let last = if k + 1 == count { DimensionLine::Edge } else { DimensionLine::Across };
+        found.push((corner(apex, k - 1), corner(apex, k), DimensionLine::Edge));
         found.push((corner(apex, 0), corner(apex, k), last));
     }
     let mut known = hull.to_vec();
@@ -152,7 +152,7 @@ fn in_a_plane(all: &[Vec2], own: &[usize], hull: &[usize]) -> Vec<(usize, usize,
         let best = pairs.max_by(|[a, b], [c, d]| {
             sine(all, place, *a, *b).total_cmp(&sine(all, place, *c, *d)).then([c, d].cmp(&[a, b]))
         });
-        found.extend(best.into_iter().flatten().map(|from| (from, place, Course::Across)));
+        found.extend(best.into_iter().flatten().map(|from| (from, place, DimensionLine::Across)));
         known.push(place);
     }
     found
@@ -272,8 +272,8 @@ mod tests {
     #[test]
     fn lengths_on_both_sides_of_the_first_place_share_rows() {
         let all: Vec<Vec2> = [0.0, 1.0, 3.0, -2.0].map(|x| Vec2::new(x, 0.0)).to_vec();
-        let rows: Vec<Course> = on_a_line(&all, &[0, 1, 2, 3]).into_iter().map(|own| own.2).collect();
-        assert_eq!(rows, [Course::Outside(0), Course::Outside(0), Course::Outside(1)]);
+        let rows: Vec<DimensionLine> = on_a_line(&all, &[0, 1, 2, 3]).into_iter().map(|own| own.2).collect();
+        assert_eq!(rows, [DimensionLine::Outside(0), DimensionLine::Outside(0), DimensionLine::Outside(1)]);
     }
 
     #[test]

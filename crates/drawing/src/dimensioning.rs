@@ -1,6 +1,6 @@
 //! Dimensions on paper: dimension lines, extension lines, angles and their numbers.
 
-use super::dimension::{Course, Dimension, Measure};
+use super::dimension::{Dimension, DimensionLine, Measure};
 use super::mark::MarkShape;
 use super::paper::figure::{Style, Type, solid};
 use super::paper::labels::lettering;
@@ -35,9 +35,9 @@ impl Picture<'_> {
             let ends =
                 |[from, to]: [usize; 2]| Some([self.at(own.link, places[from])?, self.at(own.link, places[to])?]);
             match &own.measure {
-                Measure::Length { from, to, course } => {
+                Measure::Length { from, to, line } => {
                     if let Some(ends) = ends([*from, *to]) {
-                        self.draw_length(own, ends, *course, middle);
+                        self.draw_length(own, ends, *line, middle);
                     }
                 }
                 Measure::Offset { axis, from, to, row } => {
@@ -62,15 +62,15 @@ impl Picture<'_> {
         if low.x <= high.x { (low + high) / 2.0 } else { Vec2::zeros() }
     }
 
-    fn draw_length(&mut self, own: &Dimension, ends: [Vec2; 2], course: Course, middle: Vec2) {
+    fn draw_length(&mut self, own: &Dimension, ends: [Vec2; 2], line: DimensionLine, middle: Vec2) {
         let (paint, between) = (colour(own.link), (ends[0] + ends[1]) / 2.0);
-        match course {
-            Course::Edge => self.letters(between, Vec2::zeros(), 0.4, own.text.clone(), paint),
-            Course::Across => {
+        match line {
+            DimensionLine::Edge => self.letters(between, Vec2::zeros(), 0.4, own.text.clone(), paint),
+            DimensionLine::Across => {
                 self.thin_line(ends, solid(paint, THIN));
                 self.letters(between, Vec2::zeros(), 0.4, own.text.clone(), paint);
             }
-            Course::Outside(row) => {
+            DimensionLine::Outside(row) => {
                 let normal = turned(ends[1] - ends[0]).normalize();
                 let away = if normal.dot(&(between - middle)) < 0.0 { -normal } else { normal };
                 let level = FIRST + APART * row as f64;

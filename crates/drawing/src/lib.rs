@@ -47,7 +47,7 @@ pub mod view;
 
 pub use acting::{Acting, Tension, Weight, acting, tensions, weights};
 pub use body::places;
-pub use dimension::{Course, Dimension, Measure, dimensions};
+pub use dimension::{Dimension, DimensionLine, Measure, dimensions};
 pub use guide::inside;
 pub use mark::{Fill, Ink, Layer, Look, Mark, MarkRole, MarkShape};
 pub use sign::{LoadSign, arrow, turning};

@@ -111,6 +111,7 @@ pub fn sheet(title: &str, subtitle: &str, cells: &[SheetCell], least: f64) -> (D
                 down -= ROW;
                 draw_legend(&mut sheet, Vec2::new(left, down), row);
             }
+            down -= if cell.legend.is_empty() { 0.0 } else { 0.5 * ROW };
             for line in cell.faults.iter().flat_map(|fault| wrapped(fault, NOTE, wide)) {
                 down -= LINE * NOTE;
                 sheet.text(Vec2::new(left, down), line, Type { colour: ALARM, ..words(NOTE) });

@@ -1,6 +1,7 @@
 //! A mechanism as cells of a sheet: one instant, or the frames of an animation at one scale.
 
 use super::acting::Acting;
+use super::body::places;
 use super::dimension::{Dimension, dimensions};
 use super::lay::Laid;
 use super::mark::MarkRole;
@@ -106,7 +107,9 @@ pub fn cells(
 
 /// The names of the moving links beside their numbers. A moving picture has them only if they fit into one row.
 fn legend(mechanism: &Mechanism, [low, high]: [Vec2; 2], extras: Extras, room: Vec2) -> Vec<(LinkId, String)> {
-    let names: Vec<_> = mechanism.links().entries().skip(1).map(|(link, own)| (link, own.name.clone())).collect();
+    // A link without points is invisible.
+    let seen = mechanism.links().entries().skip(1).filter(|(link, _)| !places(mechanism, *link).is_empty());
+    let names: Vec<_> = seen.map(|(link, own)| (link, own.name.clone())).collect();
     let rows = legend_rows(&names, room.x.larger(high.x - low.x)).len();
     if rows > 1 && extras.is_moving { Vec::new() } else { names }
 }

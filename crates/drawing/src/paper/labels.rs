@@ -1,7 +1,7 @@
 //! Places labels at points so that they touch neither lines nor each other.
 //! Each label takes the position of lowest cost around its anchor, in a few rounds.
 
-use super::figure::{DrawnFigure, Type, solid, words};
+use super::figure::{DrawnFigure, Type, solid, width, words};
 use super::style::GREY;
 use crate::guide::inside;
 use crate::paths::Glyphs;
@@ -27,7 +27,7 @@ const NEIGHBOURS: f64 = 12.0;
 /// A drawing of hundreds of links has no space for their names anyway.
 const MOST_COMPARED: usize = 200_000_000;
 /// If many drawings are made together, such as frames, each drawing may use at least this number of comparisons.
-const LEAST_COMPARED: usize = 10_000_000;
+const LEAST_COMPARED: usize = 20_000_000;
 
 /// Costs: of a meeting with another label, a line or a mark, and of each millimetre of it.
 /// A free position within reach costs less than any meeting.
@@ -71,6 +71,19 @@ pub struct Obstacles {
     pub discs: Vec<(Vec2, f64)>,
 }
 
+impl Obstacles {
+    /// The obstacles that positions at the tried distances around a label can meet.
+    fn near(&self, label: &PlacedLabel) -> Obstacles {
+        let reach = Vec2::repeat(label.clear + DISTANCES[DISTANCES.len() - 1] + label.size.norm() + AIR);
+        let (least, most) = (label.anchor - reach, label.anchor + reach);
+        let is_near =
+            |[low, high]: [Vec2; 2]| low.x <= most.x && low.y <= most.y && high.x >= least.x && high.y >= least.y;
+        let segments = self.segments.iter().filter(|[a, b]| is_near([a.inf(b), a.sup(b)])).copied().collect();
+        let discs = self.discs.iter().filter(|(at, r)| is_near([at.add_scalar(-r), at.add_scalar(*r)]));
+        Obstacles { segments, discs: discs.copied().collect() }
+    }
+}
+
 /// A position that a label may take, with its cost among lines, marks and points. Other labels are not included.
 #[derive(Clone, Copy)]
 struct Spot {
@@ -100,8 +113,9 @@ impl<'a> Placer<'a> {
         let work = DIRECTIONS * DISTANCES.len() * (labels.len() + obstacles.segments.len() + obstacles.discs.len());
         for index in 0..labels.len() {
             let candidates = DISTANCES.into_iter().flat_map(|distance| ring(&labels[index], distance));
+            let near = obstacles.near(&labels[index]);
             let mut spots: Vec<Spot> = match placer.spend(work) {
-                true => candidates.map(|at| Spot { at, cost: placer.standing(index, at) }).collect(),
+                true => candidates.map(|at| Spot { at, cost: placer.standing(index, at, &near) }).collect(),
                 false => candidates.take(1).map(|at| Spot { at, cost: 0.0 }).collect(),
             };
             spots.sort_by(|a, b| a.cost.total_cmp(&b.cost));
@@ -137,13 +151,14 @@ impl<'a> Placer<'a> {
 
     /// The cheapest position of a label beside the labels that have positions. `None` if no work is left.
     fn cheapest(&mut self, index: usize) -> Option<usize> {
-        if !self.spend(self.spots[index].len() * self.labels.len()) {
-            return None;
-        }
         let mut best: Option<(f64, usize)> = None;
-        for (k, spot) in self.spots[index].iter().enumerate() {
+        for k in 0..self.spots[index].len() {
+            let spot = self.spots[index][k];
             if best.is_some_and(|(cost, _)| spot.cost >= cost) {
                 break;
+            }
+            if !self.spend(self.labels.len()) {
+                return None;
             }
             let cost = spot.cost + self.among_labels(index, spot.at);
             if best.is_none_or(|(least, _)| cost < least) {
@@ -185,13 +200,14 @@ impl<'a> Placer<'a> {
 
     /// The positions, after each label that still meets an earlier label has moved outwards to a free position.
     fn settled(mut self) -> Vec<Vec2> {
+        self.left = self.left.max(LEAST_COMPARED);
         let labels = self.labels;
         let chosen = |index: usize| self.at(index).unwrap_or(labels[index].anchor);
         let mut places: Vec<Vec2> = (0..labels.len()).map(chosen).collect();
         for index in 0..labels.len() {
             let meets = |at: Vec2, others: &[Vec2]| {
-                let pairs = labels.iter().zip(others).enumerate().filter(|(k, _)| *k != index);
-                pairs.into_iter().any(|(_, (other, place))| overlap(&labels[index], at, other, *place) > 0.0)
+                let mut pairs = labels.iter().zip(others).enumerate().filter(|(k, _)| *k != index);
+                pairs.any(|(_, (other, place))| overlap(&labels[index], at, other, *place) > 0.0)
             };
             if !meets(places[index], &places[..index]) {
                 continue;
@@ -202,7 +218,8 @@ impl<'a> Placer<'a> {
                 }
                 let distance = OUTWARD * step as f64;
                 let free = ring(&labels[index], distance).filter(|at| !meets(*at, &places));
-                let best = free.min_by(|a, b| self.standing(index, *a).total_cmp(&self.standing(index, *b)));
+                let cost = |at: Vec2| self.standing(index, at, self.obstacles);
+                let best = free.min_by(|a, b| cost(*a).total_cmp(&cost(*b)));
                 if let Some(at) = best {
                     places[index] = at;
                     break;
@@ -213,7 +230,7 @@ impl<'a> Placer<'a> {
     }
 
     /// The cost of a position among lines, marks and the points of other labels.
-    fn standing(&self, index: usize, place: Vec2) -> f64 {
+    fn standing(&self, index: usize, place: Vec2, obstacles: &Obstacles) -> f64 {
         let label = &self.labels[index];
         let offset = place - label.anchor;
         let distance = offset.norm();
@@ -222,13 +239,13 @@ impl<'a> Placer<'a> {
             cost += 1.2 * (1.0 - offset.dot(&label.away) / (distance * label.away.norm()));
         }
         let half = label.size / 2.0 + Vec2::new(AIR, AIR);
-        for segment in &self.obstacles.segments {
+        for segment in &obstacles.segments {
             let inside = length_inside(segment, place, half);
             if inside > 0.0 {
                 cost += ON_LINE[0] + ON_LINE[1] * inside;
             }
         }
-        for &(centre, radius) in &self.obstacles.discs {
+        for &(centre, radius) in &obstacles.discs {
             let gap = (centre - place).abs() - half;
             let gap = Vec2::new(gap.x.larger(0.0), gap.y.larger(0.0)).norm();
             if gap < radius {
@@ -285,7 +302,8 @@ fn length_inside(segment: &[Vec2; 2], centre: Vec2, half: Vec2) -> f64 {
 /// Box of a label at the font size `size` (mm), subscripts included.
 /// The box is a little larger than the letters, because viewers may use other fonts than the bundled font.
 pub fn label_size(text: &str, size: f64) -> Vec2 {
-    Vec2::new(1.05 * Glyphs::bundled().width(text, size) + SLANT * size, 1.15 * size)
+    let wide = Glyphs::bundled().width(text, size).larger(width(text, size));
+    Vec2::new(1.05 * wide + SLANT * size, 1.15 * size)
 }
 
 /// The boxes of all texts of a figure, measured in the bundled font: lower left and upper right corner (mm).
@@ -377,7 +395,10 @@ mod tests {
         // In total, these are more than 1e12 comparisons, far above the limit `MOST_COMPARED`.
         let crowd: Vec<PlacedLabel> = (0..2000).map(|k| label(0.01 * f64::from(k), 0.0)).collect();
         let places = Placer::of(&crowd, &Obstacles::default(), 10_000_000).placed();
-        assert!(places.iter().zip(&crowd).all(|(at, own)| (at - own.anchor).norm() < 25.0), "{places:?}");
+        assert!(
+            places.iter().zip(&crowd).all(|(at, own)| (at - own.anchor).norm() < 25.0 + OUTWARD * RINGS as f64),
+            "{places:?}"
+        );
     }
 
     /// Twelve labels at one point have no room for all within reach of their candidates.
