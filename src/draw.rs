@@ -6,6 +6,7 @@ mod points;
 mod positions;
 mod subject;
 
+use drawing::dxf::Dxf;
 use drawing::paper::document::Drawing;
 use drawing::paper::figure::DrawnFigure;
 use drawing::sheet::{SheetCell, columns, sheet};
@@ -21,6 +22,8 @@ const ALONE: [f64; 2] = [150.0, 120.0];
 const AMONG: [f64; 2] = [100.0, 96.0];
 /// Factor on `ALONE` and `AMONG` if several positions or enlarged paths are drawn.
 const SERIES: f64 = 1.3;
+/// Space between pictures in a DXF file, divided by the width of a picture.
+const BETWEEN: f64 = 0.2;
 
 /// Draws a mechanism; returns the bytes of a file.
 ///
@@ -48,8 +51,27 @@ pub fn draw(scenario: Scenario, wish: &PictureOptions, medium: Medium) -> Result
 
 /// The picture of several files. If a file has faults, its mechanism is drawn as far as possible.
 pub(crate) fn picture(all: &[Drawn], wish: &PictureOptions, medium: Medium) -> Result<Vec<u8>> {
-    let (pages, title) = pages(all, wish, medium);
-    medium.bytes(&pages, &title, wish)
+    match medium {
+        Medium::Dxf => Ok(full_size(&sheets(all, wish, medium).swap_remove(0)).into_bytes()),
+        Medium::Svg | Medium::Pdf | Medium::Png | Medium::Gif | Medium::WebP => {
+            let (pages, title) = pages(all, wish, medium);
+            medium.bytes(&pages, &title, wish)
+        }
+    }
+}
+
+/// Pictures as DXF at full size (mm), side by side. The world's origin of the first one is the origin of the file.
+fn full_size(cells: &[SheetCell]) -> String {
+    let mut file = Dxf::default();
+    let mut right = None;
+    for cell in cells {
+        let factor = cell.scale * 1e3;
+        let [low, high] = cell.bounds.map(|corner| corner.x * factor);
+        let offset = right.map_or(0.0, |right| right - low);
+        file.figure(&cell.figure, factor, Vec2::new(offset, 0.0));
+        right = Some(offset + high + BETWEEN * (high - low));
+    }
+    file.finish()
 }
 
 /// The picture of one file as a drawing, which can be written in every still format.
@@ -59,17 +81,10 @@ pub(crate) fn drawing(one: Drawn, wish: &PictureOptions) -> Drawing {
     Drawing { figure, size, title }
 }
 
-/// The pages of a picture with their sizes (mm), one page for each frame, and the title of the picture.
-fn pages(all: &[Drawn], wish: &PictureOptions, medium: Medium) -> (Vec<(DrawnFigure, [f64; 2])>, String) {
+/// The cells of each frame.
+fn sheets(all: &[Drawn], wish: &PictureOptions, medium: Medium) -> Vec<Vec<SheetCell>> {
     let frames = medium.frames(wish);
-    let count: usize = all.iter().map(|own| own.count(wish)).sum();
-    let room = Vec2::from(match (columns(count), wish.course()) {
-        (1, None) => ALONE,
-        (1, Some(_)) => ALONE.map(|size| SERIES * size),
-        (_, None) => AMONG,
-        (_, Some(_)) => AMONG.map(|size| SERIES * size),
-    });
-    // The cells of all files, for each frame.
+    let room = room(all, wish);
     let mut sheets: Vec<Vec<SheetCell>> = vec![Vec::new(); frames];
     for own in all {
         let mut cells = own.cells(wish, medium, room);
@@ -85,12 +100,29 @@ fn pages(all: &[Drawn], wish: &PictureOptions, medium: Medium) -> (Vec<(DrawnFig
             }
         }
     }
+    sheets
+}
+
+/// Size of the area of each cell (mm).
+fn room(all: &[Drawn], wish: &PictureOptions) -> Vec2 {
+    let count: usize = all.iter().map(|own| own.count(wish)).sum();
+    Vec2::from(match (columns(count), wish.course()) {
+        (1, None) => ALONE,
+        (1, Some(_)) => ALONE.map(|size| SERIES * size),
+        (_, None) => AMONG,
+        (_, Some(_)) => AMONG.map(|size| SERIES * size),
+    })
+}
+
+/// The pages of a picture with their sizes (mm), one page for each frame, and the title of the picture.
+fn pages(all: &[Drawn], wish: &PictureOptions, medium: Medium) -> (Vec<(DrawnFigure, [f64; 2])>, String) {
+    let sheets = sheets(all, wish, medium);
     let formula = all.first().filter(|_| wish.groups).and_then(Drawn::formula);
     let (title, subtitle) = match all {
         [one] if medium.moves() => (one.name.clone(), one.title.as_str()),
         [one] => (one.headline.clone(), formula.as_deref().unwrap_or(&one.title)),
         _ => (all.iter().map(|own| own.name.as_str()).collect::<Vec<_>>().join(", "), ""),
     };
-    let pages = sheets.iter().map(|cells| sheet(&title, subtitle, cells, room.x)).collect();
+    let pages = sheets.iter().map(|cells| sheet(&title, subtitle, cells, room(all, wish).x)).collect();
     (pages, title)
 }

@@ -286,7 +286,7 @@ class Scenario:
     ) -> Comparison: ...
     def draw(
         self,
-        medium: Literal["svg", "pdf", "png", "gif", "webp"] = "svg",
+        medium: Literal["svg", "pdf", "png", "dxf", "gif", "webp"] = "svg",
         *,
         input: float = ...,
         time: float = ...,

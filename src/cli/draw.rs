@@ -19,7 +19,8 @@ pub(super) struct Args {
     /// Scenario files; `-` for standard input
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
-    /// Picture to write: .svg, .pdf, .png, or the motion as .gif or .webp; `-` for SVG on standard output
+    /// Picture to write: .svg, .pdf, .png, .dxf at full size in mm, or the motion as .gif or .webp; `-` for SVG on
+    /// standard output
     /// [default: FILE.svg, for several files mechanisms.svg, in this directory]
     #[arg(long, short, value_name = "PICTURE", value_parser = target)]
     output: Option<PathBuf>,
@@ -38,7 +39,7 @@ pub(super) struct Args {
     /// Draw gravity, and forces and moments as arrows with their sizes
     #[arg(long)]
     loads: bool,
-    /// Draw the paths of the points without a joint
+    /// Draw the paths of all moving points, except joints that move on a circle about a pivot
     #[arg(long)]
     traces: bool,
     /// Draw the path of this point, or of a mass centre such as link.coupler; may be given several times
@@ -55,7 +56,7 @@ pub(super) struct Args {
     /// Draw the driving links and the groups apart, in the order in which they are solved
     #[arg(long)]
     groups: bool,
-    /// Write the lengths of the links into the picture
+    /// Write the lengths and angles that define the links and the ground into the picture
     #[arg(long)]
     dimensions: bool,
     /// Width of a bitmap in pixels [default: 800]
@@ -89,7 +90,7 @@ fn fits(args: &Args, medium: Medium) -> Result<()> {
         _ if args.each_mode && medium.moves() => {
             refused("--each-mode", sentences::AN_ANIMATION_SHOWS_ONE_CONFIGURATION, sentences::WRITE_AN_SVG_OR_A_PNG)
         }
-        _ if args.width.is_some() && matches!(medium, Medium::Svg | Medium::Pdf) => {
+        _ if args.width.is_some() && matches!(medium, Medium::Svg | Medium::Pdf | Medium::Dxf) => {
             refused("--width", sentences::AN_SVG_HAS_NO_PIXELS, sentences::LEAVE_IT_OUT_OR_WRITE_A_PNG)
         }
         _ => Ok(()),

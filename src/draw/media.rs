@@ -4,12 +4,13 @@ use crate::sentences;
 use std::path::Path;
 
 use drawing::bitmap::{Bitmap, bitmap, to_gif, to_png, to_webp};
+use drawing::dxf::Dxf;
 use drawing::paper::document::{Drawing, document};
 use drawing::paper::figure::DrawnFigure;
 use drawing::pdf::pdf;
 use linkage::case::When;
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::math::KeepNan;
+use linkage::math::{KeepNan, Vec2};
 use prover::run::Reference;
 
 /// Pixels per millimetre of a drawing for print, and largest number of pixels of such a drawing.
@@ -25,9 +26,9 @@ pub struct PictureOptions {
     pub each_mode: bool,
     /// Whether to draw gravity, and forces and moments as arrows with their sizes.
     pub loads: bool,
-    /// Whether to write the lengths of the links into the picture.
+    /// Whether to write the lengths and angles that define the links and the ground into the picture.
     pub dimensions: bool,
-    /// Whether to draw the paths of all points without a joint.
+    /// Whether to draw the paths of all moving points, except joints that move on a circle about a pivot.
     pub all_traces: bool,
     /// Names of the points whose paths are drawn.
     pub traces: Vec<String>,
@@ -59,6 +60,8 @@ pub enum Medium {
     Pdf,
     /// A bitmap.
     Png,
+    /// Lines on layers at full size in mm, for programs of computer-aided design.
+    Dxf,
     /// A bitmap that moves.
     Gif,
     /// A bitmap that moves, in a smaller file than a GIF.
@@ -123,6 +126,7 @@ impl Medium {
             None if path == Path::new("-") => Ok(Medium::Svg),
             Some("pdf") => Ok(Medium::Pdf),
             Some("png") => Ok(Medium::Png),
+            Some("dxf") => Ok(Medium::Dxf),
             Some("gif") => Ok(Medium::Gif),
             Some("webp") => Ok(Medium::WebP),
             Some(other) => Err(sentences::no_pictures_end_in_expected(&other)),
@@ -134,7 +138,7 @@ impl Medium {
     #[must_use]
     pub fn moves(self) -> bool {
         match self {
-            Medium::Svg | Medium::Pdf | Medium::Png => false,
+            Medium::Svg | Medium::Pdf | Medium::Png | Medium::Dxf => false,
             Medium::Gif | Medium::WebP => true,
         }
     }
@@ -167,6 +171,11 @@ impl Medium {
                 Ok(pages.iter().map(|(figure, size)| document(figure, *size, title)).collect::<String>().into_bytes())
             }
             Medium::Pdf => pages.first().map_or_else(|| Ok(Vec::new()), |(figure, size)| pdf(figure, *size, title)),
+            Medium::Dxf => {
+                let mut file = Dxf::default();
+                pages.iter().for_each(|(figure, _)| file.figure(figure, 1.0, Vec2::zeros()));
+                Ok(file.finish().into_bytes())
+            }
             Medium::Png => bitmaps()?.first().map_or_else(|| Ok(Vec::new()), to_png),
             Medium::Gif => to_gif(&bitmaps()?, (seconds * 100.0).round().clamp(2.0, 60_000.0) as u16),
             Medium::WebP => to_webp(&bitmaps()?, (seconds * 1000.0).round().clamp(10.0, 1e6) as u32),

@@ -20,6 +20,8 @@ pub(super) struct NamedPoint {
 pub(super) struct RequestedPoints {
     /// Points whose paths are drawn into the picture.
     pub(super) traced: Vec<NamedPoint>,
+    /// Joints whose paths are drawn unless they are circles about a pivot.
+    pub(super) joints: Vec<NamedPoint>,
     /// Points whose paths are drawn enlarged.
     pub(super) enlarged: Vec<NamedPoint>,
     /// An error for each requested name that does not exist.
@@ -41,11 +43,11 @@ impl RequestedPoints {
         let (named, enlarged) = (all(&wish.traces, traces), all(&wish.enlarged, enlarged));
         let is_every = wish.positions.is_some() && !wish.all_traces && wish.traces.is_empty();
         let is_joint = |at: JointSide| mechanism.joints().iter().any(|joint| joint.on(at.link) == Some(at.local));
-        let free = |side: &JointSide| is_every || wish.all_traces && !is_joint(*side);
-        let free = mechanism.moving_points().filter(|(_, side)| free(side));
-        let mut traced: Vec<NamedPoint> = free.map(|(name, side)| NamedPoint { name: name.into(), side }).collect();
+        let moving = mechanism.moving_points().filter(|_| is_every || wish.all_traces);
+        let moving = moving.map(|(name, side)| NamedPoint { name: name.into(), side });
+        let (mut traced, joints): (Vec<_>, Vec<_>) = moving.partition(|own| is_every || !is_joint(own.side));
         traced.extend(named);
-        RequestedPoints { traced, enlarged, unknown }
+        RequestedPoints { traced, joints, enlarged, unknown }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::media::{Medium, PictureOptions};
 use super::motion::{Course, swung, turned, with_travels};
-use super::points::RequestedPoints;
+use super::points::{NamedPoint, RequestedPoints};
 use super::positions::{DrawnPositions, is_same_pose, poses};
 use crate::sentences;
 use design::draw::significant;
@@ -16,6 +16,7 @@ use linkage::case::When;
 use linkage::drive::Drive;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
+use linkage::math::statistics::ends;
 use linkage::mechanism::assembly::ConfigurationChoice;
 use linkage::mechanism::{
     AssemblyMode, DrivingLink, GROUND, JointId, JointSide, Mechanism, StartGroup, Structure, roman,
@@ -26,6 +27,8 @@ use scenario::{Draft, Scenario};
 /// Largest number of configurations on a sheet, and of mistakes listed below a picture.
 const MOST: usize = 24;
 const SHOWN: usize = 3;
+/// A point stays on a circle if its distance from the centre changes by less than this fraction of the mechanism's size.
+const STILL: f64 = 1e-6;
 
 /// A note beside a picture.
 pub(crate) enum Note {
@@ -188,7 +191,8 @@ impl Drawn {
         let (frames, solver) = (medium.frames(wish), wish.solver.solver());
         let points = RequestedPoints::of(&scenario.case.mechanism, wish);
         let course = wish.course().map(|count| Course::of(&scenario.case, solver, count));
-        let is_motion_seen = course.is_none() && (frames > 1 || !points.traced.is_empty());
+        let is_traced = !points.traced.is_empty() || !points.joints.is_empty();
+        let is_motion_seen = course.is_none() && (frames > 1 || is_traced);
         let own = if is_motion_seen { swung(&scenario.case, solver) } else { None };
         let free = scenario.case.clone();
         let scenario = scenario.nominal();
@@ -205,7 +209,11 @@ impl Drawn {
             Err(error) => {
                 let error = analytic::range::explained(case, error);
                 let travels = turned(case, solver).1;
-                return Ok(Drawn { travels, ..Drawn::partial(draft_of(&scenario), when, Some(error)) });
+                return Ok(Drawn {
+                    travels,
+                    drives: free.drives.to_vec(),
+                    ..Drawn::partial(draft_of(&scenario), when, Some(error))
+                });
             }
         };
         let course = course.transpose()?;
@@ -223,16 +231,21 @@ impl Drawn {
                 (0..frames).filter_map(|k| states.get(row(k))).map(shot).collect()
             }
         };
-        let path = |at: JointSide| states.iter().map(|state| state.motions[at.link].point(at.local)).collect();
         let is_series = wish.positions.is_some();
         // With several positions, the numbered paths of the positions replace the plain paths.
-        let traced = points.traced.iter().filter(|_| !is_series).map(|point| point.side);
-        let traces = traced.map(|side| (side.link, path(side))).collect();
+        let of = |own: &NamedPoint| -> Trace {
+            let JointSide { link, local } = own.side;
+            (link, states.iter().map(|state| state.motions[link].point(local)).collect())
+        };
+        let joints = points.joints.iter().map(of).filter(|(_, path)| !is_arc(&case.mechanism, path));
+        let traces = points.traced.iter().map(of).chain(joints).filter(|_| !is_series).collect();
         let positions = course.map_or_else(DrawnPositions::default, |course| {
             DrawnPositions::of(case, &course, &first, points, is_series)
         });
         let headings = if positions.heading.is_empty() { Vec::new() } else { vec![positions.heading.clone()] };
-        let mut drawn = Drawn { traces, positions, headings, ..Drawn::new(draft_of(&scenario), when, shots) };
+        // The motion is drawn as prescribed, but a link that forces move has no arrow of a drive.
+        let drives = free.drives.to_vec();
+        let mut drawn = Drawn { traces, positions, headings, drives, ..Drawn::new(draft_of(&scenario), when, shots) };
         let own = std::mem::replace(&mut drawn.travels, travels);
         // A single picture shows the requested instant, which may lie between two instants of the computed path.
         // The travels are therefore widened by the pose at this instant.
@@ -297,6 +310,17 @@ impl Drawn {
         let shots = all.into_iter().map(|laid| Shot { laid, acting: Vec::new() }).collect();
         Ok(Drawn { headings, note, fault, ..Drawn::new(draft, when, shots) })
     }
+}
+
+/// Whether a path is a point, or a part of a circle about a pivot of the ground.
+fn is_arc(mechanism: &Mechanism, path: &[Vec2]) -> bool {
+    let near = STILL * mechanism.size();
+    let spread = |from: Vec2| {
+        let [least, most] = ends(path.iter().map(|at| (at - from).norm()));
+        most - least
+    };
+    let mut pivots = mechanism.joints().iter().filter(|joint| joint.is_pin()).filter_map(|joint| joint.on(GROUND));
+    path.first().is_none_or(|first| spread(*first) < near) || pivots.any(|pivot| spread(pivot) < near)
 }
 
 /// A short list of mistakes: the first mistakes with their lines, and the number of further mistakes.

@@ -98,7 +98,7 @@ linkage::sentences! {
     // cli/draw.rs
     each_mode_draws_all_configurations(own) = "{own}: --each-mode draws all configurations, with their names";
     LEAVE_IT_OUT_OR_WRITE_A_PNG = "leave it out, or write a .png, .gif or .webp";
-    AN_SVG_HAS_NO_PIXELS = "an SVG or a PDF has no pixels";
+    AN_SVG_HAS_NO_PIXELS = "an SVG, a PDF or a DXF has no pixels";
     WRITE_AN_SVG_OR_A_PNG = "write an SVG or a PNG";
     AN_ANIMATION_SHOWS_ONE_CONFIGURATION = "an animation shows one configuration, but all of them are requested";
     LEAVE_IT_OUT_OR_WRITE_A_GIF = "leave it out, or write a .gif or a .webp";

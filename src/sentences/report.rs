@@ -2,8 +2,8 @@
 
 linkage::sentences! {
     // draw/media.rs
-    EXPECTED_A_FILE_THAT_ENDS = "expected a file that ends in .svg, .pdf, .png, .gif or .webp, or `-`";
-    no_pictures_end_in_expected(other) = "unknown picture type .{other}; expected .svg, .pdf, .png, .gif or .webp";
+    EXPECTED_A_FILE_THAT_ENDS = "expected a file that ends in .svg, .pdf, .png, .dxf, .gif or .webp, or `-`";
+    no_pictures_end_in_expected(other) = "unknown picture type .{other}; expected .svg, .pdf, .png, .dxf, .gif or .webp";
     AN_ANIMATION_SHOWS_ONE_POSITION = "an animation shows one position at a time";
     GROUPS_ARE_DRAWN_AT_ONE_INSTANT = "groups are drawn apart at one instant, without paths and loads";
     ALL_CONFIGURATIONS_HAVE_ONE_INSTANT = "all configurations are drawn as a whole, at one instant";

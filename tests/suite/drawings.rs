@@ -1,7 +1,9 @@
 //! `linkproof draw`: positions, partial assemblies, configurations, bitmaps, wrong input.
 
 mod groups;
+mod marks;
 mod positions;
+mod shipped;
 mod unfinished;
 
 use std::fs;
@@ -269,14 +271,14 @@ fn paths_of_swinging_links_are_no_full_circles() {
 fn wrong_input_is_refused_with_a_remedy() {
     let own = file("crank_rocker");
     for (arguments, told) in [
-        (vec![own.as_str(), "-o", "x.bmp"], ".svg, .pdf, .png, .gif or .webp"),
-        (vec![own.as_str(), "-o", "picture"], ".svg, .pdf, .png, .gif or .webp"),
+        (vec![own.as_str(), "-o", "x.bmp"], ".svg, .pdf, .png, .dxf, .gif or .webp"),
+        (vec![own.as_str(), "-o", "picture"], ".svg, .pdf, .png, .dxf, .gif or .webp"),
         (vec![own.as_str(), "-o", "/nowhere/at/all/x.svg"], "nowhere"),
         (vec![own.as_str(), "-o", "-", "--crank-deg", "nan"], "finite"),
         (vec![own.as_str(), "-o", "-", "--crank-deg", "1e300"], "--crank-deg"),
         (vec![own.as_str(), "-o", "x.png", "--width", "0"], "100..=4000"),
         (vec![own.as_str(), "-o", "x.gif", "--each-mode"], "--each-mode"),
-        (vec![own.as_str(), "-o", "x.svg", "--width", "300"], "`--width`: an SVG or a PDF has no pixels"),
+        (vec![own.as_str(), "-o", "x.svg", "--width", "300"], "`--width`: an SVG, a PDF or a DXF has no pixels"),
         (vec![own.as_str(), "-o", "x.png", "--frames", "3"], "`--frames`: the picture is not animated"),
         (vec![own.as_str(), "-o", "-", "--seconds", "3"], "`--seconds`: the picture is not animated"),
         (vec![own.as_str(), "-o", "scenarios/x.toml"], "scenario file"),

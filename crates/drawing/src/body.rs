@@ -58,12 +58,16 @@ pub fn marks(mechanism: &Mechanism, link: LinkId, unit: f64) -> Vec<Mark> {
                 inner.into_iter().map(|at| Mark::area(MarkRole::Weld, sector(at, WELD * unit, along, 2 * QUARTER))),
             );
         }
-        _ => marks.push(Mark::area(MarkRole::Plate, corners)),
+        _ => marks.push(Mark::area(MarkRole::Plate, corners.clone())),
     }
     marks.extend(traced(mechanism, link).into_iter().flat_map(|at| tracer(at, unit)));
     let body = &mechanism.links()[link];
     if body.mass > 0.0 {
         let (at, radius) = (body.mass_centre, MASS * unit);
+        let near = nearest(&corners, at);
+        if (at - near).norm() > radius {
+            marks.push(Mark::line(MarkRole::MassCentre, [at, near]));
+        }
         marks.push(Mark::circle(MarkRole::MassCentre, at, radius));
         for side in [1.0, -1.0].map(|side| Vec2::new(side, 0.0)) {
             let mut quarter = sector(at, radius, side, QUARTER);
@@ -72,6 +76,21 @@ pub fn marks(mechanism: &Mechanism, link: LinkId, unit: f64) -> Vec<Mark> {
         }
     }
     marks
+}
+
+/// The point of a bar or plate nearest to `at`; `at` itself inside a plate or if there are no corners.
+fn nearest(corners: &[Vec2], at: Vec2) -> Vec2 {
+    let edges = || corners.iter().zip(corners.iter().cycle().skip(1)).map(|(&a, &b)| [a, b]);
+    // The corners of a plate are counter-clockwise.
+    if corners.len() != 1 && edges().all(|[a, b]| cross(b - a, at - a) > 0.0) {
+        return at;
+    }
+    let foot = |[a, b]: [Vec2; 2]| {
+        let length = (b - a).norm_squared();
+        let share = if length > 0.0 { (at - a).dot(&(b - a)) / length } else { 0.0 };
+        a + (b - a) * share.clamp(0.0, 1.0)
+    };
+    edges().map(foot).min_by(|a, b| (a - at).norm().total_cmp(&(b - at).norm())).unwrap_or(at)
 }
 
 /// Named points of a link that are not joints.
@@ -129,6 +148,15 @@ fn hull(mut places: Vec<Vec2>) -> Vec<Vec2> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn mass_centres_off_their_link_have_a_nearest_point_on_it() {
+        let [a, b, c] = [(0.0, 0.0), (2.0, 0.0), (0.0, 2.0)].map(|(x, y)| Vec2::new(x, y));
+        let at = Vec2::new(0.5, -1.0);
+        assert_eq!(nearest(&[a, b, c], at), Vec2::new(0.5, 0.0));
+        assert_eq!((nearest(&[a, b], at), nearest(&[c], at), nearest(&[], at)), (Vec2::new(0.5, 0.0), c, at));
+        assert_eq!(nearest(&[a, b, c], Vec2::new(0.5, 0.5)), Vec2::new(0.5, 0.5));
+    }
 
     #[test]
     fn hulls_of_bars_and_plates() {

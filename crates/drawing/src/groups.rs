@@ -143,7 +143,7 @@ impl Whole<'_> {
         let figure = picture.finish(1);
         let is_placed = part.links.iter().all(|&link| self.places[link].pose().is_some());
         let faults = if is_placed { Vec::new() } else { vec![sentences::NO_DEFINITE_POSITION.into()] };
-        SheetCell { heading: part.heading, bounds: figure.bounds(), figure, scale, faults }
+        SheetCell { heading: part.heading, bounds: figure.bounds(), figure, scale, faults, ..SheetCell::default() }
     }
 
     /// A point of a link in the world (m).

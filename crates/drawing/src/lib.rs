@@ -21,6 +21,9 @@
 mod acting;
 pub mod bitmap;
 mod body;
+mod dimension;
+mod dimensioning;
+pub mod dxf;
 pub mod groups;
 mod guide;
 pub mod lay;
@@ -43,6 +46,8 @@ mod travel;
 pub mod view;
 
 pub use acting::{Acting, Tension, Weight, acting, tensions, weights};
+pub use body::places;
+pub use dimension::{Dimension, DimensionLine, Measure, dimensions};
 pub use guide::inside;
 pub use mark::{Fill, Ink, Layer, Look, Mark, MarkRole, MarkShape};
 pub use sign::{LoadSign, arrow, turning};

@@ -126,10 +126,10 @@ roles! {
     Pin = "pin": Text, Paper, 0.5, Joints;
     /// Ring around a pin that joins one more link; two rings mean two more links.
     CoincidentPin = "coincident-pin": Text, None, 0.35, Joints;
-    /// Mass centre: its circle.
-    MassCentre = "mass-centre": Quiet, Paper, 0.3, Stretched;
+    /// Mass centre: its circle, and the line to its link.
+    MassCentre = "mass-centre": Link, Paper, 0.3, Stretched;
     /// Mass centre: two opposite quarters of its disc.
-    MassQuarter = "mass-quarter": Quiet, Ink, 0.1, Stretched;
+    MassQuarter = "mass-quarter": Link, Ink, 0.1, Stretched;
     /// Named point of a link that is not a joint.
     Tracer = "tracer": Link, None, 0.5, Joints;
     /// Arrow in the direction in which a drive moves its link: the arc, or the line for a slide.

@@ -23,9 +23,9 @@ pub(crate) trait Surface {
 /// # Errors
 /// [`ErrorKind::Input`](linkage::error::ErrorKind::Input) for a text with a letter that the bundled font lacks.
 pub(crate) fn draw(figure: &DrawnFigure, surface: &mut impl Surface) -> Result<()> {
-    let glyphs = Glyphs::new();
-    check(&figure.ink, &glyphs)?;
-    figure.ink.iter().for_each(|ink| put(ink, &glyphs, surface));
+    let glyphs = Glyphs::bundled();
+    check(&figure.ink, glyphs)?;
+    figure.ink.iter().for_each(|ink| put(ink, glyphs, surface));
     Ok(())
 }
 
@@ -53,9 +53,8 @@ fn put<S: Surface>(ink: &Ink, glyphs: &Glyphs, surface: &mut S) {
             surface.paint(path, (*fill != "none").then_some(Tint::opaque(fill)), style);
         }
         Ink::Text { at, text, set } => {
-            let (path, strength) = glyphs.path(*at, text, set);
-            let style = Style { colour: set.colour, width: strength, dash: "" };
-            surface.paint(path, Some(Tint::opaque(set.colour)), &style);
+            let style = Style { colour: set.colour, width: 0.0, dash: "" };
+            surface.paint(glyphs.path(*at, text, set), Some(Tint::opaque(set.colour)), &style);
         }
         Ink::Group { ink, opacity: 1.0.., .. } => ink.iter().for_each(|own| put(own, glyphs, surface)),
         Ink::Group { ink, opacity, .. } => {

@@ -10,10 +10,10 @@ use super::sign::{arrow, turning};
 use super::sketch::{Lettering, Sketch, SketchLabel};
 use super::stretched::Stretched;
 use linkage::math::{KeepNan, Vec2};
-use linkage::mechanism::{GROUND, LinkId, LinkPose, Mechanism};
+use linkage::mechanism::{GROUND, LinkId, LinkPose};
 
 /// Radius (mm) of the disc around a link's number, and of the area covered by a pin.
-const NUMBER: f64 = 2.3;
+pub(super) const NUMBER: f64 = 2.3;
 const CLEAR: f64 = 1.4;
 /// Radius (mm) above which a circle has space for labels inside.
 const WHEEL: f64 = 6.0;
@@ -34,6 +34,8 @@ const LOOSE: &str = "2 1.4";
 const CONSTRUCTION: &str = "4 1 0.5 1";
 /// A circle of reachable points is drawn as an arc. This constant is half the angle of the arc (rad).
 const REACH: f64 = 0.7;
+/// A path is divided into at most this many pieces, which labels must not touch.
+const PIECES: usize = 60;
 /// Opacity of tints.
 const TINT: f64 = 0.14;
 
@@ -129,6 +131,7 @@ impl<'a> Picture<'a> {
     /// Draws a mark of a link: `at` maps the mark's points to paper.
     fn put(&mut self, mark: &Mark, link: LinkId, at: impl Fn(Vec2) -> Vec2) {
         let (style, fill) = style(mark.role.look(), link, &self.places[link]);
+        self.figure.set_layer(&layer(mark.role.look().layer, link));
         if let MarkShape::Circle { centre, radius } = mark.shape {
             let (at, radius) = (at(centre), radius / self.scale);
             self.figure.disc(at, radius, fill.map_or("none", |fill| fill.colour), style);
@@ -193,6 +196,9 @@ impl<'a> Picture<'a> {
     /// moves.
     pub fn number_on(&mut self, link: LinkId, local: Vec2) {
         if let Some(at) = self.at(link, local) {
+            let half = Vec2::repeat(NUMBER);
+            self.obstacles.discs.push((at, NUMBER));
+            self.figure.labels.push([at - half, at + half]);
             draw_number(&mut self.figure, at, link.to_string(), colour(link));
         }
     }
@@ -205,7 +211,9 @@ impl<'a> Picture<'a> {
 
     /// Adds a text at a point on paper like [`Picture::letters`], but in the type `set`.
     pub(super) fn set_letters(&mut self, anchor: Vec2, away: Vec2, clear: f64, text: String, set: Type) {
-        let label = labels::PlacedLabel { anchor, away, size: label_size(&text, set.size), clear };
+        let size = label_size(&text, set.size);
+        let size = if set.upward { size.yx() } else { size };
+        let label = labels::PlacedLabel { anchor, away, size, clear };
         self.written.push(Written { sort: Sort::Letters, label, text, set });
     }
 
@@ -259,23 +267,16 @@ impl<'a> Picture<'a> {
     /// Draws the path of a point in the world (m). Marks that are drawn later cover the path.
     pub fn draw_trace(&mut self, path: &[Vec2], link: LinkId) {
         let points: Vec<Vec2> = path.iter().map(|at| at / self.scale).collect();
+        self.keep_clear(&points);
         if points.len() > 1 {
             self.figure.curve(points, None, Style { colour: colour(link), width: 0.35, dash: "1 0.8" });
         }
     }
 
-    /// Writes the length of each side of each link beside the side, in mm.
-    pub fn draw_lengths(&mut self, mechanism: &Mechanism) {
-        for link in mechanism.links().ids().skip(1) {
-            let places = super::body::corners(mechanism, link);
-            let sides = if places.len() > 2 { places.len() } else { places.len().saturating_sub(1) };
-            for (a, b) in (0..sides).map(|k| (places[k], places[(k + 1) % places.len()])) {
-                let length = (b - a).norm();
-                if let Some(at) = self.at(link, (a + b) / 2.0).filter(|_| length > 0.0) {
-                    self.letters(at, Vec2::zeros(), 0.4, millimetres(length), colour(link));
-                }
-            }
-        }
+    /// Keeps labels off a path on paper.
+    pub(super) fn keep_clear(&mut self, path: &[Vec2]) {
+        let coarse: Vec<Vec2> = path.iter().copied().step_by(path.len().div_ceil(PIECES).max(1)).collect();
+        self.obstacles.segments.extend(coarse.windows(2).map(|pair| [pair[0], pair[1]]));
     }
 
     /// Draws a part of the circle of points that a point can reach (world, m), as a construction line.
@@ -306,9 +307,14 @@ impl<'a> Picture<'a> {
         self.written.sort_by_key(|own| own.sort);
         let boxes: Vec<labels::PlacedLabel> = self.written.iter().map(|own| own.label).collect();
         let places = place_among(&boxes, &self.obstacles, drawings);
+        self.figure.set_layer("labels");
         for (Written { sort, label, text, set }, at) in self.written.into_iter().zip(places) {
+            self.figure.labels.push([at - label.size / 2.0, at + label.size / 2.0]);
             match sort {
-                Sort::Number => draw_number(&mut self.figure, at, text, set.colour),
+                Sort::Number => {
+                    labels::leader(&mut self.figure, &label, at, set.size);
+                    draw_number(&mut self.figure, at, text, set.colour);
+                }
                 Sort::Letters => letter(&mut self.figure, &label, at, &text, set),
             }
         }
@@ -316,7 +322,8 @@ impl<'a> Picture<'a> {
     }
 }
 
-fn draw_number(figure: &mut DrawnFigure, at: Vec2, text: String, paint: &'static str) {
+/// Draws the number of a link in a circle.
+pub(super) fn draw_number(figure: &mut DrawnFigure, at: Vec2, text: String, paint: &'static str) {
     figure.disc(at, NUMBER, "white", solid(paint, 0.4));
     let set = Type { anchor: "middle", bold: true, colour: paint, ..words(3.2) };
     figure.text(at - Vec2::new(0.0, 1.15), text, set);
@@ -333,6 +340,16 @@ pub fn short(value: f64) -> String {
     match digits.contains('.') && !digits.contains('e') {
         true => digits.trim_end_matches('0').trim_end_matches('.').to_string(),
         false => digits,
+    }
+}
+
+/// The layer of a mark in files that have layers.
+fn layer(layer: Layer, link: LinkId) -> String {
+    match layer {
+        Layer::Links | Layer::Blocks | Layer::Ground if link != GROUND => format!("link_{link}"),
+        Layer::Links | Layer::Blocks | Layer::Ground => "ground".into(),
+        Layer::Joints => "joints".into(),
+        Layer::Stretched | Layer::Signs => "loads".into(),
     }
 }
 

@@ -25,8 +25,6 @@ const BESIDE: f64 = 6.0;
 const ONE: f64 = 0.5;
 /// Steps between numbered positions that are tried. With the step 3, every third position has a number.
 const STEPS: [usize; 9] = [1, 2, 3, 4, 5, 6, 8, 9, 12];
-/// A path is divided into at most this many pieces, which numbers must not touch.
-const PIECES: usize = 60;
 
 /// Positions of a mechanism that are drawn with thin lines beside the complete drawing, and paths of points.
 #[derive(Clone, Debug, Default)]
@@ -124,8 +122,7 @@ impl Picture<'_> {
     pub fn draw_numbered(&mut self, own: &NumberedPath) -> bool {
         let paper = |all: &[Vec2]| all.iter().map(|at| at / self.scale).collect::<Vec<Vec2>>();
         let (path, places, paint) = (paper(&own.path), paper(&own.places), colour(own.link));
-        let coarse: Vec<Vec2> = path.iter().copied().step_by(path.len().div_ceil(PIECES).max(1)).collect();
-        self.obstacles.segments.extend(coarse.windows(2).map(|pair| [pair[0], pair[1]]));
+        self.keep_clear(&path);
         self.figure.curve(path, None, Style { colour: paint, width: PATH, dash: "" });
         for at in &places {
             self.figure.disc(*at, DOT, paint, solid(paint, 0.1));
@@ -161,7 +158,7 @@ pub fn enlarged(own: &NumberedPath, room: Vec2) -> SheetCell {
     let mut picture = Picture::of(&sketch, &[], scale);
     picture.draw_numbered(own);
     let figure = picture.finish(1);
-    SheetCell { heading: Vec::new(), bounds: figure.bounds(), figure, scale, faults: Vec::new() }
+    SheetCell { bounds: figure.bounds(), figure, scale, ..SheetCell::default() }
 }
 
 /// A scale (m/mm) as a ratio: `1 : 2.5`, or `4 : 1` if the drawing is larger than the mechanism.

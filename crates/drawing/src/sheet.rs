@@ -1,10 +1,13 @@
 //! Sheets: pictures side by side, each under its heading and above its scale.
 
+use super::dimension::Dimension;
 use super::paper::figure::{DrawnFigure, Type, solid, width, words};
 use super::paper::scale::round_up;
+use super::paper::style::colour;
 use super::paper::style::{BLACK, GREY};
-use super::picture::{ALARM, millimetres};
+use super::picture::{ALARM, NUMBER, draw_number, millimetres};
 use linkage::math::{KeepNan, Vec2};
+use linkage::mechanism::LinkId;
 
 /// Margin of the sheet, and distance between cells (mm).
 const MARGIN: f64 = 6.0;
@@ -18,8 +21,12 @@ const LINE: f64 = 1.45;
 const SCALE: f64 = 9.0;
 const LONGEST: f64 = 40.0;
 
+/// Space after an entry of a legend, and height of a row (mm).
+const AFTER: f64 = 5.0;
+const ROW: f64 = 6.0;
+
 /// One picture of a sheet.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct SheetCell {
     /// Lines above the picture. The first line is bold.
     pub heading: Vec<String>,
@@ -29,8 +36,12 @@ pub struct SheetCell {
     pub bounds: [Vec2; 2],
     /// Length in the world that corresponds to a millimetre on paper (m).
     pub scale: f64,
+    /// Names of links beside their numbers, below the picture.
+    pub legend: Vec<(LinkId, String)>,
     /// Faults, written below the picture.
     pub faults: Vec<String>,
+    /// The dimensions drawn in the picture.
+    pub dimensions: Vec<Dimension>,
 }
 
 /// Scale (m/mm), with two digits, at which an extent (m) fits into the available size (mm).
@@ -96,6 +107,11 @@ pub fn sheet(title: &str, subtitle: &str, cells: &[SheetCell], least: f64) -> (D
             let foot = below - high - SCALE + 3.0;
             scale(&mut sheet, Vec2::new(left, foot), cell.scale);
             let mut down = foot - 2.0;
+            for row in legend_rows(&cell.legend, wide) {
+                down -= ROW;
+                draw_legend(&mut sheet, Vec2::new(left, down), row);
+            }
+            down -= if cell.legend.is_empty() { 0.0 } else { 0.5 * ROW };
             for line in cell.faults.iter().flat_map(|fault| wrapped(fault, NOTE, wide)) {
                 down -= LINE * NOTE;
                 sheet.text(Vec2::new(left, down), line, Type { colour: ALARM, ..words(NOTE) });
@@ -105,6 +121,34 @@ pub fn sheet(title: &str, subtitle: &str, cells: &[SheetCell], least: f64) -> (D
         top = lowest - GAP;
     }
     (sheet, [(whole + 2.0 * MARGIN).ceil(), (MARGIN - GAP - top).ceil()])
+}
+
+/// The entries of a legend in rows that are at most `wide` (mm).
+pub fn legend_rows(legend: &[(LinkId, String)], wide: f64) -> Vec<&[(LinkId, String)]> {
+    let mut rows = Vec::new();
+    let mut from = 0;
+    for to in 1..=legend.len() {
+        let length: f64 = legend[from..to].iter().map(entry).sum();
+        if length - AFTER > wide && to - from > 1 {
+            rows.push(&legend[from..to - 1]);
+            from = to - 1;
+        }
+    }
+    rows.extend((from < legend.len()).then(|| &legend[from..]));
+    rows
+}
+
+/// Length of an entry of a legend (mm).
+fn entry((_, name): &(LinkId, String)) -> f64 {
+    2.0 * NUMBER + 1.5 + width(name, NOTE) + AFTER
+}
+
+fn draw_legend(sheet: &mut DrawnFigure, mut at: Vec2, row: &[(LinkId, String)]) {
+    for own in row {
+        draw_number(sheet, at + Vec2::new(NUMBER, 1.15), own.0.to_string(), colour(own.0));
+        sheet.text(at + Vec2::new(2.0 * NUMBER + 1.5, 0.0), own.1.as_str(), words(NOTE));
+        at.x += entry(own);
+    }
 }
 
 /// A scale bar of a round length, labelled with that length.
@@ -143,6 +187,14 @@ mod tests {
             assert!(format!("{found:e}").split('e').next().unwrap().len() <= 3, "{found}");
         }
         assert_eq!(fit(Vec2::zeros(), Vec2::new(1.0, 1.0)), 1e-3);
+    }
+
+    #[test]
+    fn a_legend_has_as_many_rows_as_its_width_requires() {
+        let legend: Vec<_> = ["crank", "coupler", "rocker"].map(|name| (LinkId(1), name.to_string())).to_vec();
+        let rows = |wide| legend_rows(&legend, wide).iter().map(|row| row.len()).collect::<Vec<_>>();
+        assert_eq!((rows(200.0), rows(50.0), rows(1.0)), (vec![3], vec![2, 1], vec![1, 1, 1]));
+        assert!(legend_rows(&[], 10.0).is_empty());
     }
 
     #[test]

@@ -8,7 +8,7 @@ use super::{body, guide, pins, sign, stretched, transmission};
 use linkage::case::CaseParts;
 use linkage::drive::{Drive, Load};
 use linkage::math::{Vec2, turned};
-use linkage::mechanism::{GROUND, JointSide, LinkId, Mechanism};
+use linkage::mechanism::{GROUND, Joint, JointSide, LinkId, Mechanism};
 
 /// Size of a mechanism in units of its sketch, if the size of the picture is unknown.
 const UNITS: f64 = 60.0;
@@ -45,6 +45,8 @@ pub struct LinkMarks {
     pub marks: Vec<Mark>,
     /// Largest distance between two points of the link (m); infinite for the ground.
     pub size: f64,
+    /// Whether the link is a platform carried by sliding links only. A platform is drawn above blocks and pistons.
+    pub is_platform: bool,
 }
 
 /// What a label names.
@@ -77,7 +79,7 @@ impl Sketch {
     pub fn of(mechanism: &Mechanism, travels: &Travels, unit: f64) -> Sketch {
         let body = |link| {
             let marks = if link == GROUND { ground(mechanism, unit) } else { body::marks(mechanism, link, unit) };
-            LinkMarks { link, marks, size: body::size(mechanism, link) }
+            LinkMarks { link, marks, size: body::size(mechanism, link), is_platform: is_platform(mechanism, link) }
         };
         let mut bodies: Vec<LinkMarks> = mechanism.links().ids().map(body).collect();
         let pairs = guide::marks(mechanism, travels, unit).into_iter().chain(pins::marks(mechanism, unit));
@@ -140,7 +142,10 @@ impl Sketch {
     pub fn in_order(&self) -> Vec<(LinkId, &Mark)> {
         let mut all: Vec<(Layer, f64, LinkId, &Mark)> = Vec::new();
         for body in &self.bodies {
-            all.extend(body.marks.iter().map(|mark| (mark.role.look().layer, body.size, body.link, mark)));
+            all.extend(body.marks.iter().map(|mark| match mark.role.look().layer {
+                Layer::Links if body.is_platform => (Layer::Blocks, 0.0, body.link, mark),
+                layer => (layer, body.size, body.link, mark),
+            }));
         }
         // The sort is stable, so the marks of one link keep their order.
         all.sort_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)).then(a.2.cmp(&b.2)));
@@ -162,6 +167,16 @@ fn ground(mechanism: &Mechanism, unit: f64) -> Vec<Mark> {
         }
     }
     marks
+}
+
+/// Whether all joints of a link are pins on links that slide.
+fn is_platform(mechanism: &Mechanism, link: LinkId) -> bool {
+    let joints = |link| mechanism.joints().iter().filter(move |joint| joint.on(link).is_some());
+    let is_carried = |joint: &Joint| {
+        let other = joint.other(link).link;
+        joint.is_pin() && other != GROUND && joints(other).any(|own| !own.is_pin())
+    };
+    link != GROUND && joints(link).count() > 2 && joints(link).all(is_carried)
 }
 
 fn labels(mechanism: &Mechanism) -> Vec<SketchLabel> {

@@ -1,12 +1,14 @@
 //! A mechanism as cells of a sheet: one instant, or the frames of an animation at one scale.
 
 use super::acting::Acting;
+use super::body::places;
+use super::dimension::{Dimension, dimensions};
 use super::lay::Laid;
 use super::mark::MarkRole;
 use super::paper::figure::DrawnFigure;
 use super::picture::{AROUND, Picture};
 use super::positions::Series;
-use super::sheet::{SheetCell, fit};
+use super::sheet::{SheetCell, fit, legend_rows};
 use super::sketch::{Lettering, Sketch};
 use super::travel::Travels;
 use crate::sentences;
@@ -39,7 +41,7 @@ pub struct DrawnSubject<'a> {
 pub struct Extras {
     /// Gravity, mass centres, and the arrows of loads.
     pub loads: bool,
-    /// Lengths of the links.
+    /// Lengths and angles that define the links and the ground.
     pub dimensions: bool,
     /// Whether only the names of ground points are drawn, and numbers only on links with enough space.
     /// Because of this restriction, no label jumps between frames.
@@ -84,11 +86,32 @@ pub fn cells(
         .with_drives(subject.mechanism, subject.drives)
         .with_loads(subject.mechanism, subject.loads);
     let sketch = if extras.loads { sketch } else { sketch.without(&[MarkRole::MassCentre, MarkRole::MassQuarter]) };
+    let dimensions = if extras.dimensions { dimensions(subject.mechanism) } else { Vec::new() };
     let figures: Vec<_> =
-        shots.iter().map(|shot| figure(subject, &sketch, shot, motion, extras, scale, shots.len())).collect();
+        shots.iter().map(|shot| figure(subject, &sketch, shot, motion, extras, &dimensions, shots.len())).collect();
     let bounds = corners(figures.iter().flat_map(|(figure, _)| figure.bounds()));
-    let cell = |(figure, heading)| SheetCell { heading, figure, bounds, scale, faults: Vec::new() };
-    figures.into_iter().map(cell).collect()
+    let legend = legend(subject.mechanism, bounds, extras, room);
+    // Several configurations of one mechanism have one legend.
+    let names = |index: usize| if index == 0 || extras.is_moving { legend.clone() } else { Vec::new() };
+    let cell = |(index, (figure, heading))| SheetCell {
+        heading,
+        figure,
+        bounds,
+        scale,
+        legend: names(index),
+        faults: Vec::new(),
+        dimensions: dimensions.clone(),
+    };
+    figures.into_iter().enumerate().map(cell).collect()
+}
+
+/// The names of the moving links beside their numbers. A moving picture has them only if they fit into one row.
+fn legend(mechanism: &Mechanism, [low, high]: [Vec2; 2], extras: Extras, room: Vec2) -> Vec<(LinkId, String)> {
+    // A link without points is invisible.
+    let seen = mechanism.links().entries().skip(1).filter(|(link, _)| !places(mechanism, *link).is_empty());
+    let names: Vec<_> = seen.map(|(link, own)| (link, own.name.clone())).collect();
+    let rows = legend_rows(&names, room.x.larger(high.x - low.x)).len();
+    if rows > 1 && extras.is_moving { Vec::new() } else { names }
 }
 
 /// The figure of a shot, and its heading.
@@ -98,10 +121,10 @@ fn figure(
     shot: &Shot,
     motion: ShownMotion,
     extras: Extras,
-    scale: f64,
+    dimensions: &[Dimension],
     drawings: usize,
 ) -> (DrawnFigure, Vec<String>) {
-    let laid = &shot.laid;
+    let (laid, scale) = (&shot.laid, sketch.unit);
     let mut picture = Picture::of(sketch, &laid.places, scale);
     for (link, path) in motion.traces {
         picture.draw_trace(path, *link);
@@ -118,18 +141,14 @@ fn figure(
         picture.draw_reach(*centre, *radius, other);
     }
     picture.draw_marks();
-    if motion.series.is_some() {
-        picture.open_wheels();
-    }
+    picture.open_wheels();
     for (_, ends) in &laid.gaps {
         picture.draw_gap(*ends);
     }
     if extras.loads {
         picture.draw_loads(&shot.acting);
     }
-    if extras.dimensions {
-        picture.draw_lengths(subject.mechanism);
-    }
+    picture.draw_dimensions(subject.mechanism, dimensions);
     if extras.is_moving {
         for link in subject.mechanism.links().ids().skip(1) {
             if let Some(local) = super::body::free(subject.mechanism, link, FREE * scale) {

@@ -95,12 +95,13 @@ impl Picture {
         PyBytes::new(py, &self.bytes)
     }
 
-    /// The media type: `image/svg+xml`, `application/pdf`, `image/png`, `image/gif` or `image/webp`.
+    /// The media type: `image/svg+xml`, `application/pdf`, `image/vnd.dxf`, `image/png`, `image/gif` or `image/webp`.
     #[getter]
     fn kind(&self) -> &'static str {
         match self.medium {
             Medium::Svg => "image/svg+xml",
             Medium::Pdf => "application/pdf",
+            Medium::Dxf => "image/vnd.dxf",
             Medium::Png => "image/png",
             Medium::Gif => "image/gif",
             Medium::WebP => "image/webp",
@@ -113,7 +114,7 @@ impl Picture {
 
     fn _repr_html_(&self) -> String {
         match self.medium {
-            Medium::Pdf => html::paragraph(&self.__repr__()),
+            Medium::Pdf | Medium::Dxf => html::paragraph(&self.__repr__()),
             Medium::Svg | Medium::Png | Medium::Gif | Medium::WebP => self.html(),
         }
     }
@@ -123,7 +124,7 @@ impl Picture {
 impl Scenario {
     /// Draw the mechanism.
     ///
-    /// medium: "svg", "pdf" or "png" for a still picture, "gif" or "webp" for a moving one.
+    /// medium: "svg", "pdf", "png" or "dxf" for a still picture, "gif" or "webp" for a moving one.
     /// input: crank angle in rad (or joint angle in rad, slide in m) of the picture. time: its time in s.
     /// each_mode, loads, dimensions, all_traces, groups: whether to draw all assembly modes, the loads, the dimensions,
     /// the paths of all points, or the groups apart.

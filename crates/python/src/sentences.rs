@@ -19,7 +19,7 @@ linkage::sentences! {
     GIVE_ONE_OF_THE_TWO = "give `input` or `time`, for example `at(time=[0.0, 0.1])`";
     a_scenario_called(name, title) = "<linkproof.Scenario {name}: {title}>";
     // draw.rs
-    GIVE_A_MEDIUM = "give \"svg\", \"pdf\", \"png\", \"gif\" or \"webp\"";
+    GIVE_A_MEDIUM = "give \"svg\", \"pdf\", \"png\", \"dxf\", \"gif\" or \"webp\"";
     there_is_no_option(key) = "there is no option \"{key}\"";
     OPTIONS_OF_PICTURES = "use input, time, each_mode, loads, dimensions, all_traces, traces, positions, enlarged, groups, width, frames or seconds";
     a_picture_of(name, kind, bytes) = "<linkproof.Picture of {name}: {kind}, {bytes} bytes>";

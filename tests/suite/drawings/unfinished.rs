@@ -37,6 +37,8 @@ fn names(text: &str) -> Vec<String> {
     let mut names = texts(&roxmltree::Document::parse(text).unwrap());
     names.retain(|name| name.chars().count() == 1);
     names.sort_unstable();
+    // Numbers of links are also in the legend.
+    names.dedup();
     names
 }
 

@@ -91,7 +91,7 @@ pub fn clearance(case: &Case, name: &str, asked: &ClearanceQuestion, found: &Cle
     picture.name(picture.names(|what| matches!(what, Lettering::Point | Lettering::Motor)));
     let figure = picture.finish(1);
     let bounds = figure.bounds();
-    let cell = SheetCell { heading: Vec::new(), figure, bounds, scale, faults: Vec::new() };
+    let cell = SheetCell { figure, bounds, scale, ..SheetCell::default() };
     let title = format!("{name}: clearance");
     let (page, size) = sheet(&title, &words, &[cell], ROOM.x);
     Ok(Drawing { figure: page, size, title })

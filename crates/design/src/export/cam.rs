@@ -1,8 +1,7 @@
 //! Profiles of cams as tables and as DXF.
 
-use std::fmt::Write;
-
 use crate::sentences;
+use drawing::dxf::Dxf;
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
@@ -44,33 +43,13 @@ pub fn table(case: &Case) -> Result<Vec<[String; 4]>> {
 }
 
 /// The profiles of all cams as DXF in mm: one closed polyline on one layer for each cam, in the frame of the cam.
-/// Format: AutoCAD release 12, which all programs read.
-/// The `dxf` crate is not used, because it writes the date: the bytes would differ from run to run.
 ///
 /// # Errors
 /// [`ErrorKind::Input`] if the mechanism has no cam.
 pub fn drawing(case: &Case) -> Result<String> {
-    let mut text = String::new();
-    let mut put = |code: u8, value: &str| writeln!(text, "{code}\n{value}").expect("a text takes all");
-    for (code, value) in [(0, "SECTION"), (2, "HEADER"), (9, "$ACADVER"), (1, "AC1009"), (0, "ENDSEC")] {
-        put(code, value);
-    }
-    put(0, "SECTION");
-    put(2, "ENTITIES");
+    let mut file = Dxf::default();
     for (name, points) in profiles(case)? {
-        // The flag 66 says that vertices follow. The flag 70 says that the polyline is closed.
-        for (code, value) in [(0, "POLYLINE"), (8, name), (66, "1"), (70, "1")] {
-            put(code, value);
-        }
-        for point in points {
-            put(0, "VERTEX");
-            put(8, name);
-            put(10, &(point.x * 1e3).to_string());
-            put(20, &(point.y * 1e3).to_string());
-        }
-        put(0, "SEQEND");
+        file.polyline(name, points.into_iter().map(|point| point * 1e3), true);
     }
-    put(0, "ENDSEC");
-    put(0, "EOF");
-    Ok(text)
+    Ok(file.finish())
 }

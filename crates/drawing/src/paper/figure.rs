@@ -140,10 +140,27 @@ pub(crate) enum Ink {
 #[derive(Clone, Debug, Default)]
 pub struct DrawnFigure {
     pub(crate) ink: Vec<Ink>,
+    /// Boxes of the placed labels: lower left and upper right corner (mm).
+    pub labels: Vec<[Vec2; 2]>,
+    /// Layers: each begins at an index of the ink.
+    layers: Vec<(usize, String)>,
     low: Option<[Vec2; 2]>,
 }
 
 impl DrawnFigure {
+    /// Puts all that is drawn from here on a layer with this name.
+    pub fn set_layer(&mut self, name: &str) {
+        if self.layers.last().is_none_or(|(_, last)| last != name) {
+            self.layers.push((self.ink.len(), name.into()));
+        }
+    }
+
+    /// The layer of the ink with this index; `0`, the usual layer of DXF, before the first layer.
+    pub(crate) fn layer_of(&self, index: usize) -> &str {
+        let next = self.layers.partition_point(|(from, _)| *from <= index);
+        next.checked_sub(1).map_or("0", |last| &self.layers[last].1)
+    }
+
     /// A straight line.
     pub fn line(&mut self, ends: [Vec2; 2], style: Style) {
         ends.iter().for_each(|end| self.reach(*end));
@@ -206,7 +223,18 @@ impl DrawnFigure {
         if let Some(bounds) = other.low {
             bounds.iter().for_each(|corner| self.reach(corner + offset));
         }
+        let from = self.ink.len();
+        self.layers.extend(other.layers.iter().map(|(index, name)| (from + index, name.clone())));
         self.ink.extend(other.ink.iter().map(|ink| ink.moved(offset)));
+        self.labels.extend(other.labels.iter().map(|corners| corners.map(|corner| corner + offset)));
+    }
+
+    /// All texts outside groups: position, text and typography.
+    pub fn texts(&self) -> impl Iterator<Item = (Vec2, &str, &Type)> {
+        self.ink.iter().filter_map(|ink| match ink {
+            Ink::Text { at, text, set } => Some((*at, text.as_str(), set)),
+            Ink::Line(..) | Ink::Arrow(..) | Ink::Shape { .. } | Ink::Disc { .. } | Ink::Group { .. } => None,
+        })
     }
 
     fn reach(&mut self, at: Vec2) {

@@ -4,14 +4,19 @@
 use super::figure::{DrawnFigure, Type, solid, width, words};
 use super::style::GREY;
 use crate::guide::inside;
+use crate::paths::Glyphs;
 use linkage::math::{KeepNan, Vec2};
 
-/// Clearance between a label and lines (mm).
-const AIR: f64 = 0.5;
+/// Clearance between a label and lines or other labels (mm).
+pub const AIR: f64 = 0.5;
 /// Directions tried around an anchor.
 const DIRECTIONS: usize = 32;
 /// Distances tried (mm), nearest first.
-const DISTANCES: [f64; 9] = [0.6, 1.2, 2.0, 3.0, 4.5, 6.5, 9.0, 12.0, 16.0];
+const DISTANCES: [f64; 10] = [0.6, 1.2, 2.0, 3.0, 4.5, 6.5, 9.0, 12.0, 16.0, 21.0];
+/// Beyond [`DISTANCES`], a label that still meets another label is moved outwards by this distance (mm) at a time, at
+/// most so many times.
+const OUTWARD: f64 = 3.0;
+const RINGS: usize = 60;
 /// Upper limit of the number of rounds. In practice, labels no longer move after so many rounds.
 const ROUNDS: usize = 6;
 /// Largest distance (mm) between two points whose labels may exchange positions.
@@ -22,7 +27,18 @@ const NEIGHBOURS: f64 = 12.0;
 /// A drawing of hundreds of links has no space for their names anyway.
 const MOST_COMPARED: usize = 200_000_000;
 /// If many drawings are made together, such as frames, each drawing may use at least this number of comparisons.
-const LEAST_COMPARED: usize = 10_000_000;
+const LEAST_COMPARED: usize = 20_000_000;
+
+/// Costs: of a meeting with another label, a line or a mark, and of each millimetre of it.
+/// A free position within reach costs less than any meeting.
+const ON_LABEL: [f64; 2] = [400.0, 10.0];
+const ON_LINE: [f64; 2] = [40.0, 3.0];
+const ON_MARK: [f64; 2] = [45.0, 4.0];
+/// Costs of a millimetre of distance, of a leader through another label, and of a foreign point that is nearer than
+/// the label's point; the largest sum for foreign points.
+const AWAY: f64 = 0.5;
+const CROSSED: f64 = 12.0;
+const MISLEADING: [f64; 2] = [9.0, 18.0];
 
 /// Font size of labels (mm).
 pub const LETTER: f64 = 4.2;
@@ -30,6 +46,8 @@ pub const LETTER: f64 = 4.2;
 /// The value is for labels of the font size [`LETTER`]; for other labels, the distance is proportional to the font
 /// size.
 const FAR: f64 = 3.2;
+/// How far a slanted letter leans over the end of its text, divided by the font size.
+const SLANT: f64 = 0.15;
 
 /// A label to be placed; paper coordinates (mm), y upwards.
 #[derive(Clone, Copy, Debug)]
@@ -53,122 +71,227 @@ pub struct Obstacles {
     pub discs: Vec<(Vec2, f64)>,
 }
 
+impl Obstacles {
+    /// The obstacles that positions at the tried distances around a label can meet.
+    fn near(&self, label: &PlacedLabel) -> Obstacles {
+        let reach = Vec2::repeat(label.clear + DISTANCES[DISTANCES.len() - 1] + label.size.norm() + AIR);
+        let (least, most) = (label.anchor - reach, label.anchor + reach);
+        let is_near =
+            |[low, high]: [Vec2; 2]| low.x <= most.x && low.y <= most.y && high.x >= least.x && high.y >= least.y;
+        let segments = self.segments.iter().filter(|[a, b]| is_near([a.inf(b), a.sup(b)])).copied().collect();
+        let discs = self.discs.iter().filter(|(at, r)| is_near([at.add_scalar(-r), at.add_scalar(*r)]));
+        Obstacles { segments, discs: discs.copied().collect() }
+    }
+}
+
+/// A position that a label may take, with its cost among lines, marks and points. Other labels are not included.
+#[derive(Clone, Copy)]
+struct Spot {
+    at: Vec2,
+    cost: f64,
+}
+
 /// Centres of the labels' boxes in one of several drawings made together. These drawings share the allowed work.
 pub fn place_among(labels: &[PlacedLabel], obstacles: &Obstacles, drawings: usize) -> Vec<Vec2> {
-    place_within(labels, obstacles, (MOST_COMPARED / drawings.max(1)).max(LEAST_COMPARED))
+    Placer::of(labels, obstacles, (MOST_COMPARED / drawings.max(1)).max(LEAST_COMPARED)).placed()
 }
 
-fn place_within(labels: &[PlacedLabel], obstacles: &Obstacles, most: usize) -> Vec<Vec2> {
-    let mut places: Vec<Option<Vec2>> = vec![None; labels.len()];
-    // Remaining calls of `cheapest`.
-    let each = DIRECTIONS * DISTANCES.len() * (labels.len() + obstacles.segments.len() + obstacles.discs.len());
-    let mut left = most / each.max(1);
-    for _ in 0..ROUNDS {
-        let before = places.clone();
+struct Placer<'a> {
+    labels: &'a [PlacedLabel],
+    obstacles: &'a Obstacles,
+    /// The positions of each label, cheapest first.
+    spots: Vec<Vec<Spot>>,
+    /// The chosen position of each label, as an index of its spots.
+    chosen: Vec<Option<usize>>,
+    /// Comparisons that remain.
+    left: usize,
+}
+
+impl<'a> Placer<'a> {
+    fn of(labels: &'a [PlacedLabel], obstacles: &'a Obstacles, most: usize) -> Placer<'a> {
+        let mut placer = Placer { labels, obstacles, spots: Vec::new(), chosen: vec![None; labels.len()], left: most };
+        let work = DIRECTIONS * DISTANCES.len() * (labels.len() + obstacles.segments.len() + obstacles.discs.len());
         for index in 0..labels.len() {
-            if left == 0 {
-                places[index] = places[index].or_else(|| candidates(&labels[index]).next());
+            let candidates = DISTANCES.into_iter().flat_map(|distance| ring(&labels[index], distance));
+            let near = obstacles.near(&labels[index]);
+            let mut spots: Vec<Spot> = match placer.spend(work) {
+                true => candidates.map(|at| Spot { at, cost: placer.standing(index, at, &near) }).collect(),
+                false => candidates.take(1).map(|at| Spot { at, cost: 0.0 }).collect(),
+            };
+            spots.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+            placer.spots.push(spots);
+        }
+        placer
+    }
+
+    /// Takes comparisons from those that remain; false if too few remain.
+    fn spend(&mut self, work: usize) -> bool {
+        let is_left = self.left >= work;
+        self.left -= if is_left { work } else { self.left };
+        is_left
+    }
+
+    fn placed(mut self) -> Vec<Vec2> {
+        for _ in 0..ROUNDS {
+            let before = self.chosen.clone();
+            for index in 0..self.labels.len() {
+                self.chosen[index] = self.cheapest(index).or(self.chosen[index]).or(Some(0));
+            }
+            self.trade();
+            if self.chosen == before {
+                break;
+            }
+        }
+        self.settled()
+    }
+
+    fn at(&self, index: usize) -> Option<Vec2> {
+        self.chosen[index].map(|spot| self.spots[index][spot].at)
+    }
+
+    /// The cheapest position of a label beside the labels that have positions. `None` if no work is left.
+    fn cheapest(&mut self, index: usize) -> Option<usize> {
+        let mut best: Option<(f64, usize)> = None;
+        for k in 0..self.spots[index].len() {
+            let spot = self.spots[index][k];
+            if best.is_some_and(|(cost, _)| spot.cost >= cost) {
+                break;
+            }
+            if !self.spend(self.labels.len()) {
+                return None;
+            }
+            let cost = spot.cost + self.among_labels(index, spot.at);
+            if best.is_none_or(|(least, _)| cost < least) {
+                best = Some((cost, k));
+            }
+        }
+        best.map(|(_, spot)| spot)
+    }
+
+    /// Lets neighbouring labels exchange positions if the exchange lowers their total cost.
+    /// Without exchanges, a label would keep its position even if its neighbour needs this position more.
+    fn trade(&mut self) {
+        let one = |own: &Self, index: usize| {
+            let spot = own.chosen[index].map(|spot| own.spots[index][spot]);
+            spot.map_or(f64::INFINITY, |spot| spot.cost + own.among_labels(index, spot.at))
+        };
+        for a in 0..self.labels.len() {
+            for b in 0..self.labels.len() {
+                let apart = (self.labels[a].anchor - self.labels[b].anchor).norm();
+                if a == b || apart > NEIGHBOURS {
+                    continue;
+                }
+                let (old, was) = ([self.chosen[a], self.chosen[b]], one(self, a) + one(self, b));
+                self.chosen[b] = None;
+                let first = self.cheapest(a);
+                self.chosen[a] = first.or(old[0]);
+                let second = self.cheapest(b);
+                self.chosen[b] = second;
+                // An exchange without gain is undone. Otherwise the two labels would be exchanged back and forth.
+                if first.is_none() || second.is_none() || !(one(self, a) + one(self, b) < was - 1e-9) {
+                    [self.chosen[a], self.chosen[b]] = old;
+                }
+                if self.left == 0 {
+                    return;
+                }
+            }
+        }
+    }
+
+    /// The positions, after each label that still meets an earlier label has moved outwards to a free position.
+    fn settled(mut self) -> Vec<Vec2> {
+        self.left = self.left.max(LEAST_COMPARED);
+        let labels = self.labels;
+        let chosen = |index: usize| self.at(index).unwrap_or(labels[index].anchor);
+        let mut places: Vec<Vec2> = (0..labels.len()).map(chosen).collect();
+        for index in 0..labels.len() {
+            let meets = |at: Vec2, others: &[Vec2]| {
+                let mut pairs = labels.iter().zip(others).enumerate().filter(|(k, _)| *k != index);
+                pairs.any(|(_, (other, place))| overlap(&labels[index], at, other, *place) > 0.0)
+            };
+            if !meets(places[index], &places[..index]) {
                 continue;
             }
-            left -= 1;
-            places[index] = cheapest(index, labels, &places, obstacles);
-        }
-        trade(labels, &mut places, obstacles, &mut left);
-        if places == before {
-            break;
-        }
-    }
-    places.into_iter().zip(labels).map(|(place, label)| place.unwrap_or(label.anchor)).collect()
-}
-
-/// Lets neighbouring labels exchange positions if the exchange lowers their total cost.
-/// Without exchanges, a label would keep its position even if its neighbour needs this position more.
-/// Each pair of neighbours needs two calls of `cheapest`. `left` is the number of calls that remain.
-fn trade(labels: &[PlacedLabel], places: &mut [Option<Vec2>], obstacles: &Obstacles, left: &mut usize) {
-    let both = |a: usize, b: usize, places: &[Option<Vec2>]| {
-        let one = |index: usize| places[index].map_or(f64::INFINITY, |at| cost(index, at, labels, places, obstacles));
-        one(a) + one(b)
-    };
-    for a in 0..labels.len() {
-        for b in 0..labels.len() {
-            if a == b || (labels[a].anchor - labels[b].anchor).norm() > NEIGHBOURS {
-                continue;
-            }
-            if *left < 2 {
-                return;
-            }
-            *left -= 2;
-            let (old, was) = ([places[a], places[b]], both(a, b, places));
-            places[b] = None;
-            places[a] = cheapest(a, labels, places, obstacles);
-            places[b] = cheapest(b, labels, places, obstacles);
-            // An exchange without gain is undone. Otherwise the two labels would be exchanged back and forth.
-            if !(both(a, b, places) < was - 1e-9) {
-                [places[a], places[b]] = old;
+            for step in 0..RINGS {
+                if !self.spend(DIRECTIONS * (labels.len() + self.obstacles.segments.len())) {
+                    return places;
+                }
+                let distance = OUTWARD * step as f64;
+                let free = ring(&labels[index], distance).filter(|at| !meets(*at, &places));
+                let cost = |at: Vec2| self.standing(index, at, self.obstacles);
+                let best = free.min_by(|a, b| cost(*a).total_cmp(&cost(*b)));
+                if let Some(at) = best {
+                    places[index] = at;
+                    break;
+                }
             }
         }
+        places
     }
-}
 
-fn cheapest(index: usize, labels: &[PlacedLabel], places: &[Option<Vec2>], obstacles: &Obstacles) -> Option<Vec2> {
-    candidates(&labels[index])
-        .map(|place| (cost(index, place, labels, places, obstacles), place))
-        .min_by(|a, b| a.0.total_cmp(&b.0))
-        .map(|(_, place)| place)
-}
-
-fn candidates(label: &PlacedLabel) -> impl Iterator<Item = Vec2> + '_ {
-    let directions = (0..DIRECTIONS).map(|k| linkage::math::unit(std::f64::consts::TAU * k as f64 / DIRECTIONS as f64));
-    directions.flat_map(move |direction| {
-        DISTANCES.into_iter().map(move |distance| {
-            // The box is placed so that its side or corner that faces the anchor touches the end of the ray.
-            let half = label.size / 2.0;
-            let reach = (half.x / direction.x.abs().larger(1e-9)).smaller(half.y / direction.y.abs().larger(1e-9));
-            label.anchor + direction * (label.clear + distance + reach)
-        })
-    })
-}
-
-fn cost(index: usize, place: Vec2, labels: &[PlacedLabel], places: &[Option<Vec2>], obstacles: &Obstacles) -> f64 {
-    let label = &labels[index];
-    let offset = place - label.anchor;
-    let distance = offset.norm();
-    let mut cost = 0.5 * (distance - label.clear);
-    if label.away.norm() > 0.0 {
-        cost += 1.2 * (1.0 - offset.dot(&label.away) / (distance * label.away.norm()));
-    }
-    let half = label.size / 2.0 + Vec2::new(AIR, AIR);
-    for segment in &obstacles.segments {
-        let inside = length_inside(segment, place, half);
-        if inside > 0.0 {
-            cost += 12.0 + 3.0 * inside;
+    /// The cost of a position among lines, marks and the points of other labels.
+    fn standing(&self, index: usize, place: Vec2, obstacles: &Obstacles) -> f64 {
+        let label = &self.labels[index];
+        let offset = place - label.anchor;
+        let distance = offset.norm();
+        let mut cost = AWAY * (distance - label.clear);
+        if label.away.norm() > 0.0 {
+            cost += 1.2 * (1.0 - offset.dot(&label.away) / (distance * label.away.norm()));
         }
-    }
-    for &(centre, radius) in &obstacles.discs {
-        let gap = (centre - place).abs() - half;
-        let gap = Vec2::new(gap.x.larger(0.0), gap.y.larger(0.0)).norm();
-        if gap < radius {
-            cost += 15.0 + 4.0 * (radius - gap);
-        }
-    }
-    for (other, at) in labels.iter().zip(places).enumerate().filter(|(k, _)| *k != index).map(|(_, pair)| pair) {
-        if let Some(at) = at {
-            let overlap = (label.size + other.size) / 2.0 + Vec2::new(AIR, AIR) - (place - at).abs();
-            if overlap.x > 0.0 && overlap.y > 0.0 {
-                cost += 40.0 + 10.0 * overlap.x.smaller(overlap.y);
+        let half = label.size / 2.0 + Vec2::new(AIR, AIR);
+        for segment in &obstacles.segments {
+            let inside = length_inside(segment, place, half);
+            if inside > 0.0 {
+                cost += ON_LINE[0] + ON_LINE[1] * inside;
             }
-            // The line from a label to its point must not pass through another label, so crossed labels add to the
-            // cost.
-            let crossed = length_inside(&[label.anchor, place], *at, other.size / 2.0)
-                + length_inside(&[other.anchor, *at], place, label.size / 2.0);
-            cost += if crossed > 0.0 { 7.0 } else { 0.0 };
+        }
+        for &(centre, radius) in &obstacles.discs {
+            let gap = (centre - place).abs() - half;
+            let gap = Vec2::new(gap.x.larger(0.0), gap.y.larger(0.0)).norm();
+            if gap < radius {
+                cost += ON_MARK[0] + ON_MARK[1] * (radius - gap);
+            }
         }
         // A label nearer to another point than to its anchor is misleading, so such a position costs more.
-        if (other.anchor - place).norm() < distance {
-            cost += 9.0;
-        }
+        let others = self.labels.iter().enumerate().filter(|(k, _)| *k != index);
+        let nearer = others.filter(|(_, other)| (other.anchor - place).norm() < distance).count();
+        cost + (MISLEADING[0] * nearer as f64).smaller(MISLEADING[1])
     }
-    cost
+
+    /// The cost of a position among the labels that have positions.
+    fn among_labels(&self, index: usize, place: Vec2) -> f64 {
+        let label = &self.labels[index];
+        let mut cost = 0.0;
+        for (k, other) in self.labels.iter().enumerate().filter(|(k, _)| *k != index) {
+            let Some(at) = self.at(k) else { continue };
+            let depth = overlap(label, place, other, at);
+            cost += if depth > 0.0 { ON_LABEL[0] + ON_LABEL[1] * depth } else { 0.0 };
+            // The line from a label to its point must not pass through another label, so crossed labels add to the
+            // cost.
+            let crossed = length_inside(&[label.anchor, place], at, other.size / 2.0)
+                + length_inside(&[other.anchor, at], place, label.size / 2.0);
+            cost += if crossed > 0.0 { CROSSED } else { 0.0 };
+        }
+        cost
+    }
+}
+
+/// How deep the boxes of two labels at these positions lie in each other, with their clearance (mm); at most 0 if they
+/// do not meet.
+fn overlap(label: &PlacedLabel, place: Vec2, other: &PlacedLabel, at: Vec2) -> f64 {
+    let depth = (label.size + other.size) / 2.0 + Vec2::new(AIR, AIR) - (place - at).abs();
+    depth.x.smaller(depth.y)
+}
+
+/// Positions around the anchor of a label at this distance from the mark at the anchor.
+fn ring(label: &PlacedLabel, distance: f64) -> impl Iterator<Item = Vec2> {
+    let (anchor, half, clear) = (label.anchor, label.size / 2.0, label.clear);
+    let directions = (0..DIRECTIONS).map(|k| linkage::math::unit(std::f64::consts::TAU * k as f64 / DIRECTIONS as f64));
+    directions.map(move |direction| {
+        // The box is placed so that its side or corner that faces the anchor touches the end of the ray.
+        let reach = (half.x / direction.x.abs().larger(1e-9)).smaller(half.y / direction.y.abs().larger(1e-9));
+        anchor + direction * (clear + distance + reach)
+    })
 }
 
 /// Length of the part of a segment inside the box around `centre`.
@@ -179,7 +302,23 @@ fn length_inside(segment: &[Vec2; 2], centre: Vec2, half: Vec2) -> f64 {
 /// Box of a label at the font size `size` (mm), subscripts included.
 /// The box is a little larger than the letters, because viewers may use other fonts than the bundled font.
 pub fn label_size(text: &str, size: f64) -> Vec2 {
-    Vec2::new(1.05 * width(text, size), 1.15 * size)
+    let wide = Glyphs::bundled().width(text, size).larger(width(text, size));
+    Vec2::new(1.05 * wide + SLANT * size, 1.15 * size)
+}
+
+/// The boxes of all texts of a figure, measured in the bundled font: lower left and upper right corner (mm).
+pub fn text_boxes(figure: &DrawnFigure) -> Vec<[Vec2; 2]> {
+    let of_text = |(at, text, set): (Vec2, &str, &Type)| {
+        let wide = Glyphs::bundled().width(text, set.size);
+        let left = match set.anchor {
+            "middle" => wide / 2.0,
+            "end" => wide,
+            _ => 0.0,
+        };
+        let along = |x: f64, y: f64| at + if set.upward { Vec2::new(-y, x) } else { Vec2::new(x, y) };
+        linkage::math::corners([along(-left, -0.2 * set.size), along(wide - left, 0.75 * set.size)])
+    };
+    figure.texts().map(of_text).collect()
 }
 
 /// Usual type of labels: centred, italic, font size [`LETTER`].
@@ -202,7 +341,8 @@ pub fn leader(figure: &mut DrawnFigure, label: &PlacedLabel, at: Vec2, size: f64
 /// Draws a label at the position `at`. If the label's point is far away, a line connects the label with the point.
 pub fn letter(figure: &mut DrawnFigure, label: &PlacedLabel, at: Vec2, text: &str, set: Type) {
     leader(figure, label, at, set.size);
-    figure.text(at - Vec2::new(0.0, 0.28 * set.size), text, set);
+    let down = 0.28 * set.size;
+    figure.text(at + if set.upward { Vec2::new(down, 0.0) } else { Vec2::new(0.0, -down) }, text, set);
 }
 
 #[cfg(test)]
@@ -251,11 +391,25 @@ mod tests {
 
     #[test]
     fn crowded_labels_still_get_positions() {
-        // Each of 2000 labels compares 288 positions with all other labels, twice for every pair of neighbours.
+        // Each of 2000 labels compares 320 positions with all other labels, twice for every pair of neighbours.
         // In total, these are more than 1e12 comparisons, far above the limit `MOST_COMPARED`.
         let crowd: Vec<PlacedLabel> = (0..2000).map(|k| label(0.01 * f64::from(k), 0.0)).collect();
-        let places = place_within(&crowd, &Obstacles::default(), 10_000_000);
-        assert!(places.iter().zip(&crowd).all(|(at, own)| (at - own.anchor).norm() < 25.0), "{places:?}");
+        let places = Placer::of(&crowd, &Obstacles::default(), 10_000_000).placed();
+        assert!(
+            places.iter().zip(&crowd).all(|(at, own)| (at - own.anchor).norm() < 25.0 + OUTWARD * RINGS as f64),
+            "{places:?}"
+        );
+    }
+
+    /// Twelve labels at one point have no room for all within reach of their candidates.
+    #[test]
+    fn no_two_labels_meet_even_where_there_is_no_room() {
+        let wide = |k: u32| PlacedLabel { size: Vec2::new(30.0, 9.0), ..label(0.1 * f64::from(k), 0.0) };
+        let labels: Vec<PlacedLabel> = (0..24).map(wide).collect();
+        let places = place_among(&labels, &Obstacles::default(), 1);
+        for (k, at) in places.iter().enumerate() {
+            assert!((0..k).all(|other| overlap(&labels[k], *at, &labels[other], places[other]) <= 0.0), "{k}: {at:?}");
+        }
     }
 
     #[test]

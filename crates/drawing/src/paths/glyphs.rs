@@ -1,5 +1,7 @@
 //! Letters as paths, from the bundled font.
 
+use std::sync::OnceLock;
+
 use tiny_skia::{Path, PathBuilder};
 use ttf_parser::{Face, OutlineBuilder};
 
@@ -10,7 +12,7 @@ use linkage::math::Vec2;
 
 /// DejaVu Sans Condensed, Latin, Greek and Cyrillic: see `font/LICENSE`.
 const FONT: &[u8] = include_bytes!("../../font/DejaVuSansCondensed.ttf");
-/// Slant of an italic letter, and outline thickness of a bold letter divided by the font size.
+/// Slant of an italic letter, and by how much the strokes of a bold letter are thicker, divided by the font size.
 const LEAN: f64 = 0.2;
 const BOLD: f64 = 0.045;
 
@@ -20,8 +22,24 @@ pub struct Glyphs {
 }
 
 impl Glyphs {
-    pub fn new() -> Glyphs {
-        Glyphs { face: Face::parse(FONT, 0).ok() }
+    /// The bundled font, read once.
+    pub fn bundled() -> &'static Glyphs {
+        static READ: OnceLock<Glyphs> = OnceLock::new();
+        READ.get_or_init(|| Glyphs { face: Face::parse(FONT, 0).ok() })
+    }
+
+    /// Width of a letter divided by the font size.
+    fn advance(&self, sign: char) -> f64 {
+        let of = |face: &Face| {
+            let glyph = face.glyph_index(sign).unwrap_or_default();
+            f64::from(face.glyph_hor_advance(glyph).unwrap_or_default()) / f64::from(face.units_per_em())
+        };
+        self.face.as_ref().map_or(0.0, of)
+    }
+
+    /// Width of a text (mm) at the font size `size` (mm).
+    pub fn width(&self, text: &str, size: f64) -> f64 {
+        pieces(text, size).iter().map(|piece| self.advance(piece.sign) * piece.size).sum()
     }
 
     /// Checks that the font has all letters of a text.
@@ -40,31 +58,26 @@ impl Glyphs {
         }
     }
 
-    /// A text as a path (mm, y downwards), and the thickness of the line around the letters (mm).
-    pub fn path(&self, at: Vec2, text: &str, set: &Type) -> (Option<Path>, f64) {
-        let Some(face) = &self.face else { return (None, 0.0) };
-        let unit = 1.0 / f64::from(face.units_per_em());
-        let advance = |sign: char| {
-            let glyph = face.glyph_index(sign).unwrap_or_default();
-            (glyph, f64::from(face.glyph_hor_advance(glyph).unwrap_or_default()) * unit)
-        };
-        let pieces = pieces(text, set.size);
-        let wide: f64 = pieces.iter().map(|Piece { sign, size, .. }| advance(*sign).1 * size).sum();
+    /// A text as a path (mm, y downwards). Each letter of a bold text is two outlines, one beside the other.
+    pub fn path(&self, at: Vec2, text: &str, set: &Type) -> Option<Path> {
+        let face = self.face.as_ref()?;
         let mut along = match set.anchor {
-            "middle" => -wide / 2.0,
-            "end" => -wide,
+            "middle" => -self.width(text, set.size) / 2.0,
+            "end" => -self.width(text, set.size),
             _ => 0.0,
         };
         let (path, lean) = (PathBuilder::new(), if set.italic { LEAN } else { 0.0 });
         let mut builder = Letters { path, origin: Vec2::zeros(), scale: 0.0, lean, upward: set.upward };
-        for Piece { sign, size, rise } in pieces {
-            let (glyph, step) = advance(sign);
-            builder.origin = Vec2::new(at.x, -at.y) + builder.turned(along, rise);
-            builder.scale = size * unit;
-            face.outline_glyph(glyph, &mut builder);
-            along += step * size;
+        let shifts: &[f64] = if set.bold { &[-BOLD / 2.0, BOLD / 2.0] } else { &[0.0] };
+        for Piece { sign, size, rise } in pieces(text, set.size) {
+            builder.scale = size / f64::from(face.units_per_em());
+            for shift in shifts {
+                builder.origin = Vec2::new(at.x, -at.y) + builder.turned(along + shift * size, rise);
+                face.outline_glyph(face.glyph_index(sign).unwrap_or_default(), &mut builder);
+            }
+            along += self.advance(sign) * size;
         }
-        (builder.path.finish(), if set.bold { BOLD * set.size } else { 0.0 })
+        builder.path.finish()
     }
 }
 

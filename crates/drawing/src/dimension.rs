@@ -1,0 +1,285 @@
+//! Dimensions: the lengths and angles that define the links of a mechanism and its ground.
+//!
+//! A link with n places has 2 n - 3 lengths, or n - 1 if its places are on one line.
+//! The ground has horizontal and vertical distances from its first pivot.
+//! An angle of a guide that is a multiple of 90 degrees, and a distance of zero, are visible without a number.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use super::body::{corners, places};
+use super::picture::{millimetres, short};
+use super::pins::pivots;
+use linkage::math::{KeepNan, Vec2, cross};
+use linkage::mechanism::{CamContact, GROUND, JointId, LinkId, Mechanism, TransmissionKind};
+
+/// Two places closer than this fraction of a link's size are one place, and smaller distances are zero.
+const SAME: f64 = 1e-9;
+/// Angles below this (rad) are zero.
+const ALIGNED: f64 = 1e-7;
+
+/// A number in a drawing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Dimension {
+    /// The link; the ground for the positions of pivots and fixed guides.
+    pub link: LinkId,
+    /// What the number measures.
+    pub measure: Measure,
+    /// The number as written: a length in mm or an angle in degrees, with four digits.
+    pub text: String,
+}
+
+/// What a dimension measures. Places are indices of [`places`](crate::places).
+#[derive(Clone, Debug, PartialEq)]
+pub enum Measure {
+    /// Distance between two places of a link. Each place follows from the places before it.
+    Length {
+        /// A place that is known.
+        from: usize,
+        /// The place that the length fixes, alone on a line, otherwise together with the length before or after it.
+        to: usize,
+        /// Where the length is drawn.
+        line: DimensionLine,
+    },
+    /// Horizontal (0) or vertical (1) distance of places of the ground from its first pivot.
+    Offset {
+        /// 0 for horizontal, 1 for vertical.
+        axis: usize,
+        /// The first pivot.
+        from: usize,
+        /// All places at this distance.
+        to: Vec<usize>,
+        /// Number of shorter distances on the same side.
+        row: usize,
+    },
+    /// Angle between a guide and a line of its link, at most 90 degrees.
+    Angle {
+        /// The prismatic joint.
+        joint: JointId,
+        /// Vertex of the angle in the frame of the link (m).
+        at: Vec2,
+        /// Directions of the line and of the guide (rad) in the frame of the link.
+        sides: [f64; 2],
+    },
+    /// Radius of a wheel.
+    Radius {
+        /// Axle of the wheel in the frame of the link (m).
+        at: Vec2,
+        /// The radius (m).
+        radius: f64,
+    },
+}
+
+/// Where a length is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DimensionLine {
+    /// Beside an edge of the link.
+    Edge,
+    /// Along a thin line between the two places.
+    Across,
+    /// Along a dimension line outside the link, in this row from the link.
+    Outside(usize),
+}
+
+/// All dimensions of a mechanism.
+#[must_use]
+pub fn dimensions(mechanism: &Mechanism) -> Vec<Dimension> {
+    let mut all = offsets(mechanism);
+    for link in mechanism.links().ids() {
+        if link != GROUND {
+            all.extend(lengths(mechanism, link));
+        }
+        all.extend(angles(mechanism, link));
+    }
+    all.extend(radii(mechanism));
+    all
+}
+
+/// Indices of the places of a link that differ from all earlier ones.
+fn distinct(all: &[Vec2]) -> Vec<usize> {
+    let size = all.iter().map(|at| (at - all[0]).norm()).fold(0.0, f64::larger);
+    let is_new = |k: usize| all[..k].iter().all(|other| (other - all[k]).norm() > SAME * size);
+    (0..all.len()).filter(|&k| is_new(k)).collect()
+}
+
+fn lengths(mechanism: &Mechanism, link: LinkId) -> Vec<Dimension> {
+    let (all, hull) = (places(mechanism, link), corners(mechanism, link));
+    let own = distinct(&all);
+    let pairs = match hull.len() {
+        0 | 1 => Vec::new(),
+        2 => on_a_line(&all, &own),
+        _ => {
+            let index = |corner: &Vec2| all.iter().position(|at| at == corner);
+            let hull: Vec<usize> = hull.iter().filter_map(index).filter(|k| own.contains(k)).collect();
+            in_a_plane(&all, &own, &hull)
+        }
+    };
+    let of = |(from, to, line): (usize, usize, DimensionLine)| {
+        let text = millimetres((all[to] - all[from]).norm());
+        Dimension { link, measure: Measure::Length { from, to, line }, text }
+    };
+    pairs.into_iter().map(of).collect()
+}
+
+/// Lengths from the first place of a bar to all others. Those on one side of the first place are in separate rows.
+fn on_a_line(all: &[Vec2], own: &[usize]) -> Vec<(usize, usize, DimensionLine)> {
+    let (Some(&first), true) = (own.first(), own.len() > 1) else { return Vec::new() };
+    let mut others: Vec<usize> = own[1..].to_vec();
+    let way = |k: usize| all[k] - all[first];
+    others.sort_by(|a, b| way(*a).norm().total_cmp(&way(*b).norm()));
+    let row = |index: usize| (0..index).filter(|&k| way(others[k]).dot(&way(others[index])) > 0.0).count();
+    let line = |index: usize| if others.len() == 1 { DimensionLine::Edge } else { DimensionLine::Outside(row(index)) };
+    (0..others.len()).map(|index| (first, others[index], line(index))).collect()
+}
+
+/// Lengths of triangles over the hull of a plate, then two lengths for every other place.
+fn in_a_plane(all: &[Vec2], own: &[usize], hull: &[usize]) -> Vec<(usize, usize, DimensionLine)> {
+    let count = hull.len();
+    // The thinnest triangle of the fan from a corner decides how exactly the lengths define the plate.
+    let corner = |apex: usize, k: usize| hull[(apex + k) % count];
+    let worst = |apex: usize| {
+        (2..count).map(|k| sine(all, corner(apex, k), corner(apex, 0), corner(apex, k - 1))).fold(1.0, f64::smaller)
+    };
+    let apex = (0..count).max_by(|a, b| worst(*a).total_cmp(&worst(*b)).then(b.cmp(a))).unwrap_or(0);
+    let mut found = vec![(corner(apex, 0), corner(apex, 1), DimensionLine::Edge)];
+    for k in 2..count {
+        let last = if k + 1 == count { DimensionLine::Edge } else { DimensionLine::Across };
+        found.push((corner(apex, k - 1), corner(apex, k), DimensionLine::Edge));
+        found.push((corner(apex, 0), corner(apex, k), last));
+    }
+    let mut known = hull.to_vec();
+    for &place in own.iter().filter(|place| !hull.contains(place)) {
+        let pairs = known.iter().flat_map(|&a| known.iter().map(move |&b| [a, b])).filter(|[a, b]| a < b);
+        let best = pairs.max_by(|[a, b], [c, d]| {
+            sine(all, place, *a, *b).total_cmp(&sine(all, place, *c, *d)).then([c, d].cmp(&[a, b]))
+        });
+        found.extend(best.into_iter().flatten().map(|from| (from, place, DimensionLine::Across)));
+        known.push(place);
+    }
+    found
+}
+
+/// Sine of the angle at the place `at` between two other places. The inverse is the factor by which errors of the two
+/// distances grow.
+fn sine(all: &[Vec2], at: usize, a: usize, b: usize) -> f64 {
+    let (a, b) = (all[a] - all[at], all[b] - all[at]);
+    cross(a, b).abs() / (a.norm() * b.norm())
+}
+
+fn offsets(mechanism: &Mechanism) -> Vec<Dimension> {
+    let all = places(mechanism, GROUND);
+    let first = pivots(mechanism).first().and_then(|pivot| all.iter().position(|at| at == pivot)).unwrap_or(0);
+    let size = all.iter().map(|at| (at - all[first]).norm()).fold(0.0, f64::larger);
+    let along = |axis: usize| {
+        let way = |k: usize| all[k][axis] - all[first][axis];
+        let mut ways: Vec<(f64, Vec<usize>)> = Vec::new();
+        for k in (0..all.len()).filter(|&k| way(k).abs() > SAME * size) {
+            match ways.iter_mut().find(|(own, _)| (own - way(k)).abs() <= SAME * size) {
+                Some((_, to)) => to.push(k),
+                None => ways.push((way(k), vec![k])),
+            }
+        }
+        ways.sort_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
+        let row = |index: usize| ways[..index].iter().filter(|own| own.0 * ways[index].0 > 0.0).count();
+        let of = |(index, (way, to)): (usize, &(f64, Vec<usize>))| {
+            let measure = Measure::Offset { axis, from: first, to: to.clone(), row: row(index) };
+            Dimension { link: GROUND, measure, text: millimetres(way.abs()) }
+        };
+        ways.iter().enumerate().map(of).collect::<Vec<_>>()
+    };
+    [0, 1].into_iter().flat_map(along).collect()
+}
+
+/// Angles of the guides of a link that are not multiples of 90 degrees.
+/// They are measured from the horizontal for the ground, otherwise from the line to the place farthest from the guide.
+/// On a link with a single place they are measured from its first guide.
+fn angles(mechanism: &Mechanism, link: LinkId) -> Vec<Dimension> {
+    let all = places(mechanism, link);
+    let size = all.iter().map(|at| (at - all[0]).norm()).fold(0.0, f64::larger);
+    let mut first: Option<Vec2> = (link == GROUND).then(Vec2::x);
+    let mut found: Vec<Dimension> = Vec::new();
+    for (joint, own) in mechanism.joints().entries() {
+        let (Some(at), Some(axis)) = (own.on(link), own.axis_on(link)) else { continue };
+        let arm = all.iter().map(|place| place - at).max_by(|a, b| a.norm().total_cmp(&b.norm()));
+        let arm = arm.filter(|arm| link != GROUND && arm.norm() > SAME * size);
+        let base = arm.or(first);
+        first = first.or(Some(axis));
+        let Some(base) = base else { continue };
+        let from = base.y.atan2(base.x);
+        let turn = acute(axis.y.atan2(axis.x) - from);
+        let is_plain = turn.abs() < ALIGNED || FRAC_PI_2 - turn.abs() < ALIGNED;
+        let sides = [from, from + turn];
+        let is_known = |other: &Dimension| match other.measure {
+            Measure::Angle { at: place, sides: known, .. } => place == at && known == sides,
+            Measure::Length { .. } | Measure::Offset { .. } | Measure::Radius { .. } => false,
+        };
+        if !is_plain && !found.iter().any(is_known) {
+            let text = format!("{}°", short(turn.abs().to_degrees()));
+            found.push(Dimension { link, measure: Measure::Angle { joint, at, sides }, text });
+        }
+    }
+    found
+}
+
+/// The angle between two lines without direction: between -90 and 90 degrees.
+fn acute(angle: f64) -> f64 {
+    let turn = angle.rem_euclid(PI);
+    if turn > FRAC_PI_2 { turn - PI } else { turn }
+}
+
+/// Radii of wheels, and of the rollers of cam followers.
+fn radii(mechanism: &Mechanism) -> Vec<Dimension> {
+    let mut found: Vec<Dimension> = Vec::new();
+    for own in mechanism.transmissions().iter() {
+        let roller = match own.design.kind {
+            TransmissionKind::Cam { contact: CamContact::Roller { centre, radius }, .. } => {
+                Some((own.members[1].link, centre, radius))
+            }
+            TransmissionKind::Cam { contact: CamContact::Flat(_), .. }
+            | TransmissionKind::Gears { .. }
+            | TransmissionKind::Rack { .. }
+            | TransmissionKind::Screw { .. }
+            | TransmissionKind::Belt { .. } => None,
+        };
+        let wheels = own.members.iter().filter(|wheel| wheel.radius > 0.0);
+        for (link, at, radius) in wheels.map(|wheel| (wheel.link, wheel.local, wheel.radius)).chain(roller) {
+            let text = format!("r {}", millimetres(radius));
+            let own = Dimension { link, measure: Measure::Radius { at, radius }, text };
+            if !found.contains(&own) {
+                found.push(own);
+            }
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn counted(points: &[(f64, f64)]) -> usize {
+        let all: Vec<Vec2> = points.iter().map(|&(x, y)| Vec2::new(x, y)).collect();
+        in_a_plane(&all, &distinct(&all), &[0, 1, 2]).len()
+    }
+
+    #[test]
+    fn a_plate_has_two_lengths_for_each_place_after_the_first_two() {
+        assert_eq!(counted(&[(0.0, 0.0), (2.0, 0.0), (0.0, 1.0)]), 3);
+        assert_eq!(counted(&[(0.0, 0.0), (2.0, 0.0), (0.0, 1.0), (0.4, 0.2), (1.0, 0.0)]), 7);
+        // A place that coincides with an earlier one needs no length.
+        assert_eq!(counted(&[(0.0, 0.0), (2.0, 0.0), (0.0, 1.0), (2.0, 1e-12)]), 3);
+    }
+
+    #[test]
+    fn lengths_on_both_sides_of_the_first_place_share_rows() {
+        let all: Vec<Vec2> = [0.0, 1.0, 3.0, -2.0].map(|x| Vec2::new(x, 0.0)).to_vec();
+        let rows: Vec<DimensionLine> = on_a_line(&all, &[0, 1, 2, 3]).into_iter().map(|own| own.2).collect();
+        assert_eq!(rows, [DimensionLine::Outside(0), DimensionLine::Outside(0), DimensionLine::Outside(1)]);
+    }
+
+    #[test]
+    fn angles_between_lines_are_at_most_a_right_angle() {
+        for (angle, turn) in [(0.3, 0.3), (PI - 0.3, -0.3), (-PI - 0.2, -0.2), (FRAC_PI_2, FRAC_PI_2)] {
+            assert!((acute(angle) - turn).abs() < 1e-12, "{angle}");
+        }
+    }
+}
