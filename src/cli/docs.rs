@@ -25,7 +25,7 @@ static PAGES: &[(&str, &str)] = pages! {
     "formulas" "gallery" "graph" "guide" "machines" "mjcf" "mutate" "notation" "numerics/bounds" "numerics/change_points"
     "numerics/diagnosis" "numerics/forces" "numerics/friction" "numerics/given" "numerics/laboratory"
     "numerics/settings" "numerics/twins" "peers" "plans" "python" "rapier" "recording" "report" "scale" "scenario"
-    "sensitivity" "skip" "stories" "stress" "sweep" "synthesis" "testing" "tutorial" "variants60" "verification"
+    "sensitivity" "skip" "stories" "stress" "sweep" "synthesis" "teaching" "testing" "tutorial" "variants60" "verification"
 };
 
 pub(super) fn docs(args: &Args) -> Result<()> {

@@ -18,7 +18,7 @@ from playwright.sync_api import Error, sync_playwright
 from contents import check_loads, check_plans
 from wrong import GO_TO, WITHIN, Wrong, need
 
-WIDTHS = [360, 800, 1400]
+WIDTHS = [360, 900, 1600]
 MOST_BYTES = 3_000_000
 # Transforms of all drawn links of a side.
 READ = """

@@ -108,6 +108,23 @@ function setUpBox(part) {
   if (box && picture) box.addEventListener('change', () => picture.classList.toggle(`no-${part}`, !box.checked));
 }
 
+/** Width of a link (units of the picture). A smaller difference between engine and reference is not seen. */
+const LINK = 1;
+
+/** Shows the engine if it is seen beside the reference. On demand it is shown with the difference magnified. */
+function setUpEngineBox() {
+  const [box, factors] = ['show-engine', 'magnify'].map(byId);
+  if (!hasEngine || motion === null) return;
+  const isApart = () => farthest() / motion.unit > LINK;
+  box.checked = isApart();
+  box.dispatchEvent(new Event('change'));
+  box.addEventListener('change', () => {
+    if (!box.checked || isApart()) return;
+    factors.selectedIndex = factors.options.length - 1;
+    factors.dispatchEvent(new Event('change'));
+  });
+}
+
 function setUpEngines() {
   const choice = byId('engine');
   page.engines.forEach((engine) => put(choice, 'option', '', engine.name));
@@ -158,6 +175,7 @@ function setUp() {
     byId(id).addEventListener('click', () => { for (const own of byId('charts').querySelectorAll('details')) own.open = isOpen; });
   }
   ['reference', 'engine', 'arrows', 'loads', 'paths', 'names'].forEach(setUpBox);
+  setUpEngineBox();
   slider.max = last;
   slider.addEventListener('input', () => { setPlaying(false); goTo(Number(slider.value)); });
   play.addEventListener('click', () => setPlaying(!isPlaying));

@@ -172,8 +172,8 @@ function setUpPaths() {
   return drawn.some((own) => own !== null);
 }
 
-/** Factors by which differences between engine and reference can be magnified. */
-function magnifications() {
+/** Largest distance (m) between engine and reference of a mass centre, or of a point at the mechanism's size from it. */
+function farthest() {
   let most = 0;
   for (const link of motion.links) {
     link.at.forEach((index, k) => {
@@ -182,6 +182,12 @@ function magnifications() {
       if (own !== null) for (const value of own) most = Math.max(most, Math.abs(value) * arm || 0);
     });
   }
+  return most;
+}
+
+/** Factors by which differences between engine and reference can be magnified. */
+function magnifications() {
+  const most = farthest();
   const factor = most > 0 ? round(0.08 * motion.size / most) : 1;
   return [1, factor / 100, factor / 10, factor].filter((own, k) => k === 0 || (own > 1 && Number.isFinite(own)));
 }
