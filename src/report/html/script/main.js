@@ -156,6 +156,15 @@ function setUpEngines() {
   refill();
 }
 
+/** Charts, curves and plans below the picture. */
+function setUpBelow() {
+  setUpCharts();
+  if (!setUpFormulas()) byId('formulas').remove();
+  if (!setUpHodographs()) byId('hodographs').remove();
+  if (!setUpPlans()) byId('plans').remove();
+  setUpReduced();
+}
+
 function setUp() {
   const has = { script: true, engines: hasEngine, ...setUpPicture() };
   setUpSpeeds();
@@ -165,11 +174,8 @@ function setUp() {
   choice.value = over;
   if (!isOneWay) choice.closest('label').remove();
   choice.addEventListener('change', () => { over = choice.value; setUpCharts(); setUpFormulas(); });
-  setUpCharts();
-  if (!setUpFormulas()) byId('formulas').remove();
-  if (!setUpHodographs()) byId('hodographs').remove();
-  if (!setUpPlans()) byId('plans').remove();
-  setUpReduced();
+  // In a frame of `linkproof watch` the picture comes first.
+  if (window.parent === window) setUpBelow(); else window.addEventListener('load', () => setTimeout(setUpBelow, 0));
   for (const own of document.querySelectorAll('[data-needs]')) if (!has[own.dataset.needs]) own.remove();
   for (const [id, isOpen] of [['open-all', true], ['close-all', false]]) {
     byId(id).addEventListener('click', () => { for (const own of byId('charts').querySelectorAll('details')) own.open = isOpen; });

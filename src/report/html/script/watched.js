@@ -6,7 +6,8 @@ window.linkproofShow = (view) => {
   setPlaying(false);
   goToTime(time[0] + view.share * duration);
   setPlaying(view.isPlaying);
-  window.scrollTo(0, view.top);
+  // After everything below the picture is set up.
+  setTimeout(() => window.scrollTo(0, view.top), 0);
 };
 
 /** All named points, each with the links on which it lies: number of the link, name, and place in its frame (m). */
