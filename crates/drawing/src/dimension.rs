@@ -94,9 +94,14 @@ pub fn dimensions(mechanism: &Mechanism) -> Vec<Dimension> {
     all
 }
 
+/// Largest distance of a place from the first one (m).
+fn extent(all: &[Vec2]) -> f64 {
+    all.iter().map(|at| (at - all[0]).norm()).fold(0.0, f64::larger)
+}
+
 /// Indices of the places of a link that differ from all earlier ones.
 fn distinct(all: &[Vec2]) -> Vec<usize> {
-    let size = all.iter().map(|at| (at - all[0]).norm()).fold(0.0, f64::larger);
+    let size = extent(all);
     let is_new = |k: usize| all[..k].iter().all(|other| (other - all[k]).norm() > SAME * size);
     (0..all.len()).filter(|&k| is_new(k)).collect()
 }
@@ -108,8 +113,14 @@ fn lengths(mechanism: &Mechanism, link: LinkId) -> Vec<Dimension> {
         0 | 1 => Vec::new(),
         2 => on_a_line(&all, &own),
         _ => {
-            let index = |corner: &Vec2| all.iter().position(|at| at == corner);
-            let hull: Vec<usize> = hull.iter().filter_map(index).filter(|k| own.contains(k)).collect();
+            // A corner may coincide with an earlier place.
+            let near = SAME * extent(&all);
+            let index = |corner: &Vec2| own.iter().copied().find(|&k| (all[k] - corner).norm() <= near);
+            let mut hull: Vec<usize> = hull.iter().filter_map(index).collect();
+            hull.dedup();
+            if hull.len() > 1 && hull.first() == hull.last() {
+                hull.pop();
+            }
             in_a_plane(&all, &own, &hull)
         }
     };
@@ -194,7 +205,7 @@ fn offsets(mechanism: &Mechanism) -> Vec<Dimension> {
 /// On a link with a single place they are measured from its first guide.
 fn angles(mechanism: &Mechanism, link: LinkId) -> Vec<Dimension> {
     let all = places(mechanism, link);
-    let size = all.iter().map(|at| (at - all[0]).norm()).fold(0.0, f64::larger);
+    let size = extent(&all);
     let mut first: Option<Vec2> = (link == GROUND).then(Vec2::x);
     let mut found: Vec<Dimension> = Vec::new();
     for (joint, own) in mechanism.joints().entries() {

@@ -142,9 +142,12 @@ impl Sketch {
     pub fn in_order(&self) -> Vec<(LinkId, &Mark)> {
         let mut all: Vec<(Layer, f64, LinkId, &Mark)> = Vec::new();
         for body in &self.bodies {
-            all.extend(body.marks.iter().map(|mark| match mark.role.look().layer {
-                Layer::Links if body.is_platform => (Layer::Blocks, 0.0, body.link, mark),
-                layer => (layer, body.size, body.link, mark),
+            all.extend(body.marks.iter().map(|mark| {
+                let layer = mark.role.look().layer;
+                match body.is_platform && layer == Layer::Links {
+                    true => (Layer::Blocks, 0.0, body.link, mark),
+                    false => (layer, body.size, body.link, mark),
+                }
             }));
         }
         // The sort is stable, so the marks of one link keep their order.

@@ -111,9 +111,9 @@ impl<'a> Placer<'a> {
     fn of(labels: &'a [PlacedLabel], obstacles: &'a Obstacles, most: usize) -> Placer<'a> {
         let mut placer = Placer { labels, obstacles, spots: Vec::new(), chosen: vec![None; labels.len()], left: most };
         let work = DIRECTIONS * DISTANCES.len() * (labels.len() + obstacles.segments.len() + obstacles.discs.len());
-        for index in 0..labels.len() {
-            let candidates = DISTANCES.into_iter().flat_map(|distance| ring(&labels[index], distance));
-            let near = obstacles.near(&labels[index]);
+        for (index, label) in labels.iter().enumerate() {
+            let candidates = DISTANCES.into_iter().flat_map(|distance| ring(label, distance));
+            let near = obstacles.near(label);
             let mut spots: Vec<Spot> = match placer.spend(work) {
                 true => candidates.map(|at| Spot { at, cost: placer.standing(index, at, &near) }).collect(),
                 false => candidates.take(1).map(|at| Spot { at, cost: 0.0 }).collect(),
