@@ -18,6 +18,8 @@ const OUTPUTS: usize = 2;
 const JOINTS: usize = 3;
 /// Largest number of usual figures.
 const MOST: usize = 10;
+/// A joint force below this fraction of the largest one counts as zero.
+const ROUNDING: f64 = 1e-9;
 /// From this range on (deg), a link counts as turning fully.
 const FULL_TURN: f64 = 359.9;
 
@@ -156,6 +158,9 @@ impl Proof {
         };
         let mut found: Vec<ReportedFigure> = joints.filter_map(force).collect();
         found.sort_by(|a, b| b.value.total_cmp(&a.value));
+        // A force that is zero except for rounding tells nothing.
+        let least = ROUNDING * found.first().map_or(0.0, |own| own.value);
+        found.retain(|own| own.value > least);
         found.truncate(JOINTS);
         let transmissions = self.scene.case.mechanism.transmissions().iter().take(1);
         found.extend(transmissions.filter_map(|own| {
