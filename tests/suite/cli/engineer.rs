@@ -3,6 +3,7 @@
 
 use std::fs;
 
+use linkage::math::KeepNan;
 use serde_json::Value;
 
 use super::tools::Place;
@@ -73,12 +74,12 @@ fn the_figures_are_those_of_the_solution() {
     let figures = json["runs"][0]["figures"].as_array().unwrap();
     let solved = super::tools::Table::of(&place.ok("solve scenarios/crank_rocker.toml"));
     let figure = |text: &str| figures.iter().find(|own| own["figure"] == text).unwrap_or_else(|| panic!("{text}"));
-    let torque = solved.column("drive.torque_N_m").iter().fold(0.0f64, |most, own| most.max(own.abs()));
+    let torque = solved.column("drive.torque_N_m").iter().fold(0.0f64, |most, own| most.larger(own.abs()));
     let found = figure("maxabs:drive.torque_N_m");
     assert_eq!(found["value"].as_f64(), Some(torque));
     assert_eq!((&found["unit"], found["at"].as_array().unwrap().len()), (&Value::from("N m"), 1));
     let [x, y] = ["fx_N", "fy_N"].map(|name| solved.column(&format!("joint.C.{name}")));
-    let force = x.iter().zip(&y).fold(0.0f64, |most, (x, y)| most.max(x.hypot(*y)));
+    let force = x.iter().zip(&y).fold(0.0f64, |most, (x, y)| most.larger(x.hypot(*y)));
     let found = figure("max:joint.C.f_N")["value"].as_f64().unwrap();
     assert!((found - force).abs() <= 1e-12 * force, "{found} {force}");
     assert_eq!(figure("range:link.rocker.angle_deg")["at"].as_array().unwrap().len(), 2);

@@ -2,6 +2,7 @@
 //! They follow from the reference's trajectory alone, so they need no further solution.
 
 use super::Proof;
+use super::reported_figure::ReportedFigure;
 use crate::sentences;
 use linkage::case::Case;
 use linkage::drive::Drive;
@@ -22,22 +23,6 @@ const MOST: usize = 10;
 const ROUNDING: f64 = 1e-9;
 /// From this range on (deg), a link counts as turning fully.
 const FULL_TURN: f64 = 359.9;
-
-/// A figure of a proven motion.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ReportedFigure {
-    /// The figure in words; the text of the figure if the file requests it.
-    pub label: String,
-    /// The figure, as sweeps and files write it.
-    pub figure: String,
-    /// Value, in `unit`.
-    pub value: f64,
-    /// Unit; empty for a number without a unit.
-    pub unit: String,
-    /// Rows of the reference's grid at which the figure occurs; for a range, those of the largest and of the smallest
-    /// value. Empty for a mean.
-    pub rows: Vec<usize>,
-}
 
 /// A usual figure: its words, its text, and its unit if the text has none.
 struct Usual {
