@@ -100,7 +100,7 @@ fn a_file_chooses_its_figures() {
     let markdown = fs::read_to_string(place.path("out.md")).unwrap();
     assert!(markdown.contains("\n| max:joint.A.f_N | "), "{markdown}");
     // Of the chosen figures, those remain that the requested channels allow.
-    let only = place.ok("run scenarios/chosen.toml --no-record --only joint.A.fx_N,joint.A.fy_N");
+    let only = place.ok("run scenarios/chosen.toml --no-record --only joint.A");
     assert!(only.contains("max:joint.A.f_N  ") && !only.contains("at_max:point.D.y_mm"), "{only}");
 }
 
@@ -108,8 +108,8 @@ fn a_file_chooses_its_figures() {
 fn a_wrong_figure_is_refused_with_its_place_and_the_way_out() {
     let place = Place::new();
     for (figures, words) in [
-        ("[\"maxabs:drive.torque_Nm\"]", ["drive.torque_Nm", "did you mean \"drive.torque_N_m\""]),
-        ("[\"most:drive.torque_N_m\"]", ["most", "did you mean `max`"]),
+        ("[\"maxabs:drive.torque_Nm\"]", ["drive.torque_Nm", "did you mean `drive.torque_N_m`"]),
+        ("[\"most:drive.torque_N_m\"]", ["most", "allowed here: `max`"]),
         ("[\"reach_to\"]", ["does not follow from the solution", "name figures such as"]),
         ("[\"verdict:none\"]", ["no formula `none`", ""]),
         ("[]", ["the list of figures is empty", "leave the section out"]),
