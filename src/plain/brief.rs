@@ -75,6 +75,7 @@ pub fn agreement(proof: &Proof) -> Option<String> {
     });
     let open = all.iter().filter(is_open).count();
     Some(match open {
+        0 if all.len() == 1 => sentences::the_only_one_agrees(&parties, &largest),
         0 => sentences::all_agree(&parties, &all.len(), &largest),
         _ => sentences::most_agree(&parties, &(all.len() - open), &all.len(), &largest),
     })

@@ -222,12 +222,16 @@ pub(crate) fn of(order: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::slice::from_ref;
 
     #[test]
     fn carets_stand_below_the_marked_parts_of_each_line() {
-        assert_eq!(marked("x = ", "a + b*c", &[2..3], None), "x = a + b*c\n      ^");
+        assert_eq!(marked("x = ", "a + b*c", from_ref(&(2..3)), None), "x = a + b*c\n      ^");
         assert_eq!(marked("x = ", "a + b*c", &[0..1, 6..7], None), "x = a + b*c\n    ^     ^");
-        assert_eq!(marked("x = ", "aaa + bbb + ccc", &[6..9], Some(9)), "x = aaa +\n    bbb +\n    ^^^\n    ccc");
+        assert_eq!(
+            marked("x = ", "aaa + bbb + ccc", from_ref(&(6..9)), Some(9)),
+            "x = aaa +\n    bbb +\n    ^^^\n    ccc"
+        );
         assert_eq!(marked("x = ", "a +\n b", &[], None), "x = a +  b");
     }
 }

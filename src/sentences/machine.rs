@@ -3,6 +3,7 @@
 linkage::sentences! {
     // plain/brief.rs
     all_agree(parties, all, largest) = "{parties} agree in all {all} quantities{largest}.";
+    the_only_one_agrees(parties, largest) = "{parties} agree in the only quantity{largest}.";
     most_agree(parties, agree, all, largest) = "{parties} agree in {agree} of {all} quantities, and the others could not be decided{largest}.";
     the_largest_difference(share, channel) = "; the largest difference is {share} of the range of {channel}";
     both_sides_and(engines) = "Both analytic solutions and {engines}";

@@ -30,6 +30,7 @@ mod planted;
 mod planted_forces;
 mod problem;
 mod reported;
+mod reported_figure;
 mod runs;
 mod sensitivity;
 mod settle;
@@ -45,7 +46,7 @@ pub use ledger::{Ledger, LedgerEntry};
 pub use options::Options;
 pub use parties::Dispute;
 pub use problem::Problem;
-pub use reported::ReportedFigure;
+pub use reported_figure::ReportedFigure;
 pub use settle::BUDGET;
 
 use crate::bounds::{Check, Verdict, overall};

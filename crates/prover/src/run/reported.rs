@@ -2,6 +2,7 @@
 //! They follow from the reference's trajectory alone, so they need no further solution.
 
 use super::Proof;
+use super::reported_figure::ReportedFigure;
 use crate::sentences;
 use linkage::case::Case;
 use linkage::drive::Drive;
@@ -18,24 +19,10 @@ const OUTPUTS: usize = 2;
 const JOINTS: usize = 3;
 /// Largest number of usual figures.
 const MOST: usize = 10;
+/// A joint force below this fraction of the largest one counts as zero.
+const ROUNDING: f64 = 1e-9;
 /// From this range on (deg), a link counts as turning fully.
 const FULL_TURN: f64 = 359.9;
-
-/// A figure of a proven motion.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ReportedFigure {
-    /// The figure in words; the text of the figure if the file requests it.
-    pub label: String,
-    /// The figure, as sweeps and files write it.
-    pub figure: String,
-    /// Value, in `unit`.
-    pub value: f64,
-    /// Unit; empty for a number without a unit.
-    pub unit: String,
-    /// Rows of the reference's grid at which the figure occurs; for a range, those of the largest and of the smallest
-    /// value. Empty for a mean.
-    pub rows: Vec<usize>,
-}
 
 /// A usual figure: its words, its text, and its unit if the text has none.
 struct Usual {
@@ -156,6 +143,9 @@ impl Proof {
         };
         let mut found: Vec<ReportedFigure> = joints.filter_map(force).collect();
         found.sort_by(|a, b| b.value.total_cmp(&a.value));
+        // A force that is zero except for rounding tells nothing.
+        let least = ROUNDING * found.first().map_or(0.0, |own| own.value);
+        found.retain(|own| own.value > least);
         found.truncate(JOINTS);
         let transmissions = self.scene.case.mechanism.transmissions().iter().take(1);
         found.extend(transmissions.filter_map(|own| {

@@ -31,6 +31,10 @@ fn differing(text: &str, written: &FormulaTree, right: &FormulaTree, found: &mut
     if is_same(written, right) {
         return;
     }
+    // The whole part stays, and something is put around it: a sign, a factor, a term.
+    if right.parts().iter().any(|part| is_same(part, written)) {
+        return found.push(FormulaMark { at: written.at.clone(), right: right.to_string() });
+    }
     let parts = || written.parts().iter().zip(right.parts());
     let mut put = |at: Range<usize>, right: String| found.push(FormulaMark { at, right });
     match (&written.shape, &right.shape) {
@@ -43,6 +47,19 @@ fn differing(text: &str, written: &FormulaTree, right: &FormulaTree, found: &mut
                 Some(sign) => put(gap.start + sign..gap.start + sign + 1, other.sign().to_string()),
                 None => put(written.at.clone(), right.to_string()),
             }
+        }
+        // A term or factor too many is marked with its sign.
+        (NodeShape::Pair(own, ends), _) if ends.iter().any(|end| is_same(end, right)) => {
+            let gap = ends[0].at.end..ends[1].at.start;
+            let sign = text.get(gap.clone()).and_then(|between| between.find(own.sign())).map(|sign| gap.start + sign);
+            put(
+                match sign {
+                    Some(sign) if is_same(&ends[0], right) => sign..ends[1].at.end,
+                    Some(sign) => ends[0].at.start..sign + 1,
+                    None => written.at.clone(),
+                },
+                if sign.is_some() { String::new() } else { right.to_string() },
+            );
         }
         (NodeShape::Pair(own, _), NodeShape::Pair(other, _)) if own == other => {
             parts().for_each(|(a, b)| differing(text, a, b, found));
@@ -91,6 +108,9 @@ mod tests {
         assert_eq!(marked("a*sin(b)", "b*sin(a)"), pairs(&[("a", "b"), ("b", "a")]));
         assert_eq!(marked("1 + 2*x", "1 + 3*x"), pairs(&[("2", "3")]));
         assert_eq!(marked("c - -b", "c - b"), pairs(&[("-", "")]));
+        assert_eq!(marked("-r*sin(x)", "-r*sin(x)*w"), pairs(&[("-r*sin(x)", "-r*sin(x)*w")]));
+        assert_eq!(marked("2*(a + b)", "2*a"), pairs(&[("+ b", "")]));
+        assert_eq!(marked("a*b - c", "b - c"), pairs(&[("a*", "")]));
         assert_eq!(marked("x + y", "x + y"), pairs(&[]));
     }
 }
