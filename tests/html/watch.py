@@ -84,10 +84,10 @@ class Page:
         newest = "() => (shownPage === null || frames[0].contentWindow.location.search === `?n=${shownPage}`)"
         self.page.wait_for_function(newest, timeout=PATIENCE)
 
-    def shown(self, stage, since):
-        """Waits for a picture of this stage that became visible after the time `since` (s), and returns its delay (s)."""
-        wanted = "([stage, since]) => (window.linkproofShown.find((own) => own.stage === stage && own.at > since) || {}).at"
-        return self.page.wait_for_function(wanted, arg=[stage, since * 1e3], timeout=PATIENCE).json_value() / 1e3 - since
+    def shown(self, stages, since):
+        """Waits for a picture of one of these stages that became visible after the time `since` (s), and returns its delay (s)."""
+        wanted = "([stages, since]) => (window.linkproofShown.find((own) => stages.includes(own.stage) && own.at > since) || {}).at"
+        return self.page.wait_for_function(wanted, arg=[stages, since * 1e3], timeout=PATIENCE).json_value() / 1e3 - since
 
     def text(self):
         return self.page.evaluate("document.getElementById('text').value")
@@ -183,17 +183,17 @@ def main(linkproof, chromium, directory):
         with watched(linkproof, file) as address:
             page = Page(browser, address)
             page.status("AGREE")
-            times = {"moving": [], "judged": []}
+            times = {"moving solved judged": [], "judged": []}
             for number in range(11):
                 since = time.time()
                 file.write_text(given + f"# {number}\n")
-                for stage, all_times in times.items():
-                    all_times.append(page.shown(stage, since))
+                for stages, all_times in times.items():
+                    all_times.append(page.shown(stages.split(), since))
                 time.sleep(0.2)
             page.page.screenshot(path=pictures / "watch_ov7_base.png")
             need(not page.faults, f"messages of the browser: {page.faults[:3]}")
-            for stage, all_times in times.items():
-                print(f"watch: ov7_base from saving to {'the new picture' if stage == 'moving' else 'the verdict'}: median {1e3 * statistics.median(all_times):.0f} ms")
+            for stages, all_times in times.items():
+                print(f"watch: ov7_base from saving to {'the verdict' if stages == 'judged' else 'the new picture'}: median {1e3 * statistics.median(all_times):.0f} ms")
         browser.close()
     print("watch: edit, mistake, slider, drag, keep, 30 saves, missing file, two files and strangers pass")
 

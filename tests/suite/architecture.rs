@@ -66,7 +66,7 @@ const CRATES: &[(&str, &str, &str, &str)] = &[
         "linkproof",
         "",
         "analytic columns design drawing files formula lab linkage prover recording scenario sweep",
-        "annotate-snippets anstream anstyle base64 clap clap_complete clap_mangen comfy-table csv ctrlc include_dir indicatif libtest-mimic quick-xml serde serde_json terminal_size textwrap tungstenite",
+        "annotate-snippets anstream anstyle base64 clap clap_complete clap_mangen comfy-table csv ctrlc include_dir indicatif libtest-mimic quick-xml serde serde_json terminal_size textwrap tiny_http tungstenite",
     ),
 ];
 
@@ -190,6 +190,7 @@ const HOMES: &[(&str, &str)] = &[
     ("indicatif", "linkproof::cli"),
     // Only the command line uses the network and the clock.
     ("ctrlc", "linkproof::cli"),
+    ("tiny_http", "linkproof::cli"),
     ("tungstenite", "linkproof::cli"),
     ("TcpListener", "linkproof::cli"),
     ("TcpStream", "linkproof::cli"),

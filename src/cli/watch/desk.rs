@@ -11,7 +11,8 @@ use serde_json::{Value, json};
 pub(super) struct Outcome {
     /// Number of the draft.
     pub(super) draft: u64,
-    /// `wrong` (with a picture of what can be drawn), `moving` (solved analytically) or `judged`.
+    /// `wrong` (with a picture of what can be drawn), `moving` (positions), `solved` (all channels, analytically) or
+    /// `judged`.
     pub(super) stage: &'static str,
     /// Mistakes with their places.
     pub(super) errors: Vec<Value>,
@@ -45,6 +46,11 @@ pub(super) struct Desk {
     pub(super) file: PathBuf,
     state: Mutex<State>,
     changed: Condvar,
+}
+
+/// How much a stage tells about a draft.
+fn rank(stage: &str) -> usize {
+    ["read", "moving", "solved", "judged", "wrong"].iter().position(|own| *own == stage).unwrap_or(0)
 }
 
 /// Longest time for which a request waits for a change.
@@ -103,10 +109,14 @@ impl Desk {
         (state.draft, Arc::clone(&state.text))
     }
 
-    /// Shows results, unless a newer draft exists.
+    /// Shows results, unless a newer draft or more is known.
     pub(super) fn publish(&self, outcome: Outcome) {
-        if self.state().draft == outcome.draft {
-            self.change(|state| (state.page_since, state.outcome) = (state.version, outcome));
+        let mut state = self.state();
+        let known = (state.outcome.draft, rank(state.outcome.stage));
+        if state.draft == outcome.draft && (outcome.draft, rank(outcome.stage)) > known {
+            state.version += 1;
+            (state.page_since, state.outcome) = (state.version, outcome);
+            self.changed.notify_all();
         }
     }
 

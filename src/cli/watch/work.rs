@@ -52,9 +52,16 @@ pub(super) fn move_drafts(desk: &Desk) {
     loop {
         let (draft, text) = desk.next_draft(done, |_| true);
         done = draft;
-        let outcome = guarded(|| moved(&text, &desk.file)).unwrap_or_else(|_| Err(internal()));
-        let outcome = outcome.unwrap_or_else(|error| failed(&text, &desk.file, error));
-        desk.publish(Outcome { draft, ..outcome });
+        // The positions alone first, because their page is small.
+        for stage in ["moving", "solved"] {
+            let outcome = guarded(|| moved(&text, &desk.file, stage)).unwrap_or_else(|_| Err(internal()));
+            let outcome = outcome.unwrap_or_else(|error| failed(&text, &desk.file, error));
+            let is_wrong = outcome.stage == "wrong";
+            desk.publish(Outcome { draft, ..outcome });
+            if is_wrong {
+                break;
+            }
+        }
     }
 }
 
@@ -62,7 +69,7 @@ pub(super) fn move_drafts(desk: &Desk) {
 pub(super) fn prove_drafts(desk: &Desk) {
     let mut done = 0;
     loop {
-        let is_ready = |outcome: &Outcome| outcome.stage == "moving" && outcome.draft > done;
+        let is_ready = |outcome: &Outcome| ["moving", "solved"].contains(&outcome.stage) && outcome.draft > done;
         let (draft, text) = desk.next_draft(done, is_ready);
         let before = desk.outcome();
         if before.draft != draft {
@@ -81,16 +88,17 @@ fn internal() -> Error {
     Error::new(ErrorKind::Unsupported, sentences::AN_INTERNAL_ERROR).help(sentences::REPORT_THE_FILE)
 }
 
-/// The page of a scenario that is solved analytically.
-fn moved(text: &str, file: &Path) -> Result<Outcome> {
-    let scenario = Scenario::parse(text, file)?;
+/// The page of a scenario that is solved analytically: its positions (`moving`) or all its channels (`solved`).
+fn moved(text: &str, file: &Path, stage: &'static str) -> Result<Outcome> {
+    let whole = Scenario::parse(text, file)?;
+    let scenario = if stage == "moving" { whole.only(&["positions".into()])? } else { whole };
     let proof = Proof::unjudged(&scenario)?;
     let reduced = Err(sentences::IT_IS_SHOWN_WITH_THE_VERDICT.into());
     let beside = Beside { given: text, settings: &BTreeMap::new(), reduced };
     let page = html::watched(&proof, &beside, Some(sentences::THE_PROOF_RUNS), advice::told);
     let points = &scenario.case.mechanism.links()[GROUND].points;
     Ok(Outcome {
-        stage: "moving",
+        stage,
         page: Arc::new(page),
         parameters: parameters(text),
         ground: points.iter().map(|point| json!([point.name, point.local.x, point.local.y])).collect(),

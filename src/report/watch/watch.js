@@ -7,6 +7,8 @@ const [text, status, keep, reload] = ['text', 'status', 'keep', 'reload'].map(by
 window.linkproofShown = [];
 window.linkproofGround = [];
 
+/** Delay (ms) of a text that was saved elsewhere. */
+const LATER = 150;
 let saved = null;
 let version = 0;
 let state = null;
@@ -29,7 +31,12 @@ function take(answer) {
   tellKept();
 }
 
+/** The text as the program has set it last. */
+let base = '';
+
 function setText(now) {
+  base = now;
+  if (text.value === now) return;
   const { selectionStart, selectionEnd, scrollTop } = text;
   text.value = now;
   text.setSelectionRange(Math.min(selectionStart, now.length), Math.min(selectionEnd, now.length));
@@ -46,17 +53,28 @@ function tellKept() {
   keep.disabled = text.value === saved && !(state && state.isMissing);
 }
 
+let numbered = '';
 function numberLines() {
   const wrong = new Set(((state && state.errors) || []).filter((own) => own.place).map((own) => own.place.line));
   const count = text.value.split('\n').length;
+  const now = [count, ...wrong].join();
+  if (now === numbered) return;
+  numbered = now;
   const lines = byId('lines');
   lines.replaceChildren();
+  let run = '';
   for (let line = 1; line <= count; line += 1) {
+    if (!wrong.has(line)) {
+      run += `${line}\n`;
+      continue;
+    }
     const own = document.createElement('span');
     own.textContent = `${line}\n`;
-    if (wrong.has(line)) own.className = 'wrong';
-    lines.append(own);
+    own.className = 'wrong';
+    lines.append(run, own);
+    run = '';
   }
+  lines.append(run);
   lines.scrollTop = text.scrollTop;
 }
 
@@ -155,23 +173,25 @@ function showPage(page, stamp) {
 function show(now) {
   state = now;
   window.linkproofGround = now.ground;
+  const isCurrent = now.shown === now.draft;
+  if (isCurrent) showPage(now.page, now);
   if (typeof now.text === 'string') {
-    const isEdited = saved !== null && text.value !== saved;
+    const delay = saved === null ? 0 : LATER;
+    const isEdited = saved !== null && text.value !== base;
     saved = now.text;
     reload.hidden = !isEdited || text.value === saved;
-    if (!isEdited) setText(saved);
+    // The picture comes first.
+    if (!isEdited) setTimeout(() => { if (text.value === base) setText(saved); tellKept(); }, delay);
   }
-  const isCurrent = now.shown === now.draft;
   if (now.isMissing) say('the file is missing: save it again, or keep the draft', 'wrong');
   else if (!isCurrent) say('solving', '');
   else if (now.stage === 'wrong') say(`${now.errors.length} ${now.errors.length === 1 ? 'mistake' : 'mistakes'}`, 'wrong');
-  else if (now.stage === 'moving') say('solved; the proof is running', '');
+  else if (now.stage === 'moving' || now.stage === 'solved') say('solved; the proof is running', '');
   else if (now.verdict) say(WORDS[now.verdict] || now.verdict, now.verdict);
   else if (now.stage === 'judged') say('the proof has failed', 'wrong');
   if (isCurrent) {
     showErrors(now.errors);
     showParameters(now.parameters);
-    showPage(now.page, now);
     // Without a page of this draft, the old one stays, but pale.
     byId('right').classList.toggle('stale', now.page === null);
   }
