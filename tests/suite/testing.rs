@@ -63,7 +63,7 @@ fn a_disagreement_fails_at_the_test_line_with_the_report() {
     assert_eq!(first, "crank_rocker is not proven: disagree");
     let proof = Proving::of(&path).only(["velocities"]).prove().unwrap();
     assert_eq!(report, proof.report());
-    assert!(report.contains("DISAGREE: ") && report.contains("w as link.crank.omega_rad_s"), "{report}");
+    assert!(report.contains("DISAGREE: ") && report.contains("is not link.crank.omega_rad_s"), "{report}");
     let line = line!() + 1;
     let (again, at) = failure(|| drop(proof.assert()));
     assert_eq!((again, at), (message, (file!().to_string(), line)));

@@ -78,8 +78,8 @@ fn a_draft_is_solved_judged_changed_and_kept() {
     let place = Place::empty();
     place.ok("new four-bar");
     let watched = Watched::of(place, "four_bar.toml");
+    let given = watched.state(|_| true)["text"].as_str().unwrap().to_string();
     let state = watched.state(is_judged);
-    let given = state["text"].as_str().unwrap().to_string();
     assert_eq!((&state["verdict"], &state["isKept"]), (&json!("agree"), &json!(true)));
     assert_eq!(state["parameters"][0], json!({ "key": "crank_mm", "value": 40.0 }));
     assert_eq!(state["ground"], json!([["O", 0.0, 0.0], ["C", 0.1, 0.0]]));

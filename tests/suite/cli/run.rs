@@ -45,7 +45,7 @@ fn both_scenarios_agree_and_the_json_is_as_documented() {
     for run in document["runs"].as_array().unwrap() {
         assert_eq!(
             keys(run),
-            "checks:array engines:array left_out:object reason:null reference:object scenario:text structure:text title:text verdict:text work:array"
+            "checks:array engines:array figures:array left_out:object machine:object reason:null reference:object scenario:text structure:text title:text verdict:text work:array"
         );
         assert_eq!(run["verdict"], "agree");
         assert_eq!(keys(&run["reference"]), "from_s:number name:text samples:number to_s:number");
@@ -221,7 +221,7 @@ fn a_wrong_published_number_disagrees_by_name() {
     let outcome = place.run("run scenarios/wrong.toml --no-record");
     assert_eq!(outcome.code, 1, "{}", outcome.stderr);
     assert!(outcome.stdout.contains("DISAGREE: 2 of "), "one for each side: {}", outcome.stdout);
-    assert!(outcome.stdout.contains("(newton), reduced_resistance_mean_N_m: 3.2"), "{}", outcome.stdout);
+    assert!(outcome.stdout.contains("(assur), reduced_resistance_mean_N_m: 3.2"), "{}", outcome.stdout);
 
     // A table cell is changed by three units of its last digit.
     place.edited("ov7_base.toml", "wrong.toml", &[]);

@@ -121,7 +121,7 @@ fn a_ratio_used_twice_is_recognised() {
     };
     assert_eq!(check("(M0-R/i)/(slope*i)").code, 0);
     for (formula, words) in [
-        ("(M0-R/i^2)/(slope*i)", "a power, in formula: `i` instead of `i^2`"),
+        ("(M0-R/i^2)/(slope*i)", "a power: `^2` too many"),
         ("(M0-R/i/i)/(slope*i)", "a missing factor, in formula: `* i` beside `R/i/i`"),
     ] {
         let wrong = check(formula);

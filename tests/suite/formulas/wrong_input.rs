@@ -115,7 +115,8 @@ fn errors_in_a_file_are_shown_at_their_position() {
     let outcome = place.run("run mine.toml --no-record");
     assert_eq!(outcome.code, 1, "{}", outcome.stdout);
     assert!(
-        outcome.stdout.contains("x as link.crank.angle_rad") && outcome.unbroken().contains("a factor, in x"),
+        outcome.stdout.contains("is not link.crank.angle_rad")
+            && outcome.unbroken().contains("a factor: right would be `2*phi/2`"),
         "{}",
         outcome.stdout
     );

@@ -150,7 +150,8 @@ fn allowed_text_breaks_no_output() {
     let lines = |file: &str| {
         let told = place.ok(&format!("run {file}.toml --record out"));
         assert!(!told.replace('\n', "").contains(is_unseen));
-        told.lines().count()
+        // Long names continue on indented lines.
+        told.lines().filter(|line| !line.starts_with(' ')).count()
     };
     assert_eq!(lines("plain"), lines("odd"));
     for file in ["plain", "odd"] {
