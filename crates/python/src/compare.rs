@@ -67,9 +67,8 @@ impl ComparisonWish {
         };
         let mut rule = ComparisonRule { by, interpolates, only, ..ComparisonRule::default() };
         rule.allowed.extend(mapping.allowed.iter().cloned());
-        let kinds: [(&str, fn(f64) -> Size); 3] =
-            [("absolute", Size::Absolute), ("relative", Size::Relative), ("of_value", Size::OfValue)];
-        for (given, kind) in allowed.into_iter().zip(kinds) {
+        let sizes: [fn(f64) -> Size; 3] = [Size::Absolute, Size::Relative, Size::OfValue];
+        for (given, kind) in allowed.into_iter().zip(["absolute", "relative", "of_value"].into_iter().zip(sizes)) {
             put(given, kind, &mut rule.allowed)?;
         }
         Ok(ComparisonWish { other, mapping, rule })

@@ -150,8 +150,9 @@ fn allowed_text_breaks_no_output() {
     let lines = |file: &str| {
         let told = place.ok(&format!("run {file}.toml --record out"));
         assert!(!told.replace('\n', "").contains(is_unseen));
-        // Long names continue on indented lines.
-        told.lines().filter(|line| !line.starts_with(' ')).count()
+        // Long names continue on indented lines. The power is a formula, which cannot contain such names.
+        let is_counted = |line: &&str| !line.starts_with(' ') && !line.starts_with("largest power");
+        told.lines().filter(is_counted).count()
     };
     assert_eq!(lines("plain"), lines("odd"));
     for file in ["plain", "odd"] {
