@@ -28,3 +28,6 @@ if [ $# -eq 0 ]; then
     set -- "$top"/scenarios/*.toml
 fi
 "$environment/bin/python" "$here/check.py" "$linkproof" "$CHROMIUM" "$pages" "$what" "$@"
+if [ "$what" = everything ]; then
+    "$environment/bin/python" "$here/watch.py" "$linkproof" "$CHROMIUM" "$pages"
+fi
