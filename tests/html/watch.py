@@ -81,7 +81,7 @@ class Page:
         wanted = "(words) => document.getElementById('status').textContent.startsWith(words)"
         self.page.wait_for_function(wanted, arg=words, timeout=PATIENCE)
         # The frame follows a moment later.
-        newest = "() => (shownPage === null || frames[0].contentWindow.location.search === `?n=${shownPage}`)"
+        newest = "() => loading === null && awaited === null && (shownPage === null || frames[0].contentWindow.location.search === `?n=${shownPage}`)"
         self.page.wait_for_function(newest, timeout=PATIENCE)
 
     def shown(self, stages, since):

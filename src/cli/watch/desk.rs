@@ -39,7 +39,12 @@ struct State {
     disk_since: u64,
     outcome: Outcome,
     page_since: u64,
+    /// The last pages, with their versions. The browser may still be loading an older one.
+    pages: Vec<(u64, Arc<String>)>,
 }
+
+/// Number of pages that are kept.
+const PAGES: usize = 3;
 
 /// The state, shared by all threads.
 pub(super) struct Desk {
@@ -62,7 +67,8 @@ impl Desk {
         let text: Arc<str> = text.into();
         let disk = Some(Arc::clone(&text));
         let outcome = Outcome { stage: "read", ..Outcome::default() };
-        let state = State { version: 1, draft: 1, text, disk, disk_since: 1, outcome, page_since: 0 };
+        let state =
+            State { version: 1, draft: 1, text, disk, disk_since: 1, outcome, page_since: 0, pages: Vec::new() };
         Desk { file, state: Mutex::new(state), changed: Condvar::new() }
     }
 
@@ -116,6 +122,9 @@ impl Desk {
         if state.draft == outcome.draft && (outcome.draft, rank(outcome.stage)) > known {
             state.version += 1;
             (state.page_since, state.outcome) = (state.version, outcome);
+            let page = (state.version, Arc::clone(&state.outcome.page));
+            state.pages.insert(0, page);
+            state.pages.truncate(PAGES);
             self.changed.notify_all();
         }
     }
@@ -125,10 +134,10 @@ impl Desk {
         self.state().outcome.clone()
     }
 
-    /// The page of the version `since`, if it is the newest one.
+    /// The page of the version `since`, if it is one of the last ones.
     pub(super) fn page(&self, since: u64) -> Option<Arc<String>> {
         let state = self.state();
-        (state.page_since == since).then(|| Arc::clone(&state.outcome.page))
+        state.pages.iter().find(|(own, _)| *own == since).map(|(_, page)| Arc::clone(page))
     }
 
     /// Waits for a change after the version `after`, or for a while, and returns the state for the page.

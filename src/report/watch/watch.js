@@ -152,21 +152,38 @@ function showParameters(parameters) {
   }
 }
 
-/** Loads the newest page into the hidden frame, and exchanges the frames when it is there. */
+/** A page that is being loaded, and a newer one that waits for it. */
+let [loading, awaited] = [null, null];
+/** Longest time (ms) for which a newer page waits: an outdated page is never loaded. */
+const LOADING = 400;
+
+/** Loads a page into the hidden frame, and exchanges the frames when it is there. */
 function showPage(page, stamp) {
   if (page === null || page === shownPage) return;
+  if (loading !== null) {
+    awaited = [page, stamp];
+    return;
+  }
   shownPage = page;
   const [old, next] = frames;
+  const end = () => {
+    clearTimeout(loading);
+    [loading, next.onload] = [null, null];
+    if (awaited === null) return;
+    const newer = awaited;
+    awaited = null;
+    showPage(...newer);
+  };
   next.onload = () => {
-    if (page !== shownPage) return;
     const view = old.contentWindow.linkproofView ? old.contentWindow.linkproofView() : null;
     if (view !== null && next.contentWindow.linkproofShow) next.contentWindow.linkproofShow(view);
     next.classList.remove('waiting');
     old.classList.add('waiting');
     frames = [next, old];
-    next.onload = null;
     window.linkproofShown.push({ version: stamp.version, stage: stamp.stage, at: performance.timeOrigin + performance.now() });
+    end();
   };
+  loading = setTimeout(end, LOADING);
   next.src = `page?n=${page}`;
 }
 
