@@ -28,7 +28,7 @@ def test_scenario_files_are_tests(suite):
     result.assert_outcomes(passed=1, failed=2)
     told = result.stdout.str()
     assert "scenarios/right.toml::proven" in told and "wrong.toml::proven" in told and "other.toml" not in told
-    assert "DISAGREE" in told and "w as link.rod.omega_rad_s" in told
+    assert "DISAGREE" in told and "is not link.rod.omega_rad_s" in told
     assert "broken.toml:" in told and '"Q"' in told and "help:" in told
     assert "pytest_plugin.py" not in told
 

@@ -154,7 +154,7 @@ def test_faults_have_a_place_and_a_way_out(four_bar, tmp_path):
     refused(sweep({"crank_mm": (1, 2)}), "grid", key="vary")
     refused(sweep({}), "varied", key="vary")
     refused(sweep(grid, sobol=8), "samples", key="vary")
-    refused(sweep({"crank_mm": (30, 40)}, sobol=8, random=8), "one way", key="sobol")
+    refused(sweep({"crank_mm": (30, 40)}, sobol=8, random=8), "random", "latin", key="sobol")
     refused(sweep(grid, []), "no figure", key="figures")
     refused(sweep(grid, "biggest:drive.torque_N_m"), "max", key="figures")
     refused(sweep(grid, ["max:drive.torque_Nm"]), "drive.torque_Nm", key="figures")
