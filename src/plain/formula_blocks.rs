@@ -82,7 +82,7 @@ pub(crate) fn is_consequence(wrong: &BTreeSet<&str>, of: &Line) -> bool {
     of.judged.order > 0 && wrong.contains(of.judged.name.as_str())
 }
 
-/// A block for each wrong or open formula among `lines`; a wrong derivative of a wrong formula has no block of its own.
+/// A block for each wrong or open formula among `lines`; a wrong derivative of a wrong formula has no block.
 /// `with_findings`: whether formulas that are wrong as a finding says have a line too.
 pub(crate) fn blocks(
     lines: &[Line],

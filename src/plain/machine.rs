@@ -17,7 +17,7 @@ const SHOWN: usize = 12;
 /// Significant digits of numbers of the file.
 const DIGITS: usize = 4;
 
-/// The mechanism in rows: what is told, and the words.
+/// The mechanism in rows: the subject, and the words.
 #[must_use]
 pub fn rows(proof: &Proof) -> Vec<(&'static str, String)> {
     let case = &proof.scene.case;

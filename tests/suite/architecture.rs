@@ -174,8 +174,7 @@ const HOMES: &[(&str, &str)] = &[
     ("serde", "lab::stress linkproof::report sweep"),
     ("base64", "linkproof::report python::draw"),
     ("strsim", "scenario"),
-    // In the command line, only `watch` speaks JSON with its page.
-    ("serde_json", "lab::outside linkproof::cli linkproof::report sweep"),
+    ("serde_json", "lab::outside linkproof::report sweep"),
     // `scenario` reads tables of published numbers, `outside` reads tables of peers, and `tables` reads any table.
     // `report` writes tables.
     ("csv", "lab::outside linkproof::report scenario prover::tables"),

@@ -1,4 +1,4 @@
-//! `watch`: what the page is told, and that no draft ends the server.
+//! `watch`: the messages to the page, and that no draft ends the server.
 
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;

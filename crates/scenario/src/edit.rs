@@ -4,7 +4,7 @@ use crate::sentences;
 use toml_edit::{DocumentMut, Item, Table, TableLike, Value, value};
 
 use super::engine::{EngineSettings, ROWS, SECTIONS, Slot};
-use super::unit::{self, NamedUnit};
+use super::unit::{LENGTH, NamedUnit};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
 
@@ -34,13 +34,9 @@ pub fn parameters(text: &str) -> Result<Vec<(String, f64)>> {
 /// [`ErrorKind::Input`] if the text is not TOML, or if the parameter is missing or an expression.
 pub fn with_parameter(text: &str, key: &str, value: f64) -> Result<String> {
     let mut document = document(text)?;
-    let found = document.get_mut("parameters").and_then(|all| all.as_table_like_mut()).and_then(|all| all.get_mut(key));
-    match found.filter(|item| number(item).is_some()) {
-        Some(item) => put(item, value),
-        None => {
-            return Err(Error::new(ErrorKind::Input, sentences::no_plain_number(&format_args!("parameters.{key}"))));
-        }
-    }
+    let found = document.get_mut("parameters").and_then(Item::as_table_like_mut).and_then(|all| all.get_mut(key));
+    let missing = || Error::new(ErrorKind::Input, sentences::no_plain_number(&format_args!("parameters.{key}")));
+    put(found.filter(|item| number(item).is_some()).ok_or_else(missing)?, value);
     Ok(document.to_string())
 }
 
@@ -65,8 +61,7 @@ pub fn with_point(text: &str, link: &str, point: &str, [from, to]: [Vec2; 2]) ->
         if (new - old).abs() <= EQUAL * (old.abs() + new.abs()) {
             continue;
         }
-        let key = place.iter().find_map(|(key, _)| Some((key.to_string(), of_axis(key, axis)?)));
-        let (key, unit) = key.ok_or_else(missing)?;
+        let (key, unit) = length(place, axis).ok_or_else(missing)?;
         let item = place.get_mut(&key).ok_or_else(missing)?;
         let text = item.as_str().map(|text| text.trim().to_string());
         match text {
@@ -77,24 +72,19 @@ pub fn with_point(text: &str, link: &str, point: &str, [from, to]: [Vec2; 2]) ->
             }
         }
     }
-    for (name, length, place) in parameters {
+    for (name, size, place) in parameters {
         let expression = || Error::new(ErrorKind::Input, sentences::not_one_parameter(&place));
         let all = document.get_mut("parameters").and_then(Item::as_table_like_mut).ok_or_else(expression)?;
-        let key = all.iter().find_map(|(key, _)| {
-            let (_, unit) = unit::ending(key)?;
-            (key.strip_suffix(unit.suffix)?.strip_suffix('_') == Some(name.as_str())).then(|| (key.to_string(), unit))
-        });
-        let (key, unit) = key.ok_or_else(expression)?;
+        let (key, unit) = length(all, &name).ok_or_else(expression)?;
         let item = all.get_mut(&key).filter(|item| number(item).is_some()).ok_or_else(expression)?;
-        put(item, length / unit.to_si(1.0));
+        put(item, size / unit.to_si(1.0));
     }
     Ok(document.to_string())
 }
 
-/// The unit of a key for a coordinate, such as `x_mm`.
-fn of_axis(key: &str, axis: &str) -> Option<&'static NamedUnit> {
-    let (_, unit) = unit::ending(key)?;
-    (key.strip_suffix(unit.suffix)?.strip_suffix('_')? == axis).then_some(unit)
+/// The key of a length in a table, such as `x_mm` for `x`, and its unit.
+fn length(table: &dyn TableLike, name: &str) -> Option<(String, &'static NamedUnit)> {
+    table.iter().find_map(|(key, _)| Some((key.to_string(), LENGTH.unit_of(name, key)?)))
 }
 
 /// A plain number; `None` for anything else.

@@ -4,27 +4,14 @@ use std::path::PathBuf;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use serde_json::{Value, json};
+use crate::cli::advice;
+use crate::report::watch::{Outcome, Shown, state};
+use scenario::Scenario;
 
-/// Results about a draft.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Outcome {
-    /// Number of the draft.
-    pub(super) draft: u64,
-    /// `wrong` (with a picture of what can be drawn), `moving` (positions), `solved` (all channels, analytically) or
-    /// `judged`.
-    pub(super) stage: &'static str,
-    /// Mistakes with their places.
-    pub(super) errors: Vec<Value>,
-    /// The page of the mechanism.
-    pub(super) page: Arc<String>,
-    /// Word of the verdict, if judged.
-    pub(super) verdict: Option<&'static str>,
-    /// Parameters that are plain numbers.
-    pub(super) parameters: Vec<Value>,
-    /// Points of the ground: name and coordinates (m).
-    pub(super) ground: Vec<Value>,
-}
+/// Number of pages that are kept.
+const PAGES: usize = 3;
+/// Longest time for which a request waits for a change.
+const PATIENCE: Duration = Duration::from_secs(20);
 
 /// The state behind the page.
 struct State {
@@ -38,13 +25,11 @@ struct State {
     /// Version at which the text of the file last changed.
     disk_since: u64,
     outcome: Outcome,
-    page_since: u64,
-    /// The last pages, with their versions. The browser may still be loading an older one.
+    /// The last pages with their versions, the newest one first. The browser may still be loading an older one.
     pages: Vec<(u64, Arc<String>)>,
+    /// The newest draft that was read without mistakes, until its proof begins.
+    unproven: Option<(u64, Scenario)>,
 }
-
-/// Number of pages that are kept.
-const PAGES: usize = 3;
 
 /// The state, shared by all threads.
 pub(super) struct Desk {
@@ -53,22 +38,20 @@ pub(super) struct Desk {
     changed: Condvar,
 }
 
-/// How much a stage tells about a draft.
-fn rank(stage: &str) -> usize {
-    ["read", "moving", "solved", "judged", "wrong"].iter().position(|own| *own == stage).unwrap_or(0)
-}
-
-/// Longest time for which a request waits for a change.
-const PATIENCE: Duration = Duration::from_secs(20);
-
 impl Desk {
     /// A desk with the text of the file as its first draft.
     pub(super) fn of(file: PathBuf, text: String) -> Desk {
         let text: Arc<str> = text.into();
-        let disk = Some(Arc::clone(&text));
-        let outcome = Outcome { stage: "read", ..Outcome::default() };
-        let state =
-            State { version: 1, draft: 1, text, disk, disk_since: 1, outcome, page_since: 0, pages: Vec::new() };
+        let state = State {
+            version: 1,
+            draft: 1,
+            disk: Some(Arc::clone(&text)),
+            text,
+            disk_since: 1,
+            outcome: Outcome::default(),
+            pages: Vec::new(),
+            unproven: None,
+        };
         Desk { file, state: Mutex::new(state), changed: Condvar::new() }
     }
 
@@ -77,23 +60,34 @@ impl Desk {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn change(&self, change: impl FnOnce(&mut State)) -> u64 {
-        let mut state = self.state();
+    /// Waits for a change with which `find` returns something.
+    fn wait<T>(&self, mut find: impl FnMut(&mut State) -> Option<T>) -> T {
+        let mut found = None;
+        let waits = |state: &mut State| {
+            found = find(state);
+            found.is_none()
+        };
+        drop(self.changed.wait_while(self.state(), waits).unwrap_or_else(PoisonError::into_inner));
+        found.expect("the wait ends when it is found")
+    }
+
+    fn change(&self, mut state: MutexGuard<'_, State>, change: impl FnOnce(&mut State)) {
         state.version += 1;
         change(&mut state);
         self.changed.notify_all();
-        state.draft
     }
 
-    /// Takes the text of the file as the newest draft; `None` if the file is missing.
+    /// Takes the text of the file as the newest draft, unless it is the text of the draft; `None` if the file is
+    /// missing.
     pub(super) fn saw(&self, disk: Option<String>) {
         let disk: Option<Arc<str>> = disk.map(Into::into);
-        if self.state().disk == disk {
+        let state = self.state();
+        if state.disk == disk {
             return;
         }
-        self.change(|state| {
+        self.change(state, |state| {
             state.disk_since = state.version;
-            if let Some(text) = &disk {
+            if let Some(text) = disk.as_ref().filter(|text| **text != state.text) {
                 (state.draft, state.text) = (state.draft + 1, Arc::clone(text));
             }
             state.disk = disk;
@@ -102,90 +96,105 @@ impl Desk {
 
     /// Takes a text from the page as the newest draft, and returns the number of the draft.
     pub(super) fn put(&self, text: &str) -> u64 {
-        if *self.state().text == *text {
-            return self.state().draft;
+        let state = self.state();
+        if *state.text == *text {
+            return state.draft;
         }
-        self.change(|state| (state.draft, state.text) = (state.draft + 1, text.into()))
+        let draft = state.draft + 1;
+        self.change(state, |state| (state.draft, state.text) = (draft, text.into()));
+        draft
     }
 
-    /// Waits for a draft with a number above `after` for which `is_ready` holds.
-    pub(super) fn next_draft(&self, after: u64, is_ready: impl Fn(&Outcome) -> bool) -> (u64, Arc<str>) {
-        let waits = |state: &mut State| state.draft <= after || !is_ready(&state.outcome);
-        let state = self.changed.wait_while(self.state(), waits).unwrap_or_else(PoisonError::into_inner);
-        (state.draft, Arc::clone(&state.text))
+    /// Waits for a draft with a number above `after`.
+    pub(super) fn next_draft(&self, after: u64) -> (u64, Arc<str>) {
+        self.wait(|state| (state.draft > after).then(|| (state.draft, Arc::clone(&state.text))))
+    }
+
+    /// Leaves a draft for the proof, instead of an older one.
+    pub(super) fn leave(&self, draft: u64, scenario: Scenario) {
+        self.state().unproven = Some((draft, scenario));
+        self.changed.notify_all();
+    }
+
+    /// Waits for a draft for the proof.
+    pub(super) fn next_unproven(&self) -> (u64, Scenario) {
+        self.wait(|state| state.unproven.take())
     }
 
     /// Shows results, unless a newer draft or more is known.
     pub(super) fn publish(&self, outcome: Outcome) {
-        let mut state = self.state();
-        let known = (state.outcome.draft, rank(state.outcome.stage));
-        if state.draft == outcome.draft && (outcome.draft, rank(outcome.stage)) > known {
-            state.version += 1;
-            (state.page_since, state.outcome) = (state.version, outcome);
-            let page = (state.version, Arc::clone(&state.outcome.page));
-            state.pages.insert(0, page);
-            state.pages.truncate(PAGES);
-            self.changed.notify_all();
+        let state = self.state();
+        let is_news = (outcome.draft, outcome.stage) > (state.outcome.draft, state.outcome.stage);
+        if state.draft == outcome.draft && is_news {
+            self.change(state, |state| {
+                state.pages.insert(0, (state.version, Arc::clone(&outcome.page)));
+                state.pages.truncate(PAGES);
+                state.outcome = outcome;
+            });
         }
     }
 
-    /// The newest results.
-    pub(super) fn outcome(&self) -> Outcome {
-        self.state().outcome.clone()
+    /// The newest results about a draft; `None` if there is a newer draft.
+    pub(super) fn outcome(&self, draft: u64) -> Option<Outcome> {
+        Some(self.state().outcome.clone()).filter(|outcome| outcome.draft == draft)
     }
 
     /// The page of the version `since`, if it is one of the last ones.
     pub(super) fn page(&self, since: u64) -> Option<Arc<String>> {
         let state = self.state();
-        state.pages.iter().find(|(own, _)| *own == since).map(|(_, page)| Arc::clone(page))
+        state.pages.iter().find(|(version, _)| *version == since).map(|(_, page)| Arc::clone(page))
     }
 
     /// Waits for a change after the version `after`, or for a while, and returns the state for the page.
-    pub(super) fn told(&self, after: u64) -> Value {
+    pub(super) fn told(&self, after: u64) -> String {
         let waits = |state: &mut State| state.version <= after;
-        let (state, _) =
+        let (now, _) =
             self.changed.wait_timeout_while(self.state(), PATIENCE, waits).unwrap_or_else(PoisonError::into_inner);
-        let outcome = &state.outcome;
-        json!({
-            "version": state.version,
-            "draft": state.draft,
-            "shown": outcome.draft,
-            "stage": outcome.stage,
-            "errors": outcome.errors,
-            "verdict": outcome.verdict,
-            "parameters": outcome.parameters,
-            "ground": outcome.ground,
-            "page": (!outcome.page.is_empty()).then_some(state.page_since),
-            "isMissing": state.disk.is_none(),
-            "isKept": state.disk.as_ref() == Some(&state.text),
-            "text": (state.disk_since > after).then(|| state.disk.as_deref().unwrap_or(&state.text)),
-        })
+        let page = now.pages.first().filter(|(_, page)| !page.is_empty()).map(|(since, _)| *since);
+        let shown = Shown {
+            version: now.version,
+            draft: now.draft,
+            page,
+            is_missing: now.disk.is_none(),
+            is_kept: now.disk.as_ref() == Some(&now.text),
+            text: (now.disk_since > after).then(|| now.disk.as_deref().unwrap_or(&now.text)),
+        };
+        state(&shown, &now.outcome, advice::told)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::report::watch::DraftStage;
 
     #[test]
     fn results_of_older_drafts_are_dropped() {
         let desk = Desk::of("a.toml".into(), "one".into());
-        let of =
-            |draft| Outcome { draft, stage: "moving", page: Arc::new(format!("page {draft}")), ..Outcome::default() };
-        desk.publish(of(1));
-        assert_eq!(desk.told(0)["page"], 2);
+        let tells = |parts: &[&str]| {
+            let told = desk.told(0);
+            assert!(parts.iter().all(|part| told.contains(part)), "{parts:?}: {told}");
+        };
+        let of = |draft, stage| Outcome { draft, stage, page: Arc::new(format!("{draft}")), ..Outcome::default() };
+        desk.publish(of(1, DraftStage::Solved));
+        tells(&["\"page\":2"]);
+        desk.publish(of(1, DraftStage::Moving));
+        tells(&["\"stage\":\"solved\"", "\"page\":2"]);
         assert_eq!(desk.put("two"), 2);
         assert_eq!(desk.put("two"), 2);
-        desk.publish(of(1));
-        assert_eq!(desk.outcome().draft, 1);
-        assert_eq!(desk.next_draft(1, |_| true).1.as_ref(), "two");
-        desk.publish(of(2));
-        let told = desk.told(0);
-        assert_eq!((&told["shown"], &told["isKept"], &told["text"]), (&json!(2), &json!(false), &json!("one")));
+        desk.publish(of(1, DraftStage::Judged));
+        assert!(desk.outcome(2).is_none() && desk.outcome(1).unwrap().stage == DraftStage::Solved);
+        assert_eq!(desk.next_draft(1).1.as_ref(), "two");
+        desk.publish(of(2, DraftStage::Moving));
+        tells(&["\"shown\":2", "\"isKept\":false", "\"text\":\"one\""]);
+        assert_eq!(desk.page(2).unwrap().as_str(), "1");
         desk.saw(None);
-        assert_eq!(desk.told(0)["isMissing"], true);
+        tells(&["\"isMissing\":true"]);
+        // A file that becomes equal to the draft is no new draft.
+        desk.saw(Some("two".into()));
+        tells(&["\"draft\":2", "\"isKept\":true"]);
         desk.saw(Some("three".into()));
-        assert_eq!(desk.told(0)["text"], "three");
-        assert_eq!(desk.next_draft(2, |_| true).0, 3);
+        tells(&["\"text\":\"three\""]);
+        assert_eq!(desk.next_draft(2).0, 3);
     }
 }

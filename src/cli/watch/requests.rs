@@ -1,52 +1,34 @@
 //! Requests of the page that change the draft or the file.
 
-use std::io::Write;
-
-use serde_json::{Value, json};
-
 use super::desk::Desk;
-use files::OutputTarget;
+use crate::cli::output;
+use crate::report::watch::{Request, RequestKind, answer};
 use linkage::error::{Error, Result};
 use linkage::math::Vec2;
 use scenario::edit;
 
-/// Answers a request, with the number of the new draft, its text if the program has changed it, or an error in words.
-pub(super) fn answer(desk: &Desk, what: &str, body: &Value) -> Option<Value> {
-    let text = body["text"].as_str()?;
-    let changed = match what {
-        "draft" => Ok(None),
-        "keep" => kept(desk, text).map(|()| None),
-        "parameter" => edit::with_parameter(text, body["key"].as_str()?, body["value"].as_f64()?).map(Some),
-        "point" => moved(text, body["point"].as_str()?, body["places"].as_array()?).map(Some),
-        _ => return None,
+/// Carries out a request, and returns the answer.
+pub(super) fn answered(desk: &Desk, request: &Request) -> String {
+    let text = request.text.as_str();
+    let changed = match &request.kind {
+        RequestKind::Draft => Ok(None),
+        RequestKind::Keep => output::write(text, &desk.file).map(|()| None),
+        RequestKind::Parameter { key, value } => edit::with_parameter(text, key, *value).map(Some),
+        RequestKind::Point { name, places } => moved(text, name, places).map(Some),
     };
-    Some(match changed {
-        Ok(changed) => json!({ "draft": desk.put(changed.as_deref().unwrap_or(text)), "text": changed }),
-        Err(error) => json!({ "error": error.message(), "help": error.way_out() }),
-    })
-}
-
-/// Writes the draft to the file.
-fn kept(desk: &Desk, text: &str) -> Result<()> {
-    files::replace(&OutputTarget::Named(&desk.file), |mut to| to.write_all(text.as_bytes())).map_err(
-        |found: std::io::Error| {
-            let usual = crate::sentences::CHECK_THAT_THE_FILE_MAY_BE_WRITTEN;
-            files::unwritten(&desk.file.display().to_string(), &found, Some(text.len() as u64), usual)
-        },
-    )
+    match changed {
+        Ok(changed) => answer(Ok((desk.put(changed.as_deref().unwrap_or(text)), changed.as_deref()))),
+        Err(error) => answer(Err(&error)),
+    }
 }
 
 /// Moves a point on all its links.
-fn moved(text: &str, point: &str, places: &[Value]) -> Result<String> {
-    let at = |value: &Value| Some(Vec2::new(value[0].as_f64()?, value[1].as_f64()?));
+fn moved(text: &str, point: &str, places: &[(String, [Vec2; 2])]) -> Result<String> {
     let mut text = text.to_string();
     let mut refused: Option<Error> = None;
     let mut is_moved = false;
-    for place in places {
-        let (Some(link), Some(from), Some(to)) = (place["link"].as_str(), at(&place["from"]), at(&place["to"])) else {
-            continue;
-        };
-        match edit::with_point(&text, link, point, [from, to]) {
+    for (link, way) in places {
+        match edit::with_point(&text, link, point, *way) {
             Ok(changed) => (text, is_moved) = (changed, true),
             Err(error) => refused = Some(error),
         }

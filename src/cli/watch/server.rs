@@ -7,12 +7,11 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
-use serde_json::Value;
 use tiny_http::{Header, Method, Request, Response, Server};
 
 use super::desk::Desk;
 use super::requests;
-use crate::report::watch::{SCRIPT, shell};
+use crate::report::watch::{Request as Wish, SCRIPT, shell};
 
 /// Longest body of a request (bytes).
 const LARGEST: u64 = 4 << 20;
@@ -91,15 +90,15 @@ impl Door {
         match (request.method(), path) {
             (Method::Get, "/") => typed(shell(&desk.file.display().to_string()), "text/html; charset=utf-8"),
             (Method::Get, "/watch.js") => typed(SCRIPT.into(), "text/javascript; charset=utf-8"),
-            (Method::Get, "/state") => typed(desk.told(number()).to_string(), "application/json"),
+            (Method::Get, "/state") => typed(desk.told(number()), "application/json"),
             (Method::Get, "/page") => match desk.page(number()) {
                 Some(page) => typed(page.to_string(), "text/html; charset=utf-8"),
                 // A newer page exists. A browser leaves the frame as it is.
                 None => status(204),
             },
             (Method::Post, what) => {
-                let answer = body(request).and_then(|body| requests::answer(desk, what.strip_prefix('/')?, &body));
-                answer.map_or_else(|| status(400), |answer| typed(answer.to_string(), "application/json"))
+                let wish = body(request).and_then(|body| Wish::of(what.strip_prefix('/')?, &body));
+                wish.map_or_else(|| status(400), |wish| typed(requests::answered(desk, &wish), "application/json"))
             }
             _ => status(404),
         }
@@ -121,11 +120,11 @@ impl Door {
     }
 }
 
-/// The body of a request as JSON.
-fn body(request: &mut Request) -> Option<Value> {
+/// The body of a request.
+fn body(request: &mut Request) -> Option<String> {
     let mut text = String::new();
     request.as_reader().take(LARGEST).read_to_string(&mut text).ok()?;
-    serde_json::from_str(&text).ok()
+    Some(text)
 }
 
 fn status(code: u16) -> Answer {

@@ -7,27 +7,24 @@ use std::sync::Arc;
 use std::thread;
 use std::time::{Duration, Instant};
 
-use serde_json::{Value, json};
-
-use super::desk::{Desk, Outcome};
+use super::desk::Desk;
 use crate::cli::advice;
 use crate::cli::html::reduced;
 use crate::draw::{Drawn, Medium, PictureOptions, picture};
 use crate::report::html::{self, Beside};
-use crate::report::watch::picture_page;
+use crate::report::recorded;
+use crate::report::watch::{DraftStage, Outcome, picture_page};
 use crate::sentences;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::mechanism::GROUND;
 use linkage::quiet::guarded;
 use prover::run::{Options, Proof, prove};
-use scenario::{Draft, Scenario, StartRequest};
+use scenario::{Draft, Scenario, StartRequest, edit};
 
 /// Time between two looks at the file.
 const TICK: Duration = Duration::from_millis(5);
 /// The file is read at least this often, because an editor may keep length and time of change.
 const RELOOK: Duration = Duration::from_millis(500);
-/// Most mistakes on the page.
-const MOST: usize = 50;
 
 /// Follows the file.
 pub(super) fn follow(desk: &Desk) {
@@ -50,105 +47,82 @@ pub(super) fn follow(desk: &Desk) {
 pub(super) fn move_drafts(desk: &Desk) {
     let mut done = 0;
     loop {
-        let (draft, text) = desk.next_draft(done, |_| true);
+        let (draft, text) = desk.next_draft(done);
         done = draft;
-        // The positions alone first, because their page is small.
-        for stage in ["moving", "solved"] {
-            let outcome = guarded(|| moved(&text, &desk.file, stage)).unwrap_or_else(|_| Err(internal()));
-            let outcome = outcome.unwrap_or_else(|error| failed(&text, &desk.file, error));
-            let is_wrong = outcome.stage == "wrong";
-            desk.publish(Outcome { draft, ..outcome });
-            if is_wrong {
-                break;
-            }
+        let publish = |outcome: Outcome| desk.publish(Outcome { draft, ..outcome });
+        let moved = || {
+            let scenario = Scenario::parse(&text, &desk.file)?;
+            // The positions alone first, because their page is small.
+            let first = moved(&scenario.clone().only(&["positions".into()])?)?;
+            publish(Outcome { stage: DraftStage::Moving, ..first.clone() });
+            desk.leave(draft, scenario.clone());
+            let page = moved(&scenario)?.page;
+            publish(Outcome { stage: DraftStage::Solved, page, ..first });
+            Ok(())
+        };
+        if let Err(error) = stopped(moved) {
+            publish(failed(&text, &desk.file, error));
         }
     }
 }
 
-/// Proves the newest draft that could be solved, again and again.
+/// Proves the newest draft that could be read, again and again.
 pub(super) fn prove_drafts(desk: &Desk) {
-    let mut done = 0;
     loop {
-        let is_ready = |outcome: &Outcome| ["moving", "solved"].contains(&outcome.stage) && outcome.draft > done;
-        let (draft, text) = desk.next_draft(done, is_ready);
-        let before = desk.outcome();
-        if before.draft != draft {
-            continue;
-        }
-        done = draft;
-        let judged = guarded(|| judged(&text, &desk.file)).unwrap_or_else(|_| Err(internal()));
-        desk.publish(match judged {
-            Ok((page, verdict)) => Outcome { stage: "judged", page: Arc::new(page), verdict: Some(verdict), ..before },
-            Err(error) => Outcome { stage: "judged", errors: told(&error), ..before },
-        });
+        let (draft, scenario) = desk.next_unproven();
+        let judged = stopped(|| judged(&scenario));
+        let Some(before) = desk.outcome(draft) else { continue };
+        let outcome = match judged {
+            Ok((page, verdict)) => Outcome { page: Arc::new(page), verdict: Some(verdict), ..before },
+            Err(error) => Outcome { error: Some(error), ..before },
+        };
+        desk.publish(Outcome { stage: DraftStage::Judged, ..outcome });
     }
 }
 
-fn internal() -> Error {
-    Error::new(ErrorKind::Unsupported, sentences::AN_INTERNAL_ERROR).help(sentences::REPORT_THE_FILE)
+/// The result of a calculation; an error if it panics.
+fn stopped<T>(work: impl FnOnce() -> Result<T>) -> Result<T> {
+    let internal = || Error::new(ErrorKind::Unsupported, sentences::AN_INTERNAL_ERROR).help(sentences::REPORT_THE_FILE);
+    guarded(work).unwrap_or_else(|_| Err(internal()))
 }
 
-/// The page of a scenario that is solved analytically: its positions (`moving`) or all its channels (`solved`).
-fn moved(text: &str, file: &Path, stage: &'static str) -> Result<Outcome> {
-    let whole = Scenario::parse(text, file)?;
-    let scenario = if stage == "moving" { whole.only(&["positions".into()])? } else { whole };
-    let proof = Proof::unjudged(&scenario)?;
+/// The page of a scenario that is solved analytically.
+fn moved(scenario: &Scenario) -> Result<Outcome> {
+    let proof = Proof::unjudged(scenario)?;
     let reduced = Err(sentences::IT_IS_SHOWN_WITH_THE_VERDICT.into());
-    let beside = Beside { given: text, settings: &BTreeMap::new(), reduced };
+    let beside = Beside { given: &scenario.text, settings: &BTreeMap::new(), reduced };
     let page = html::watched(&proof, &beside, Some(sentences::THE_PROOF_RUNS), advice::told);
     let points = &scenario.case.mechanism.links()[GROUND].points;
     Ok(Outcome {
-        stage,
         page: Arc::new(page),
-        parameters: parameters(text),
-        ground: points.iter().map(|point| json!([point.name, point.local.x, point.local.y])).collect(),
+        parameters: edit::parameters(&scenario.text).unwrap_or_default(),
+        ground: points.iter().map(|point| (point.name.clone(), point.local)).collect(),
         ..Outcome::default()
     })
 }
 
 /// The page of a proof, and the word of its verdict.
-fn judged(text: &str, file: &Path) -> Result<(String, &'static str)> {
-    let scenario = Scenario::parse(text, file)?;
-    let proof = prove(&scenario, &Options::default())?;
-    let settings = crate::report::recorded::metadata(&proof);
-    let beside = Beside { given: text, settings: &settings, reduced: reduced(&scenario) };
+fn judged(scenario: &Scenario) -> Result<(String, &'static str)> {
+    let proof = prove(scenario, &Options::default())?;
+    let settings = recorded::metadata(&proof);
+    let beside = Beside { given: &scenario.text, settings: &settings, reduced: reduced(scenario) };
     Ok((html::watched(&proof, &beside, None, advice::told), proof.verdict.word()))
 }
 
 /// Mistakes of a file, and a picture of what can be drawn.
 fn failed(text: &str, file: &Path, error: Error) -> Outcome {
     let wish = PictureOptions::default();
-    let errors = told(&error);
     let drawn = || -> Result<Vec<u8>> {
         let draft = Draft::parse(text, file, &StartRequest::default())?;
-        let drawn = Drawn::of_draft(draft, &wish, Medium::Svg, error)?;
+        let drawn = Drawn::of_draft(draft, &wish, Medium::Svg, error.clone())?;
         picture(&[drawn], &wish, Medium::Svg)
     };
-    let svg = guarded(drawn).ok().and_then(Result::ok).and_then(|bytes| String::from_utf8(bytes).ok());
-    let page = svg.map(|svg| picture_page(&svg)).unwrap_or_default();
-    Outcome { stage: "wrong", errors, page: Arc::new(page), parameters: parameters(text), ..Outcome::default() }
-}
-
-/// Mistakes with line and column from 1, the length of the faulty text, and the way out.
-fn told(error: &Error) -> Vec<Value> {
-    let one = |error: &Error| {
-        let place = error.place().map(|place| {
-            let start = place.text.get(..place.span.start).unwrap_or_default();
-            let column = start.rsplit('\n').next().unwrap_or_default().encode_utf16().count() + 1;
-            let at = start.encode_utf16().count();
-            let length = place.text.get(place.span.clone()).unwrap_or_default().encode_utf16().count();
-            json!({ "line": place.line(), "column": column, "at": at, "length": length })
-        });
-        json!({
-            "key": error.scenario_key(), "message": error.message(),
-            "help": error.way_out_by(advice::told), "place": place,
-        })
-    };
-    error.each().take(MOST).map(one).collect()
-}
-
-/// Parameters that are plain numbers: key and number.
-fn parameters(text: &str) -> Vec<Value> {
-    let all = scenario::edit::parameters(text).unwrap_or_default();
-    all.into_iter().map(|(key, number)| json!({ "key": key, "value": number })).collect()
+    let svg = stopped(drawn).ok().and_then(|bytes| String::from_utf8(bytes).ok());
+    Outcome {
+        stage: DraftStage::Wrong,
+        page: Arc::new(svg.map(|svg| picture_page(&svg)).unwrap_or_default()),
+        parameters: edit::parameters(text).unwrap_or_default(),
+        error: Some(error),
+        ..Outcome::default()
+    }
 }

@@ -11,7 +11,7 @@ use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::assembly::transmission_sine;
 use linkage::mechanism::{GROUND, Group, JointKind, LinkId, LinkPose, Mechanism, Pose};
 use linkage::trajectory::Trajectory;
-use scenario::{CaseFigure, FigureKind, TRANSMISSION_ANGLE};
+use scenario::{CaseFigure, FigureKind, TRANSMISSION_ANGLE, TurnFigure};
 
 /// Largest number of output links, and of drives, in the usual figures.
 const OUTPUTS: usize = 2;
@@ -24,16 +24,15 @@ const ROUNDING: f64 = 1e-9;
 /// From this range on (deg), a link counts as turning fully.
 const FULL_TURN: f64 = 359.9;
 
-/// A usual figure: its words, its text, and its unit if the text has none.
+/// A usual figure: its words and its text.
 struct Usual {
     label: String,
     figure: String,
-    unit: &'static str,
 }
 
 impl Usual {
     fn of(label: String, figure: String) -> Usual {
-        Usual { label, figure, unit: "" }
+        Usual { label, figure }
     }
 }
 
@@ -44,11 +43,12 @@ impl Proof {
     pub fn figures(&self) -> Vec<ReportedFigure> {
         if !self.asked.is_empty() {
             let asked = self.asked.iter();
-            return asked.filter_map(|own| self.found(own, own.text.clone(), "")).collect();
+            return asked.filter_map(|own| self.found(own, own.text.clone())).collect();
         }
         let outputs = self.of_outputs();
-        let usual = of_drives(&self.scene.case).into_iter().filter_map(|own| self.usual(own));
-        let mut found: Vec<ReportedFigure> = outputs.into_iter().chain(usual).collect();
+        let drives = self.scene.case.drives.iter().enumerate().take(OUTPUTS);
+        let of_drives = drives.flat_map(|(number, drive)| self.of_drive(number, drive));
+        let mut found: Vec<ReportedFigure> = outputs.into_iter().chain(of_drives).collect();
         found.extend(self.of_joints());
         found.extend(self.usual(Usual::of(String::new(), TRANSMISSION_ANGLE.into())));
         found.extend(of_points(&self.scene.case.mechanism).into_iter().filter_map(|own| self.usual(own)));
@@ -57,14 +57,31 @@ impl Proof {
     }
 
     fn usual(&self, usual: Usual) -> Option<ReportedFigure> {
-        let found = self.found(&CaseFigure::unchecked(&usual.figure).ok()?, usual.label, usual.unit)?;
+        let found = self.found(&CaseFigure::unchecked(&usual.figure).ok()?, usual.label)?;
         // A quantity that is zero throughout, such as a force between massless links, tells nothing.
         (found.value != 0.0).then_some(found)
     }
 
-    fn found(&self, asked: &CaseFigure, label: String, unit: &str) -> Option<ReportedFigure> {
+    /// A figure of several channels (SI), combined instant by instant. A formula cannot contain every name of a link.
+    fn combined(
+        &self,
+        Usual { label, figure }: Usual,
+        unit: &str,
+        channels: &[String],
+        combine: fn(&[f64]) -> f64,
+    ) -> Option<ReportedFigure> {
+        let run = &self.reference_trajectory;
+        let columns = channels.iter().map(|name| run.named(name)).collect::<Option<Vec<_>>>()?;
+        let at = |row: usize| combine(&columns.iter().map(|column| column[row]).collect::<Vec<_>>());
+        let values: Vec<f64> = (0..run.times().len()).map(at).collect();
+        let found = figure.parse::<TurnFigure>().ok()?.of(run, &values).ok()?;
+        let reported = ReportedFigure { label, figure, value: found.value, unit: unit.into(), rows: found.rows };
+        (reported.value != 0.0).then_some(reported)
+    }
+
+    fn found(&self, asked: &CaseFigure, label: String) -> Option<ReportedFigure> {
         let (case, run) = (&self.scene.case, &self.reference_trajectory);
-        let unit = if unit.is_empty() { asked.unit(case, &self.formulas) } else { unit.into() };
+        let unit = asked.unit(case, &self.formulas);
         let figure = asked.text.clone();
         if asked.kind == FigureKind::TransmissionAngle {
             let (sine, row, dyad) = smallest_sine(case, run)?;
@@ -125,10 +142,12 @@ impl Proof {
         let swing = self.usual(Usual::of(sentences::swing_of(&name), format!("range:link.{name}.angle_deg")));
         let turns = swing.as_ref().is_some_and(|own| own.value >= FULL_TURN);
         let first = match turns && crank.input == Input::Angle && driving != name {
-            true => self.usual(Usual::of(
-                sentences::speed_ratio_of(&name, driving),
-                format!("mean:link.{name}.omega_rad_s / link.{driving}.omega_rad_s"),
-            )),
+            true => {
+                let speeds = [name, driving].map(|link| format!("link.{link}.omega_rad_s"));
+                let figure = format!("mean:{}", speeds.join(" / "));
+                let usual = Usual::of(sentences::speed_ratio_of(&name, driving), figure);
+                self.combined(usual, "", &speeds, |at| at[0] / at[1])
+            }
             false => swing,
         };
         let speed = Usual::of(sentences::top_speed_of(&name), format!("maxabs:link.{name}.omega_rad_s"));
@@ -154,21 +173,16 @@ impl Proof {
         }));
         found
     }
-}
 
-/// Largest moment or force of each drive, and its largest power.
-fn of_drives(case: &Case) -> Vec<Usual> {
-    let joints = case.mechanism.joints();
-    let each = |(number, drive): (usize, &Drive)| {
-        let joint = &joints[drive.joint];
-        let name = |link: LinkId| &case.mechanism.links()[link].name;
-        let (word, rate) = match drive.input {
-            Input::Slide => ("force_N", format!("joint.{}.slide_speed_m_s", joint.name)),
-            Input::Angle => ("torque_N_m", format!("link.{}.omega_rad_s", name(drive.link))),
-            Input::Turn => {
-                let [first, second] = [joint.first, joint.second].map(|side| name(side.link));
-                ("torque_N_m", format!("(link.{second}.omega_rad_s - link.{first}.omega_rad_s)"))
-            }
+    /// Largest moment or force of a drive, and its largest power.
+    fn of_drive(&self, number: usize, drive: &Drive) -> Vec<ReportedFigure> {
+        let mechanism = &self.scene.case.mechanism;
+        let joint = &mechanism.joints()[drive.joint];
+        let omega = |link: LinkId| format!("link.{}.omega_rad_s", mechanism.links()[link].name);
+        let (word, rates) = match drive.input {
+            Input::Slide => ("force_N", vec![format!("joint.{}.slide_speed_m_s", joint.name)]),
+            Input::Angle => ("torque_N_m", vec![omega(drive.link)]),
+            Input::Turn => ("torque_N_m", vec![omega(joint.second.link), omega(joint.first.link)]),
         };
         let effort = match number {
             0 => format!("drive.{word}"),
@@ -178,13 +192,16 @@ fn of_drives(case: &Case) -> Vec<Usual> {
             Input::Slide => sentences::driving_force_at(&joint.name),
             Input::Angle | Input::Turn => sentences::driving_torque_at(&joint.name),
         };
-        let power = format!("max:{effort} * {rate}");
-        [
-            Usual::of(told, format!("maxabs:{effort}")),
-            Usual { label: sentences::driving_power_at(&joint.name), figure: power, unit: "W" },
-        ]
-    };
-    case.drives.iter().enumerate().take(OUTPUTS).flat_map(each).collect()
+        let rate = match &rates[..] {
+            [one] => one.clone(),
+            all => format!("({})", all.join(" - ")),
+        };
+        let power = Usual::of(sentences::driving_power_at(&joint.name), format!("max:{effort} * {rate}"));
+        let largest = self.usual(Usual::of(told, format!("maxabs:{effort}")));
+        let channels = [vec![effort], rates].concat();
+        let product = |at: &[f64]| at[0] * (at[1] - at.get(2).unwrap_or(&0.0));
+        largest.into_iter().chain(self.combined(power, "W", &channels, product)).collect()
+    }
 }
 
 /// Extents of the path of a coupler point: a named point without a joint, on a link without a joint on the ground.

@@ -163,13 +163,13 @@ impl CaseBatch {
             groups.move_links(deepest, &mut tile, &mut work);
             if deepest >= Stage::Reactions {
                 groups.load_joints(&mut tile, &mut work);
+                tile.add_to(&mut doubt.0, groups.standstill(&tile));
             }
             for (group, first) in &groups.parts {
                 let Part::Dyad(dyad) = group else { unreachable!("a case batch has dyads only") };
                 let own = dyad.doubt(*pace, [CLEAR_SINE, CLEAR_CHANGE], &tile, &work, *first);
                 tile.add_to(&mut doubt.0, own);
             }
-            tile.add_to(&mut doubt.0, groups.standstill(&tile));
             for own in &mut *tallies {
                 own.add(index.unwrap_or(0) * TILE, &crank.angles, &tile);
             }
