@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use super::{advice, drive, output};
 use crate::report::drive_graphs;
-use crate::report::html::{self, Beside};
+use crate::report::html::{self, Beside, PAGE_BYTES};
 use analytic::range::explained;
 use analytic::reduced::ReducedModel;
 use design::diagram::Graphs;
@@ -60,7 +60,7 @@ impl Pages {
         proof: &Proof,
         settings: &BTreeMap<String, String>,
     ) -> Result<PathBuf> {
-        let beside = Beside { given: &scenario.text, settings, reduced: reduced(scenario) };
+        let beside = Beside { given: &scenario.text, settings, reduced: reduced(scenario), bytes: PAGE_BYTES };
         let page = html::page(proof, &beside, advice::told);
         let path = self.place(&scenario.name)?;
         if self.is_directory {

@@ -31,8 +31,9 @@ use thinned::Thinned;
 
 const TEMPLATE: &str = include_str!("html/page.html");
 const STYLE: &str = include_str!("html/page.css");
-/// A further part of the script under `linkproof watch`: points can be dragged, and the view is kept.
-const WATCHED: &str = include_str!("html/script/watched.js");
+/// Further parts of the script under `linkproof watch`: points can be dragged and the view is kept, and pages replace
+/// each other.
+const WATCHED: [&str; 2] = [include_str!("html/script/watched.js"), include_str!("html/script/taken.js")];
 /// The parts of the script; each part comes after the parts on which it depends.
 const SCRIPT: [&str; 9] = [
     include_str!("html/script/read.js"),
@@ -46,6 +47,9 @@ const SCRIPT: [&str; 9] = [
     include_str!("html/script/main.js"),
 ];
 
+/// Limit for the columns of a page, in bytes; the page then stays below 3 MB.
+pub(crate) const PAGE_BYTES: usize = 1_900_000;
+
 /// Contents of a page besides the proof.
 pub(crate) struct Beside<'a> {
     /// The scenario's text.
@@ -54,11 +58,13 @@ pub(crate) struct Beside<'a> {
     pub(crate) settings: &'a BTreeMap<String, String>,
     /// Graphs over the crank angle, or the reason why they are missing.
     pub(crate) reduced: Result<Graphs, String>,
+    /// Limit for all columns, in bytes of base64; longer columns lose instants.
+    pub(crate) bytes: usize,
 }
 
 /// The page of a proof. `tell` puts the advice into words.
 pub(crate) fn page(proof: &Proof, beside: &Beside, tell: Tell) -> String {
-    filled_page(proof, beside, &Judged::of(proof, tell), tell, "")
+    filled_page(proof, beside, &Judged::of(proof, tell), tell, &SCRIPT.concat())
 }
 
 /// The page of a proof under `linkproof watch`; of an unjudged motion, with `words` in place of the verdict.
@@ -67,7 +73,13 @@ pub(crate) fn watched(proof: &Proof, beside: &Beside, words: Option<&str>, tell:
         Some(words) => Judged { sentence: escaped(words), ..Judged::default() },
         None => Judged::of(proof, tell),
     };
-    filled_page(proof, beside, &judged, tell, WATCHED)
+    filled_page(proof, beside, &judged, tell, "")
+}
+
+/// The script of the frame in which the pages of `linkproof watch` are shown.
+pub(super) fn watching_script() -> String {
+    let [watched, taken] = WATCHED;
+    ["const run = () => {", &SCRIPT.concat(), watched, "};", taken].concat()
 }
 
 /// The parts of a page that depend on the verdict, as HTML.
@@ -93,14 +105,14 @@ impl Judged {
 }
 
 fn filled_page(proof: &Proof, beside: &Beside, judged: &Judged, tell: Tell, script: &str) -> String {
-    let Beside { given, settings, reduced } = beside;
+    let Beside { given, settings, reduced, bytes } = beside;
     let case = &proof.scene.case;
     let errors = thinned::errors(proof);
     let reference = &proof.reference_trajectory;
     let placed = Placed::of(&case.mechanism, reference);
     let beside = placed.as_ref().map_or(0, |placed| loads::width(case) + plans::width(case, placed, 0));
     let curves = formulas::of(proof);
-    let thinned = Thinned::of(proof, &errors, beside + formulas::WIDTH * curves.len());
+    let thinned = Thinned::of(proof, &errors, beside + formulas::WIDTH * curves.len(), *bytes);
     let mut data = data::of(proof, &errors, &thinned, tell);
     data.insert("formulas".into(), list(&curves, |own| own.json(&thinned.rows)));
     let input = case.crank().input;
@@ -157,7 +169,7 @@ fn filled_page(proof: &Proof, beside: &Beside, judged: &Judged, tell: Tell, scri
             ("scenario", &words::scenario(given)),
             ("version", env!("CARGO_PKG_VERSION")),
             ("data", &contained(&Value::Object(data).to_string())),
-            ("script", &[&SCRIPT.concat(), script].concat()),
+            ("script", script),
         ],
     )
 }

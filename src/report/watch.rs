@@ -4,21 +4,27 @@ use std::sync::Arc;
 
 use serde_json::{Value, json};
 
-use super::html::{escaped, filled};
+use super::html::{escaped, filled, watching_script};
 use crate::plain::Tell;
 use linkage::error::Error;
 use linkage::math::Vec2;
 
 const TEMPLATE: &str = include_str!("watch/watch.html");
+const FRAME: &str = include_str!("watch/frame.html");
 const STYLE: &str = include_str!("watch/watch.css");
 /// The script of the page.
 pub(crate) const SCRIPT: &str = include_str!("watch/watch.js");
 /// Most mistakes on the page.
 const MOST: usize = 50;
 
-/// The page around the frames. It has no data; its script asks for them.
+/// The page around the frame. It has no data; its script asks for them.
 pub(crate) fn shell(file: &str) -> String {
     filled(TEMPLATE, &[("file", &escaped(file)), ("style", STYLE), ("version", env!("CARGO_PKG_VERSION"))])
+}
+
+/// The frame in which pages of the mechanism replace each other.
+pub(crate) fn frame() -> String {
+    filled(FRAME, &[("script", &watching_script())])
 }
 
 /// A page with a still picture, for a mechanism with mistakes.
@@ -73,8 +79,8 @@ pub(crate) struct Shown<'a> {
     pub(crate) version: u64,
     /// Number of the newest draft.
     pub(crate) draft: u64,
-    /// Version of the newest page.
-    pub(crate) page: Option<u64>,
+    /// Whether the page has changed.
+    pub(crate) is_page_new: bool,
     /// Whether the file is missing.
     pub(crate) is_missing: bool,
     /// Whether the file has the text of the newest draft.
@@ -87,11 +93,13 @@ pub(crate) struct Shown<'a> {
 pub(crate) fn state(shown: &Shown, outcome: &Outcome, tell: Tell) -> String {
     let errors = outcome.error.iter().flat_map(Error::each).take(MOST).map(|error| mistake(error, tell));
     let parameters = outcome.parameters.iter().map(|(key, value)| json!({ "key": key, "value": value }));
+    let has_page = !outcome.page.is_empty();
+    let page = (has_page && shown.is_page_new).then_some(outcome.page.as_str());
     let message = json!({
         "version": shown.version, "draft": shown.draft, "shown": outcome.draft, "stage": outcome.stage.name(),
         "errors": errors.collect::<Value>(), "verdict": outcome.verdict, "parameters": parameters.collect::<Value>(),
         "ground": outcome.ground.iter().map(|(name, at)| json!([name, at.x, at.y])).collect::<Value>(),
-        "page": shown.page, "isMissing": shown.is_missing, "isKept": shown.is_kept, "text": shown.text,
+        "hasPage": has_page, "page": page, "isMissing": shown.is_missing, "isKept": shown.is_kept, "text": shown.text,
     });
     message.to_string()
 }

@@ -519,7 +519,7 @@ found down to: faults larger than this are found in every scenario, to a factor 
     // report/synthesize.rs
     a_dwell_ends_where_the_output(value) = "A dwell ends when the output is {value} % of the stroke away from the middle of its extremes. A motion ends at its extreme position.";
     random_candidates_of_them_assembled(drawn, assembled, cost, refined, worst) = "{drawn} random candidates, of which {assembled} can be assembled over the whole turn and nearly keep the limits; best cost {cost}, after refinement {refined} (worst refined candidate {worst})\n";
-    stroke_largest_motion_in_a_dwell(stroke, angle, unrest, wrong, late, short) = "Stroke {stroke}{angle}. Largest motion in a dwell {unrest:.3} % of the stroke,\nlargest motion in the wrong direction {wrong:.3} %. Extreme positions within {late:.2} deg of the table, dwells at most {short:.2} deg too short.";
+    stroke_largest_motion_in_a_dwell(stroke, angle, unrest, wrong, late, short) = "Stroke {stroke}{angle}. Largest motion in a dwell {unrest:.3} % of the stroke,\nlargest motion in the wrong direction {wrong:.3} %. Extreme positions within {late:.2} deg of their required crank angles, dwells at most {short:.2} deg too short.";
     smallest_transmission_angle_deg(angle) = ", smallest transmission angle {angle:.2} deg";
     // report/table_csv.rs
     the_table_cannot_be_written(error) = "the table cannot be written: {error}";

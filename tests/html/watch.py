@@ -80,9 +80,6 @@ class Page:
         """Waits until the status begins with these words."""
         wanted = "(words) => document.getElementById('status').textContent.startsWith(words)"
         self.page.wait_for_function(wanted, arg=words, timeout=PATIENCE)
-        # The frame follows a moment later.
-        newest = "() => loading === null && awaited === null && (shownPage === null || frames[0].contentWindow.location.search === `?n=${shownPage}`)"
-        self.page.wait_for_function(newest, timeout=PATIENCE)
 
     def shown(self, stages, since):
         """Waits for a picture of one of these stages that became visible after the time `since` (s), and returns its delay (s)."""
@@ -94,7 +91,7 @@ class Page:
 
     def frame(self):
         """The visible page of the mechanism."""
-        return self.page.query_selector("iframe:not(.waiting)").content_frame()
+        return self.page.query_selector("iframe").content_frame()
 
 
 def main(linkproof, chromium, directory):
@@ -127,14 +124,24 @@ def main(linkproof, chromium, directory):
             page.page.evaluate("const own = document.querySelector('input[name=crank_mm]'); own.value = 35; own.dispatchEvent(new Event('input'))")
             page.page.wait_for_function("() => document.getElementById('text').value.includes('crank_mm = 35 ')", timeout=PATIENCE)
             page.status("AGREE")
+            # The next page shows what was set on the page before: boxes, and open groups of channels.
+            page.frame().click("#show-names")
+            page.frame().evaluate("document.querySelectorAll('#charts > details')[2].open = true")
+            page.page.fill("#text", page.text() + "# a comment\n")
+            page.page.wait_for_function("() => document.getElementById('frame').contentDocument.body.textContent.includes('# a comment')", timeout=PATIENCE)
+            page.status("AGREE")
+            need(not page.frame().is_checked("#show-names"), "a box is reset by the next page")
+            need(page.frame().evaluate("document.querySelectorAll('#charts > details')[2].open"), "a group of channels is closed by the next page")
             # The coupler point, dragged while the mechanism stands.
             frame = page.frame()
-            frame.evaluate("setPlaying(false); goTo(0)")
+            if frame.get_attribute("#play", "aria-pressed") == "true":
+                frame.click("#play")
+            frame.press("body", "Home")
             before = page.text()
-            box = frame.evaluate("(() => { const found = draggable().get('B'); const at = worldOf([found[0].number, ...found[0].from], false);"
-                                 " const [x, y] = toPicture(at); const p = new DOMPoint(x, y).matrixTransform(picture.getScreenCTM()); return [p.x, p.y]; })()")
-            left = page.page.query_selector("iframe:not(.waiting)").bounding_box()
-            x, y = left["x"] + box[0], left["y"] + box[1]
+            joint = frame.query_selector("#joints circle:has(title:text-matches('^joint B,'))")
+            joint.scroll_into_view_if_needed()
+            box = joint.bounding_box()
+            x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
             page.page.mouse.move(x, y)
             page.page.mouse.down()
             page.page.mouse.move(x + 15, y - 10, steps=4)

@@ -16,7 +16,7 @@ fn the_worked_example_is_a_scenario() {
         (scenario.name.as_str(), scenario.case.grid.len(), scenario.engine.step.get()),
         ("four_bar", 73, Some(1e-3))
     );
-    // The rocker of the example's oracle, by the law of cosines.
+    // The rocker angle that the example's oracle states is pi - acos(0.6) by the law of cosines.
     let value = scenario.oracles[0].series[0].points[0].value;
     assert_within!(
         (value - (std::f64::consts::PI - 0.6f64.acos())).abs(),

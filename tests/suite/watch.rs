@@ -83,8 +83,7 @@ fn a_draft_is_solved_judged_changed_and_kept() {
     assert_eq!((&state["verdict"], &state["isKept"]), (&json!("agree"), &json!(true)));
     assert_eq!(state["parameters"][0], json!({ "key": "crank_mm", "value": 40.0 }));
     assert_eq!(state["ground"], json!([["O", 0.0, 0.0], ["C", 0.1, 0.0]]));
-    let (status, page) = watched.ask("GET", &format!("{}page?n={}", watched.path, state["page"]), "");
-    assert!(status == 200 && page.contains("linkproofShow") && page.contains("AGREE"));
+    assert!(state["page"].as_str().unwrap().contains("AGREE"));
     // A mistake, at its place.
     watched.post(
         "draft",
@@ -95,7 +94,7 @@ fn a_draft_is_solved_judged_changed_and_kept() {
     let line = given.lines().position(|line| line.contains("\"ground\", \"crank\"")).unwrap() + 1;
     assert_eq!(place["line"], line);
     assert!(wrong["errors"][0]["help"].as_str().unwrap().contains("crank"));
-    assert!(wrong["page"].is_number(), "what can be drawn is drawn");
+    assert!(wrong["page"].is_string(), "what can be drawn is drawn");
     // A slider, and a point on two links: the file stays until the draft is kept.
     let slid = watched.post("parameter", &json!({ "text": given, "key": "crank_mm", "value": 38.5 }));
     let slid = slid["text"].as_str().unwrap();

@@ -1,4 +1,5 @@
-//! Exact first derivatives of figures of a run by the numbers of its file, and tolerance stacks from these derivatives.
+//! Exact first derivatives of a run's figures with respect to the numbers in its file, and tolerance stacks from these
+//! derivatives.
 //!
 //! Side 1 computes the figure. At the instants that determine the figure, the equations of the whole mechanism are
 //! solved again in dual numbers ([`precise::Dual`]), so that there is no error of a step width.

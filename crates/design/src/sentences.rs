@@ -208,7 +208,7 @@ linkage::sentences! {
     an_extreme_position_lies_on_the_line(told, found) = "{told}: within rounding error, an extreme position lies on the line through the pivots, so the four-bar would not be a crank-rocker but a {found}";
     CHOOSE_A_SMALLER_SWING_OR_PIVOTS = "choose a smaller swing, or pivots whose connecting line leaves both positions of B on one side";
     THE_LINE_OF_THE_TWO_PIVOTS = "the line through the two pivots passes between the two extreme positions, or through one: no crank can move the rocker between them without taking the dyad apart";
-    MOVE_A_PIVOT_OR_TURN_THE_EXTREME_POSITIONS = "move a pivot, or turn the extreme positions, so that one lies farther from the crank's pivot";
+    MOVE_A_PIVOT_OR_TURN_THE_EXTREME_POSITIONS = "move a pivot, or turn the extreme positions, so that B is farther from the crank's pivot in one extreme position than in the other";
     a_crank_of_no_length_would(told) = "{told}: a crank of zero length would be needed";
     is_from_in_one_extreme_position(distances, distances_2) = "O is {distances:.6} m from B in one extreme position and {distances_2:.6} m in the other";
     // synthesize/draft.rs

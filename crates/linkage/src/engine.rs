@@ -90,6 +90,7 @@ pub trait Engine: Solver {
     /// If the result is false, the factors are assumed values.
     fn is_noise_measured(&self) -> bool;
 
-    /// Names and values of the settings that influence the result, for display.
+    /// Names and values, for display, of the engine's properties that influence the result. A step size and the
+    /// extrapolation are stated elsewhere.
     fn told(&self) -> Vec<(&'static str, String)>;
 }

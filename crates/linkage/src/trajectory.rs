@@ -1,4 +1,4 @@
-//! The result of every solver: values of channels on a grid of times. All numbers in a trajectory are finite.
+//! The result of every solver: values of channels on a grid of times. All values of channels are finite.
 
 pub mod channel;
 mod reading;

@@ -60,10 +60,11 @@ impl Branches {
         Branches { groups: case.structure.groups.ids().map(of).collect() }
     }
 
-    /// Checks that all groups of a state at `t` (s) are on their start branches.
+    /// Checks that all groups of a state at `t` (s) are on their start branches or, if the crank passes change points,
+    /// that they have passed these smoothly. Free motions are not checked.
     ///
     /// # Errors
-    /// [`ErrorKind::Numeric`] if a group is on a branch other than its start branch.
+    /// [`ErrorKind::Numeric`] if a group has changed its branch.
     pub(super) fn check(&mut self, case: &Case, state: &State, t: f64) -> Result<()> {
         for own in &mut self.groups {
             let determinant = own.determinant(case, &state.motions);

@@ -184,7 +184,7 @@ pub trait World {
     fn torque(&self, drive: usize) -> f64;
 }
 
-/// Opening of a joint (m) between links with the given frames.
+/// Gap of a joint (m), which is its closure error, if the links have the given frames.
 /// An angle between the axes of a prismatic joint is multiplied by the mechanism's size `size` (m).
 #[inline]
 pub(super) fn opening(frames: &[LinkFrame], joint: &Joint, size: f64) -> f64 {

@@ -29,7 +29,8 @@
 //! The metadata record `linkproof` contains versions, settings and the scales of time and of force arrows.
 //!
 //! A recording by a program other than linkproof can also be read.
-//! Such a recording needs `/<side>/grid` and the topics above in protobuf.
+//! Such a recording needs `/<side>/grid` in protobuf. Of the side's other topics, those in protobuf are read; each needs
+//! a value for every sample of the grid.
 //! The names of the protobuf fields must be the suffixes of [`CHANNELS`](linkage::trajectory::CHANNELS).
 //! The field numbers are looked up in the file.
 

@@ -247,7 +247,8 @@ impl<'a> TomlTable<'a> {
         self.scalar(key, Needed::Text, None, |value| value.as_str().map(ToString::to_string))
     }
 
-    /// The value in `words` for the word under a key, if present. `wrong` is the message for an unknown word.
+    /// The value in `words` for the word under a key, if present. `wrong` is the end of the message for an
+    /// unknown word, after the word itself, such as "is not an engine".
     pub fn optional_choice<T: Copy>(&mut self, key: &str, wrong: &str, words: &[(&str, T)]) -> Result<Option<T>> {
         let Some(word) = self.optional_string(key)? else { return Ok(None) };
         let found = words.iter().find(|(own, _)| *own == word).map(|(_, meant)| *meant);

@@ -117,7 +117,7 @@ linkage::sentences! {
     ROUTE_BY_WHICH_REACTIONS_AND_BALANCING = "Method by which reactions and balancing moment are computed";
     NUMBER_OF_SUBSTEPS_INTO_WHICH_THE_ENGINE = "Number of substeps into which the engine divides a step";
     SWEEPS_OF_THE_ENGINE_ITERATION = "Sweeps of the engine's iteration in a step [default: that of the scenario; otherwise `run` chooses it, and other commands use the engine's default]";
-    RELATIVE_ACCURACY_OF_AN_ENGINE = "Relative accuracy of an engine that chooses its own steps [default: its tightest]";
+    RELATIVE_ACCURACY_OF_AN_ENGINE = "Relative accuracy of an engine that chooses its own steps [default: that of the engine; simbody: 1e-8]";
     ENGINE_OR_ALL_TO_RUN_EVERY_ONE_SIDE = "Engine, or `all` to run all of them side by side. May be given several times [default: that of the scenario, otherwise the first]";
     TIME_STEP_OF_THE_ENGINE_IN_SECONDS = "Time step of the engine in seconds [default: that of the scenario; otherwise `run` chooses it, and other commands use a quarter of a degree of the crank or less]";
     // figure.rs

@@ -8,10 +8,10 @@ use crate::cli::advice;
 use crate::report::watch::{Outcome, Shown, state};
 use scenario::Scenario;
 
-/// Number of pages that are kept.
-const PAGES: usize = 3;
 /// Longest time for which a request waits for a change.
 const PATIENCE: Duration = Duration::from_secs(20);
+/// A new draft is told together with its first results if these come within this time.
+const TOGETHER: Duration = Duration::from_millis(40);
 
 /// The state behind the page.
 struct State {
@@ -25,8 +25,8 @@ struct State {
     /// Version at which the text of the file last changed.
     disk_since: u64,
     outcome: Outcome,
-    /// The last pages with their versions, the newest one first. The browser may still be loading an older one.
-    pages: Vec<(u64, Arc<String>)>,
+    /// Version at which the page last changed.
+    page_since: u64,
     /// The newest draft that was read without mistakes, until its proof begins.
     unproven: Option<(u64, Scenario)>,
 }
@@ -49,7 +49,7 @@ impl Desk {
             text,
             disk_since: 1,
             outcome: Outcome::default(),
-            pages: Vec::new(),
+            page_since: 1,
             unproven: None,
         };
         Desk { file, state: Mutex::new(state), changed: Condvar::new() }
@@ -127,8 +127,7 @@ impl Desk {
         let is_news = (outcome.draft, outcome.stage) > (state.outcome.draft, state.outcome.stage);
         if state.draft == outcome.draft && is_news {
             self.change(state, |state| {
-                state.pages.insert(0, (state.version, Arc::clone(&outcome.page)));
-                state.pages.truncate(PAGES);
+                state.page_since = state.version;
                 state.outcome = outcome;
             });
         }
@@ -139,22 +138,18 @@ impl Desk {
         Some(self.state().outcome.clone()).filter(|outcome| outcome.draft == draft)
     }
 
-    /// The page of the version `since`, if it is one of the last ones.
-    pub(super) fn page(&self, since: u64) -> Option<Arc<String>> {
-        let state = self.state();
-        state.pages.iter().find(|(version, _)| *version == since).map(|(_, page)| Arc::clone(page))
-    }
-
     /// Waits for a change after the version `after`, or for a while, and returns the state for the page.
     pub(super) fn told(&self, after: u64) -> String {
-        let waits = |state: &mut State| state.version <= after;
-        let (now, _) =
-            self.changed.wait_timeout_while(self.state(), PATIENCE, waits).unwrap_or_else(PoisonError::into_inner);
-        let page = now.pages.first().filter(|(_, page)| !page.is_empty()).map(|(since, _)| *since);
+        let wait = |state, time, is_early: fn(&State, u64) -> bool| {
+            let ended = self.changed.wait_timeout_while(state, time, |state| is_early(state, after));
+            ended.unwrap_or_else(PoisonError::into_inner).0
+        };
+        let now = wait(self.state(), PATIENCE, |state, after| state.version <= after);
+        let now = wait(now, TOGETHER, |state, _| state.outcome.draft < state.draft);
         let shown = Shown {
             version: now.version,
             draft: now.draft,
-            page,
+            is_page_new: now.page_since > after,
             is_missing: now.disk.is_none(),
             is_kept: now.disk.as_ref() == Some(&now.text),
             text: (now.disk_since > after).then(|| now.disk.as_deref().unwrap_or(&now.text)),
@@ -177,9 +172,10 @@ mod tests {
         };
         let of = |draft, stage| Outcome { draft, stage, page: Arc::new(format!("{draft}")), ..Outcome::default() };
         desk.publish(of(1, DraftStage::Solved));
-        tells(&["\"page\":2"]);
+        tells(&["\"page\":\"1\""]);
+        assert!(desk.told(1).contains("\"page\":\"1\""));
         desk.publish(of(1, DraftStage::Moving));
-        tells(&["\"stage\":\"solved\"", "\"page\":2"]);
+        tells(&["\"stage\":\"solved\""]);
         assert_eq!(desk.put("two"), 2);
         assert_eq!(desk.put("two"), 2);
         desk.publish(of(1, DraftStage::Judged));
@@ -187,8 +183,10 @@ mod tests {
         assert_eq!(desk.next_draft(1).1.as_ref(), "two");
         desk.publish(of(2, DraftStage::Moving));
         tells(&["\"shown\":2", "\"isKept\":false", "\"text\":\"one\""]);
-        assert_eq!(desk.page(2).unwrap().as_str(), "1");
+        // A page is sent once.
+        let version = desk.state().version - 1;
         desk.saw(None);
+        assert!(desk.told(version).contains("\"page\":\"2\"") && desk.told(version + 1).contains("\"page\":null"));
         tells(&["\"isMissing\":true"]);
         // A file that becomes equal to the draft is no new draft.
         desk.saw(Some("two".into()));

@@ -11,7 +11,7 @@ use tiny_http::{Header, Method, Request, Response, Server};
 
 use super::desk::Desk;
 use super::requests;
-use crate::report::watch::{Request as Wish, SCRIPT, shell};
+use crate::report::watch::{Request as Wish, SCRIPT, frame, shell};
 
 /// Longest body of a request (bytes).
 const LARGEST: u64 = 4 << 20;
@@ -89,13 +89,9 @@ impl Door {
         let number = || query.split_once('=').and_then(|(_, number)| number.parse().ok()).unwrap_or(0);
         match (request.method(), path) {
             (Method::Get, "/") => typed(shell(&desk.file.display().to_string()), "text/html; charset=utf-8"),
+            (Method::Get, "/frame") => typed(frame(), "text/html; charset=utf-8"),
             (Method::Get, "/watch.js") => typed(SCRIPT.into(), "text/javascript; charset=utf-8"),
             (Method::Get, "/state") => typed(desk.told(number()), "application/json"),
-            (Method::Get, "/page") => match desk.page(number()) {
-                Some(page) => typed(page.to_string(), "text/html; charset=utf-8"),
-                // A newer page exists. A browser leaves the frame as it is.
-                None => status(204),
-            },
             (Method::Post, what) => {
                 let wish = body(request).and_then(|body| Wish::of(what.strip_prefix('/')?, &body));
                 wish.map_or_else(|| status(400), |wish| typed(requests::answered(desk, &wish), "application/json"))
@@ -134,6 +130,7 @@ fn status(code: u16) -> Answer {
 fn typed(content: String, kind: &str) -> Answer {
     let header = |name: &str, value: &str| Header::from_bytes(name, value).expect("printable characters");
     Response::from_data(content.into_bytes())
+        .with_chunked_threshold(usize::MAX)
         .with_header(header("Content-Type", kind))
         .with_header(header("Cache-Control", "no-store"))
         .with_header(header("X-Content-Type-Options", "nosniff"))

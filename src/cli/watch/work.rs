@@ -11,7 +11,7 @@ use super::desk::Desk;
 use crate::cli::advice;
 use crate::cli::html::reduced;
 use crate::draw::{Drawn, Medium, PictureOptions, picture};
-use crate::report::html::{self, Beside};
+use crate::report::html::{self, Beside, PAGE_BYTES};
 use crate::report::recorded;
 use crate::report::watch::{DraftStage, Outcome, picture_page};
 use crate::sentences;
@@ -22,9 +22,12 @@ use prover::run::{Options, Proof, prove};
 use scenario::{Draft, Scenario, StartRequest, edit};
 
 /// Time between two looks at the file.
-const TICK: Duration = Duration::from_millis(5);
+const TICK: Duration = Duration::from_millis(2);
 /// The file is read at least this often, because an editor may keep length and time of change.
 const RELOOK: Duration = Duration::from_millis(500);
+
+/// Limit for the columns of the first picture (bytes): fewer instants, but the browser shows them sooner.
+const PICTURE_BYTES: usize = 50_000;
 
 /// Follows the file.
 pub(super) fn follow(desk: &Desk) {
@@ -53,10 +56,10 @@ pub(super) fn move_drafts(desk: &Desk) {
         let moved = || {
             let scenario = Scenario::parse(&text, &desk.file)?;
             // The positions alone first, because their page is small.
-            let first = moved(&scenario.clone().only(&["positions".into()])?)?;
+            let first = moved(&scenario.clone().only(&["positions".into()])?, PICTURE_BYTES)?;
             publish(Outcome { stage: DraftStage::Moving, ..first.clone() });
             desk.leave(draft, scenario.clone());
-            let page = moved(&scenario)?.page;
+            let page = moved(&scenario, PAGE_BYTES)?.page;
             publish(Outcome { stage: DraftStage::Solved, page, ..first });
             Ok(())
         };
@@ -87,10 +90,10 @@ fn stopped<T>(work: impl FnOnce() -> Result<T>) -> Result<T> {
 }
 
 /// The page of a scenario that is solved analytically.
-fn moved(scenario: &Scenario) -> Result<Outcome> {
+fn moved(scenario: &Scenario, bytes: usize) -> Result<Outcome> {
     let proof = Proof::unjudged(scenario)?;
     let reduced = Err(sentences::IT_IS_SHOWN_WITH_THE_VERDICT.into());
-    let beside = Beside { given: &scenario.text, settings: &BTreeMap::new(), reduced };
+    let beside = Beside { given: &scenario.text, settings: &BTreeMap::new(), reduced, bytes };
     let page = html::watched(&proof, &beside, Some(sentences::THE_PROOF_RUNS), advice::told);
     let points = &scenario.case.mechanism.links()[GROUND].points;
     Ok(Outcome {
@@ -105,7 +108,7 @@ fn moved(scenario: &Scenario) -> Result<Outcome> {
 fn judged(scenario: &Scenario) -> Result<(String, &'static str)> {
     let proof = prove(scenario, &Options::default())?;
     let settings = recorded::metadata(&proof);
-    let beside = Beside { given: &scenario.text, settings: &settings, reduced: reduced(scenario) };
+    let beside = Beside { given: &scenario.text, settings: &settings, reduced: reduced(scenario), bytes: PAGE_BYTES };
     Ok((html::watched(&proof, &beside, None, advice::told), proof.verdict.word()))
 }
 

@@ -7,9 +7,6 @@ use linkage::trajectory::{Channel, Stage, Trajectory};
 
 use prover::run::Proof;
 
-/// Limit for all columns, in bytes of base64; the page then stays below 3 MB.
-const BYTES: usize = 1_900_000;
-
 /// Errors of an engine at all instants, for each channel of the reference; NaN where the engine has no value.
 /// `None` if the engine does not have the channel.
 pub(super) type Errors = Vec<Option<Vec<f64>>>;
@@ -26,13 +23,14 @@ impl Thinned {
     /// The instants of a page: all instants, or as many as fit.
     /// If not all instants fit, the page has evenly chosen instants, and the instants with extreme values and errors.
     /// `beside` is the number of single-precision values in a row in addition to channels and errors.
-    pub(super) fn of(proof: &Proof, errors: &[Errors], beside: usize) -> Thinned {
+    /// `bytes` is the limit for all columns, in bytes of base64.
+    pub(super) fn of(proof: &Proof, errors: &[Errors], beside: usize, bytes: usize) -> Thinned {
         let reference = &proof.reference_trajectory;
         let times = reference.times();
         let mut rows = ascending(times);
         rows.dedup_by_key(|row| times[*row].to_bits());
         let all = rows.len();
-        let most = (BYTES / bytes_of_row(reference, errors, beside)).max(2);
+        let most = (bytes / bytes_of_row(reference, errors, beside)).max(2);
         if all <= most {
             return Thinned { rows, all };
         }

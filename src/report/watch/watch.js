@@ -3,7 +3,7 @@
 
 const byId = (id) => document.getElementById(id);
 const [text, status, keep, reload] = ['text', 'status', 'keep', 'reload'].map(byId);
-/** Times (ms) at which a page became visible, by the version of its state; a test reads them. */
+/** Times (ms) at which pages became visible, by their stage; a test reads them. */
 window.linkproofShown = [];
 window.linkproofGround = [];
 
@@ -12,8 +12,12 @@ const LATER = 150;
 let saved = null;
 let version = 0;
 let state = null;
-let shownPage = null;
-let frames = [byId('frame-a'), byId('frame-b')];
+/** The window of the mechanism, when its script is there. */
+const frame = new Promise((done) => {
+  const found = byId('frame').contentWindow;
+  if (found.linkproofTake) done(found);
+  else byId('frame').addEventListener('load', () => done(byId('frame').contentWindow));
+});
 
 const WORDS = {
   agree: 'AGREE: both methods give the same motion and forces', disagree: 'DISAGREE', inconclusive: 'INCONCLUSIVE', expected: 'AGREE',
@@ -152,46 +156,20 @@ function showParameters(parameters) {
   }
 }
 
-/** A page that is being loaded, and a newer one that waits for it. */
-let [loading, awaited] = [null, null];
-/** Longest time (ms) for which a newer page waits: an outdated page is never loaded. */
-const LOADING = 400;
-
-/** Loads a page into the hidden frame, and exchanges the frames when it is there. */
-function showPage(page, stamp) {
-  if (page === null || page === shownPage) return;
-  if (loading !== null) {
-    awaited = [page, stamp];
-    return;
-  }
-  shownPage = page;
-  const [old, next] = frames;
-  const end = () => {
-    clearTimeout(loading);
-    [loading, next.onload] = [null, null];
-    if (awaited === null) return;
-    const newer = awaited;
-    awaited = null;
-    showPage(...newer);
-  };
-  next.onload = () => {
-    const view = old.contentWindow.linkproofView ? old.contentWindow.linkproofView() : null;
-    if (view !== null && next.contentWindow.linkproofShow) next.contentWindow.linkproofShow(view);
-    next.classList.remove('waiting');
-    old.classList.add('waiting');
-    frames = [next, old];
-    window.linkproofShown.push({ version: stamp.version, stage: stamp.stage, at: performance.timeOrigin + performance.now() });
-    end();
-  };
-  loading = setTimeout(end, LOADING);
-  next.src = `page?n=${page}`;
+/** Shows a page, and notes the time after the browser has painted it. */
+function showPage(text, stage) {
+  const told = () => window.linkproofShown.push({ stage, at: performance.timeOrigin + performance.now() });
+  frame.then((own) => {
+    own.linkproofTake(text, stage === 'moving');
+    requestAnimationFrame(() => setTimeout(told, 0));
+  });
 }
 
 function show(now) {
   state = now;
   window.linkproofGround = now.ground;
   const isCurrent = now.shown === now.draft;
-  if (isCurrent) showPage(now.page, now);
+  if (isCurrent && now.page !== null) showPage(now.page, now.stage);
   if (typeof now.text === 'string') {
     const delay = saved === null ? 0 : LATER;
     const isEdited = saved !== null && text.value !== base;
@@ -209,8 +187,8 @@ function show(now) {
   if (isCurrent) {
     showErrors(now.errors);
     showParameters(now.parameters);
-    // Without a page of this draft, the old one stays, but pale.
-    byId('right').classList.toggle('stale', now.page === null);
+    // If nothing of this draft can be drawn, the old picture stays, but pale.
+    byId('right').classList.toggle('stale', !now.hasPage);
   }
   numberLines();
   tellKept();

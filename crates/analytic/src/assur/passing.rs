@@ -90,7 +90,8 @@ impl Passing {
             return Ok(());
         }
         let mut from = from;
-        // If the step leaves or passes over a window, continue on the branch of the window's nodes on the side of `to`.
+        // If the step leaves or passes over a window, continue from the window's outermost node on the side of `to`, on
+        // the branch of this node.
         while let Some(index) = self.left([from, to]) {
             let window = &self.windows[index];
             let [end, before] = window.ends(to);

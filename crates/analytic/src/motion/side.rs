@@ -39,8 +39,8 @@ pub(crate) struct Held {
 }
 
 impl Held {
-    /// Direction of motion against which a load acts on a point with this velocity (m/s).
-    /// The direction turns with the velocity. If the point reverses within a step, the direction does not reverse with
+    /// For a load against the motion of a point: unit vector of this motion, zero at standstill.
+    /// `velocity` is the point's velocity (m/s). The direction turns with the velocity. If the point reverses within a step, the direction does not reverse with
     /// it.
     fn way(&self, load: usize, velocity: Vec2) -> Vec2 {
         let held = self.ways[load];

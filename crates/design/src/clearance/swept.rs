@@ -91,7 +91,7 @@ pub struct Sweep<'a, 'c> {
 }
 
 impl<'a, 'c> Sweep<'a, 'c> {
-    /// Creates the search for a link with an outline.
+    /// Prepares the search for the area that `link` sweeps with `outline`.
     pub fn new(tubes: &'a mut Tubes<'c>, link: LinkId, outline: &'a Outline) -> Self {
         let rounding = tubes.rounding();
         Sweep { tubes, outline, link, nodes: Vec::new(), rounding, tests: 0, open: Vec::new() }

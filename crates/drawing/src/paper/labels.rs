@@ -29,8 +29,8 @@ const MOST_COMPARED: usize = 200_000_000;
 /// If many drawings are made together, such as frames, each drawing may use at least this number of comparisons.
 const LEAST_COMPARED: usize = 20_000_000;
 
-/// Costs: of a meeting with another label, a line or a mark, and of each millimetre of it.
-/// A free position within reach costs less than any meeting.
+/// Costs: of an overlap with another label, a line or a mark, and of each millimetre of it.
+/// A position without overlap within reach costs less than any overlap, unless leaders cross labels there.
 const ON_LABEL: [f64; 2] = [400.0, 10.0];
 const ON_LINE: [f64; 2] = [40.0, 3.0];
 const ON_MARK: [f64; 2] = [45.0, 4.0];

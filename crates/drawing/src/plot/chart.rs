@@ -15,7 +15,8 @@ pub struct PlotAxis {
     pub name: String,
     /// Unit as printed, such as `N·m`; empty for a number without unit.
     pub unit: String,
-    /// Whether the values are angles in degrees. Ticks of angles are at parts of a turn, such as 30 and 45 degrees.
+    /// Whether the values are angles in degrees. Ticks of angles are at parts of a turn, such as 30 and 45 degrees; over
+    /// long ranges at multiples of a turn, over very short ones at round numbers.
     pub degrees: bool,
     /// Whether the axis ends at round numbers. Otherwise the axis ends at the extreme values of the curves.
     pub rounded: bool,

@@ -11,7 +11,7 @@ use files::visible;
 
 /// Largest number of methods of a peer.
 const MOST: usize = 200;
-/// Largest number of counts of a peer.
+/// Largest number of named counters (`work`) in a peer's answer.
 const COUNTED: usize = 50;
 /// Largest number of columns in a peer's table.
 const COLUMNS: usize = 100_000;

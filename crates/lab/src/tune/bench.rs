@@ -269,8 +269,8 @@ impl Bench<'_> {
         // The iteration error of the comparison run is small compared with that of the run at `settings`.
         // The difference of the two runs is therefore the iteration error at `settings`.
         // (A proof instead compares the run at `settings` with a run that has half of the sweeps.
-        // A run with half of the sweeps costs a quarter of a run with twice the sweeps, but the comparison with it
-        // overestimates the error.)
+        // The run with half of the sweeps costs only a quarter of the run with twice the sweeps, but a comparison with
+        // the cheaper run overestimates the error.)
         if settings.sweeps > 0 {
             rungs.push(Settings { sweeps: settings.sweeps * 2, ..settings });
         }

@@ -15,9 +15,9 @@ pub struct InputState {
     /// Value in the scenario's convention.
     /// An angle is measured counter-clockwise from the drive's zero direction, and whole turns count.
     pub value: f64,
-    /// Rate, counter-clockwise positive.
+    /// Rate of the value; of an angle, counter-clockwise positive.
     pub rate: f64,
-    /// Acceleration, counter-clockwise positive.
+    /// Acceleration of the value; of an angle, counter-clockwise positive.
     pub acceleration: f64,
 }
 

@@ -105,7 +105,7 @@ pub struct TransmissionDesign {
     pub efficiency: [f64; 2],
 }
 
-/// Largest ratio of lost power to useful power.
+/// Largest ratio of supplied power to useful power, and largest magnitude of a negative second efficiency.
 /// With a larger ratio, rounding errors of the reactions exceed all bounds.
 const LARGEST_LOSS: f64 = 1e6;
 

@@ -344,8 +344,8 @@ fn near(rows: &[Row]) -> Option<FormulaCause> {
 /// Smallest number of instants from which an approximation is recognised.
 const FEWEST: usize = 8;
 
-/// Values at an instant: time, crank angle, value of the formula (without whole revolutions), value of the mechanism,
-/// bound.
+/// Values at an instant: time, crank angle, value of the formula (for angles, shifted by whole revolutions to the
+/// one nearest to the mechanism's value), value of the mechanism, bound.
 pub(super) type Row = [f64; 5];
 
 impl Trial<'_> {

@@ -66,8 +66,8 @@ impl<'a> Trial<'a> {
         let formula = &formulas.list[index];
         let rows = course.rows(formula);
         let mut pairs = judge::pairs(formulas, (formula, claim), course, &rows)?;
-        // An instant is left out if the claimed quantity is undefined at this instant, such as a value reduced to a
-        // crank at rest.
+        // Instants at which the claimed quantity is undefined are left out. For example, a moment reduced to the crank
+        // is undefined while the crank is at rest.
         let has_number = |pair: &Pair| pair.mechanism.value.is_finite() && pair.mechanism.error.is_finite();
         let kept = rows.iter().zip(&pairs).filter(|(_, pair)| has_number(pair));
         let inputs: Vec<[Rounded; 4]> = kept.map(|(&row, _)| course.inputs(row)).collect();

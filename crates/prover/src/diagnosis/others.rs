@@ -71,8 +71,8 @@ fn magnitude(question: &DiagnosisInput, one: &Wrong) -> Option<[Channel; 2]> {
     one.has_values_of(&sizes).then(|| [one.channel.clone(), other])
 }
 
-/// The difference of two channels of one kind: values relative to another link or point. The difference of two angles
-/// may also be measured from another axis.
+/// The difference of two channels of one kind: values relative to another link or point. For angles, the difference may
+/// also contain a constant offset, because a relative angle may be counted from another axis of the link.
 fn between(one: &Wrong, all: &[(&Channel, &[f64])]) -> Option<DataSlip> {
     if !one.varies(one.found) {
         return None;

@@ -149,8 +149,8 @@ impl Pass {
         weighed(&self.left_over, term)
     }
 
-    /// Adds the force and moment that the joint transmits to its outer link (from `term`) to the force and moment `sum`
-    /// that must be transmitted to its inner link.
+    /// Increases `sum`, the force and moment that the inner link must receive, by the part of `term` that the joint
+    /// transmits. `term` is the force and moment that the outer link must receive.
     #[inline]
     pub(super) fn on(&self, term: &Term, sum: &mut Term) {
         let [xx, xy, yy] = self.force;

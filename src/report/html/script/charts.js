@@ -26,7 +26,7 @@ function follow(element, move) {
 }
 followers.push(() => { for (const own of near.values()) if (own.isNear) own.move(); });
 // Before printing, all charts are updated to the instant shown.
-window.addEventListener('beforeprint', () => near.forEach((own) => own.move()));
+window.addEventListener('beforeprint', () => near.forEach((own) => own.move()), { signal: life.signal });
 
 /** A range with margins and a positive width. Variation far below `natural` is rounding error and is not magnified. */
 function roomy([low, high], natural = 0) {
@@ -52,7 +52,14 @@ function axes(svg, box, xs, ys, labels) {
 
 /** A linear scale from numbers to a part of a picture. */
 function scale(low, high, from, to, name = null) {
-  return { low, high, name, at: (value) => from + (value - low) / (high - low) * (to - from) };
+  const share = (high - low) / (to - from);
+  return { low, high, name, at: (value) => from + (value - low) / share, of: (place) => low + (place - from) * share };
+}
+
+/** The scale of an abscissa, from left to right in the direction of the motion. */
+function scaleAlong(line, left, right) {
+  const [low, high] = range([line]);
+  return scale(low, high > low ? high : low + 1, ...(line[line.length - 1] < line[0] ? [right, left] : [left, right]));
 }
 
 /** Largest magnitude among an instant and two on either side, because magnitudes of rounding errors jump. */
@@ -90,8 +97,7 @@ function plot(card, { name, unit, factor, own, engine, apart, reference, differe
   const told = own.bound === undefined ? '' : `; largest error ${digits(own.max * factor, 3)} of ${digits(own.bound * factor, 3)} ${unit} allowed: ${own.verdict}`;
   const svg = draw(card, 'svg', { class: 'chart', viewBox: `0 0 ${width} ${height}`, role: 'img', 'aria-label': `${name} over ${over === 'crank' ? input.noun : 'time'}${told}` });
   const [x0, x1] = [left, width - right];
-  const ends = range([line]);
-  const xs = { ...scale(ends[0], ends[1] > ends[0] ? ends[1] : ends[0] + 1, x0, x1), line };
+  const xs = { ...scaleAlong(line, x0, x1), line };
   const [low, high] = roomy(range([reference]).map((value) => value * factor), (own.scale || 0) * factor);
   const [top, bottom] = [head, head + upper];
   const ys = scale(low, high, bottom, top);
@@ -126,7 +132,7 @@ function plot(card, { name, unit, factor, own, engine, apart, reference, differe
   /** The row whose instant is nearest to the pointer. */
   const rowUnder = (event) => {
     const box = svg.getBoundingClientRect();
-    const at = ((event.clientX - box.left) / box.width * width - x0) / (x1 - x0) * (xs.high - xs.low) + xs.low;
+    const at = xs.of((event.clientX - box.left) / box.width * width);
     let best = 0;
     for (let k = 1; k <= last; k += 1) if (Math.abs(line[k] - at) < Math.abs(line[best] - at)) best = k;
     return best;

@@ -45,8 +45,10 @@ function setUpHodographs() {
   // The section is removed if there are no curves.
   if (list === null || motion === null) return false;
   list.replaceChildren();
+  const ofPoints = (what) => motion.points.filter((own) => own[what] !== null).map((own) => [own.name, own[what]]);
   const sorts = [
-    ['velocities of points', motion.points.filter((own) => own.velocity !== null).map((own) => [own.name, own.velocity]), 'm/s'],
+    ['velocities of points', ofPoints('velocity'), 'm/s'],
+    ['accelerations of points', ofPoints('acceleration'), 'm/s^2'],
     ['reactions', withForces.map((own) => [`${own.name}: ${own.links[0]} on ${own.links[1]}`, own.force]), 'N'],
   ];
   for (const [what, all, unit] of sorts) {
@@ -69,8 +71,7 @@ function curve(parent, title, [x, y], [across, along], mean, told, now) {
   const { width, left, right, upper, head } = PLOT;
   const svg = draw(element, 'svg', { class: 'chart', viewBox: `0 0 ${width} ${upper + head + 40}`, role: 'img', 'aria-label': `${title}; ${told}` });
   const [x0, x1, top, bottom] = [left, width - right, head, head + upper];
-  const ends = range([x]);
-  const xs = scale(ends[0], ends[1], x0, x1);
+  const xs = scaleAlong(x, x0, x1);
   const ys = scale(...roomy(range([y])), bottom, top);
   draw(svg, 'text', { x: 2, y: 9 }, along);
   axes(svg, [x0, x1, top, bottom], xs, ys, true);
@@ -99,12 +100,16 @@ function setUpReduced() {
     const [start, end] = reduced.period;
     const period = Math.abs(end - start);
     const low = Math.min(start, end);
-    const now = () => (low + ((((linear(crank) - low) % period) + period) % period)) * degrees;
+    const onAxis = (angle) => (low + ((((angle - low) % period) + period) % period)) * degrees;
+    const now = () => onAxis(linear(crank));
     const unit = nice(graph.unit);
-    const marks = graph.marks.map((mark) => `${mark.word} ${digits(mark.at[1])} at ${digits((mark.at[0] * degrees) % 360, 4)} deg`);
-    const told = graph.constant ? `constant: ${digits(graph.mean)} ${unit}` : `${graph.mean_word} ${digits(graph.mean)} ${unit} (dashed), ${marks.join(', ')}`;
+    const marks = graph.marks.map((mark) => `${mark.word} ${digits(mark.at[1])} at ${digits(onAxis(mark.at[0]), 4)} deg`);
+    const [x, y] = [singles(graph.x).map((own) => own * degrees), singles(graph.y)];
+    // A smaller mean is a rounding error.
+    const mean = Math.abs(graph.mean) < 1e-12 * largestOf([y]) ? 0 : graph.mean;
+    const told = graph.constant ? `constant: ${digits(mean)} ${unit}` : `${graph.mean_word} ${digits(mean)} ${unit} (dashed), ${marks.join(', ')}`;
     const symbol = graph.symbol.replace('_', '');
-    curve(list, graph.name, [singles(graph.x).map((own) => own * degrees), singles(graph.y)], ['crank, deg', `${symbol}, ${unit}`], graph.mean, told, now);
+    curve(list, graph.name, [x, y], ['crank, deg', `${symbol}, ${unit}`], graph.mean, told, now);
   }
   if (reduced && reduced.note) put(list, 'p', 'note', reduced.note);
   if (motor) {

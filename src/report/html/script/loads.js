@@ -8,6 +8,8 @@ const HEAD = [1.6, 3.2];
 const AROUND = { load: 5.6, drive: 10.4 };
 /** Distance between the tip of an arrow and the edge of the picture, in units. */
 const EDGE = 4;
+/** Distance between the mechanism and the edge of the picture as it comes, in units. */
+const MARGIN = 15;
 /** Angle of the arrow of the largest moment (rad). */
 const SWEEP = 1.5 * Math.PI;
 /** Shorter arrows are not drawn (units). */
@@ -44,24 +46,20 @@ function sign(name, move) {
   });
 }
 
-/** Boxes of the numbers in the picture at the instant shown. */
+/** Boxes of the scales, and of the numbers in the picture at the instant shown. */
+const scaleRooms = [];
 let numberRooms = [];
-following.push(() => {
-  const [left, top, , height] = motion.view;
-  numberRooms = [[left, top + height - 17, left + 45, top + height]];
-});
+following.push(() => { numberRooms = [...scaleRooms]; });
 
 /** Writes a number beside a point of the picture, on the side of (u, v) if there is space. */
 function tell(text, said, place, [u, v]) {
   text.textContent = said;
-  const [left, top, width, height] = motion.view;
-  const cost = (box, [a, b]) => 4 * numberRooms.filter((own) => overlap(own, box)).length - a * u - b * v
-    + 8 * (box[0] < left || box[1] < top || box[2] > left + width || box[3] > top + height);
-  const boxes = SIDES.map((side) => boxOn(place, said, side));
-  const costs = boxes.map((box, k) => cost(box, SIDES[k]));
-  const best = costs.indexOf(Math.min(...costs));
-  const box = boxes[best];
-  const side = Math.round(SIDES[best][0]);
+  const found = bestPlace(place, said, (box, k) => {
+    const [a, b] = SIDES[k % SIDES.length];
+    return COSTS.name * (numberRooms.filter((own) => overlap(own, box)).length + isOutside(box)) + 1.5 - a * u - b * v;
+  });
+  const { box } = found;
+  const side = Math.round(SIDES[found.side % SIDES.length][0]);
   numberRooms.push(box);
   text.setAttribute('x', side > 0 ? box[0] : side < 0 ? box[2] : (box[0] + box[2]) / 2);
   text.setAttribute('text-anchor', side > 0 ? 'start' : side < 0 ? 'end' : 'middle');
@@ -118,8 +116,9 @@ function scaleLoads() {
     }
   }
   setRow(0, 0);
-  // The bars of the scales lie below all arrows.
-  bottom = Math.max(bottom, lowest + 18);
+  // The bars of the scales lie below the mechanism and all arrows.
+  const pivots = motion.view[1] + motion.view[3] - MARGIN + PIVOT;
+  bottom = Math.max(bottom, Math.max(lowest, pivots) + 18);
   motion.view = [left, top, right - left, bottom - top];
   picture.setAttribute('viewBox', motion.view.join(' '));
 }

@@ -100,7 +100,7 @@ document.addEventListener('keydown', (event) => {
   if (act === undefined) return;
   event.preventDefault();
   act(event.shiftKey);
-});
+}, { signal: life.signal });
 
 /** Sets up the box that shows or hides a part of the picture. */
 function setUpBox(part) {
@@ -174,9 +174,11 @@ function setUp() {
   choice.value = over;
   if (!isOneWay) choice.closest('label').remove();
   choice.addEventListener('change', () => { over = choice.value; setUpCharts(); setUpFormulas(); });
-  // In a frame of `linkproof watch` the picture comes first.
-  if (window.parent === window) setUpBelow(); else window.addEventListener('load', () => setTimeout(setUpBelow, 0));
-  for (const own of document.querySelectorAll('[data-needs]')) if (!has[own.dataset.needs]) own.remove();
+  // Outdated sections below the picture, under `linkproof watch`, stay as they are.
+  const isWhole = document.querySelector('main > .outdated') === null;
+  if (isWhole) setUpBelow();
+  const needs = [...document.querySelectorAll('[data-needs]')].filter((own) => own.closest('.outdated') === null);
+  for (const own of needs) if (!has[own.dataset.needs]) own.remove();
   for (const [id, isOpen] of [['open-all', true], ['close-all', false]]) {
     byId(id).addEventListener('click', () => { for (const own of byId('charts').querySelectorAll('details')) own.open = isOpen; });
   }

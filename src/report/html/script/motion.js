@@ -132,7 +132,11 @@ function setUpScales() {
   const scales = byId('scales');
   const bar = (y, length, text) => {
     draw(scales, 'path', { d: `M${left + 3} ${y - 1}V${y + 1}M${left + 3} ${y}H${left + 3 + length}M${left + 3 + length} ${y - 1}V${y + 1}` });
+    write(length, y, text);
+  };
+  const write = (length, y, text) => {
     draw(scales, 'text', { x: left + 4.5 + length, y: y + 1.1 }, text);
+    scaleRooms.push([left, y - 0.5 * LETTER, left + 4.5 + length + WIDE * text.length, y + 0.5 * LETTER]);
   };
   const metres = round(motion.unit * width / 4);
   bar(top + height - 3.5, metres / motion.unit, `${digits(metres * 1e3)} mm`);
@@ -144,7 +148,7 @@ function setUpScales() {
     const load = round(LONGEST / loadScale);
     const y = top + height - 13.5;
     draw(scales, 'rect', { x: left + 3, y: y - SHAFT, width: load * loadScale, height: 2 * SHAFT });
-    draw(scales, 'text', { x: left + 4.5 + load * loadScale, y: y + 1.1 }, `${digits(load)} N, loads`);
+    write(load * loadScale, y, `${digits(load)} N, loads`);
   }
 }
 

@@ -68,11 +68,32 @@ function meets([[x, y], [u, v]], [left, top, right, bottom]) {
 
 const overlap = (a, b) => a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
 
-/** Box of a name on one of the eight sides of its point. */
-function boxOn([x, y], text, [u, v]) {
+/** Box of a text on one of the eight sides of its point, `away` from it. */
+function boxOn([x, y], text, [u, v], away) {
   const [half, high] = [0.5 * WIDE * text.length, 0.5 * LETTER];
-  const [a, b] = [x + u * (AWAY + half), y + v * (AWAY + high)];
+  const [a, b] = [x + u * (away + half), y + v * (away + high)];
   return [a - half, b - high, a + half, b + high];
+}
+
+/** Number of distances at which a text is tried: farther ones only if it covers another text at all nearer ones. */
+const RINGS = 4;
+/** The best place of a text beside a point: its box, and its side, which counts the distances too. */
+function bestPlace(at, text, cost) {
+  let best = { price: Infinity };
+  for (let ring = 0; ring < RINGS && best.price >= COSTS.name; ring += 1) {
+    SIDES.forEach((side, k) => {
+      const box = boxOn(at, text, side, AWAY + 0.7 * LETTER * ring);
+      const [price, number] = [cost(box, ring * SIDES.length + k) + ring, ring * SIDES.length + k];
+      if (price < best.price) best = { box, side: number, price };
+    });
+  }
+  return best;
+}
+
+/** Whether a box leaves the picture. */
+function isOutside(box) {
+  const [left, top, width, height] = motion.view;
+  return box[0] < left || box[1] < top || box[2] > left + width || box[3] > top + height;
 }
 
 function setUpNames() {
@@ -82,24 +103,20 @@ function setUpNames() {
     own.element.textContent = own.text;
   }
   following.push(() => {
-    const [left, top, width, height] = motion.view;
     const lines = linesNow();
     const places = names.map((own) => worldOf(own.on, false)).map((at) => (at === null ? null : toPicture(at)));
-    const taken = byId('loads').checkVisibility() ? [...numberRooms] : [];
+    const taken = picture.classList.contains('no-loads') ? [...scaleRooms] : [...numberRooms];
     names.forEach((own, index) => {
       own.element.classList.toggle('hidden', places[index] === null);
       if (places[index] === null) return;
-      const cost = (side) => {
-        const box = boxOn(places[index], own.text, SIDES[side]);
-        const isOut = box[0] < left || box[1] < top || box[2] > left + width || box[3] > top + height;
+      const cost = (box, side) => {
         const covers = (place) => place !== null && overlap([place[0] - 1, place[1] - 1, place[0] + 1, place[1] + 1], box);
         const count = (list, test) => list.reduce((sum, one) => sum + test(one), 0);
-        return COSTS.name * (count(taken, (other) => overlap(other, box)) + isOut) + COSTS.place * count(places, covers)
+        return COSTS.name * (count(taken, (other) => overlap(other, box)) + isOutside(box)) + COSTS.place * count(places, covers)
           + COSTS.line * count(lines, (line) => meets(line, box)) + COSTS.change * (own.side !== null && own.side !== side);
       };
-      const costs = SIDES.map((_, side) => cost(side));
-      own.side = costs.indexOf(Math.min(...costs));
-      const box = boxOn(places[index], own.text, SIDES[own.side]);
+      const { box, side } = bestPlace(places[index], own.text, cost);
+      own.side = side;
       taken.push(box);
       own.element.setAttribute('x', (box[0] + box[2]) / 2);
       own.element.setAttribute('y', box[3] - 0.22 * LETTER);

@@ -3,6 +3,8 @@
 
 const page = JSON.parse(document.getElementById('data').textContent);
 const byId = (id) => document.getElementById(id);
+/** Ends listeners of the window when another page takes the place of this one. */
+const life = new AbortController();
 
 function bytes(text) {
   const raw = atob(text);

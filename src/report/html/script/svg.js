@@ -83,7 +83,7 @@ window.addEventListener('beforeprint', () => {
   for (const element of [...pending.keys()]) {
     if (element.closest('details:not([open])') === null) reveal(element);
   }
-});
+}, { signal: life.signal });
 
 /** Functions that are called at every instant shown. */
 const followers = [];

@@ -1,14 +1,39 @@
 // Under `linkproof watch`: the view survives the next page, and points of links can be dragged.
 
-/** What the next page of the same mechanism shows again. */
-window.linkproofView = () => ({ share: duration > 0 ? (shown.time - time[0]) / duration : 0, isPlaying, top: window.scrollY });
-window.linkproofShow = (view) => {
+/** The parts of a page that a person sets: boxes by their identifiers, and open details by the first word of their summary. */
+const boxes = () => [...document.querySelectorAll('#controls input[type=checkbox]')];
+const details = () => [...document.querySelectorAll('details')];
+const nameOf = (own) => own.querySelector('summary').textContent.split(/ \(|:/)[0];
+
+/** Ends this page. Returns the view that the next page shows again. */
+function end() {
+  const view = {
+    share: duration > 0 ? (shown.time - time[0]) / duration : 0,
+    isPlaying,
+    speed: byId('speed').selectedIndex,
+    boxes: new Map(boxes().map((own) => [own.id, own.checked])),
+    open: new Map(details().map((own) => [nameOf(own), own.open])),
+  };
   setPlaying(false);
+  life.abort();
+  watcher.disconnect();
+  nearWatcher.disconnect();
+  return view;
+}
+
+function resume(view) {
+  setPlaying(false);
+  byId('speed').selectedIndex = view.speed;
+  for (const own of boxes()) {
+    // The engine is shown by the difference between both sides, as on the first page.
+    if (own.id === 'show-engine' || !view.boxes.has(own.id) || view.boxes.get(own.id) === own.checked) continue;
+    own.checked = !own.checked;
+    own.dispatchEvent(new Event('change'));
+  }
+  for (const own of details()) if (view.open.has(nameOf(own))) own.open = view.open.get(nameOf(own));
   goToTime(time[0] + view.share * duration);
   setPlaying(view.isPlaying);
-  // After everything below the picture is set up.
-  setTimeout(() => window.scrollTo(0, view.top), 0);
-};
+}
 
 /** All named points, each with the links on which it lies: number of the link, name, and place in its frame (m). */
 function draggable() {
@@ -45,12 +70,11 @@ function setUpDragging() {
     const at = new DOMPoint(event.clientX, event.clientY).matrixTransform(picture.getScreenCTM().inverse());
     return [at.x * motion.unit, -at.y * motion.unit];
   };
-  const pixel = motion.unit / picture.getScreenCTM().a;
   const mark = draw(picture, 'circle', { class: 'dot hidden', r: 3 });
   let taken = null;
   picture.addEventListener('pointerdown', (event) => {
     const [x, y] = worldAt(event);
-    let best = GRASP * pixel;
+    let best = GRASP * motion.unit / picture.getScreenCTM().a;
     for (const [name, holders] of draggable()) {
       const at = worldOf([holders[0].number, ...holders[0].from], false);
       const apart = at === null ? Infinity : Math.hypot(at[0] - x, at[1] - y);
@@ -78,3 +102,4 @@ function setUpDragging() {
   });
 }
 setUpDragging();
+return { end, resume };

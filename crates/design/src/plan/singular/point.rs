@@ -36,8 +36,8 @@ impl AssurLead {
         cross(self.along, far - near) / self.length()
     }
 
-    /// End of the normal parts of the acceleration of the singular point `at`. The normal parts are added to the
-    /// acceleration `far` of the lead's second end.
+    /// Tip of the vector chain that begins with `far`, the acceleration of the lead's second end, and adds the two normal
+    /// parts of the acceleration of the singular point `at`.
     /// The first part is omega^2 l between the lead's ends, with the lead's angular velocity `lead` (rad/s).
     /// The second part is omega^2 l between the lead's first end and the point, with the angular velocity `base` of the
     /// base link (rad/s). Both normal parts are parallel to the lead; the tangential parts are across the lead.
