@@ -26,6 +26,20 @@ pub const LINKS: [PaletteColour; 7] = [
     PaletteColour { light: "#3b8ea5", dark: "#7fd1e6", hatch_deg: 0.0 },
 ];
 
+/// Colours of the series of a chart: four of Okabe and Ito (2008), and three that are darker than theirs, because lines
+/// of their orange, sky blue and yellow are hardly visible on white paper.
+/// All can be told apart by readers without red or green receptors.
+pub const SERIES: [PaletteColour; 8] = [
+    LINKS[0],
+    LINKS[1],
+    LINKS[2],
+    PaletteColour { light: "#cc79a7", dark: "#cc79a7", hatch_deg: -15.0 },
+    PaletteColour { light: "#6a00a8", dark: "#b18cff", hatch_deg: 75.0 },
+    PaletteColour { light: "#7a3b00", dark: "#d9b38c", hatch_deg: -75.0 },
+    PaletteColour { light: "#882255", dark: "#ff9a9a", hatch_deg: 0.0 },
+    TEXT,
+];
+
 /// Colour of text and of fixed parts.
 pub const TEXT: PaletteColour = PaletteColour { light: "#1a1a1a", dark: "#eceff4", hatch_deg: 45.0 };
 /// Colour of auxiliary lines and symbols, such as axes and mass centres.
@@ -47,16 +61,57 @@ pub fn link(number: LinkId) -> PaletteColour {
 mod tests {
     use super::*;
 
+    /// Red, green and blue of a colour as shares of the light, after WCAG 2.
+    fn linear(colour: &str) -> [f64; 3] {
+        [1, 3, 5].map(|at| {
+            let part = f64::from(u8::from_str_radix(&colour[at..at + 2], 16).unwrap()) / 255.0;
+            if part <= 0.04045 { part / 12.92 } else { ((part + 0.055) / 1.055).powf(2.4) }
+        })
+    }
+
+    fn times(matrix: [[f64; 3]; 3], own: [f64; 3]) -> [f64; 3] {
+        matrix.map(|row| row.iter().zip(own).map(|(a, b)| a * b).sum())
+    }
+
     /// Relative luminance of a colour, after WCAG 2.
     fn luminance(colour: &str) -> f64 {
-        let part = |at: usize| f64::from(u8::from_str_radix(&colour[at..at + 2], 16).unwrap()) / 255.0;
-        let linear = |part: f64| if part <= 0.04045 { part / 12.92 } else { ((part + 0.055) / 1.055).powf(2.4) };
-        [(1, 0.2126), (3, 0.7152), (5, 0.0722)].map(|(at, share)| share * linear(part(at))).iter().sum()
+        times([[0.2126, 0.7152, 0.0722]; 3], linear(colour))[0]
+    }
+
+    /// Smallest distance of two colours (CIELAB 1976) for usual eyes, and for eyes without green or red receptors
+    /// (Machado, Oliveira and Fernandes 2009).
+    fn distance(one: &str, other: &str) -> f64 {
+        let eyes = [
+            [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+            [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.01182, 0.04294, 0.968881]],
+            [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]],
+        ];
+        let white = [[0.4339, 0.3762, 0.1899], [0.2126, 0.7152, 0.0722], [0.0178, 0.1095, 0.8727]];
+        let place = |eye: [[f64; 3]; 3], colour: &str| {
+            let seen = times(eye, linear(colour)).map(|part| part.clamp(0.0, 1.0));
+            let [x, y, z] =
+                times(white, seen).map(|own| if own > 0.008856 { own.cbrt() } else { 7.787 * own + 16.0 / 116.0 });
+            [116.0 * y, 500.0 * (x - y), 200.0 * (y - z)]
+        };
+        let apart =
+            |eye| place(eye, one).iter().zip(place(eye, other)).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+        eyes.map(apart).into_iter().fold(f64::INFINITY, linkage::math::KeepNan::smaller)
+    }
+
+    /// Symptom: two series had nearly the same orange, and two the same blue.
+    #[test]
+    fn regress_the_colours_of_series_differ_for_all_eyes() {
+        for (index, one) in SERIES.iter().enumerate() {
+            for other in &SERIES[..index] {
+                let apart = distance(one.light, other.light);
+                assert!(apart > 17.0, "{one:?} {other:?}: {apart}");
+            }
+        }
     }
 
     #[test]
     fn every_colour_has_enough_contrast_with_the_paper() {
-        for paint in LINKS.into_iter().chain([TEXT, QUIET, LOAD]) {
+        for paint in LINKS.into_iter().chain(SERIES).chain([TEXT, QUIET, LOAD]) {
             let light = (luminance(PAPER.light) + 0.05) / (luminance(paint.light) + 0.05);
             let dark = (luminance(paint.dark) + 0.05) / (luminance(PAPER.dark) + 0.05);
             assert!(light >= 3.0 && dark >= 3.0, "{paint:?}: {light} {dark}");
