@@ -8,7 +8,7 @@ use crate::sentences;
 use drawing::paper::document::document;
 use drawing::paper::figure::{DrawnFigure, Style, solid, width, words};
 use drawing::paper::style::GREY;
-use lab::stress::{PointEnd, QuantityGroup, StressFamily, StressOutcome};
+use lab::stress::{PartyAtPoint, PointEnd, QuantityGroup, StressFamily, StressOutcome};
 use linkage::math::statistics::distinct;
 use linkage::math::{KeepNan, Vec2};
 
@@ -95,12 +95,16 @@ fn panel(family: &StressFamily, outcomes: &[&StressOutcome], names: &[&str], gro
         let mut lines: Vec<[Vec<Vec2>; 2]> = vec![Default::default()];
         let mut marks = Vec::new();
         for own in outcomes {
+            let has_failed = |party: &&PartyAtPoint| {
+                party.verdict == PointEnd::Fails && !party.reached.iter().any(|own| own.group == group)
+            };
             let Some(party) = own.parties.iter().find(|party| party.name == *name) else { continue };
             // Several samples at one parameter value are drawn side by side.
             let dial = own.dial * (1.0 + 0.004 * own.sample as f64);
             let Some(reached) = party.reached.iter().find(|own| own.group == group) else {
-                if party.verdict == PointEnd::Fails {
-                    marks.push((chart.at([dial, FAILED[1]]) + Vec2::new(ASIDE * number as f64, 0.0), Filling::Cross));
+                let mut failed = own.parties.iter().filter(has_failed);
+                if let Some(rank) = failed.position(|party| party.name == *name) {
+                    marks.push((chart.at([dial, FAILED[1]]) + Vec2::new(ASIDE * rank as f64, 0.0), Filling::Cross));
                 }
                 lines.push(Default::default());
                 continue;
