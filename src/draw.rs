@@ -9,17 +9,18 @@ mod subject;
 use drawing::dxf::Dxf;
 use drawing::paper::document::Drawing;
 use drawing::paper::figure::DrawnFigure;
-use drawing::sheet::{SheetCell, columns, sheet};
-use linkage::error::Result;
+use drawing::sheet::{SheetCell, bare, columns, sheet};
+use linkage::error::{Error, Result};
 use linkage::math::Vec2;
 use scenario::Scenario;
 
 pub use media::{Medium, PictureOptions};
 pub(crate) use subject::{Drawn, Note};
 
-/// Size of a picture with one mechanism, and of each picture among several (mm).
+/// Size of a picture with one mechanism, of each picture among several, and of a small picture (mm).
 const ALONE: [f64; 2] = [150.0, 120.0];
 const AMONG: [f64; 2] = [100.0, 96.0];
+const SMALL: [f64; 2] = [64.0, 48.0];
 /// Factor on `ALONE` and `AMONG` if several positions or enlarged paths are drawn.
 const SERIES: f64 = 1.3;
 /// Space between pictures in a DXF file, divided by the width of a picture.
@@ -51,11 +52,21 @@ pub fn draw(scenario: Scenario, wish: &PictureOptions, medium: Medium) -> Result
 
 /// The picture of several files. If a file has faults, its mechanism is drawn as far as possible.
 pub(crate) fn picture(all: &[Drawn], wish: &PictureOptions, medium: Medium) -> Result<Vec<u8>> {
+    picture_and_warning(all, wish, medium).map(|(bytes, _)| bytes)
+}
+
+/// The picture of several files, and a warning if it has letters that the format cannot show.
+pub(crate) fn picture_and_warning(
+    all: &[Drawn],
+    wish: &PictureOptions,
+    medium: Medium,
+) -> Result<(Vec<u8>, Option<Error>)> {
     match medium {
-        Medium::Dxf => Ok(full_size(&sheets(all, wish, medium).swap_remove(0)).into_bytes()),
+        Medium::Dxf => Ok((full_size(&sheets(all, wish, medium).swap_remove(0)).into_bytes(), None)),
         Medium::Svg | Medium::Pdf | Medium::Png | Medium::Gif | Medium::WebP => {
             let (pages, title) = pages(all, wish, medium);
-            medium.bytes(&pages, &title, wish)
+            let warning = medium.lacking(pages.iter().map(|(figure, _)| figure));
+            Ok((medium.bytes(&pages, &title, wish)?, warning))
         }
     }
 }
@@ -107,6 +118,7 @@ fn sheets(all: &[Drawn], wish: &PictureOptions, medium: Medium) -> Vec<Vec<Sheet
 fn room(all: &[Drawn], wish: &PictureOptions) -> Vec2 {
     let count: usize = all.iter().map(|own| own.count(wish)).sum();
     Vec2::from(match (columns(count), wish.course()) {
+        (_, _) if wish.small => SMALL,
         (1, None) => ALONE,
         (1, Some(_)) => ALONE.map(|size| SERIES * size),
         (_, None) => AMONG,
@@ -123,6 +135,10 @@ fn pages(all: &[Drawn], wish: &PictureOptions, medium: Medium) -> (Vec<(DrawnFig
         [one] => (one.headline.clone(), formula.as_deref().unwrap_or(&one.title)),
         _ => (all.iter().map(|own| own.name.as_str()).collect::<Vec<_>>().join(", "), ""),
     };
-    let pages = sheets.iter().map(|cells| sheet(&title, subtitle, cells, room(all, wish).x)).collect();
+    let page = |cells: &Vec<SheetCell>| match wish.small {
+        true => bare(cells, room(all, wish)),
+        false => sheet(&title, subtitle, cells, room(all, wish).x),
+    };
+    let pages = sheets.iter().map(page).collect();
     (pages, title)
 }

@@ -7,7 +7,7 @@ use super::engine_args::side;
 use super::instant::InstantArgs;
 use super::output::{self, refused};
 use super::{load, number};
-use crate::draw::{Drawn, Medium, Note, PictureOptions, picture};
+use crate::draw::{Drawn, Medium, Note, PictureOptions, picture_and_warning};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::input::Input;
 use prover::run::Reference;
@@ -59,6 +59,9 @@ pub(super) struct Args {
     /// Write the lengths and angles that define the links and the ground into the picture
     #[arg(long)]
     dimensions: bool,
+    /// Draw for a place of about 240 pixels: without words, numbers and scale, and with large symbols
+    #[arg(long, conflicts_with_all = ["loads", "positions", "enlarge", "groups", "dimensions"])]
+    small: bool,
     /// Width of a bitmap in pixels [default: 800]
     #[arg(long, value_name = "PIXELS", value_parser = clap::value_parser!(u32).range(100..=4000))]
     width: Option<u32>,
@@ -113,6 +116,7 @@ pub(super) fn draw(args: &Args) -> Result<()> {
         positions: args.positions,
         enlarged: args.enlarge.clone(),
         groups: args.groups,
+        small: args.small,
         solver: args.with,
         width: args.width,
         frames: args.frames.map(|count| count as usize),
@@ -134,7 +138,7 @@ pub(super) fn draw(args: &Args) -> Result<()> {
         }
     };
     let all = args.files.iter().map(drawn).collect::<Result<Vec<_>>>()?;
-    let bytes = picture(&all, &wish, medium)?;
+    let (bytes, warning) = picture_and_warning(&all, &wish, medium)?;
     match &args.output {
         Some(to) => output::write_bytes(&bytes, to)?,
         None => {
@@ -145,7 +149,7 @@ pub(super) fn draw(args: &Args) -> Result<()> {
             output::make_here(&String::from_utf8_lossy(&bytes), &format!("{stem}.svg"))?;
         }
     }
-    all.iter().filter_map(|own| own.fault.as_ref()).for_each(output::warn);
+    all.iter().filter_map(|own| own.fault.as_ref()).chain(&warning).for_each(output::warn);
     for own in &all {
         match &own.note {
             Some(Note::Said(note)) => output::note(note),

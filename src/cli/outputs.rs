@@ -145,7 +145,9 @@ impl Made {
             Made::Text(text) => output::write(text, to),
             Made::Drawing(drawing) => {
                 let medium = Medium::of(to).unwrap_or(Medium::Svg);
-                output::write_bytes(&medium.drawn(drawing)?, to)
+                output::write_bytes(&medium.drawn(drawing)?, to)?;
+                medium.lacking([&drawing.figure].into_iter()).iter().for_each(output::warn);
+                Ok(())
             }
         }
     }

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use drawing::bitmap::{Bitmap, bitmap, to_gif, to_png, to_webp};
 use drawing::dxf::Dxf;
+use drawing::lacking_letters;
 use drawing::paper::document::{Drawing, document};
 use drawing::paper::figure::DrawnFigure;
 use drawing::pdf::pdf;
@@ -38,6 +39,8 @@ pub struct PictureOptions {
     pub enlarged: Vec<String>,
     /// Whether to draw the driving links and the groups apart, in the order in which they are solved.
     pub groups: bool,
+    /// Whether to draw for a place of about 240 pixels: without words, numbers and scale, and with large symbols.
+    pub small: bool,
     /// Analytic solver.
     pub solver: Reference,
     /// Width of a bitmap in pixels; `None` for 800.
@@ -147,6 +150,14 @@ impl Medium {
         if self.moves() && !wish.each_mode { wish.frames.unwrap_or(48) } else { 1 }
     }
 
+    /// A warning if figures have letters that this format cannot show.
+    pub(crate) fn lacking<'a>(self, figures: impl Iterator<Item = &'a DrawnFigure>) -> Option<Error> {
+        match self {
+            Medium::Svg | Medium::Dxf => None,
+            Medium::Pdf | Medium::Png | Medium::Gif | Medium::WebP => lacking_letters(figures),
+        }
+    }
+
     /// The bytes of a drawing. A bitmap has enough pixels for print.
     pub(crate) fn drawn(self, drawing: &Drawing) -> Result<Vec<u8>> {
         let [width, height] = drawing.size;
@@ -170,7 +181,7 @@ impl Medium {
             Medium::Svg => {
                 Ok(pages.iter().map(|(figure, size)| document(figure, *size, title)).collect::<String>().into_bytes())
             }
-            Medium::Pdf => pages.first().map_or_else(|| Ok(Vec::new()), |(figure, size)| pdf(figure, *size, title)),
+            Medium::Pdf => Ok(pages.first().map(|(figure, size)| pdf(figure, *size, title)).unwrap_or_default()),
             Medium::Dxf => {
                 let mut file = Dxf::default();
                 pages.iter().for_each(|(figure, _)| file.figure(figure, 1.0, Vec2::zeros()));

@@ -130,7 +130,8 @@ impl Drawn {
     pub(super) fn cells(&self, wish: &PictureOptions, medium: Medium, room: Vec2) -> Vec<SheetCell> {
         let Drawn { mechanism, drives, loads, gravity, .. } = self;
         let subject = DrawnSubject { mechanism, drives, loads, gravity: *gravity };
-        let extras = Extras { loads: wish.loads, dimensions: wish.dimensions, is_moving: medium.moves() };
+        let extras =
+            Extras { loads: wish.loads, dimensions: wish.dimensions, is_moving: medium.moves(), is_small: wish.small };
         if let (true, Some(structure), [shot, ..]) = (wish.groups, &self.structure, &self.shots[..]) {
             return group_cells(mechanism, structure, drives, &shot.laid.places, room);
         }

@@ -4,18 +4,19 @@ use crate::plain::style::wrapped;
 use crate::sentences;
 use std::ops::RangeInclusive;
 
-use super::chart::{Chart, DASHED, Filling, colour, decades, mark};
+use super::chart::{ASIDE, Chart, DASHED, Filling, colour, decades, mark};
 use drawing::paper::document::document;
 use drawing::paper::figure::{DrawnFigure, solid, words};
-use drawing::paper::style::GREY;
+use drawing::paper::style::{GREY, significant};
 use lab::bench::{Bench, BenchPoint, CLEAR, CostAxis, MethodOwner, front};
 use linkage::math::statistics::distinct;
 use linkage::math::{KeepNan, Vec2};
 use linkage::trajectory::Stage;
 
-/// Size of a panel, and height of the title line (mm).
+/// Size of a panel, height of a title of one line, and mean width of a letter of the title (mm).
 const PANEL: [f64; 2] = [138.0, 112.0];
 const TITLE: f64 = 12.0;
+const LETTER: f64 = 2.6;
 /// Colour of the area below the reference error, and of the band of failures.
 const PALE: &str = "#ececec";
 const ROSE: &str = "#fcf0f0";
@@ -34,23 +35,41 @@ pub(crate) fn drawing(bench: &Bench, axis: CostAxis) -> Option<String> {
     let panels = bench.stages.iter().map(|&stage| panel(bench, stage, axis, costs));
     let columns = (bench.stages.len() + 1).min(3);
     let [name, about] = &bench.scenario;
-    let title = cut(&sentences::error_against(&name, &label(axis), &about), 150);
+    let title = sentences::error_against(&name, &short(axis), &about);
+    let lines = wrapped(&title, Some((columns as f64 * PANEL[0] / LETTER) as usize), 0);
     let mut sheet = DrawnFigure::default();
-    sheet.text(Vec2::new(5.0, -8.0), title.as_str(), words(5.0));
+    let mut top = 0.0;
+    for line in lines.lines() {
+        top -= TITLE / 1.5;
+        sheet.text(Vec2::new(5.0, top), line, words(5.0));
+    }
+    top -= TITLE / 3.0;
     for (index, cell) in panels.chain([legend(bench, axis)]).enumerate() {
         let [column, row] = [index % columns, index / columns].map(|count| count as f64);
-        sheet.add(&cell, Vec2::new(column * PANEL[0], -TITLE - row * PANEL[1]));
+        sheet.add(&cell, Vec2::new(column * PANEL[0], top - row * PANEL[1]));
     }
     let rows = (bench.stages.len() + 1).div_ceil(columns);
-    Some(document(&sheet, [PANEL[0] * columns as f64, PANEL[1] * rows as f64 + TITLE], &title))
+    Some(document(&sheet, [PANEL[0] * columns as f64, PANEL[1] * rows as f64 - top], &title))
 }
 
-/// The cost in words.
-fn label(axis: CostAxis) -> &'static str {
+/// The cost in a few words.
+fn short(axis: CostAxis) -> &'static str {
     match axis {
-        CostAxis::Time => sentences::TIME_OVER_THAT_OF_SIDE_ASSUR,
-        CostAxis::Solutions => sentences::EVALUATIONS_OR_STEPS_AND_PROBES,
-        CostAxis::Inner => sentences::SWEEPS_FACTORISATIONS_ITERATIONS_OR_GROUPS,
+        CostAxis::Time => sentences::PROCESSOR_TIME,
+        CostAxis::Solutions => sentences::NUMBER_OF_SOLUTIONS,
+        CostAxis::Inner => sentences::NUMBER_OF_INNER_OPERATIONS,
+    }
+}
+
+/// The cost in words, with its unit.
+fn label(bench: &Bench, axis: CostAxis) -> String {
+    match axis {
+        CostAxis::Time => {
+            let [own, motion] = [bench.unit * 1e3, bench.span[1] - bench.span[0]].map(significant);
+            sentences::processor_time_over_that_of_side_assur(&own, &motion)
+        }
+        CostAxis::Solutions => sentences::EVALUATIONS_OR_STEPS_AND_PROBES.into(),
+        CostAxis::Inner => sentences::SWEEPS_FACTORISATIONS_ITERATIONS_OR_GROUPS.into(),
     }
 }
 
@@ -87,8 +106,8 @@ fn panel(bench: &Bench, stage: Stage, axis: CostAxis, [left, right]: [f64; 2]) -
     let mut chart = Chart::new(PANEL, [[left, right], [low, band]]);
     chart.band([low, floor], PALE);
     chart.band([high, band], ROSE);
-    let title = format!("{}: error", caption(stage));
-    chart.axes([&decades([left, right], 8), &decades([low, high], 9)], &title, label(axis));
+    let names = [&label(bench, axis), sentences::LARGEST_ERROR_OVER_THE_SCALE];
+    chart.axes([&decades([left, right], 8), &decades([low, high], 9)], caption(stage), names);
     chart.level(floor, solid(GREY, 0.5));
     chart.level(CLEAR * floor, DASHED);
     let place = |index: &usize| {
@@ -96,7 +115,8 @@ fn panel(bench: &Bench, stage: Stage, axis: CostAxis, [left, right]: [f64; 2]) -
         Some([cost(bench, axis, point)?, shown(point.error(stage)?.max)])
     };
     let mut is_empty = true;
-    for (number, program) in programs(bench).into_iter().enumerate() {
+    // The last program is drawn first: the marks of the first programs are the smallest and stay visible.
+    for (number, program) in programs(bench).into_iter().enumerate().rev() {
         let own = |point: &BenchPoint| point.program == program;
         let best = front(&bench.points, stage, axis, floor, &own);
         let best: Vec<Vec2> = best.iter().filter_map(place).map(|at| chart.at(at)).collect();
@@ -112,7 +132,8 @@ fn panel(bench: &Bench, stage: Stage, axis: CostAxis, [left, right]: [f64; 2]) -
                 }
                 (None, _) | (_, None) => continue,
             };
-            let at = chart.at(at);
+            let aside = if filling == Filling::Cross { ASIDE * number as f64 } else { 0.0 };
+            let at = chart.at(at) + Vec2::new(aside, 0.0);
             mark(&mut chart.figure, at, MARK, number, filling);
             is_empty = false;
         }

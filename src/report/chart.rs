@@ -1,18 +1,22 @@
 //! A diagram with two logarithmic axes, and the marks of the parties.
 
 use crate::sentences;
+use drawing::palette::SERIES;
 use drawing::paper::figure::{DrawnFigure, Style, Tint, Type, rectangle, solid, words};
-use drawing::paper::style::{self, GREY};
+use drawing::paper::style::GREY;
 use linkage::math::Vec2;
-use linkage::mechanism::LinkId;
 
 /// Margins between a cell and the frame of its diagram (mm): left, right, top, bottom.
-const ROOM: [f64; 4] = [17.0, 5.0, 9.0, 12.0];
+const ROOM: [f64; 4] = [22.0, 5.0, 9.0, 12.0];
 const GRID: Style = solid("#d4d4d4", 0.15);
 /// Thin dashed line.
 pub(super) const DASHED: Style = Style { dash: "1.6 1.2", ..solid(GREY, 0.3) };
 /// Font size of numbers (mm).
 pub(super) const SMALL: f64 = 3.0;
+/// Distance between the marks of parties that fail at the same place (mm).
+pub(super) const ASIDE: f64 = 2.6;
+/// Size of the marks of bounds and on crosses, divided by the usual size.
+pub(super) const SMALLER: f64 = 0.55;
 
 /// How a mark is filled.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,7 +27,7 @@ pub(super) enum Filling {
     Hollow,
     /// The mark is an outline with a cross in it.
     Crossed,
-    /// A cross is drawn instead of the mark.
+    /// A cross with a small mark on it.
     Cross,
 }
 
@@ -68,8 +72,8 @@ impl Chart {
     }
 
     /// Frame, and grid lines with their numbers.
-    /// The title is above, and the name of the horizontal axis below.
-    pub(super) fn axes(&mut self, [along, up]: [&[f64]; 2], title: &str, below: &str) {
+    /// The title is above; the names of the axes are below and on the left.
+    pub(super) fn axes(&mut self, [along, up]: [&[f64]; 2], title: &str, [below, beside]: [&str; 2]) {
         let [low, high] = [0, 1].map(|end| self.at([self.ends[0][end], self.ends[1][end]]));
         for &value in along {
             let x = self.at([value, self.ends[1][0]]).x;
@@ -85,6 +89,8 @@ impl Chart {
         self.figure.text(Vec2::new(low.x, high.y + 2.0), title, Type { bold: true, ..words(3.6) });
         let middle = Vec2::new((low.x + high.x) / 2.0, low.y - 9.0);
         self.figure.text(middle, below, Type { anchor: "middle", ..words(3.2) });
+        let middle = Vec2::new(low.x - ROOM[0] + 6.0, (low.y + high.y) / 2.0);
+        self.figure.text(middle, beside, Type { anchor: "middle", upward: true, ..words(3.2) });
     }
 
     /// Writes the reason why the diagram is empty into the middle of the frame.
@@ -109,34 +115,63 @@ pub(super) fn label(value: f64) -> String {
     if (0.01..1e5).contains(&value) { format!("{value}") } else { format!("{value:e}") }
 }
 
-/// Colour of the party with this number, from the colours of links.
+/// Corners of the marks, at a distance of about one from the middle; a disc has none.
+const SHAPES: [&[[f64; 2]]; 8] = [
+    &[],
+    &[[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]],
+    &[[0.0, 1.2], [1.1, -0.9], [-1.1, -0.9]],
+    &[[0.0, -1.3], [1.3, 0.0], [0.0, 1.3], [-1.3, 0.0]],
+    &[[0.0, -1.2], [1.1, 0.9], [-1.1, 0.9]],
+    &[[-1.1, -1.1], [1.1, -1.1], [-1.1, 1.1], [1.1, 1.1]],
+    &[
+        [-0.4, -1.2],
+        [0.4, -1.2],
+        [0.4, -0.4],
+        [1.2, -0.4],
+        [1.2, 0.4],
+        [0.4, 0.4],
+        [0.4, 1.2],
+        [-0.4, 1.2],
+        [-0.4, 0.4],
+        [-1.2, 0.4],
+        [-1.2, -0.4],
+        [-0.4, -0.4],
+    ],
+    &[[-1.1, -1.1], [-1.1, 1.1], [1.1, -1.1], [1.1, 1.1]],
+];
+
+/// Colour of the party with this number. After all marks are used, the colours move on by one.
 pub(super) fn colour(party: usize) -> &'static str {
-    style::colour(LinkId(party))
+    SERIES[(party + party / SHAPES.len()) % SERIES.len()].light
 }
 
 /// The mark of a party, `size` (mm) from its middle to its edge.
 /// The number of the party selects colour and shape; `filling` selects the filling.
 pub(super) fn mark(figure: &mut DrawnFigure, at: Vec2, size: f64, party: usize, filling: Filling) {
     let paint = colour(party);
-    let corners: &[[f64; 2]] = match party % 5 {
-        1 => &[[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]],
-        2 => &[[0.0, 1.2], [1.1, -0.9], [-1.1, -0.9]],
-        3 => &[[0.0, -1.3], [1.3, 0.0], [0.0, 1.3], [-1.3, 0.0]],
-        4 => &[[0.0, -1.2], [1.1, 0.9], [-1.1, 0.9]],
-        _ => &[],
-    };
+    let corners = SHAPES[party % SHAPES.len()];
     let around = |[x, y]: [f64; 2]| at + Vec2::new(x, y) * size;
     // A white edge separates overlapping marks.
     let (fill, edge) = if filling == Filling::Full { (paint, "#ffffff") } else { ("#ffffff", paint) };
-    if filling != Filling::Cross && corners.is_empty() {
-        figure.disc(at, size, fill, solid(edge, 0.2));
-    } else if filling != Filling::Cross {
-        figure.area(corners.iter().copied().map(around).collect(), Some(Tint::opaque(fill)), solid(edge, 0.2));
-    }
-    if matches!(filling, Filling::Cross | Filling::Crossed) {
+    let cross = |figure: &mut DrawnFigure| {
         for slope in [1.0, -1.0] {
             figure.line([[-1.0, -slope], [1.0, slope]].map(around), solid(paint, 0.4));
         }
+    };
+    match filling {
+        Filling::Cross => {
+            cross(figure);
+            mark(figure, at, SMALLER * size, party, Filling::Full);
+        }
+        Filling::Full | Filling::Hollow | Filling::Crossed if corners.is_empty() => {
+            figure.disc(at, size, fill, solid(edge, 0.2));
+        }
+        Filling::Full | Filling::Hollow | Filling::Crossed => {
+            figure.area(corners.iter().copied().map(around).collect(), Some(Tint::opaque(fill)), solid(edge, 0.2));
+        }
+    }
+    if filling == Filling::Crossed {
+        cross(figure);
     }
 }
 
@@ -167,12 +202,13 @@ mod tests {
             mark(&mut figure, Vec2::zeros(), 1.0, party, filling);
             document(&figure, [10.0, 10.0], "")
         };
-        let fillings = [Filling::Full, Filling::Hollow, Filling::Crossed];
+        let fillings = [Filling::Full, Filling::Hollow, Filling::Crossed, Filling::Cross];
         let all: BTreeSet<String> =
-            fillings.iter().flat_map(|&own| (0..20).map(move |party| looks(party, own))).collect();
-        assert_eq!(all.len(), 60);
-        // The crosses of failures differ only in colour.
-        let crosses: BTreeSet<String> = (0..8).map(|party| looks(party, Filling::Cross)).collect();
-        assert_eq!(crosses.len(), 8);
+            fillings.iter().flat_map(|&own| (0..64).map(move |party| looks(party, own))).collect();
+        assert_eq!(all.len(), 4 * 64);
+        // The first eight parties differ in colour, and without colours in shape.
+        let colours: BTreeSet<&str> = (0..8).map(colour).collect();
+        let shapes: BTreeSet<String> = SHAPES.iter().map(|shape| format!("{shape:?}")).collect();
+        assert_eq!([colours.len(), shapes.len()], [8; 2]);
     }
 }

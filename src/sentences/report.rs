@@ -235,11 +235,15 @@ linkage::sentences! {
     IT_COUNTS_NONE_OF_THESE = "; does not report this cost";
     BALANCING_MOMENT_SHAKING_FORCE_AND_MOMENT = "balancing moment, shaking force and moment";
     NO_SETTING_THAT_ANSWERED_COUNTS = "no successful setting reports this cost";
-    SWEEPS_FACTORISATIONS_ITERATIONS_OR_GROUPS = "sweeps, factorisations, iterations or placed groups";
-    EVALUATIONS_OR_STEPS_AND_PROBES = "evaluations, or steps and probes, or poses";
-    TIME_OVER_THAT_OF_SIDE_ASSUR = "time relative to side 1 (assur)";
-    error_against(name, axis, about) = "{name}: error against {axis}. {about}";
+    SWEEPS_FACTORISATIONS_ITERATIONS_OR_GROUPS = "number of inner operations: sweeps, factorisations, iterations or placed groups";
+    EVALUATIONS_OR_STEPS_AND_PROBES = "number of solutions of the mechanism: evaluations, steps and probes, or poses";
+    processor_time_over_that_of_side_assur(own_ms, motion_s) = "processor time / that of side 1 (assur: {own_ms} ms for {motion_s} s of motion)";
+    PROCESSOR_TIME = "processor time";
+    NUMBER_OF_SOLUTIONS = "number of solutions";
+    NUMBER_OF_INNER_OPERATIONS = "number of inner operations";
+    error_against(name, cost, about) = "{name}: largest error of every setting over its {cost}. {about}";
     // report/chart.rs
+    LARGEST_ERROR_OVER_THE_SCALE = "largest error / scale of its channel";
     nothing_to_draw(why) = "no data to draw: {why}";
     // report/check.rs
     FOR_THE_MOST_PART = "for the most part";
@@ -488,7 +492,7 @@ found down to: faults larger than this are found in every scenario, to a factor 
     linear_theory_holds_beyond(multiple) = "linear theory holds (to 10 % of the standard deviation) up to {multiple} times the tolerances, the largest multiple tried";
     // report/stress/map.rs
     NO_SOLVER_AND_NO_ENGINE_HAS_NUMBERS = "no solver and no engine gives numbers here";
-    error_over_the_scale(group) = "{group}: error divided by the channel's scale";
+    WITHOUT_NUMBERS = " (no numbers)";
     // report/stress/summary.rs
     no_mechanism_at(at, why) = "  not a valid mechanism at {at}: {why}";
     points_of_results_agree_are_inconclusive(points, silent, panics, verdicts, agree, open, against, fails, refused) = "{points} points: {silent}, {panics}; of {verdicts} results {agree} agree, {open} are inconclusive, {against} disagree, {fails} fail with a reason; {refused} points gave no results, each with its reason";

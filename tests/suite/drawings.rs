@@ -289,6 +289,19 @@ fn wrong_input_is_refused_with_a_remedy() {
     }
 }
 
+/// A small picture has no letters. Every picture follows a dark viewer, unless it is part of a page or printed.
+#[test]
+fn small_pictures_have_no_letters_and_pictures_follow_a_dark_viewer() {
+    let small = svg(&[&file("crank_rocker"), "--traces", "--small"]);
+    let document = roxmltree::Document::parse(&small).unwrap();
+    assert!(texts(&document).is_empty() && pins(&document).len() >= 4, "{small}");
+    for rule in ["@media screen and (prefers-color-scheme:dark)", "svg:root [fill=\"#1a1a1a\"]{fill:#eceff4}"] {
+        assert!(small.contains(rule), "{small}");
+    }
+    let (code, _, told) = draw(&[&file("crank_rocker"), "--small", "--loads"]);
+    assert!(code == 2 && told.contains("--loads"), "{told}");
+}
+
 /// A pin that joins three links has a ring, and loads have a separate colour.
 #[test]
 fn marks_distinguish_pins_and_loads() {

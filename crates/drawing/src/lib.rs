@@ -50,6 +50,7 @@ pub use body::places;
 pub use dimension::{Dimension, DimensionLine, Measure, dimensions};
 pub use guide::inside;
 pub use mark::{Fill, Ink, Layer, Look, Mark, MarkRole, MarkShape};
+pub use paths::lacking_letters;
 pub use sign::{LoadSign, arrow, turning};
 pub use sketch::{Lettering, LinkMarks, Sketch, SketchLabel, unit};
 pub use stretched::Stretched;

@@ -7,7 +7,7 @@ use linkage::mechanism::LinkId;
 /// A colour for light and dark paper, and the hatching that replaces it in pictures without colour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PaletteColour {
-    /// Colour on light paper (`#rrggbb`). The contrast of this colour with white is at least 3 : 1.
+    /// Colour on light paper (`#rrggbb`). The contrast of this colour with white is at least 3 : 1, as WCAG asks of lines.
     pub light: &'static str,
     /// Colour on dark paper (`#rrggbb`). The contrast of this colour with #16181c is at least 3 : 1.
     pub dark: &'static str,
@@ -26,6 +26,20 @@ pub const LINKS: [PaletteColour; 7] = [
     PaletteColour { light: "#3b8ea5", dark: "#7fd1e6", hatch_deg: 0.0 },
 ];
 
+/// Colours of the series of a chart: four of Okabe and Ito (2008), and three that are darker than theirs, because lines
+/// of their orange, sky blue and yellow are hardly visible on white paper.
+/// All can be told apart by readers without red or green receptors.
+pub const SERIES: [PaletteColour; 8] = [
+    LINKS[0],
+    LINKS[1],
+    LINKS[2],
+    PaletteColour { light: "#cc79a7", dark: "#cc79a7", hatch_deg: -15.0 },
+    PaletteColour { light: "#6a00a8", dark: "#b18cff", hatch_deg: 75.0 },
+    PaletteColour { light: "#7a3b00", dark: "#d9b38c", hatch_deg: -75.0 },
+    PaletteColour { light: "#882255", dark: "#ff9a9a", hatch_deg: 0.0 },
+    TEXT,
+];
+
 /// Colour of text and of fixed parts.
 pub const TEXT: PaletteColour = PaletteColour { light: "#1a1a1a", dark: "#eceff4", hatch_deg: 45.0 };
 /// Colour of auxiliary lines and symbols, such as axes and mass centres.
@@ -34,6 +48,43 @@ pub const QUIET: PaletteColour = PaletteColour { light: "#767676", dark: "#9aa0a
 pub const LOAD: PaletteColour = PaletteColour { light: "#c1121f", dark: "#ff6b6b", hatch_deg: 45.0 };
 /// The paper.
 pub const PAPER: PaletteColour = PaletteColour { light: "#ffffff", dark: "#16181c", hatch_deg: 45.0 };
+
+/// Colours of areas, grid lines and faults: on light paper, and on dark paper.
+const OTHERS: [[&str; 2]; 12] = [
+    ["#ffffff", PAPER.dark],
+    ["white", PAPER.dark],
+    ["#d11149", "#ff6b8a"],
+    ["#c8c8c8", "#4a4e57"],
+    ["#d0d0d0", "#464a53"],
+    ["#d4d4d4", "#42464e"],
+    ["#ececec", "#26292f"],
+    ["#fcf0f0", "#3a2226"],
+    ["#e3edf4", "#22313c"],
+    ["#f3c9a5", "#6b4a2a"],
+    ["#fbe9da", "#3d2f22"],
+    ["#dcefdc", "#23392a"],
+];
+
+/// All colours on light paper, each with its colour on dark paper.
+fn pairs() -> impl Iterator<Item = [&'static str; 2]> {
+    let named = LINKS.into_iter().chain(SERIES).chain([TEXT, QUIET, LOAD]).map(|own| [own.light, own.dark]);
+    named.chain(OTHERS)
+}
+
+/// Rules for an SVG document that is shown alone in a viewer with a dark background: every colour of the document on
+/// light paper becomes its colour on dark paper. Print and a document within a page stay light.
+pub fn dark_rules(document: &str) -> String {
+    let mut rules = Vec::new();
+    for [light, dark] in pairs() {
+        for key in ["fill", "stroke"] {
+            let rule = format!("svg:root [{key}=\"{light}\"]{{{key}:{dark}}}");
+            if document.contains(&format!("{key}=\"{light}\"")) && !rules.contains(&rule) {
+                rules.push(rule);
+            }
+        }
+    }
+    format!("@media screen and (prefers-color-scheme:dark){{{}}}", rules.concat())
+}
 
 /// Colour of the link with this number. The ground has number 0 and the colour of text.
 pub fn link(number: LinkId) -> PaletteColour {
@@ -47,19 +98,84 @@ pub fn link(number: LinkId) -> PaletteColour {
 mod tests {
     use super::*;
 
+    /// Red, green and blue of a colour as shares of the light, after WCAG 2.
+    fn linear(colour: &str) -> [f64; 3] {
+        [1, 3, 5].map(|at| {
+            let part = f64::from(u8::from_str_radix(&colour[at..at + 2], 16).unwrap()) / 255.0;
+            if part <= 0.04045 { part / 12.92 } else { ((part + 0.055) / 1.055).powf(2.4) }
+        })
+    }
+
+    fn times(matrix: [[f64; 3]; 3], own: [f64; 3]) -> [f64; 3] {
+        matrix.map(|row| row.iter().zip(own).map(|(a, b)| a * b).sum())
+    }
+
     /// Relative luminance of a colour, after WCAG 2.
     fn luminance(colour: &str) -> f64 {
-        let part = |at: usize| f64::from(u8::from_str_radix(&colour[at..at + 2], 16).unwrap()) / 255.0;
-        let linear = |part: f64| if part <= 0.04045 { part / 12.92 } else { ((part + 0.055) / 1.055).powf(2.4) };
-        [(1, 0.2126), (3, 0.7152), (5, 0.0722)].map(|(at, share)| share * linear(part(at))).iter().sum()
+        times([[0.2126, 0.7152, 0.0722]; 3], linear(colour))[0]
+    }
+
+    /// Smallest distance of two colours (CIELAB 1976) for usual eyes, and for eyes without green or red receptors
+    /// (Machado, Oliveira and Fernandes 2009).
+    fn distance(one: &str, other: &str) -> f64 {
+        let eyes = [
+            [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+            [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.01182, 0.04294, 0.968881]],
+            [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]],
+        ];
+        let white = [[0.4339, 0.3762, 0.1899], [0.2126, 0.7152, 0.0722], [0.0178, 0.1095, 0.8727]];
+        let place = |eye: [[f64; 3]; 3], colour: &str| {
+            let seen = times(eye, linear(colour)).map(|part| part.clamp(0.0, 1.0));
+            let [x, y, z] =
+                times(white, seen).map(|own| if own > 0.008856 { own.cbrt() } else { 7.787 * own + 16.0 / 116.0 });
+            [116.0 * y, 500.0 * (x - y), 200.0 * (y - z)]
+        };
+        let apart =
+            |eye| place(eye, one).iter().zip(place(eye, other)).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+        eyes.map(apart).into_iter().fold(f64::INFINITY, linkage::math::KeepNan::smaller)
+    }
+
+    /// Symptom: pictures stayed white in a dark page, or kept single light colours.
+    #[test]
+    fn regress_every_colour_has_one_partner_on_dark_paper() {
+        let all: std::collections::BTreeMap<&str, &str> = pairs().map(|[light, dark]| (light, dark)).collect();
+        assert!(pairs().all(|[light, dark]| all[light] == dark));
+        let top = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+        let mut folders = ["crates/drawing/src", "crates/design/src", "src/report"].map(|name| top.join(name)).to_vec();
+        while let Some(folder) = folders.pop() {
+            for entry in std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
+                let is_page = ["html", "palette.rs", "sweep.rs"].iter().any(|name| entry.ends_with(name));
+                if entry.is_dir() && !is_page {
+                    folders.push(entry);
+                } else if entry.extension().is_some_and(|ending| ending == "rs") && !is_page {
+                    let text = std::fs::read_to_string(&entry).unwrap();
+                    let code = text.split("#[cfg(test)]").next().unwrap();
+                    for colour in code.split('"').filter(|word| word.len() == 7 && word.starts_with('#')) {
+                        assert!(all.contains_key(colour), "{}: {colour}", entry.display());
+                    }
+                }
+            }
+        }
+    }
+
+    /// Symptom: two series had nearly the same orange, and two the same blue.
+    #[test]
+    fn regress_the_colours_of_series_differ_for_all_eyes() {
+        for (index, one) in SERIES.iter().enumerate() {
+            for other in &SERIES[..index] {
+                let apart = distance(one.light, other.light);
+                assert!(apart > 17.0, "{one:?} {other:?}: {apart}");
+            }
+        }
     }
 
     #[test]
     fn every_colour_has_enough_contrast_with_the_paper() {
-        for paint in LINKS.into_iter().chain([TEXT, QUIET, LOAD]) {
+        for paint in LINKS.into_iter().chain(SERIES).chain([TEXT, QUIET, LOAD]) {
             let light = (luminance(PAPER.light) + 0.05) / (luminance(paint.light) + 0.05);
             let dark = (luminance(paint.dark) + 0.05) / (luminance(PAPER.dark) + 0.05);
-            assert!(light >= 3.0 && dark >= 3.0, "{paint:?}: {light} {dark}");
+            let least = if [TEXT, QUIET].contains(&paint) { 4.5 } else { 3.0 };
+            assert!(light >= least && dark >= least, "{paint:?}: {light} {dark}");
         }
     }
 }

@@ -2,11 +2,14 @@
 
 mod glyphs;
 
+use std::collections::BTreeSet;
+
 use tiny_skia::{Path, PathBuilder};
 
 use crate::paper::figure::{DrawnFigure, Ink, Style, Tint, head};
+use crate::sentences;
 pub(crate) use glyphs::Glyphs;
-use linkage::error::Result;
+use linkage::error::{Error, ErrorKind};
 use linkage::math::Vec2;
 
 /// A bitmap or PDF page that receives paths (mm, y downwards).
@@ -19,23 +22,28 @@ pub(crate) trait Surface {
 }
 
 /// Draws a figure on a surface.
-///
-/// # Errors
-/// [`ErrorKind::Input`](linkage::error::ErrorKind::Input) for a text with a letter that the bundled font lacks.
-pub(crate) fn draw(figure: &DrawnFigure, surface: &mut impl Surface) -> Result<()> {
+pub(crate) fn draw(figure: &DrawnFigure, surface: &mut impl Surface) {
     let glyphs = Glyphs::bundled();
-    check(&figure.ink, glyphs)?;
     figure.ink.iter().for_each(|ink| put(ink, glyphs, surface));
-    Ok(())
 }
 
-/// Checks that the font has all letters of the texts.
-fn check(ink: &[Ink], glyphs: &Glyphs) -> Result<()> {
-    ink.iter().try_for_each(|own| match own {
-        Ink::Text { text, .. } => glyphs.check(text),
-        Ink::Group { ink, .. } => check(ink, glyphs),
-        Ink::Line(..) | Ink::Arrow(..) | Ink::Shape { .. } | Ink::Disc { .. } => Ok(()),
-    })
+/// A warning that names the letters of figures that the font of bitmaps and PDF lacks, and the way out.
+pub fn lacking_letters<'a>(figures: impl Iterator<Item = &'a DrawnFigure>) -> Option<Error> {
+    let mut found = BTreeSet::new();
+    figures.for_each(|figure| collect(&figure.ink, &mut found));
+    let told: Vec<String> = found.iter().map(|sign| format!("\"{sign}\" (U+{:04X})", u32::from(*sign))).collect();
+    let warning = || Error::new(ErrorKind::Input, sentences::the_font_lacks(&told.join(", ")));
+    (!told.is_empty()).then(|| warning().help(sentences::WRITE_AN_SVG))
+}
+
+fn collect(ink: &[Ink], found: &mut BTreeSet<char>) {
+    for own in ink {
+        match own {
+            Ink::Text { text, .. } => found.extend(Glyphs::bundled().lacking(text)),
+            Ink::Group { ink, .. } => collect(ink, found),
+            Ink::Line(..) | Ink::Arrow(..) | Ink::Shape { .. } | Ink::Disc { .. } => {}
+        }
+    }
 }
 
 fn put<S: Surface>(ink: &Ink, glyphs: &Glyphs, surface: &mut S) {

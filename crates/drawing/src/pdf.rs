@@ -6,7 +6,6 @@ use tiny_skia::{Path, PathSegment};
 
 use crate::paper::figure::{DrawnFigure, Style, Tint};
 use crate::paths::{self, Surface, dashes, rgb};
-use linkage::error::Result;
 
 /// PDF points in a millimetre.
 const POINT: f64 = 72.0 / 25.4;
@@ -15,15 +14,12 @@ const PARTS: f32 = 1000.0;
 
 /// The PDF file of a figure on white paper of the given size (mm).
 /// The paper's upper left corner is the figure's origin.
-///
-/// # Errors
-/// [`ErrorKind::Input`](linkage::error::ErrorKind::Input) for a text with a letter that the bundled font lacks.
-pub fn pdf(figure: &DrawnFigure, [width, height]: [f64; 2], title: &str) -> Result<Vec<u8>> {
+pub fn pdf(figure: &DrawnFigure, [width, height]: [f64; 2], title: &str) -> Vec<u8> {
     let mut sheet = Sheet { content: Content::new(), opacities: Vec::new(), groups: Vec::new() };
     sheet.content.transform([POINT, 0.0, 0.0, -POINT, 0.0, POINT * height].map(|own| own as f32));
     sheet.begin();
-    paths::draw(figure, &mut sheet)?;
-    Ok(sheet.bytes([width, height], title))
+    paths::draw(figure, &mut sheet);
+    sheet.bytes([width, height], title)
 }
 
 /// The page that is being written.

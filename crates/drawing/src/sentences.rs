@@ -22,9 +22,9 @@ linkage::sentences! {
     THE_OTHER_POSITIONS = "the other positions";
     // view.rs
     paths_without_numbers(names) = "paths too small for numbers: {names}";
-    // paths/glyphs.rs
-    the_font_lacks_the_letter(sign, code, text) = "the bundled font has no letter \"{sign}\" (U+{code}) for the text \"{text}\"";
-    USE_LATIN_GREEK_OR_CYRILLIC = "write Latin, Greek or Cyrillic letters, or write an SVG, whose letters come from the viewer";
+    // paths.rs
+    the_font_lacks(letters) = "boxes are drawn for letters that the font of bitmaps and PDF lacks: {letters}";
+    WRITE_AN_SVG = "write an SVG, whose letters come from the viewer, or use Latin, Greek or Cyrillic letters";
     // plot/panel.rs
     the_chart_cannot_be_drawn(error) = "the chart cannot be drawn: {error}";
     // paper/document.rs

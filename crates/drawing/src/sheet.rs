@@ -123,6 +123,21 @@ pub fn sheet(title: &str, subtitle: &str, cells: &[SheetCell], least: f64) -> (D
     (sheet, [(whole + 2.0 * MARGIN).ceil(), (MARGIN - GAP - top).ceil()])
 }
 
+/// The pictures of the cells alone, side by side, with their size (mm). Every cell has at least the size `least` (mm).
+/// The upper left corner is the origin.
+pub fn bare(cells: &[SheetCell], least: Vec2) -> (DrawnFigure, [f64; 2]) {
+    let size = |cell: &SheetCell| cell.bounds[1] - cell.bounds[0];
+    let room = cells.iter().map(size).fold(least, |most, own| most.sup(&own));
+    let (mut figure, step) = (DrawnFigure::default(), room + Vec2::repeat(MARGIN));
+    for (index, cell) in cells.iter().enumerate() {
+        let [column, row] = [index % columns(cells.len()), index / columns(cells.len())].map(|count| count as f64);
+        let middle = Vec2::new((column + 0.5) * step.x, -(row + 0.5) * step.y);
+        figure.add(&cell.figure, middle - (cell.bounds[0] + cell.bounds[1]) / 2.0);
+    }
+    let [wide, high] = [columns(cells.len()), cells.len().div_ceil(columns(cells.len()))].map(|count| count as f64);
+    (figure, [(wide * step.x).ceil(), (high * step.y).ceil()])
+}
+
 /// The entries of a legend in rows that are at most `wide` (mm).
 pub fn legend_rows(legend: &[(LinkId, String)], wide: f64) -> Vec<&[(LinkId, String)]> {
     let mut rows = Vec::new();

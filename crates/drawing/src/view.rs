@@ -46,6 +46,8 @@ pub struct Extras {
     /// Whether only the names of ground points are drawn, and numbers only on links with enough space.
     /// Because of this restriction, no label jumps between frames.
     pub is_moving: bool,
+    /// Whether the picture has no names and numbers.
+    pub is_small: bool,
 }
 
 /// One instant: positions of the links, and effects of the loads.
@@ -81,7 +83,8 @@ pub fn cells(
     room: Vec2,
 ) -> Vec<SheetCell> {
     let [low, high] = corners(extent(subject, shots, motion));
-    let scale = fit(high - low, room - Vec2::repeat(2.0 * AROUND));
+    let around = if extras.is_small { AROUND / 3.0 } else { AROUND };
+    let scale = fit(high - low, room - Vec2::repeat(2.0 * around));
     let sketch = Sketch::of(subject.mechanism, motion.travels, scale)
         .with_drives(subject.mechanism, subject.drives)
         .with_loads(subject.mechanism, subject.loads);
@@ -149,6 +152,9 @@ fn figure(
         picture.draw_loads(&shot.acting);
     }
     picture.draw_dimensions(subject.mechanism, dimensions);
+    if extras.is_small {
+        return (picture.finish(drawings), Vec::new());
+    }
     if extras.is_moving {
         for link in subject.mechanism.links().ids().skip(1) {
             if let Some(local) = super::body::free(subject.mechanism, link, FREE * scale) {

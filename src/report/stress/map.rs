@@ -2,13 +2,13 @@
 //!
 //! Every party has a separate colour and mark; the filling of a mark shows the verdict.
 
-use super::super::chart::{Chart, DASHED, Filling, colour, decades, mark};
+use super::super::chart::{ASIDE, Chart, DASHED, Filling, SMALLER, colour, decades, mark};
 use super::summary::names;
 use crate::sentences;
 use drawing::paper::document::document;
 use drawing::paper::figure::{DrawnFigure, Style, solid, width, words};
-use drawing::paper::style::{BLACK, GREY};
-use lab::stress::{PointEnd, QuantityGroup, StressFamily, StressOutcome};
+use drawing::paper::style::GREY;
+use lab::stress::{PartyAtPoint, PointEnd, QuantityGroup, StressFamily, StressOutcome};
 use linkage::math::statistics::distinct;
 use linkage::math::{KeepNan, Vec2};
 
@@ -19,9 +19,8 @@ const HEAD: f64 = 24.0;
 const ERRORS: [f64; 2] = [1e-17, 1e3];
 /// Lower end of the strip of failures, its middle, and its upper end.
 const FAILED: [f64; 3] = [1e4, 1e5, 1e6];
-/// Size of a mark, and distance between the marks of parties that fail at the same point (mm).
+/// Size of a mark (mm).
 const MARK: f64 = 1.3;
-const ASIDE: f64 = 0.8;
 /// Font size of the legend (mm).
 const LETTER: f64 = 3.4;
 
@@ -29,7 +28,7 @@ const LETTER: f64 = 3.4;
 pub(crate) fn map(family: &StressFamily, outcomes: &[&StressOutcome]) -> String {
     let names = names(outcomes);
     let title = format!("{}: {}", family.name, family.title);
-    let mut sheet = legend(&title, &names);
+    let mut sheet = legend(&title, &names, outcomes);
     for (row, group) in QuantityGroup::ALL.into_iter().enumerate() {
         sheet.add(&panel(family, outcomes, &names, group), Vec2::new(0.0, -HEAD - row as f64 * PANEL[1]));
     }
@@ -45,7 +44,7 @@ fn filling(verdict: PointEnd) -> Filling {
     }
 }
 
-fn legend(title: &str, names: &[&str]) -> DrawnFigure {
+fn legend(title: &str, names: &[&str], outcomes: &[&StressOutcome]) -> DrawnFigure {
     let mut figure = DrawnFigure::default();
     figure.text(Vec2::new(4.0, -6.0), title, words(4.2));
     let write = |figure: &mut DrawnFigure, x: &mut f64, y: f64, text: &str| {
@@ -56,7 +55,10 @@ fn legend(title: &str, names: &[&str]) -> DrawnFigure {
     for (number, name) in names.iter().enumerate() {
         mark(&mut figure, Vec2::new(x, -13.0), MARK, number, Filling::Full);
         x += 3.0;
-        write(&mut figure, &mut x, -13.0, name);
+        let mut own = outcomes.iter().flat_map(|own| &own.parties).filter(|party| party.name == *name);
+        let has_numbers = own.any(|party| !party.reached.is_empty());
+        let absent = if has_numbers { "" } else { sentences::WITHOUT_NUMBERS };
+        write(&mut figure, &mut x, -13.0, &format!("{name}{absent}"));
     }
     let mut x = 6.0;
     for (verdict, text) in PointEnd::ALL.into_iter().zip(["agrees", "inconclusive", "disagrees", "fails"]) {
@@ -64,8 +66,9 @@ fn legend(title: &str, names: &[&str]) -> DrawnFigure {
         x += 3.0;
         write(&mut figure, &mut x, -19.5, text);
     }
-    for (style, text) in [(solid(BLACK, 0.3), "error"), (Style { colour: BLACK, ..DASHED }, "bound")] {
-        figure.line([Vec2::new(x, -19.5), Vec2::new(x + 9.0, -19.5)], style);
+    for (style, size, text) in [(solid(GREY, 0.3), MARK, "error"), (DASHED, SMALLER * MARK, "bound")] {
+        figure.line([Vec2::new(x, -19.5), Vec2::new(x + 9.0, -19.5)], Style { colour: colour(0), ..style });
+        mark(&mut figure, Vec2::new(x + 4.5, -19.5), size, 0, Filling::Full);
         x += 11.0;
         write(&mut figure, &mut x, -19.5, text);
     }
@@ -80,22 +83,28 @@ fn panel(family: &StressFamily, outcomes: &[&StressOutcome], names: &[&str], gro
     let mut chart = Chart::new(PANEL, [along, [ERRORS[0], FAILED[2]]]);
     // If the parameter spans less than a decade, the axis shows its values.
     let numbers = if along[1] / along[0] < 10.0 { distinct(dials()) } else { decades(along, 13) };
-    chart.axes([&numbers, &decades(ERRORS, 7)], &sentences::error_over_the_scale(&group.name()), family.dial);
+    let names_of_axes = [family.dial, sentences::LARGEST_ERROR_OVER_THE_SCALE];
+    chart.axes([&numbers, &decades(ERRORS, 7)], group.name(), names_of_axes);
     chart.level(FAILED[0], solid(GREY, 0.3));
     let clipped = |error: f64| if error.is_nan() { ERRORS[1] } else { error.clamp(3.0 * ERRORS[0], ERRORS[1]) };
     let mut is_empty = true;
-    for (number, name) in names.iter().enumerate() {
+    // The last party is drawn first: the marks of the first parties are the smallest and stay visible.
+    for (number, name) in names.iter().enumerate().rev() {
         // Each party has two lines: one through its errors, and one through its bounds.
         // Both lines are interrupted where the party has no numbers.
         let mut lines: Vec<[Vec<Vec2>; 2]> = vec![Default::default()];
         let mut marks = Vec::new();
         for own in outcomes {
+            let has_failed = |party: &&PartyAtPoint| {
+                party.verdict == PointEnd::Fails && !party.reached.iter().any(|own| own.group == group)
+            };
             let Some(party) = own.parties.iter().find(|party| party.name == *name) else { continue };
             // Several samples at one parameter value are drawn side by side.
             let dial = own.dial * (1.0 + 0.004 * own.sample as f64);
             let Some(reached) = party.reached.iter().find(|own| own.group == group) else {
-                if party.verdict == PointEnd::Fails {
-                    marks.push((chart.at([dial, FAILED[1]]) + Vec2::new(ASIDE * number as f64, 0.0), Filling::Cross));
+                let mut failed = own.parties.iter().filter(has_failed);
+                if let Some(rank) = failed.position(|party| party.name == *name) {
+                    marks.push((chart.at([dial, FAILED[1]]) + Vec2::new(ASIDE * rank as f64, 0.0), Filling::Cross));
                 }
                 lines.push(Default::default());
                 continue;
@@ -106,6 +115,9 @@ fn panel(family: &StressFamily, outcomes: &[&StressOutcome], names: &[&str], gro
                 errors.push(error);
                 bounds.push(bound);
             }
+        }
+        for &bound in lines.iter().flat_map(|[_, bounds]| bounds) {
+            mark(&mut chart.figure, bound, SMALLER * MARK, number, Filling::Full);
         }
         for [errors, bounds] in lines.into_iter().filter(|[errors, _]| errors.len() > 1) {
             chart.figure.curve(errors, None, solid(colour(number), 0.3));

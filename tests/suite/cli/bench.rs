@@ -3,6 +3,7 @@
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
 
+use drawing::palette::SERIES;
 use linkage::mechanism::is_unseen;
 use serde_json::Value;
 
@@ -29,7 +30,15 @@ fn diagrams_and_numbers_are_written() {
     assert!(text.contains("positions: error of the reference "), "{text}");
     for end in ["time", "solutions", "inner"] {
         let drawn = fs::read_to_string(place.path(&format!("out/deep/five_bar.{end}.svg"))).unwrap();
-        assert!(roxmltree::Document::parse(&drawn).unwrap().root_element().has_tag_name("svg"));
+        let drawn = roxmltree::Document::parse(&drawn).unwrap();
+        // Both sides, in the first two colours, have a mark in the legend and one in the only panel.
+        for colour in [SERIES[0].light, SERIES[1].light] {
+            let marks = drawn.descendants().filter(|node| {
+                !node.has_tag_name("line") && ["fill", "stroke"].iter().any(|key| node.attribute(*key) == Some(colour))
+            });
+            assert_eq!(marks.count(), 2, "{end} {colour}");
+        }
+        assert!(!drawn.descendants().any(|node| node.text().is_some_and(|text| text.contains("no data to draw"))));
     }
     let table = fs::read_to_string(place.path("out/deep/five_bar.csv")).unwrap();
     assert!(table.starts_with("# cpu: ") && table.contains("# cores: ") && table.contains("# build: "), "{table}");

@@ -77,7 +77,7 @@ fn no_two_labels_meet_in_any_shipped_mechanism() {
     let mut count = 0;
     for (name, case) in mechanisms() {
         let states = states(&case);
-        for extras in [false, true].map(|all| Extras { dimensions: all, loads: all, is_moving: false }) {
+        for extras in [false, true].map(|all| Extras { dimensions: all, loads: all, ..Extras::default() }) {
             for (instant, cell) in drawn(&case, &states, extras).iter().enumerate() {
                 let boxes = &cell.figure.labels;
                 let least = WIDTHS.into_iter().fold(f64::INFINITY, f64::smaller);

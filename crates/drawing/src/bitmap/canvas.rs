@@ -26,7 +26,6 @@ pub struct Bitmap {
 ///
 /// # Errors
 /// [`ErrorKind::Input`] for more than forty million pixels, or for zero pixels.
-/// [`ErrorKind::Input`] for a text with a letter that the bundled font lacks.
 pub fn bitmap(figure: &DrawnFigure, [width, height]: [f64; 2], pixels: u32) -> Result<Bitmap> {
     let scale = f64::from(pixels) / width;
     let rows = (height * scale).round();
@@ -38,7 +37,7 @@ pub fn bitmap(figure: &DrawnFigure, [width, height]: [f64; 2], pixels: u32) -> R
     let mut pixmap = Pixmap::new(pixels, rows as u32).ok_or_else(none)?;
     pixmap.fill(Color::WHITE);
     let mut canvas = Canvas { pixmap, view: Transform::from_scale(scale as f32, scale as f32) };
-    crate::paths::draw(figure, &mut canvas)?;
+    crate::paths::draw(figure, &mut canvas);
     let Canvas { pixmap, .. } = canvas;
     Ok(Bitmap { width: pixels, height: rows as u32, rgba: pixmap.take() })
 }

@@ -1,6 +1,7 @@
 //! Writes a drawing as an SVG document.
 
 use super::figure::DrawnFigure;
+use crate::palette::dark_rules;
 use crate::sentences;
 use svg::Document;
 
@@ -22,7 +23,7 @@ impl Drawing {
     }
 }
 
-/// The document of a figure on white paper of the given size (mm).
+/// The document of a figure on white paper of the given size (mm); on dark paper if the viewer is dark.
 /// The document's upper left corner is the figure's origin.
 pub fn document(figure: &DrawnFigure, [width, height]: [f64; 2], title: &str) -> String {
     let mut document = Document::new()
@@ -37,5 +38,6 @@ pub fn document(figure: &DrawnFigure, [width, height]: [f64; 2], title: &str) ->
     for node in figure.nodes() {
         document = document.add(node);
     }
-    format!("{document}\n")
+    let text = format!("{document}\n");
+    text.replacen("</title>\n", &format!("</title>\n<style>{}</style>\n", dark_rules(&text)), 1)
 }

@@ -6,8 +6,6 @@ use tiny_skia::{Path, PathBuilder};
 use ttf_parser::{Face, OutlineBuilder};
 
 use crate::paper::figure::{Piece, Type, pieces};
-use crate::sentences;
-use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
 
 /// DejaVu Sans Condensed, Latin, Greek and Cyrillic: see `font/LICENSE`.
@@ -42,20 +40,10 @@ impl Glyphs {
         pieces(text, size).iter().map(|piece| self.advance(piece.sign) * piece.size).sum()
     }
 
-    /// Checks that the font has all letters of a text.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Input`] with the first letter that the font lacks.
-    pub fn check(&self, text: &str) -> Result<()> {
+    /// The letters of a text that the font lacks; a box is drawn for each of them.
+    pub fn lacking(&self, text: &str) -> impl Iterator<Item = char> {
         let lacks = |sign: &char| self.face.as_ref().is_some_and(|face| face.glyph_index(*sign).is_none());
-        match pieces(text, 1.0).into_iter().map(|piece| piece.sign).find(lacks) {
-            None => Ok(()),
-            Some(sign) => {
-                let text: String = text.chars().filter(|sign| !sign.is_control()).collect();
-                let message = sentences::the_font_lacks_the_letter(&sign, &format!("{:04X}", u32::from(sign)), &text);
-                Err(Error::new(ErrorKind::Input, message).help(sentences::USE_LATIN_GREEK_OR_CYRILLIC))
-            }
-        }
+        pieces(text, 1.0).into_iter().map(|piece| piece.sign).filter(lacks)
     }
 
     /// A text as a path (mm, y downwards). Each letter of a bold text is two outlines, one beside the other.

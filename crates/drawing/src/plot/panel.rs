@@ -10,7 +10,7 @@ use plotters::style::Color;
 use super::backend::{PlotPaper, pixels, place};
 use super::chart::{GRID, LINE, NAME, NUMBER, PlotChart, PlotCurve};
 use super::ticks::{Ticks, step};
-use crate::palette::LINKS;
+use crate::palette::SERIES;
 use crate::paper::figure::{DrawnFigure, Style, Type, solid, width, words};
 use crate::paper::labels::{self, Obstacles, PlacedLabel};
 use crate::paper::style::BLACK;
@@ -47,7 +47,7 @@ const ARROW: f64 = 4.0;
 /// Colour, width and dashes of the curve with the number `index`.
 fn pen(index: usize) -> Style {
     let round = index / DASHES.len();
-    let (colour, dash) = (LINKS[(index + round) % LINKS.len()].light, DASHES[index % DASHES.len()]);
+    let (colour, dash) = (SERIES[(index + round) % SERIES.len()].light, DASHES[index % DASHES.len()]);
     Style { colour, width: CURVE, dash }
 }
 
