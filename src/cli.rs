@@ -17,6 +17,7 @@ mod engine_section;
 mod exercise;
 mod exit_code;
 mod export;
+mod golden;
 mod graph;
 mod grid;
 mod html;
@@ -170,6 +171,9 @@ commands! {
         /// Measure run time against error of every solver, engine and setting, and of other programs: diagrams and
         /// numbers
         Bench(bench::Args) = bench::run,
+        /// Write a set of truths for simulators: mechanisms as models, their motion and reactions with bounds, and a
+        /// checker
+        Golden(golden::Args) = golden::golden,
     }
     "Help" {
         /// Show a page of the documentation

@@ -273,4 +273,9 @@ linkage::sentences! {
         "case {case}: the proof disagrees. The sweep has stopped; its finished parts are stored.\n\
          Repeat the proof of this case: linkproof run {file}{sets}";
     repeat_a_case(file, sets) = "next  linkproof run {file}{sets}";
+    // cli/golden.rs
+    is_no_mechanism_of_the_set(name) = "{name} is no mechanism of the set";
+    the_set_has(names) = "the set has {names}";
+    has_the_verdict(name, verdict) = "{name} is not proven: the verdict is {verdict}";
+    mechanisms_are_in(count, directory) = "{count} mechanisms in {directory}; README.md there has the conventions\n";
 }

@@ -29,6 +29,7 @@ mod export;
 mod faults;
 mod figures;
 mod formulas;
+mod golden;
 mod graphs;
 mod higher_groups;
 mod invariants;

@@ -86,6 +86,7 @@ if [ "$everything" ]; then
     python "$here/kills.py" "$linkproof" 20 || failed="$failed kills.py"
     # Motions under forces, with the peers of `linkproof bench`.
     python "$here/peers_check.py" "$linkproof" || failed="$failed peers_check.py"
+    python "$here/golden_check.py" "$linkproof" || failed="$failed golden_check.py"
 fi
 if [ -n "$failed" ]; then
     echo "failed:$failed" >&2

@@ -5,6 +5,7 @@
 //! The joined table does not depend on the number of threads, of shards, or of stops.
 
 mod axis;
+mod columns;
 mod design;
 mod fast;
 mod figure;
@@ -18,6 +19,7 @@ mod summary;
 mod table;
 
 pub use axis::{Spread, SweepAxis};
+pub use columns::column_table;
 pub use design::{DesignKind, SweepDesign};
 pub use groups::{RowGroup, SweepGroups};
 pub use plan::{CaseResult, CaseSolver, FORMAT, SweepPlan};

@@ -185,7 +185,7 @@ const NO_PATHS: &str = "KEY=NUMBER REFERENCE ENGINE S ACCURACY N ROUTE TIMES STE
 const WRITTEN: [&str; 3] = ["--output", "--run-up", "--write-map"];
 /// Options that name a directory. The program chooses the file names in this directory, and therefore inspects existing
 /// files.
-const MADE: [&str; 4] = ["bench --output", "man --output", "run --output", "stress --output"];
+const MADE: [&str; 5] = ["bench --output", "golden --output", "man --output", "run --output", "stress --output"];
 /// Arguments that name no input, only a directory for files that the program writes; and the file of a command that does
 /// not end by itself, which `tests/suite/watch.rs` damages.
 const NO_INPUT: [&str; 2] = ["new --shipped", "watch FILE"];

@@ -24,6 +24,7 @@ enum Then {
 /// With a seal, the command notices that its own output was edited, and treats the edited file as a file of the user.
 type Writer = (&'static str, &'static str, Then, bool);
 
+const GOLDEN: &str = "golden double_pendulum -o out";
 const BENCH: &str = "bench scenarios/five_bar.toml --out out --quick --engine rapier --only positions --budget 1e4";
 const STRESS: &str = "stress turns --quick --out out --page page.md";
 const EXERCISE: &str = "exercise scenarios/crank_rocker.toml --ask link.rocker.omega_rad_s --positions 1 --output out";
@@ -31,7 +32,7 @@ const RUN: &str = "run scenarios/pendulum.toml --route differences";
 
 const SWEEP: &str = "sweep scenarios/crank_rocker.toml --vary links.crank.mass_kg=1:2:3 --figure max:joint.A.fx_N";
 
-const WRITERS: [Writer; 29] = [
+const WRITERS: [Writer; 31] = [
     ("run scenarios/pendulum.toml --route differences", "recordings/pendulum.mcap", Then::Keeps, false),
     ("run scenarios/pendulum.toml --route differences", "recordings/pendulum.foxglove.json", Then::Keeps, true),
     (
@@ -43,6 +44,8 @@ const WRITERS: [Writer; 29] = [
     ("draw scenarios/pendulum.toml", "pendulum.svg", Then::Refuses, true),
     ("export scenarios/pendulum.toml", "pendulum.xml", Then::Refuses, true),
     ("export scenarios/pendulum.toml --json", "pendulum.json", Then::Refuses, true),
+    (GOLDEN, "out/README.md", Then::Refuses, true),
+    (GOLDEN, "out/double_pendulum/truth.parquet", Then::Refuses, true),
     (BENCH, "out/bench.json", Then::Refuses, true),
     (BENCH, "out/five_bar.csv", Then::Refuses, true),
     (BENCH, "out/five_bar.time.svg", Then::Refuses, true),

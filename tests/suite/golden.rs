@@ -1,0 +1,63 @@
+//! `golden`: the set of truths is that of `solve` and `export`, and its tables are read back.
+
+use std::collections::BTreeMap;
+use std::fs;
+
+use serde_json::Value;
+
+use crate::cli::tools::Place;
+
+/// Columns of a CSV table by name.
+fn columns(text: &str) -> BTreeMap<String, Vec<String>> {
+    let mut rows = text.lines().map(|line| line.split(',').map(String::from).collect::<Vec<_>>());
+    let names = rows.next().unwrap();
+    let rows: Vec<_> = rows.collect();
+    names.iter().enumerate().map(|(k, name)| (name.clone(), rows.iter().map(|row| row[k].clone()).collect())).collect()
+}
+
+#[test]
+fn the_truth_is_that_of_other_commands() {
+    let place = Place::new();
+    let said = place.ok("golden swinging_parallelogram boom_lift -o set");
+    assert!(said.starts_with("2 mechanisms in set"), "{said}");
+    let read = |file: &str| fs::read_to_string(place.path(file)).unwrap();
+    for name in ["swinging_parallelogram", "boom_lift"] {
+        let truth = read(&format!("set/{name}/truth.csv"));
+        assert_eq!(truth, place.ok(&format!("solve scenarios/{name}.toml -o -")), "{name}");
+        assert_eq!(read(&format!("set/{name}/{name}.toml")), read(&format!("scenarios/{name}.toml")));
+        // Parquet is read by `compare`, and has the numbers of the scenario.
+        let compared = place.run(&format!("compare set/{name}/truth.parquet set/{name}/{name}.toml"));
+        assert_eq!(compared.code, 0, "{name}: {}{}", compared.stdout, compared.stderr);
+        // Every channel has a range and a bound far below it, or is zero.
+        let (truth, bounds) = (columns(&truth), columns(&read(&format!("set/{name}/bounds.csv"))));
+        assert_eq!(bounds["channel"].len(), truth.len() - 2, "{name}");
+        for (k, channel) in bounds["channel"].iter().enumerate() {
+            let [low, high, bound] = ["smallest", "largest", "bound"].map(|own| bounds[own][k].parse::<f64>().unwrap());
+            let values = truth[channel].iter().map(|value| value.parse::<f64>().unwrap());
+            let ends = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
+            assert_eq!((low, high), ends, "{name}: {channel}");
+            let size = low.abs().max(high.abs());
+            assert!(bound > 0.0 && (bound < 1e-7 * size || size < 1e-9), "{name}: {channel}: {bound} of {size}");
+        }
+    }
+    // A format that cannot hold the mechanism is left out, with its reason.
+    let manifest: Value = serde_json::from_str(&read("set/manifest.json")).unwrap();
+    let model = |k: usize| &manifest["mechanisms"][k]["models"]["xml"];
+    assert_eq!(model(0), "swinging_parallelogram/swinging_parallelogram.xml");
+    assert!(model(1)["missing"].as_str().unwrap().contains("cycloidal"));
+    assert_eq!(
+        read("set/swinging_parallelogram/swinging_parallelogram.xml"),
+        place.ok("export scenarios/swinging_parallelogram.toml -o -")
+    );
+    assert!(!place.path("set/boom_lift/boom_lift.xml").exists());
+}
+
+#[test]
+fn an_unknown_mechanism_is_refused_with_the_known_ones() {
+    let place = Place::empty();
+    let wrong = place.run("golden crank_rokcer");
+    assert_eq!(wrong.code, 2);
+    assert!(wrong.stderr.contains("crank_rokcer") && wrong.stderr.contains("double_rocker"), "{}", wrong.stderr);
+    assert!(!place.path("golden").exists());
+    assert_eq!(place.ok("golden --list").lines().count(), 22);
+}
