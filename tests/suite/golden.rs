@@ -28,16 +28,19 @@ fn the_truth_is_that_of_other_commands() {
         // Parquet is read by `compare`, and has the numbers of the scenario.
         let compared = place.run(&format!("compare set/{name}/truth.parquet set/{name}/{name}.toml"));
         assert_eq!(compared.code, 0, "{name}: {}{}", compared.stdout, compared.stderr);
-        // Every channel has a range and a bound far below it, or is zero.
+        // Every channel has its range, and a bound far below the largest value with the same unit.
         let (truth, bounds) = (columns(&truth), columns(&read(&format!("set/{name}/bounds.csv"))));
         assert_eq!(bounds["channel"].len(), truth.len() - 2, "{name}");
+        let number = |column: &str, k: usize| bounds[column][k].parse::<f64>().unwrap();
+        let size = |k: usize| number("smallest", k).abs().max(number("largest", k).abs());
         for (k, channel) in bounds["channel"].iter().enumerate() {
-            let [low, high, bound] = ["smallest", "largest", "bound"].map(|own| bounds[own][k].parse::<f64>().unwrap());
+            let [low, high, bound] = ["smallest", "largest", "bound"].map(|column| number(column, k));
             let values = truth[channel].iter().map(|value| value.parse::<f64>().unwrap());
             let ends = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
             assert_eq!((low, high), ends, "{name}: {channel}");
-            let size = low.abs().max(high.abs());
-            assert!(bound > 0.0 && (bound < 1e-7 * size || size < 1e-9), "{name}: {channel}: {bound} of {size}");
+            let alike = (0..truth.len() - 2).filter(|&own| bounds["unit"][own] == bounds["unit"][k]);
+            let largest = alike.map(size).fold(0.0, f64::max);
+            assert!(bound > 0.0 && bound < 1e-8 * largest, "{name}: {channel}: {bound} of {largest}");
         }
     }
     // A format that cannot hold the mechanism is left out, with its reason.

@@ -32,7 +32,7 @@ pub(super) fn column<'a>(trajectory: &'a Trajectory, name: &str) -> &'a [f64] {
     trajectory.column(&Channel::named(name).unwrap()).unwrap_or_else(|| panic!("no channel {name}"))
 }
 
-const RUN_UPS: [&str; 8] = [
+const RUN_UPS: [&str; 9] = [
     "crank_rocker_runup",
     "crank_rocker_runup_published",
     "averaged_run_up",
@@ -41,6 +41,7 @@ const RUN_UPS: [&str; 8] = [
     "pendulum",
     "double_pendulum",
     "five_bar_on_a_spring",
+    "swinging_parallelogram",
 ];
 
 /// Motions through change points.
