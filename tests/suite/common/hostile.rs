@@ -38,14 +38,15 @@ pub struct Good {
 pub type Files = Vec<(String, Vec<u8>)>;
 
 /// Commands that choose file names, and therefore inspect existing files.
-pub const OLDER: [&str; 8] = [
-    "run pendulum.toml --route differences --record r --output h/",
+pub const OLDER: [&str; 9] = [
     "export pendulum.toml",
     "export pendulum.toml --json",
+    "run pendulum.toml --route differences --record r --output h/",
     "draw pendulum.toml",
     "view r/pendulum.mcap --with foxglove",
     "stress turns --quick --output s --output p/page.md",
     "bench five_bar.toml --output b --output p/page.md --quick --engine rapier --only positions --budget 1e4",
+    "golden double_pendulum --output g",
     "man --output m",
 ];
 
