@@ -6,10 +6,10 @@ use super::load::load;
 use super::outputs::{Outputs, Results, results};
 use super::{number, output};
 use crate::report::{case_json, table_csv};
+use crate::sentences;
 use analytic::AssurSolver;
 use analytic::range::explained;
 use design::export::{cam, first_state, mjcf, sdf, urdf, usd};
-use crate::sentences;
 use linkage::error::{Error, ErrorKind, Result};
 use prover::engines::usual_step;
 

@@ -11,12 +11,11 @@ import contextlib
 import csv
 import io
 import json
-import logging
 import math
+import re
 import subprocess
 import sys
 import tempfile
-import tomllib
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
@@ -397,6 +396,29 @@ def check_urdf(case, text):
 READERS = {"sdf": check_sdf, "usda": check_usd, "urdf": check_urdf}
 
 
+# Planted faults of each format: a pattern with a number, and its replacement by a function of the number.
+FAULTS = {
+    "sdf": ((r"<mass>(.*?)</mass>", 1.001), (r'^ {6}<link name="[^"]*">\s*<pose>(-?0\.\d+) ', 1.0001), (r"<izz>(.*?)</izz>", 1.001)),
+    "usda": ((r"physics:mass = (?!1$)(.*)", 1.001), (r"localPos\d = \((-?0\.\d+),", 1.001)),
+    "urdf": ((r'mass value="(.*?)"', 1.001), (r'type="continuous">\s*<origin xyz="(-?0\.\d+) ', 1.001), (r'izz="(.*?)"', 1.001)),
+}
+
+
+def plant(form, case, text, reader):
+    """Faults that the reader must find; those whose pattern does not occur are left out."""
+    for pattern, factor in FAULTS[form]:
+        found = re.search(pattern, text, re.MULTILINE)
+        if not found:
+            continue
+        wrong = f"{text[: found.start(1)]}{float(found[1]) * factor!r}{text[found.end(1) :]}"
+        kept = results.copy()
+        with contextlib.redirect_stdout(io.StringIO()):
+            reader(case, wrong)
+        missed = all(results[len(kept) :])
+        results[:] = kept
+        check(f"a planted fault in {form} is found", not missed, found[0])
+
+
 def check_motion(linkproof, path, case, file, options):
     """URDF at instants of the motion, and the relations of its joints."""
     last = case.json["times_s"][-1]
@@ -427,6 +449,7 @@ def check_file(linkproof, path):
                     case = Case(linkproof, path, options)
                     reader(case, file.read_text())
                     held.append(form)
+                    plant(form, case, file.read_text(), reader)
                     if form == "urdf":
                         check_motion(linkproof, path, case, file, options)
                     break

@@ -13,7 +13,7 @@ use linkage::ErrorKind;
 use linkage::case::{Case, Grid};
 use linkage::error::Result;
 use linkage::math::{KeepNan, angle};
-use linkage::mechanism::{GROUND, Mechanism, SpanningTree};
+use linkage::mechanism::{GROUND, LinkId, Mechanism, SpanningTree};
 
 /// Scenarios whose only loads act on hinges of the ground.
 const HINGED: [&str; 6] = ["crank_rocker", "compressor", "quick_return", "scotch_yoke", "fourth_class", "ov7_new"];
@@ -53,7 +53,7 @@ fn sdf_has_all_links_and_all_joints() {
         assert_eq!((of("link").count(), of("joint").count()), (links.len() - 1, joints.len()), "{}", scenario.name);
         for node in of("joint") {
             let joint = &joints[case.mechanism.joint_named(node.attribute("name").unwrap()).unwrap()];
-            let name = |link| if link == GROUND { "world" } else { links[link].name.as_str() };
+            let name = |link: LinkId| if link == GROUND { "world" } else { links[link].name.as_str() };
             let mut sides = [name(joint.first.link), name(joint.second.link)];
             let mut found = [text(node, "parent"), text(node, "child")];
             assert_ne!(found[1], "world", "SDF permits no child called world");

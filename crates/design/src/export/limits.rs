@@ -6,6 +6,9 @@ use linkage::drive::{Drive, Load};
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::mechanism::{GROUND, JointId, Transmission};
 
+/// Name of URDF in messages.
+pub(super) const URDF: &str = "URDF";
+
 /// The error that `what` cannot be written to the format `format`.
 pub(super) fn refused(what: &str, format: &str, help: impl Into<Advice>) -> Error {
     Error::new(ErrorKind::Unsupported, sentences::cannot_be_written_to(&what, &format)).help(help)
@@ -68,9 +71,9 @@ pub(super) fn frictions(model: &RigidModel, format: &str) -> Result<Vec<(JointId
     let friction = |load: &Load| {
         let what = sentences::a_load_of_type(&load.sort());
         let (link, moment) = load.resistance().ok_or_else(|| refused_load(&what, format))?;
-        let hinge = joints.entries().find(|(_, joint)| {
-            joint.on(link).is_some() && joint.other(link).link == GROUND && !joint.keeps_angle()
-        });
+        let hinge = joints
+            .entries()
+            .find(|(_, joint)| joint.on(link).is_some() && joint.other(link).link == GROUND && !joint.keeps_angle());
         let (joint, _) = hinge.ok_or_else(|| refused_load(&sentences::without_a_hinge_on_the_ground(&what), format))?;
         Ok((joint, moment))
     };

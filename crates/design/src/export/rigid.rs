@@ -43,7 +43,8 @@ impl<'a> RigidModel<'a> {
             tree = SpanningTree::with(&case.mechanism, &driven);
         }
         let closing = tree.cut.iter().map(|&joint| {
-            let [first, second] = [case.mechanism.joints()[joint].first.link, case.mechanism.joints()[joint].second.link];
+            let [first, second] =
+                [case.mechanism.joints()[joint].first.link, case.mechanism.joints()[joint].second.link];
             let (parent, link) = if second == GROUND { (second, first) } else { (first, second) };
             TreeBranch { link, parent, joint }
         });

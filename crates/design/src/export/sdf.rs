@@ -125,9 +125,7 @@ fn placed(shape: Shape) -> ([f64; 6], (&'static str, Vec<(&'static str, String)>
         Shape::Block { at, angle, half } => {
             ([at.x, at.y, 0.0, 0.0, 0.0, angle], ("box", vec![("size", numbers(half.map(|size| 2.0 * size)))]))
         }
-        Shape::Ball { at, radius } => {
-            ([at.x, at.y, 0.0, 0.0, 0.0, 0.0], ("sphere", vec![("radius", number(radius))]))
-        }
+        Shape::Ball { at, radius } => ([at.x, at.y, 0.0, 0.0, 0.0, 0.0], ("sphere", vec![("radius", number(radius))])),
     }
 }
 

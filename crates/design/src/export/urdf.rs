@@ -28,8 +28,6 @@ use linkage::mechanism::{GROUND, JointId, LinkId};
 use linkage::solver::Solver;
 use mimic::Mimics;
 
-/// Name of the format in messages.
-const FORMAT: &str = "URDF";
 /// Name of the root link. Gazebo takes a link with this name as the world.
 const ROOT: &str = "world";
 /// Largest force (N) and speed (m/s) in the limits of a prismatic joint, which URDF requires.
@@ -45,7 +43,8 @@ const ENDLESS: f64 = 1e9;
 pub fn urdf(case: &Case, solver: &dyn Solver, name: &str, degree: Option<usize>) -> Result<String> {
     names::check_urdf(&case.mechanism)?;
     let model = RigidModel::new(case, &first_state(case, solver)?, name);
-    let (mut followers, frictions) = (limits::followers(&model, FORMAT)?, limits::frictions(&model, FORMAT)?);
+    let (mut followers, frictions) =
+        (limits::followers(&model, limits::URDF)?, limits::frictions(&model, limits::URDF)?);
     let mut offsets = vec![0.0; followers.len()];
     let mimics = degree.map(|degree| Mimics::new(&model, degree)).transpose()?;
     if let Some(mimics) = &mimics {

@@ -22,7 +22,8 @@ pub(super) fn about_z(angle: f64) -> String {
 
 /// Text in quotation marks.
 pub(super) fn quoted(text: &str) -> String {
-    let escaped: String = text.chars().flat_map(|one| if matches!(one, '"' | '\\') { vec!['\\', one] } else { vec![one] }).collect();
+    let escaped: String =
+        text.chars().flat_map(|one| if matches!(one, '"' | '\\') { vec!['\\', one] } else { vec![one] }).collect();
     format!("\"{escaped}\"")
 }
 

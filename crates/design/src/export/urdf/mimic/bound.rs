@@ -7,8 +7,8 @@
 //! The difference of the two motions is thus a linear function with a bound on the rest, and is largest at an end.
 //! Parts are halved until every bound is near the largest error at the middles of parts.
 
-use super::{InputRange, MimicError, Mimics};
-use crate::clearance::tube::{RangePart, Tube, Tubes};
+use super::relations::{InputRange, JointRelation, MimicError, Mimics};
+use crate::clearance::tube::{MOST_HALVINGS, RangePart, Tube, Tubes};
 use crate::export::rigid::{Body, Freedom, RigidModel};
 use crate::sentences;
 use linkage::case::Case;
@@ -56,7 +56,8 @@ struct Followed {
 }
 
 impl Followed {
-    const GROUND: Followed = Followed { origin: Vec2::new(0.0, 0.0), speed: Vec2::new(0.0, 0.0), bend: 0.0, turn: Curved::ZERO };
+    const GROUND: Followed =
+        Followed { origin: Vec2::new(0.0, 0.0), speed: Vec2::new(0.0, 0.0), bend: 0.0, turn: Curved::ZERO };
 
     /// Place of the point `local` with its derivative, and the bound on its second derivative.
     fn point(&self, local: Vec2, half: f64) -> (Vec2, Vec2, f64) {
@@ -96,7 +97,7 @@ impl Followed {
 /// [`ErrorKind::Numeric`] if no bound can be proven near a pose. The errors of the pose solver.
 pub(super) fn prove(model: &RigidModel, case: &Case, range: InputRange, mimics: &mut Mimics) -> Result<()> {
     let mut tubes = Tubes::new(case, range.ends, 0.0)?;
-    let slides = |own: &super::JointRelation| model.case.mechanism.joints()[own.joint].slides();
+    let slides = |own: &JointRelation| model.case.mechanism.joints()[own.joint].slides();
     let floor = |is_length: bool| if is_length { FLOOR * model.size() } else { FLOOR };
     let floors: Vec<f64> =
         mimics.relations.iter().map(slides).chain(mimics.pins.iter().map(|_| true)).map(floor).collect();
@@ -122,7 +123,8 @@ pub(super) fn prove(model: &RigidModel, case: &Case, range: InputRange, mimics: 
         };
         take(&mut closed, &near);
         examined += 2 * wide.len();
-        if wide.is_empty() || examined > BUDGET {
+        let is_over = examined > BUDGET || wide.iter().any(|(part, _)| part.halvings == MOST_HALVINGS);
+        if wide.is_empty() || is_over {
             take(&mut closed, &wide);
             let unproven = wide.iter().find(|(_, bounds)| bounds.iter().any(|bound| !bound.is_finite()));
             if let Some((part, _)) = unproven {
@@ -138,7 +140,10 @@ pub(super) fn prove(model: &RigidModel, case: &Case, range: InputRange, mimics: 
     }
     let mut errors = closed.into_iter().zip(sampled).map(|(bound, sampled)| MimicError { bound, sampled });
     let owners = mimics.relations.iter_mut().map(|own| &mut own.error);
-    owners.chain(mimics.pins.iter_mut().map(|own| &mut own.error)).zip(&mut errors).for_each(|(own, found)| *own = found);
+    owners
+        .chain(mimics.pins.iter_mut().map(|own| &mut own.error))
+        .zip(&mut errors)
+        .for_each(|(own, found)| *own = found);
     Ok(())
 }
 
@@ -156,7 +161,8 @@ fn over(
     let (half, coordinate) = (slice.half, range.coordinate(slice.crank));
     let mut frames = vec![Followed::GROUND; slice.tubes.len()];
     let mut errors = Vec::with_capacity(mimics.relations.len() + mimics.pins.len());
-    let whole = |sampled: f64, bound: f64| MimicError { sampled, bound: if slice.sound { bound } else { f64::INFINITY } };
+    let whole =
+        |sampled: f64, bound: f64| MimicError { sampled, bound: if slice.sound { bound } else { f64::INFINITY } };
     for body in &model.bodies {
         let polynomial = mimics.polynomial(body.branch.joint);
         let by = match polynomial {
