@@ -150,7 +150,7 @@ commands! {
         Sweep(Box<sweep::Args>) = sweep::sweep,
         /// Join the shards of a sweep into one table
         Merge(merge::Args) = merge::merge,
-        /// Write a mechanism for another program: MuJoCo's MJCF, or JSON
+        /// Write a mechanism for another program: MJCF, SDF, URDF, USD, or JSON
         Export(export::Args) = export::export,
     }
     "Teach" {

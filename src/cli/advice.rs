@@ -28,6 +28,7 @@ pub(super) fn told(advice: &Advice) -> String {
         Advice::OtherChannel { groups } => sentences::name_a_column_of_linkproof(&groups),
         Advice::WeakerWish => sentences::ASK_FOR_A_LARGER_ERROR_OTHER.into(),
         Advice::AllResults => sentences::ALL_OF_THEM_WITH_JSON.into(),
+        Advice::NoLoads => sentences::LEAVE_THE_LOADS_OUT_WITH_NO_LOADS.into(),
         Advice::Text(text) => as_commands(text),
         Advice::DoublePrecision | Advice::FewerInstants | Advice::ShortenGrid => advice.to_string(),
     }
@@ -78,6 +79,7 @@ mod tests {
             (Advice::OtherEngine, "use another engine: `linkproof list --solvers` lists them"),
             (Advice::OtherReference { solver: "newton" }, "use side \"newton\" as the reference: --reference newton"),
             (Advice::AllResults, "-o FILE.json lists all of them"),
+            (Advice::NoLoads, "leave the loads out with --no-loads, and add them to the model by hand"),
             ("check the lengths".into(), "check the lengths"),
             (Advice::ShortenGrid, "shorten the grid to the inputs that can be reached on this branch"),
         ] {

@@ -6,10 +6,11 @@ use super::load::load;
 use super::outputs::{Outputs, Results, results};
 use super::{number, output};
 use crate::report::{case_json, table_csv};
+use crate::sentences;
 use analytic::AssurSolver;
 use analytic::range::explained;
-use design::export::{cam, first_state, mjcf};
-use linkage::error::Result;
+use design::export::{cam, first_state, mjcf, sdf, urdf, usd};
+use linkage::error::{Error, ErrorKind, Result};
 use prover::engines::usual_step;
 
 #[derive(Debug, clap::Args)]
@@ -28,10 +29,20 @@ pub(super) struct Args {
     /// this number in `inspect --modes`. May be given for several groups
     #[arg(long, value_name = "LINK,LINK=MODE")]
     mode: Vec<String>,
+    /// Leave all loads out of the file. A prescribed motion does not depend on them
+    #[arg(long)]
+    no_loads: bool,
+    /// URDF: each joint of the tree follows the driven joint by a polynomial of degree N, with a proven bound on the
+    /// error. A relation of degree 1 becomes a `<mimic>`
+    #[arg(long, value_name = "N", value_parser = number::degree)]
+    mimic: Option<usize>,
 }
 
 results! { Exports {
     Mjcf = "a model for MuJoCo",
+    Sdf = "a world for Gazebo (SDFormat)",
+    Urdf = "the spanning tree as a robot for ROS",
+    Usd = "a stage with UsdPhysics",
     Json = "the case in SI units, with its state at t = 0",
     Csv = "the profiles of cams",
     Dxf = "the profiles of cams in mm",
@@ -39,15 +50,22 @@ results! { Exports {
 
 pub(super) fn export(args: &Args) -> Result<()> {
     let scenario = load(&args.file, &args.mode)?;
-    let (case, dt) =
-        (&scenario.case, args.dt.or(scenario.engine.step.get()).unwrap_or_else(|| usual_step(&scenario.case)));
+    let unloaded = args.no_loads.then(|| scenario.case.with(|parts| parts.loads.clear())).transpose()?;
+    let case = unloaded.as_ref().unwrap_or(&scenario.case);
+    let dt = args.dt.or(scenario.engine.step.get()).unwrap_or_else(|| usual_step(case));
     let text = |form| match form {
         Exports::Json => first_state(case, &AssurSolver).map(|start| case_json::text(&scenario.name, case, &start)),
         Exports::Csv => table_csv::cams(case),
         Exports::Dxf => cam::drawing(case),
         Exports::Mjcf => mjcf::mjcf(case, &AssurSolver, &scenario.name, dt),
+        Exports::Sdf => sdf::sdf(case, &AssurSolver, &scenario.name, dt),
+        Exports::Urdf => urdf::urdf(case, &AssurSolver, &scenario.name, args.mimic),
+        Exports::Usd => usd::usd(case, &AssurSolver, &scenario.name),
     };
     let all: Vec<(Exports, &Path)> = args.outputs.each().collect();
+    if args.mimic.is_some() && all.iter().all(|(form, _)| *form != Exports::Urdf) {
+        return Err(Error::new(ErrorKind::Input, sentences::MIMIC_IS_A_MATTER_OF_URDF).help(sentences::WRITE_A_URDF));
+    }
     let all = if all.is_empty() { vec![(Exports::Mjcf, Path::new(""))] } else { all };
     for (form, to) in all {
         let text = text(form).map_err(|error| explained(case, error))?;

@@ -8,7 +8,7 @@ use super::{output, progress};
 use crate::report::golden::{CHECKER, Golden, SET, largest_bound, manifest, readme, tables};
 use crate::{sentences, shipped};
 use analytic::AssurSolver;
-use design::export::mjcf;
+use design::export::{mjcf, sdf, urdf, usd};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::threads::{cores, made};
 use prover::bounds::Verdict;
@@ -78,7 +78,13 @@ fn one(&(path, name, sort): &Entry, place: &Path) -> Result<Golden> {
         put(&directory.join(file), &bytes)?;
     }
     let step = scenario.engine.step.get().unwrap_or_else(|| usual_step(&scenario.case));
-    let made = [("xml", mjcf::mjcf(&scenario.case, &AssurSolver, &scenario.name, step))];
+    let (case, own) = (&scenario.case, &scenario.name);
+    let made = [
+        ("xml", mjcf::mjcf(case, &AssurSolver, own, step)),
+        ("sdf", sdf::sdf(case, &AssurSolver, own, step)),
+        ("urdf", urdf::urdf(case, &AssurSolver, own, None)),
+        ("usda", usd::usd(case, &AssurSolver, own)),
+    ];
     let mut models = Vec::new();
     for (ending, made) in made {
         let why = match made {

@@ -4,6 +4,7 @@ use crate::sentences;
 use std::fmt::Display;
 use std::str::FromStr;
 
+use design::export::urdf::mimic::MOST_DEGREE;
 use scenario::engine::MOST_TIMES;
 
 type Parsed<T> = std::result::Result<T, String>;
@@ -42,6 +43,12 @@ pub(super) fn efficiency(text: &str) -> Parsed<f64> {
 pub(super) fn count(text: &str) -> Parsed<usize> {
     let count = text.trim().parse().ok().filter(|count| *count > 0);
     count.ok_or_else(|| sentences::EXPECTED_A_WHOLE_NUMBER_FROM_ON.into())
+}
+
+/// A degree of polynomials.
+pub(super) fn degree(text: &str) -> Parsed<usize> {
+    let degree = text.trim().parse().ok().filter(|degree| (1..=MOST_DEGREE).contains(degree));
+    degree.ok_or_else(|| sentences::expected_a_degree_from_to(&MOST_DEGREE))
 }
 
 /// A number of extrapolations.

@@ -28,7 +28,10 @@ pub(super) enum Form {
     /// A directory of files whose names the command chooses.
     Results,
     Scenario,
+    Sdf,
     Svg,
+    Urdf,
+    Usd,
 }
 
 impl Form {
@@ -44,7 +47,10 @@ impl Form {
             Form::Mjcf => &["xml", "mjcf"],
             Form::Results => &[],
             Form::Scenario => &["toml"],
+            Form::Sdf => &["sdf"],
             Form::Svg => &["svg", "pdf", "png"],
+            Form::Urdf => &["urdf"],
+            Form::Usd => &["usda"],
         }
     }
 
@@ -59,7 +65,7 @@ impl Form {
             Form::Mjcf => &["mjcf"],
             Form::Page => &["page"],
             Form::Results => &["out"],
-            Form::Dxf | Form::Scenario => &[],
+            Form::Dxf | Form::Scenario | Form::Sdf | Form::Urdf | Form::Usd => &[],
             Form::Svg => &["svg"],
         }
     }
@@ -82,7 +88,10 @@ impl Form {
             | Form::Mjcf
             | Form::Page
             | Form::Results
-            | Form::Scenario => self.sign(),
+            | Form::Scenario
+            | Form::Sdf
+            | Form::Urdf
+            | Form::Usd => self.sign(),
         }
     }
 
@@ -93,9 +102,16 @@ impl Form {
             Form::Results => output::directory(text),
             Form::Page => output::page(text),
             Form::Scenario => output::writable(text.into()),
-            Form::Csv | Form::Dxf | Form::Json | Form::Junit | Form::Markdown | Form::Mjcf | Form::Svg => {
-                output::target(text)
-            }
+            Form::Csv
+            | Form::Dxf
+            | Form::Json
+            | Form::Junit
+            | Form::Markdown
+            | Form::Mjcf
+            | Form::Sdf
+            | Form::Svg
+            | Form::Urdf
+            | Form::Usd => output::target(text),
         }
     }
 }

@@ -15,6 +15,9 @@ linkage::sentences! {
     // cli/accept.rs
     linkproof_accept_writes_it(file) = "`linkproof accept {file}` writes it";
     nothing_was_accepted_of_there(file, place) = "{file} has no accepted figures: {place} does not exist";
+    // cli/export.rs
+    MIMIC_IS_A_MATTER_OF_URDF = "only a .urdf has the relations of --mimic";
+    WRITE_A_URDF = "give -o FILE.urdf as well, or leave --mimic out";
     // cli/inspect.rs
     THE_STRUCTURE_DOES_NOT_MOVE = "the file has no drive, so nothing moves";
     MODES_LISTS_THEM = "`--modes` lists them, `linkproof draw --each-mode` draws them\n";
@@ -42,6 +45,7 @@ linkage::sentences! {
     REPORT_THE_FILE = "report the file to the authors";
     // cli/advice.rs
     such_as(name, to) = ", such as {name} {to}";
+    LEAVE_THE_LOADS_OUT_WITH_NO_LOADS = "leave the loads out with --no-loads, and add them to the model by hand";
     ALL_OF_THEM_WITH_JSON = "-o FILE.json lists all of them";
     ASK_FOR_A_LARGER_ERROR_OTHER = "ask for a larger error, other channels (--channel) or more engines (--engine all)";
     name_a_column_of_linkproof(groups) = "name a column of `linkproof solve`, such as joint.A.fx_N, or a group: {groups}";
@@ -179,6 +183,7 @@ linkage::sentences! {
     linkproof_new_template_writes_one_its_dimensions(lines) = "{lines}\nlinkproof new TEMPLATE writes one; set its dimensions in the file, or with --set\n";
     // cli/number.rs
     expected_decimals_take_a_point(such, replacen) = "expected {such}; write decimals with a point: {replacen}";
+    expected_a_degree_from_to(most) = "expected a whole number from 1 to {most}";
     expected_a_whole_number_from_to(most_times) = "expected a whole number from 0 to {most_times}";
     EXPECTED_A_WHOLE_NUMBER_FROM_ON = "expected a whole number of at least 1";
     A_NUMBER_ABOVE_AND_AT_MOST = "a number above 0 and at most 1, such as 0.92";

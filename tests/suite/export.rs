@@ -1,6 +1,7 @@
 //! Models for other programs, read back: the file contains the mechanism, its start pose and its speeds.
 
 mod forces;
+mod formats;
 mod model;
 
 use crate::common::assert_within;

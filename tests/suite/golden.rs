@@ -53,6 +53,10 @@ fn the_truth_is_that_of_other_commands() {
         place.ok("export scenarios/swinging_parallelogram.toml -o -")
     );
     assert!(!place.path("set/boom_lift/boom_lift.xml").exists());
+    for ending in ["sdf", "urdf", "usda"] {
+        let made = read(&format!("set/swinging_parallelogram/swinging_parallelogram.{ending}"));
+        assert_eq!(made, place.ok(&format!("export scenarios/swinging_parallelogram.toml -o -.{ending}")), "{ending}");
+    }
 }
 
 #[test]

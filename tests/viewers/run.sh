@@ -1,7 +1,7 @@
 #!/bin/sh
 # Opens recordings and models with foreign programs: tests/viewers/run.sh [FILE...]
 #
-# Recordings (*.mcap) go to their readers and viewers, scenarios (*.toml) to MuJoCo. Default: recordings/*.mcap, a new recording of a mechanism with
+# Recordings (*.mcap) go to their readers and viewers, scenarios (*.toml) to MuJoCo and to parsers of SDF, URDF and USD. Default: recordings/*.mcap, a new recording of a mechanism with
 # sliders (scenarios/compressor.toml), and all scenarios that can be exported.
 # Pictures are taken of Rerun on a virtual display (xvfb, mesa-vulkan-drivers) and of Foxglove Studio in headless Chromium (chromium,
 # npm). Programs that are not installed are reported. Pictures stay in target/viewers-pictures for inspection.
@@ -50,6 +50,7 @@ PATH="$environment/bin:$PATH"
 # The list is divided by kind; the order is kept.
 count=$#
 scenarios=0
+check=mujoco_check.py
 for file in "$@"; do
     case "$file" in *.toml) scenarios=$((scenarios + 1)) ;; esac
 done
@@ -62,7 +63,7 @@ sorted() {
         [ "$this" = "$kind" ] && set -- "$@" "$file"
     done
     if [ "$kind" = toml ]; then
-        python "$here/mujoco_check.py" "$linkproof" "$@"
+        python "$here/$check" "$linkproof" "$@"
     else
         python "$here/check.py" "$@"
     fi
@@ -74,7 +75,16 @@ if [ "$count" -gt "$scenarios" ]; then
     sorted other "$@" &
     readers=$!
 fi
-if [ "$scenarios" -gt 0 ]; then sorted toml "$@" || failed="$failed mujoco_check.py"; fi
+if [ "$scenarios" -gt 0 ]; then
+    sorted toml "$@" || failed="$failed mujoco_check.py"
+    # SDF, URDF and USD.
+    if [ "$everything" ]; then
+        python "$here/formats_check.py" "$linkproof" "$top"/scenarios/*.toml || failed="$failed formats_check.py"
+    else
+        check=formats_check.py
+        sorted toml "$@" || failed="$failed formats_check.py"
+    fi
+fi
 if [ -n "${readers:-}" ]; then wait "$readers" || failed="$failed check.py"; fi
 if [ "$everything" ]; then
     python "$here/mujoco_check.py" "$linkproof" --singular "$top"/scenarios/variants60/*.toml || failed="$failed mujoco_check.py"

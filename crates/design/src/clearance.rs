@@ -6,7 +6,7 @@ mod search;
 mod swept;
 #[cfg(test)]
 mod tests;
-mod tube;
+pub(crate) mod tube;
 
 use crate::sentences;
 pub use search::{Meeting, Smallest};
@@ -275,7 +275,7 @@ fn cranks(case: &Case) -> Result<Vec<f64>> {
 
 /// Returns the first and the last value of the [range variable](RangeVariable), in the direction of motion.
 /// If the poses repeat after a turn, the range is limited to one turn.
-fn range(case: &Case) -> Result<[f64; 2]> {
+pub(crate) fn range(case: &Case) -> Result<[f64; 2]> {
     let [low, mut high] = ends(cranks(case)?);
     let dyads = case.structure.groups.iter().all(|group| group.kind != GroupKind::Higher);
     let repeats = dyads && case.crank().input != Input::Slide && case.mechanism.transmissions().is_empty();

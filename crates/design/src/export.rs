@@ -1,12 +1,35 @@
-//! Export of a mechanism as a model for MuJoCo, and of the profiles of its cams.
+//! Export of a mechanism as a model for other programs, and of the profiles of its cams.
 
 pub mod cam;
+mod limits;
 pub mod mjcf;
+mod names;
+pub mod rigid;
+pub mod sdf;
+mod shapes;
+pub mod urdf;
+pub mod usd;
+mod xml;
 
+use crate::sentences;
 use linkage::case::{Case, Grid, Wanted};
 use linkage::error::Result;
+use linkage::input::Input;
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
+use rigid::RigidModel;
+
+/// Lines at the beginning of a model file: its origin, and every driven joint.
+fn model_header(model: &RigidModel) -> Vec<String> {
+    let mut lines = vec![sentences::written_by_linkproof(&env!("CARGO_PKG_VERSION"))];
+    for drive in &model.case.drives {
+        let body = model.bodies.iter().find(|body| body.branch.joint == drive.joint);
+        let rate = body.map_or(0.0, |body| body.rate);
+        let unit = if drive.input == Input::Slide { "m/s" } else { "rad/s" };
+        lines.push(sentences::the_drive_of(&model.joint_name(drive.joint), &drive.law_name(), &rate, &unit));
+    }
+    lines
+}
 
 /// Computes the state at t = 0 with velocities and accelerations by `solver`.
 ///

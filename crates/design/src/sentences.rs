@@ -142,9 +142,35 @@ linkage::sentences! {
     TAKE_A_CRANK_ANGLE_A_LITTLE = "choose a slightly different crank angle";
     the_singular_point_lies_in_line(names) = "the singular point {names} lies in line with the outer joints: a dead point";
     the_leads_are_parallel_their(names) = "the leads {names} are parallel: their singular point lies at infinity";
+    // export.rs
+    written_by_linkproof(version) = "Written by linkproof {version}; SI units, plane of motion XOY.";
+    the_drive_of(joint, law, rate, unit) = "Joint {joint} is driven: law \"{law}\", rate of its coordinate at the start {rate} {unit}.";
     // export/cam.rs
     THE_MECHANISM_HAS_NO_CAM = "the mechanism has no cam, so there is no profile to write";
     ADD_A_CAM = "add a `[[transmissions]]` with `type = \"cam\"`";
+    // export/limits.rs
+    LEAVE_IT_OUT_OF_THE_SCENARIO = "leave it out of the scenario, and add it to the model by hand";
+    A_MOTOR = "the motor of a free link";
+    a_drive_with_the_law(drive) = "a drive with the law \"{drive}\"";
+    a_load_of_type(sort) = "a load of type \"{sort}\"";
+    without_a_hinge_on_the_ground(load) = "{load} on a link without a hinge on the ground";
+    the_losses_of(name) = "the efficiency of \"{name}\"";
+    a_cam(name) = "cam \"{name}\"";
+    the_coupling_of(name) = "the coupling of joints by \"{name}\"";
+    cannot_be_written_to(what, format) = "{what} cannot be written to {format}";
+    // export/names.rs
+    sdf_takes_no_joint_called(name) = "a link and a joint are called \"{name}\": SDF permits a name only once in a model";
+    THE_ROOT_OF_THE_FILE_IS_WORLD = "the root of a URDF file is called \"world\", and no second link may have that name";
+    sdf_reserves_the_name(name) = "SDF reserves the name \"{name}\"";
+    // export/urdf/mimic.rs
+    WRITE_NO_RELATIONS = "write the file without relations of joints";
+    RELATIONS_WITH_SEVERAL_DRIVES = "a relation of joints that depend on several drives";
+    // export/urdf/mimic/bound.rs
+    WRITE_NO_RELATIONS_OR_STAY_AWAY = "write the file without relations of joints, or choose a range that does not come near a singular pose";
+    no_error_of_the_relations_is_proven(coordinate) = "no bound on the error of the joints' relations can be proven near the driven coordinate {coordinate}";
+    // export/urdf.rs
+    THE_RELATIONS_OF_THE_JOINTS = "Coordinates of the joints as polynomials of the driven joint's coordinate, with proven bounds (docs/formats.md).";
+    URDF_PERMITS_NO_LOOPS = "Joints that close loops: URDF permits none, but Gazebo adds these to the tree.";
     // export/mjcf/effects.rs
     ITS_LENGTH_IS_THE_ANGLE_THAT_THE_LOAD = "The tendon's length is the angle that the load depends on.";
     ITS_LENGTH_IS_CONSTANT = "A transmission: the tendon's length is constant.";
@@ -153,14 +179,8 @@ linkage::sentences! {
     // export/mjcf/limits.rs
     GIVE_THE_MOTOR_THE_LAW_LINEAR = "give the motor the law \"linear\" or \"constant\"";
     a_motor_with_the_law(name) = "a motor with the law \"{name}\"";
-    a_drive_with_the_law(drive) = "a drive with the law \"{drive}\"";
-    a_load_of_type(sort) = "a load of type \"{sort}\"";
     a_load_of_type_that_acts(sort) = "a load of type \"{sort}\" that acts in one sense or on one side only";
     a_load_of_type_with_a_table(sort) = "a load of type \"{sort}\" with a table";
-    LEAVE_IT_OUT_OF_THE_SCENARIO = "leave it out of the scenario, and add it to the model by hand";
-    the_losses_of(name) = "the efficiency of \"{name}\"";
-    a_cam(name) = "cam \"{name}\"";
-    cannot_be_written_to_a_model(what) = "{what} cannot be written to a model for MuJoCo";
     // export/mjcf/model.rs
     GIVE_A_STEP_SUCH_AS = "give a step such as 1e-3";
     the_time_step_is_but_must(step) = "the time step is {step} s, but must be positive";
@@ -173,7 +193,7 @@ linkage::sentences! {
     WHAT_ACTS_ON_THE_BODY_IN_THE_JOINT = "Force or moment that the parent body exerts on the body at their joint, in the body's frame. Moments are about the joint's position and do not include frictionloss.";
     DRIVE_A_ROTOR_SO_HEAVY_THAT_ITS_SPEED = "Drive: a rotor so heavy that its speed stays at its initial value.";
     ROTOR_AND_REDUCER_OF_THE_MOTOR = "Rotor and reducer of the motor.";
-    IT_HAS_NO_MASS_OR_NO_INERTIA = "The body has no mass or no moment of inertia: MuJoCo gets a small value instead.";
+    IT_HAS_NO_MASS_OR_NO_INERTIA = "The body has no mass or no moment of inertia: The file has a small value instead.";
     AS_STIFF_AS_A_STEP_ALLOWS = "As stiff as the time step allows: the time constant is raised to twice the time step.";
     // drive/flywheel.rs
     ASK_FOR_A_LARGER_COEFFICIENT = "request a larger coefficient";

@@ -34,6 +34,47 @@ fn mjcf_is_written_to_the_given_file() {
 }
 
 #[test]
+fn the_ending_selects_the_format() {
+    let place = Place::new();
+    for (ending, begin) in [("sdf", "<?xml"), ("urdf", "<?xml"), ("usda", "#usda 1.0\n")] {
+        let text = place.ok(&format!("export scenarios/quick_return.toml -o -.{ending}"));
+        assert!(text.starts_with(begin), "{text}");
+        assert_eq!(place.ok(&format!("export scenarios/quick_return.toml -o own.{ending}")), "");
+        let written = fs::read_to_string(place.path(&format!("own.{ending}"))).unwrap();
+        assert!(written.starts_with(&text), "{written}");
+    }
+    let step = |text: &str| text.split("max_step_size>").nth(1).unwrap().trim_end_matches("</").to_string();
+    assert_eq!(step(&place.ok("export scenarios/quick_return.toml -o -.sdf --dt 1e-4")), "0.0001");
+}
+
+#[test]
+fn loads_are_left_out_on_request() {
+    let place = Place::new();
+    let message = "a load of type \"moment\" cannot be written to SDF";
+    place.refused("export scenarios/four_bar_relative.toml -o -.sdf", &[message, "--no-loads"]);
+    for ending in ["xml", "sdf", "urdf", "usda"] {
+        place.ok(&format!("export scenarios/four_bar_relative.toml --no-loads -o -.{ending}"));
+    }
+}
+
+#[test]
+fn relations_belong_to_urdf() {
+    let place = Place::new();
+    let text = place.ok("export scenarios/crank_rocker.toml -o -.urdf --mimic 1");
+    assert_eq!(text.matches("<mimic joint=\"O\"").count(), 2, "{text}");
+    let text = place.ok("export scenarios/crank_rocker.toml -o -.urdf --mimic 7");
+    assert!(!text.contains("<mimic") && text.contains("\"degree\": 7"), "{text}");
+    place.refused("export scenarios/crank_rocker.toml -o -.sdf --mimic 3", &["--mimic", "-o FILE.urdf"]);
+    for wrong in ["0", "61", "1.5", "x"] {
+        place.refused(
+            &format!("export scenarios/crank_rocker.toml -o -.urdf --mimic {wrong}"),
+            &["--mimic", "expected a whole number from 1 to 60"],
+        );
+    }
+    place.refused("export scenarios/five_bar.toml -o -.urdf --mimic 3", &["several drives", "without relations"]);
+}
+
+#[test]
 fn the_mode_changes_the_start_pose() {
     let place = Place::new();
     let text = place.ok("export scenarios/crank_rocker.toml --mjcf -");
@@ -73,7 +114,7 @@ fn wrong_requests_are_refused() {
     let place = Place::new();
     place.refused(
         "export scenarios/crank_rocker.toml -o model.txt",
-        &["--output", "FILE.xml, FILE.json, FILE.csv, FILE.dxf; found .txt"],
+        &["--output", "FILE.xml, FILE.sdf, FILE.urdf, FILE.usda, FILE.json, FILE.csv, FILE.dxf; found .txt"],
     );
     place.refused("export --mjcf scenarios/crank_rocker.toml", &["scenario file"]);
     place.refused("export scenarios/crank_rocker.toml --mjcf - --dt -1e-3", &["--dt", "greater than 0"]);

@@ -120,6 +120,11 @@ impl Tube {
         }
     }
 
+    /// Derivative of the link's angle (rad/rad), and the largest deviation of the angle from a uniform rotation (rad).
+    pub fn turning(&self) -> [f64; 2] {
+        [self.spin, self.twist]
+    }
+
     /// Largest rotation of the link from its pose at the middle (rad).
     fn turn(&self) -> f64 {
         self.spin.abs() * self.half + self.twist

@@ -43,7 +43,6 @@ mod limits;
 mod model;
 mod names;
 mod write;
-mod xml;
 
 pub use model::MjcfModel;
 

@@ -91,6 +91,8 @@ pub enum Advice {
     WeakerWish,
     /// The complete results instead of an extract.
     AllResults,
+    /// A model without the loads of the case.
+    NoLoads,
 }
 
 impl Advice {
@@ -187,6 +189,7 @@ impl fmt::Display for Advice {
             }
             Advice::WeakerWish => f.write_str(sentences::ASK_FOR_A_LARGER_ERROR_OTHER),
             Advice::AllResults => f.write_str(sentences::THE_COMPLETE_RESULTS_HAVE_ALL),
+            Advice::NoLoads => f.write_str(sentences::LEAVE_ALL_LOADS_OUT),
         }
     }
 }

@@ -8,7 +8,7 @@ use quick_xml::escape::escape;
 use super::forces::{Actuator, Forces, Target};
 use super::model::MjcfModel;
 use super::names;
-use super::xml::{Xml, flat, number, numbers};
+use crate::export::xml::{Xml, flat, number, numbers};
 use linkage::math::Vec2;
 use linkage::mechanism::{GROUND, JointSide, LinkId};
 

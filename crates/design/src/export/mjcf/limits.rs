@@ -1,12 +1,16 @@
 //! Refuses loads, drives and transmissions that MJCF cannot express. The error names the part.
 
+use crate::export::limits;
 use crate::sentences;
 use linkage::drive::{Acts, Drive, Load, MotorLaw};
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::{Advice, Error, Result};
 use linkage::mechanism::Transmission;
 
-fn refused(what: String, help: &'static str) -> Error {
-    Error::new(ErrorKind::Unsupported, sentences::cannot_be_written_to_a_model(&what)).help(help)
+/// Name of the format in messages.
+const FORMAT: &str = "a model for MuJoCo";
+
+fn refused(what: &str, help: impl Into<Advice>) -> Error {
+    limits::refused(what, FORMAT, help)
 }
 
 /// Checks that a load can be written.
@@ -14,20 +18,20 @@ fn refused(what: String, help: &'static str) -> Error {
 /// # Errors
 /// [`ErrorKind::Unsupported`] with the type of a load that MJCF cannot express.
 pub(super) fn check(load: &Load) -> Result<()> {
-    const ALONE: &str = sentences::LEAVE_IT_OUT_OF_THE_SCENARIO;
+    const ALONE: Advice = Advice::NoLoads;
     let sort = load.sort();
     if load.courses().any(|course| course.knots().is_some()) {
-        return Err(refused(sentences::a_load_of_type_with_a_table(&sort), ALONE));
+        return Err(refused(&sentences::a_load_of_type_with_a_table(&sort), ALONE));
     }
     if let Load::Moment { acts, .. } | Load::TorsionSpring { acts, .. } = load
         && *acts != Acts::Always
     {
-        return Err(refused(sentences::a_load_of_type_that_acts(&sort), ALONE));
+        return Err(refused(&sentences::a_load_of_type_that_acts(&sort), ALONE));
     }
     let has_words = matches!(load, Load::Resistance { .. } | Load::Moment { .. } | Load::Force { .. })
         || matches!(load, Load::Spring { .. } | Load::Damper { .. })
         || matches!(load, Load::TorsionSpring { .. } | Load::TorsionDamper { .. });
-    if has_words { Ok(()) } else { Err(refused(sentences::a_load_of_type(&sort), ALONE)) }
+    if has_words { Ok(()) } else { Err(refused(&sentences::a_load_of_type(&sort), ALONE)) }
 }
 
 /// Checks that a transmission can be written.
@@ -35,12 +39,7 @@ pub(super) fn check(load: &Load) -> Result<()> {
 /// # Errors
 /// [`ErrorKind::Unsupported`] for a cam, and for a transmission with losses.
 pub(super) fn check_transmission(transmission: &Transmission) -> Result<()> {
-    let what = match (&transmission.cam, transmission.losses) {
-        (None, None) => return Ok(()),
-        (Some(_), _) => sentences::a_cam(&transmission.name()),
-        (None, Some(_)) => sentences::the_losses_of(&transmission.name()),
-    };
-    Err(refused(what, sentences::LEAVE_IT_OUT_OF_THE_SCENARIO))
+    limits::check_transmission(transmission, FORMAT)
 }
 
 /// Checks that a drive can be written.
@@ -53,10 +52,7 @@ pub(super) fn check_drive(drive: &Drive) -> Result<()> {
         return line(&motor.law).map(|_| ());
     }
     // A rotor can only keep a constant speed, so a drive with a changing speed is refused.
-    match drive.constant_speed() {
-        Some(_) => Ok(()),
-        None => Err(refused(sentences::a_drive_with_the_law(&drive.law_name()), sentences::GIVE_THE_DRIVE_A_CONSTANT)),
-    }
+    limits::check_speed(drive, FORMAT)
 }
 
 /// Torque at rest (N m) and slope (N m s) of a motor's law.
@@ -67,5 +63,5 @@ pub(super) fn line(law: &MotorLaw) -> Result<[f64; 2]> {
         MotorLaw::Kloss { .. } => "kloss",
         MotorLaw::Table { .. } => "table",
     };
-    Err(refused(sentences::a_motor_with_the_law(&name), sentences::GIVE_THE_MOTOR_THE_LAW_LINEAR))
+    Err(refused(&sentences::a_motor_with_the_law(&name), sentences::GIVE_THE_MOTOR_THE_LAW_LINEAR))
 }

@@ -8,26 +8,18 @@ use quick_xml::escape::escape;
 
 use super::effects;
 use super::forces::Forces;
-use super::model::{Freedom, MjcfModel};
+use super::model::MjcfModel;
 use super::names::{of_transmission, side};
-use super::xml::{Xml, about_z, flat, number, numbers};
-use linkage::math::{KeepNan, Vec2, corners, rotated, unit};
-use linkage::mechanism::{GROUND, JointSide, LinkId};
+use crate::export::rigid::Freedom;
+use crate::export::shapes::{self, Shape};
+use crate::export::xml::{Xml, about_z, flat, number, numbers};
+use linkage::math::{KeepNan, corners};
+use linkage::mechanism::{GROUND, LinkId};
 
 /// Stiffness of every constraint, as explained in the documentation of the module `mjcf`.
 const STIFF: &str = "1e-9 0.5";
 /// Impedance of every constraint: the largest impedance that MuJoCo accepts, the same for every gap.
 const HARD: &str = "0.9999 0.9999 1";
-/// Colours of links, used in turn.
-const COLOURS: [&str; 6] = [
-    "0.20 0.42 0.70 1",
-    "0.85 0.45 0.13 1",
-    "0.25 0.60 0.30 1",
-    "0.62 0.30 0.62 1",
-    "0.75 0.62 0.15 1",
-    "0.30 0.62 0.65 1",
-];
-
 /// The whole document.
 pub(super) fn document(model: &MjcfModel, forces: &Forces) -> String {
     let mut xml = Xml::new();
@@ -81,7 +73,7 @@ fn options(xml: &mut Xml, model: &MjcfModel) {
 fn world(xml: &mut Xml, model: &MjcfModel, forces: &Forces) {
     let above = numbers([0.0, 0.0, 10.0 * model.size()]);
     xml.leaf(format_args!(r#"light pos="{above}" dir="0 0 -1" type="directional""#));
-    draw(xml, model, GROUND, "0.45 0.45 0.45 1");
+    draw(xml, model, GROUND);
     sites(xml, model, forces, GROUND);
     for link in model.children(GROUND) {
         body(xml, model, forces, link);
@@ -103,7 +95,7 @@ fn body(xml: &mut Xml, model: &MjcfModel, forces: &Forces, link: LinkId) {
         let (centre, mass, inertia) = (flat(data.mass_centre), number(mass), numbers([inertia; 3]));
         xml.leaf(format_args!(r#"inertial pos="{centre}" mass="{mass}" diaginertia="{inertia}""#));
         joint(xml, model, index);
-        draw(xml, model, link, COLOURS[(link.index() - 1) % COLOURS.len()]);
+        draw(xml, model, link);
         sites(xml, model, forces, link);
         for child in model.children(link) {
             body(xml, model, forces, child);
@@ -191,50 +183,23 @@ fn keyframe(xml: &mut Xml, model: &MjcfModel) {
     });
 }
 
-/// Thickness of the shapes, divided by the mechanism's size.
-const THICKNESS: f64 = 0.012;
-
-/// Shapes of a link: rods between the link's joints, and a block or a guide at each prismatic joint.
-pub(super) fn draw(xml: &mut Xml, model: &MjcfModel, link: LinkId, colour: &str) {
-    let mechanism = &model.case.mechanism;
-    let thick = THICKNESS * model.size();
-    let rod = |xml: &mut Xml, [from, to]: [Vec2; 2], radius: f64| {
-        let (ends, size) = (numbers([from.x, from.y, 0.0, to.x, to.y, 0.0]), number(radius));
-        xml.leaf(format_args!(r#"geom type="capsule" fromto="{ends}" size="{size}" rgba="{colour}""#));
-    };
-    let mut places: Vec<Vec2> = Vec::new();
-    for joint in mechanism.joints() {
-        let Some(place) = joint.on(link) else { continue };
-        // MuJoCo refuses rods without length, so joints at the same position are listed once.
-        if places.iter().all(|other| (other - place).norm() > 1e-6 * model.size()) {
-            places.push(place);
-        }
-        let Some(axis) = joint.axis_on(link) else { continue };
-        let sides = mechanism.guide_and_block(joint).expect("a prismatic joint has a guide");
-        if sides[1].link == link {
-            let (at, turn, half) = (flat(place), about_z(axis.y.atan2(axis.x)), [3.0, 2.0, 2.0].map(|k| k * thick));
-            let size = numbers(half);
-            xml.leaf(format_args!(r#"geom type="box" pos="{at}" axisangle="{turn}" size="{size}" rgba="{colour}""#));
-        } else {
-            let middle = place + axis * along(model, sides, axis);
-            let reach = axis * model.size();
-            rod(xml, [middle - reach, middle + reach], 0.4 * thick);
-        }
+/// Shapes of a link.
+fn draw(xml: &mut Xml, model: &MjcfModel, link: LinkId) {
+    let colour = numbers(shapes::colour(link));
+    for shape in shapes::shapes(model, link) {
+        let geometry = match shape {
+            Shape::Rod { ends: [from, to], radius } => {
+                let ends = numbers([from.x, from.y, 0.0, to.x, to.y, 0.0]);
+                format!(r#"type="capsule" fromto="{ends}" size="{}""#, number(radius))
+            }
+            Shape::Block { at, angle, half } => {
+                let (at, turn, size) = (flat(at), about_z(angle), numbers(half));
+                format!(r#"type="box" pos="{at}" axisangle="{turn}" size="{size}""#)
+            }
+            Shape::Ball { at, radius } => {
+                format!(r#"type="sphere" pos="{}" size="{}""#, flat(at), number(radius))
+            }
+        };
+        xml.leaf(format_args!(r#"geom {geometry} rgba="{colour}""#));
     }
-    if link == GROUND || places.len() < 2 {
-        for place in places {
-            let (at, size) = (flat(place), number(1.8 * thick));
-            xml.leaf(format_args!(r#"geom type="sphere" pos="{at}" size="{size}" rgba="{colour}""#));
-        }
-    } else {
-        let closing = (places.len() > 2).then_some([places[places.len() - 1], places[0]]);
-        let pairs = places.windows(2).map(|pair| [pair[0], pair[1]]).chain(closing);
-        pairs.for_each(|pair| rod(xml, pair, thick));
-    }
-}
-
-/// Start position of a guide's block along the guide's axis (m).
-fn along(model: &MjcfModel, sides: [JointSide; 2], axis: Vec2) -> f64 {
-    let [guide, block] = sides.map(|side| model.case.start.0[side.link]);
-    rotated(unit(guide.angle), axis).dot(&(block.point(sides[1].local) - guide.point(sides[0].local)))
 }

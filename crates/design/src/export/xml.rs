@@ -47,7 +47,7 @@ impl Xml {
         self.line(&format!("<{tag}/>"));
     }
 
-    pub(super) fn nest(&mut self, tag: impl Display, inside: impl FnOnce(&mut Self)) {
+    pub(super) fn nest<T>(&mut self, tag: impl Display, inside: impl FnOnce(&mut Self) -> T) {
         let tag = tag.to_string();
         self.line(&format!("<{tag}>"));
         self.depth += 1;
@@ -56,7 +56,13 @@ impl Xml {
         self.line(&format!("</{}>", tag.split(' ').next().unwrap_or_default()));
     }
 
+    /// An element with a value.
+    pub(super) fn value(&mut self, tag: &str, value: impl Display) {
+        self.line(&format!("<{tag}>{value}</{tag}>"));
+    }
+
+    /// A comment. XML permits no `--` in it.
     pub(super) fn comment(&mut self, text: &str) {
-        self.line(&format!("<!-- {text} -->"));
+        self.line(&format!("<!-- {} -->", text.replace("--", "- -")));
     }
 }

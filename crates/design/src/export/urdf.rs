@@ -1,0 +1,174 @@
+//! URDF: the spanning tree as links and joints; the joints that close loops as an extension for Gazebo.
+//!
+//! - The plane of motion is XOY. A joint's coordinate is zero in the start pose.
+//! - The frame of a URDF link lies at the joint that carries the link, with the directions of the link's frame.
+//! - URDF permits no loops. A joint that closes a loop is an SDF joint within an element `gazebo`.
+//!   Parsers of URDF skip this element; the converter of SDFormat copies its contents into the model.
+//! - URDF has no place for gravity, drives and speeds.
+//! - With [`Mimics`], every joint but the driven one follows the driven joint by a linear relation.
+
+pub mod mimic;
+
+use std::f64::consts::FRAC_PI_2;
+
+use quick_xml::escape::escape;
+
+use super::limits::{self, Follower};
+use super::names;
+use super::rigid::{Body, Freedom, RigidModel};
+use super::sdf;
+use super::shapes::{self, Shape};
+use super::xml::{Xml, flat, number, numbers};
+use super::{first_state, model_header};
+use crate::sentences;
+use linkage::case::Case;
+use linkage::error::Result;
+use linkage::math::{Vec2, rotated, unit};
+use linkage::mechanism::{GROUND, JointId, LinkId};
+use linkage::solver::Solver;
+use mimic::Mimics;
+
+/// Name of the root link. Gazebo takes a link with this name as the world.
+const ROOT: &str = "world";
+/// Largest force (N) and speed (m/s) in the limits of a prismatic joint, which URDF requires.
+const ENDLESS: f64 = 1e9;
+
+/// The case as URDF, with the robot's name `name`, in the pose at t = 0 that `solver` computes.
+/// With `degree`, all joints of the tree follow the driven joint by polynomials of this degree: see [`Mimics`].
+///
+/// # Errors
+/// [`ErrorKind::Unsupported`](linkage::ErrorKind::Unsupported) for a link with the name of the root, and for loads and
+/// transmissions that URDF cannot express.
+/// The errors of the solver, and those of [`Mimics::new`].
+pub fn urdf(case: &Case, solver: &dyn Solver, name: &str, degree: Option<usize>) -> Result<String> {
+    names::check_urdf(&case.mechanism)?;
+    let model = RigidModel::new(case, &first_state(case, solver)?, name);
+    let (mut followers, frictions) =
+        (limits::followers(&model, limits::URDF)?, limits::frictions(&model, limits::URDF)?);
+    let mut offsets = vec![0.0; followers.len()];
+    let mimics = degree.map(|degree| Mimics::new(&model, degree)).transpose()?;
+    if let Some(mimics) = &mimics {
+        (followers, offsets) = mimics.linear();
+    }
+    let mut xml = Xml::new();
+    xml.nest(format_args!(r#"robot name="{}""#, escape(name)), |xml| {
+        model_header(&model).iter().for_each(|line| xml.comment(line));
+        if let Some(mimics) = &mimics {
+            xml.comment(sentences::THE_RELATIONS_OF_THE_JOINTS);
+            xml.comment(&mimics.json(&model));
+        }
+        xml.nest(format_args!(r#"link name="{ROOT}""#), |xml| visuals(xml, &model, GROUND, Vec2::zeros()));
+        for body in &model.bodies {
+            link(xml, &model, body);
+            let follower = followers.iter().position(|own| own.joint == body.branch.joint);
+            let follower = follower.map(|index| (followers[index], offsets[index]));
+            joint(xml, &model, body, follower, limits::friction_of(&frictions, body.branch.joint));
+        }
+        if !model.closing.is_empty() {
+            xml.comment(sentences::URDF_PERMITS_NO_LOOPS);
+            xml.nest("gazebo", |xml| {
+                for body in &model.closing {
+                    let friction = limits::friction_of(&frictions, body.branch.joint);
+                    sdf::joint(xml, &model, body, &[], friction, shift(&model, body.branch.link));
+                }
+            });
+        }
+    });
+    Ok(xml.text)
+}
+
+/// Origin of a URDF link's frame in the frame of the mechanism's link (m).
+fn shift(model: &RigidModel, link: LinkId) -> Vec2 {
+    match model.branch_of(link).map(|branch| model.bodies[branch].freedom) {
+        Some(Freedom::Hinge(place)) => place,
+        Some(Freedom::Slide(_)) | None => Vec2::zeros(),
+    }
+}
+
+/// Name of a link in the file.
+fn file_name<'a>(model: &RigidModel<'a>, link: LinkId) -> &'a str {
+    if link == GROUND { ROOT } else { model.link_name(link) }
+}
+
+/// An origin in the plane: position (m), pitch and yaw (rad).
+fn origin(xml: &mut Xml, at: Vec2, pitch: f64, yaw: f64) {
+    xml.leaf(format_args!(r#"origin xyz="{}" rpy="{}""#, flat(at), numbers([0.0, pitch, yaw])));
+}
+
+fn link(xml: &mut Xml, model: &RigidModel, body: &Body) {
+    let link = body.branch.link;
+    let (data, shift) = (&model.case.mechanism.links()[link], shift(model, link));
+    xml.nest(format_args!(r#"link name="{}""#, escape(data.name.as_str())), |xml| {
+        let (mass, inertia) = model.inertial(link);
+        if !(data.mass > 0.0 && data.inertia > 0.0) {
+            xml.comment(sentences::IT_HAS_NO_MASS_OR_NO_INERTIA);
+        }
+        xml.nest("inertial", |xml| {
+            origin(xml, data.mass_centre - shift, 0.0, 0.0);
+            xml.leaf(format_args!(r#"mass value="{}""#, number(mass)));
+            // Three equal moments of inertia satisfy the triangle inequality.
+            let own = number(inertia);
+            xml.leaf(format_args!(r#"inertia ixx="{own}" ixy="0" ixz="0" iyy="{own}" iyz="0" izz="{own}""#));
+        });
+        visuals(xml, model, link, shift);
+    });
+}
+
+fn visuals(xml: &mut Xml, model: &RigidModel, link: LinkId, shift: Vec2) {
+    let colour = numbers(shapes::colour(link));
+    for shape in shapes::shapes(model, link) {
+        xml.nest("visual", |xml| {
+            let geometry = match shape {
+                Shape::Rod { ends: [from, to], radius } => {
+                    let way = to - from;
+                    // A cylinder lies along z: a pitch of a quarter turn puts it along x.
+                    origin(xml, (from + to) / 2.0 - shift, FRAC_PI_2, way.y.atan2(way.x));
+                    format!(r#"cylinder radius="{}" length="{}""#, number(radius), number(way.norm()))
+                }
+                Shape::Block { at, angle, half } => {
+                    origin(xml, at - shift, 0.0, angle);
+                    format!(r#"box size="{}""#, numbers(half.map(|size| 2.0 * size)))
+                }
+                Shape::Ball { at, radius } => {
+                    origin(xml, at - shift, 0.0, 0.0);
+                    format!(r#"sphere radius="{}""#, number(radius))
+                }
+            };
+            xml.nest("geometry", |xml| xml.leaf(geometry));
+            let material = escape(file_name(model, link));
+            xml.nest(format_args!(r#"material name="{material}""#), |xml| {
+                xml.leaf(format_args!(r#"color rgba="{colour}""#));
+            });
+        });
+    }
+}
+
+fn joint(xml: &mut Xml, model: &RigidModel, body: &Body, follower: Option<(Follower, f64)>, friction: f64) {
+    let (branch, own) = (body.branch, shift(model, body.branch.link));
+    let (kind, axis) = match body.freedom {
+        Freedom::Hinge(_) => ("continuous", numbers([0.0, 0.0, 1.0])),
+        Freedom::Slide(axis) => ("prismatic", flat(axis)),
+    };
+    let name = |joint: JointId| escape(model.joint_name(joint));
+    xml.nest(format_args!(r#"joint name="{}" type="{kind}""#, name(branch.joint)), |xml| {
+        origin(xml, body.offset + rotated(unit(body.turn), own) - shift(model, branch.parent), 0.0, body.turn);
+        xml.leaf(format_args!(r#"parent link="{}""#, escape(file_name(model, branch.parent))));
+        xml.leaf(format_args!(r#"child link="{}""#, escape(file_name(model, branch.link))));
+        xml.leaf(format_args!(r#"axis xyz="{axis}""#));
+        if matches!(body.freedom, Freedom::Slide(_)) {
+            // URDF requires limits. These are out of reach: no link is longer than the mechanism.
+            let reach = number(model.size() * model.bodies.len() as f64);
+            let endless = number(ENDLESS);
+            let ends = format!(r#"lower="-{reach}" upper="{reach}""#);
+            xml.leaf(format_args!(r#"limit {ends} effort="{endless}" velocity="{endless}""#));
+        }
+        if friction > 0.0 {
+            xml.leaf(format_args!(r#"dynamics damping="0" friction="{}""#, number(friction)));
+        }
+        if let Some((own, offset)) = follower {
+            let [multiplier, offset] = [own.multiplier, offset].map(number);
+            let leader = name(own.leader);
+            xml.leaf(format_args!(r#"mimic joint="{leader}" multiplier="{multiplier}" offset="{offset}""#));
+        }
+    });
+}
