@@ -9,6 +9,8 @@ use crate::report::{case_json, table_csv};
 use crate::sentences;
 use analytic::AssurSolver;
 use analytic::range::explained;
+use design::export::rigid::RigidModel;
+use design::export::urdf::mimic::Mimics;
 use design::export::{cam, first_state, mjcf, sdf, urdf, usd};
 use linkage::error::{Error, ErrorKind, Result};
 use prover::engines::usual_step;
@@ -59,7 +61,11 @@ pub(super) fn export(args: &Args) -> Result<()> {
         Exports::Dxf => cam::drawing(case),
         Exports::Mjcf => mjcf::mjcf(case, &AssurSolver, &scenario.name, dt),
         Exports::Sdf => sdf::sdf(case, &AssurSolver, &scenario.name, dt),
-        Exports::Urdf => urdf::urdf(case, &AssurSolver, &scenario.name, args.mimic),
+        Exports::Urdf => {
+            let relations = |degree| Mimics::new(&RigidModel::new(case, &first_state(case, &AssurSolver)?, ""), degree);
+            let mimics = args.mimic.map(relations).transpose()?;
+            urdf::urdf(case, &AssurSolver, &scenario.name, mimics.as_ref())
+        }
         Exports::Usd => usd::usd(case, &AssurSolver, &scenario.name),
     };
     let all: Vec<(Exports, &Path)> = args.outputs.each().collect();

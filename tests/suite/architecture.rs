@@ -102,6 +102,7 @@ const ROOMS: &[(&str, &str)] = &[
     ("design::exercise", ""),
     ("design::export", ""),
     ("design::plan", ""),
+    ("design::relations", "clearance export"),
     ("design::sensitivity", ""),
     ("design::synthesize", ""),
     ("lab::bench", "steps"),

@@ -1,7 +1,7 @@
 //! Export of a mechanism as a model for other programs, and of the profiles of its cams.
 
 pub mod cam;
-mod limits;
+pub(crate) mod limits;
 pub mod mjcf;
 mod names;
 pub mod rigid;

@@ -1,6 +1,6 @@
 //! Design of a mechanism from the results of the analytic solvers. This crate is not part of the proof.
 //! The crate covers bearings, clearance, diagrams, exercises, export, flywheel, motor choice, plans,
-//! sensitivities and synthesis.
+//! relations of joints, sensitivities and synthesis.
 
 pub mod bearings;
 pub mod clearance;
@@ -10,6 +10,7 @@ pub mod drive;
 pub mod exercise;
 pub mod export;
 pub mod plan;
+pub mod relations;
 pub mod sensitivity;
 mod sentences;
 pub mod synthesize;

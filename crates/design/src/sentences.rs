@@ -162,10 +162,10 @@ linkage::sentences! {
     sdf_takes_no_joint_called(name) = "a link and a joint are called \"{name}\": SDF permits a name only once in a model";
     THE_ROOT_OF_THE_FILE_IS_WORLD = "the root of a URDF file is called \"world\", and no second link may have that name";
     sdf_reserves_the_name(name) = "SDF reserves the name \"{name}\"";
-    // export/urdf/mimic.rs
+    // relations.rs
     WRITE_NO_RELATIONS = "write the file without relations of joints";
     RELATIONS_WITH_SEVERAL_DRIVES = "a relation of joints that depend on several drives";
-    // export/urdf/mimic/bound.rs
+    // relations/bound.rs
     WRITE_NO_RELATIONS_OR_STAY_AWAY = "write the file without relations of joints, or choose a range that does not come near a singular pose";
     no_error_of_the_relations_is_proven(coordinate) = "no bound on the error of the joints' relations can be proven near the driven coordinate {coordinate}";
     // export/urdf.rs

@@ -314,7 +314,7 @@ pub fn attack(seed: u64, index: u64, good: &Good) -> Attack {
 }
 
 /// Commands on a scenario; usual commands occur more often in the list.
-const COMMANDS: [&str; 42] = [
+const COMMANDS: [&str; 45] = [
     "sensitivity FILE --figure maxabs:drive.torque_N_m",
     "merge FILE",
     "sweep FILE --vary links.crank.mass_kg=1:2:5 --figure max:drive.torque_N_m --figure reach_to",
@@ -341,6 +341,9 @@ const COMMANDS: [&str; 42] = [
     "clearance FILE",
     "draw FILE -o out.svg --each-mode",
     "export FILE --json -",
+    "export FILE -o -.sdf",
+    "export FILE -o -.urdf --mimic 3",
+    "export FILE -o -.usda --no-loads",
     "tune FILE --within 0.01 --engine rapier --channel positions --budget 1e4",
     "run FILE --no-record -q",
     "accept FILE --budget 1e4",

@@ -7,10 +7,10 @@ use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::mechanism::{GROUND, JointId, Transmission};
 
 /// Name of URDF in messages.
-pub(super) const URDF: &str = "URDF";
+pub(crate) const URDF: &str = "URDF";
 
 /// The error that `what` cannot be written to the format `format`.
-pub(super) fn refused(what: &str, format: &str, help: impl Into<Advice>) -> Error {
+pub(crate) fn refused(what: &str, format: &str, help: impl Into<Advice>) -> Error {
     Error::new(ErrorKind::Unsupported, sentences::cannot_be_written_to(&what, &format)).help(help)
 }
 

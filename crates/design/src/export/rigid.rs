@@ -20,17 +20,17 @@ const SHORTEST: f64 = 0.1;
 /// A mechanism as rigid bodies and joints in the start pose.
 #[derive(Debug)]
 pub struct RigidModel<'a> {
-    pub(super) case: &'a Case,
-    pub(super) name: &'a str,
+    pub(crate) case: &'a Case,
+    pub(crate) name: &'a str,
     /// State at t = 0 with its velocities.
-    pub(super) start: State,
+    pub(crate) start: State,
     /// The spanning tree, which contains all driven joints.
-    pub(super) tree: SpanningTree,
+    pub(crate) tree: SpanningTree,
     /// One body for each branch of the tree.
-    pub(super) bodies: Vec<Body>,
+    pub(crate) bodies: Vec<Body>,
     /// The joints that close loops, as if the joint's second link were a body on its first link.
     /// If one of the two links is the ground, the ground is the parent.
-    pub(super) closing: Vec<Body>,
+    pub(crate) closing: Vec<Body>,
 }
 
 impl<'a> RigidModel<'a> {
@@ -54,39 +54,39 @@ impl<'a> RigidModel<'a> {
     }
 
     /// Pose of a link in the start pose.
-    pub(super) fn pose(&self, link: LinkId) -> LinkPose {
+    pub(crate) fn pose(&self, link: LinkId) -> LinkPose {
         self.case.start.0[link]
     }
 
     /// Point of a joint on one of its links, in the link's frame (m).
-    pub(super) fn point(&self, joint: JointId, link: LinkId) -> Vec2 {
+    pub(crate) fn point(&self, joint: JointId, link: LinkId) -> Vec2 {
         self.case.mechanism.joints()[joint].on(link).expect("the joint is on the link")
     }
 
     /// Name of a joint.
-    pub(super) fn joint_name(&self, joint: JointId) -> &'a str {
+    pub(crate) fn joint_name(&self, joint: JointId) -> &'a str {
         &self.case.mechanism.joints()[joint].name
     }
 
     /// Name of a link.
-    pub(super) fn link_name(&self, link: LinkId) -> &'a str {
+    pub(crate) fn link_name(&self, link: LinkId) -> &'a str {
         &self.case.mechanism.links()[link].name
     }
 
     /// Mass of the mechanism (kg). A mechanism without mass gets 1 kg, so that its motion can still be simulated.
-    pub(super) fn mass(&self) -> f64 {
+    pub(crate) fn mass(&self) -> f64 {
         let mass: f64 = self.case.mechanism.links().iter().map(|link| link.mass).sum();
         if mass > 0.0 { mass } else { 1.0 }
     }
 
     /// Size of the mechanism (m), for drawing and for inertias.
-    pub(super) fn size(&self) -> f64 {
+    pub(crate) fn size(&self) -> f64 {
         let size = self.case.mechanism.size();
         if size > 0.0 { size } else { 1.0 }
     }
 
     /// Whether a joint is driven.
-    pub(super) fn is_driven(&self, joint: JointId) -> bool {
+    pub(crate) fn is_driven(&self, joint: JointId) -> bool {
         self.case.drives.iter().any(|drive| drive.joint == joint)
     }
 
@@ -101,18 +101,18 @@ impl<'a> RigidModel<'a> {
     }
 
     /// Index of the branch that carries `link`.
-    pub(super) fn branch_of(&self, link: LinkId) -> Option<usize> {
+    pub(crate) fn branch_of(&self, link: LinkId) -> Option<usize> {
         self.tree.branches.iter().position(|branch| branch.link == link)
     }
 
     /// Child links of `parent`, in the tree's order.
-    pub(super) fn children(&self, parent: LinkId) -> Vec<LinkId> {
+    pub(crate) fn children(&self, parent: LinkId) -> Vec<LinkId> {
         self.tree.branches.iter().filter(|branch| branch.parent == parent).map(|branch| branch.link).collect()
     }
 
     /// Bodies in the order of MuJoCo's coordinates.
     /// Each body precedes its children, and the children precede the body's next sibling.
-    pub(super) fn in_order(&self) -> Vec<&Body> {
+    pub(crate) fn in_order(&self) -> Vec<&Body> {
         let mut order = Vec::new();
         let mut waiting = self.children(GROUND);
         waiting.reverse();
@@ -124,7 +124,7 @@ impl<'a> RigidModel<'a> {
     }
 
     /// Hinges from the ground to `link`, as indices of branches. The hinge nearest to `link` is last.
-    pub(super) fn hinges(&self, mut link: LinkId) -> Vec<usize> {
+    pub(crate) fn hinges(&self, mut link: LinkId) -> Vec<usize> {
         let mut hinges = Vec::new();
         while link != GROUND {
             let branch = self.branch_of(link).expect("every moving link is in the tree");
@@ -139,7 +139,7 @@ impl<'a> RigidModel<'a> {
 
     /// Branches whose coordinates a transmission couples, each with a factor.
     /// The sum of the coordinates times their factors is constant.
-    pub(super) fn coupled(&self, transmission: &Transmission) -> Vec<(usize, f64)> {
+    pub(crate) fn coupled(&self, transmission: &Transmission) -> Vec<(usize, f64)> {
         let mut sum: Vec<(usize, f64)> = Vec::new();
         let mut add = |branch: usize, factor: f64| match sum.iter_mut().find(|(own, _)| *own == branch) {
             Some((_, own)) => *own += factor,
@@ -165,7 +165,7 @@ impl<'a> RigidModel<'a> {
 
 /// The only degree of freedom of a body relative to its parent.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Freedom {
+pub(crate) enum Freedom {
     /// Hinge about z at a point of the body's frame (m).
     Hinge(Vec2),
     /// Slide along a unit vector of the body's frame.
@@ -174,7 +174,7 @@ pub(super) enum Freedom {
 
 /// A link as a body within its parent, or a joint that closes a loop in the same terms.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Body {
+pub(crate) struct Body {
     /// The link, its parent and their joint.
     pub branch: TreeBranch,
     /// Origin of the link's frame in the frame of the parent link, in the start pose (m).
@@ -192,12 +192,12 @@ pub(super) struct Body {
 
 impl Body {
     /// Whether the joint is prismatic.
-    pub(super) fn slides(&self) -> bool {
+    pub(crate) fn slides(&self) -> bool {
         matches!(self.freedom, Freedom::Slide(_))
     }
 
     /// The joint's coordinate in a state whose angles are unwrapped (rad, m).
-    pub(super) fn coordinate_in(&self, case: &Case, state: &State) -> f64 {
+    pub(crate) fn coordinate_in(&self, case: &Case, state: &State) -> f64 {
         match self.freedom {
             Freedom::Hinge(_) => state.angles[self.branch.link] - state.angles[self.branch.parent],
             Freedom::Slide(_) => slide(&case.mechanism.joints()[self.branch.joint], state)[0],
@@ -205,7 +205,7 @@ impl Body {
     }
 
     /// Rate of the joint's coordinate in a state (rad/s, m/s).
-    pub(super) fn rate_in(&self, case: &Case, state: &State) -> f64 {
+    pub(crate) fn rate_in(&self, case: &Case, state: &State) -> f64 {
         match self.freedom {
             Freedom::Hinge(_) => state.motions[self.branch.link].omega - state.motions[self.branch.parent].omega,
             Freedom::Slide(_) => slide(&case.mechanism.joints()[self.branch.joint], state)[1],

@@ -7,6 +7,7 @@
 //! - URDF has no place for gravity, drives and speeds.
 //! - With [`Mimics`], every joint but the driven one follows the driven joint by a linear relation.
 
+pub(crate) mod chebyshev;
 pub mod mimic;
 
 use std::f64::consts::FRAC_PI_2;
@@ -34,26 +35,25 @@ const ROOT: &str = "world";
 const ENDLESS: f64 = 1e9;
 
 /// The case as URDF, with the robot's name `name`, in the pose at t = 0 that `solver` computes.
-/// With `degree`, all joints of the tree follow the driven joint by polynomials of this degree: see [`Mimics`].
+/// With `mimics`, the joints of the tree follow the driven joint: see [`relations`](crate::relations).
 ///
 /// # Errors
 /// [`ErrorKind::Unsupported`](linkage::ErrorKind::Unsupported) for a link with the name of the root, and for loads and
 /// transmissions that URDF cannot express.
-/// The errors of the solver, and those of [`Mimics::new`].
-pub fn urdf(case: &Case, solver: &dyn Solver, name: &str, degree: Option<usize>) -> Result<String> {
+/// The errors of the solver.
+pub fn urdf(case: &Case, solver: &dyn Solver, name: &str, mimics: Option<&Mimics>) -> Result<String> {
     names::check_urdf(&case.mechanism)?;
     let model = RigidModel::new(case, &first_state(case, solver)?, name);
     let (mut followers, frictions) =
         (limits::followers(&model, limits::URDF)?, limits::frictions(&model, limits::URDF)?);
     let mut offsets = vec![0.0; followers.len()];
-    let mimics = degree.map(|degree| Mimics::new(&model, degree)).transpose()?;
-    if let Some(mimics) = &mimics {
+    if let Some(mimics) = mimics {
         (followers, offsets) = mimics.linear();
     }
     let mut xml = Xml::new();
     xml.nest(format_args!(r#"robot name="{}""#, escape(name)), |xml| {
         model_header(&model).iter().for_each(|line| xml.comment(line));
-        if let Some(mimics) = &mimics {
+        if let Some(mimics) = mimics {
             xml.comment(sentences::THE_RELATIONS_OF_THE_JOINTS);
             xml.comment(&mimics.json(&model));
         }

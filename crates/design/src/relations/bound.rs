@@ -7,9 +7,10 @@
 //! The difference of the two motions is thus a linear function with a bound on the rest, and is largest at an end.
 //! Parts are halved until every bound is near the largest error at the middles of parts.
 
-use super::relations::{InputRange, JointRelation, MimicError, Mimics};
+use super::range::InputRange;
 use crate::clearance::tube::{MOST_HALVINGS, RangePart, Tube, Tubes};
 use crate::export::rigid::{Body, Freedom, RigidModel};
+use crate::export::urdf::mimic::{JointRelation, MimicError, Mimics};
 use crate::sentences;
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Result};

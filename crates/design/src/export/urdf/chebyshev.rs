@@ -4,13 +4,13 @@ use linkage::math::KeepNan;
 
 /// The sum of `coefficients[k]` T_k(x), where x grows from -1 to 1 over the domain.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Chebyshev {
+pub(crate) struct Chebyshev {
     pub coefficients: Vec<f64>,
     domain: [f64; 2],
 }
 
 /// The zeros of the Chebyshev polynomial of degree `count`, over the domain in ascending order.
-pub(super) fn nodes(domain: [f64; 2], count: usize) -> Vec<f64> {
+pub(crate) fn nodes(domain: [f64; 2], count: usize) -> Vec<f64> {
     let angle = |index: usize| std::f64::consts::PI * (index as f64 + 0.5) / count as f64;
     (0..count).rev().map(|index| place(domain, angle(index).cos())).collect()
 }
@@ -21,7 +21,7 @@ fn place([low, high]: [f64; 2], x: f64) -> f64 {
 
 impl Chebyshev {
     /// The least-squares fit of degree `degree` to `values` at all [`nodes`] of the domain, in any order.
-    pub(super) fn fit(domain: [f64; 2], degree: usize, nodes: &[f64], values: &[f64]) -> Self {
+    pub(crate) fn fit(domain: [f64; 2], degree: usize, nodes: &[f64], values: &[f64]) -> Self {
         let mut own = Chebyshev { coefficients: vec![0.0; degree + 1], domain };
         for (&node, value) in nodes.iter().zip(values) {
             let angle = own.x(node).larger(-1.0).smaller(1.0).acos();
@@ -43,20 +43,20 @@ impl Chebyshev {
     }
 
     /// Leaves out the coefficients of degree 2 and more if all of them are below `noise`.
-    pub(super) fn drop_noise(&mut self, noise: f64) {
+    pub(crate) fn drop_noise(&mut self, noise: f64) {
         if self.coefficients.iter().skip(2).all(|own| own.abs() < noise) {
             self.coefficients.truncate(2);
         }
     }
 
     /// Value at zero and slope, if the degree is 1.
-    pub(super) fn line(&self) -> Option<[f64; 2]> {
+    pub(crate) fn line(&self) -> Option<[f64; 2]> {
         let [constant, slope] = self.coefficients[..] else { return None };
         Some([constant + slope * self.x(0.0), slope / self.half()])
     }
 
     /// Value with the first and the second derivative.
-    pub(super) fn at(&self, value: f64) -> [f64; 3] {
+    pub(crate) fn at(&self, value: f64) -> [f64; 3] {
         let (x, scale) = (self.x(value), self.half().recip());
         // T_(k+1) = 2 x T_k - T_(k-1), and its derivatives.
         let (mut now, mut next) = ([1.0, 0.0, 0.0], [x, 1.0, 0.0]);
@@ -71,7 +71,7 @@ impl Chebyshev {
     }
 
     /// Bound on the third derivative over the domain: the third derivative of T_k is largest at the ends.
-    pub(super) fn third(&self) -> f64 {
+    pub(crate) fn third(&self) -> f64 {
         let of = |(k, own): (usize, &f64)| {
             let square = (k * k) as f64;
             own.abs() * (square * (square - 1.0) * (square - 4.0) / 15.0).abs()
@@ -80,7 +80,7 @@ impl Chebyshev {
     }
 
     /// Bound on the rounding error of a value.
-    pub(super) fn rounding(&self) -> f64 {
+    pub(crate) fn rounding(&self) -> f64 {
         let count = self.coefficients.len() as f64;
         4.0 * f64::EPSILON * (count + 2.0).powi(2) * self.coefficients.iter().map(|own| own.abs()).sum::<f64>()
     }
