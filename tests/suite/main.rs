@@ -31,6 +31,7 @@ mod figures;
 mod formulas;
 mod graphs;
 mod higher_groups;
+mod import;
 mod invariants;
 mod key_tables;
 mod laws;
