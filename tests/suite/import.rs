@@ -1,7 +1,9 @@
 //! Mechanisms of other programs: each becomes a scenario that runs, or the message says what is missing.
 
+mod drawings;
 mod hostile;
 mod links;
+mod models;
 
 use crate::cli::tools::{Outcome, Place};
 

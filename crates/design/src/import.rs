@@ -1,10 +1,11 @@
-//! Mechanisms of other programs as scenarios: links of PMKS+, and models for MuJoCo.
+//! Mechanisms of other programs as scenarios: links of PMKS+, models for MuJoCo, files of Linkage.
 //!
 //! A reader turns a source into [`Parts`](parts::Parts): links in their start pose, joints, drives and loads.
 //! The writer turns these parts into the text of a scenario, and finds the assembly modes of the start pose and a grid.
 //! What a reader does not understand is listed by name.
 
 mod finish;
+mod linkage2;
 mod mjcf;
 mod names;
 mod parts;
@@ -15,7 +16,7 @@ mod xml;
 pub use finish::ImportedScenario;
 
 use crate::sentences;
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::{ErrorKind, Result};
 use std::path::Path;
 
 /// The scenario of the mechanism in `source`, with the scenario's `name`: the address of a link, or the text of the file
@@ -33,6 +34,7 @@ pub fn import(source: &str, path: &Path, name: &str) -> Result<ImportedScenario>
     let root = file.tree.root_element();
     let parts = match root.tag_name().name() {
         "mujoco" => mjcf::parts(&file)?,
+        "linkage2" => linkage2::parts(&file)?,
         _ => {
             let message = sentences::THE_XML_IS_OF_NO_KNOWN_KIND.into();
             return Err(file.fault(root, ErrorKind::Unsupported, message, sentences::GIVE_A_LINK_OR_A_FILE));

@@ -212,6 +212,21 @@ linkage::sentences! {
     // import/mjcf/loads.rs
     the_transmission_is_left_out(name) = "\"{name}\" couples joints as a transmission: a model does not say of which kind; add a table [[transmissions]]";
     the_actuator_is_left_out(name, line) = "actuator \"{name}\" in line {line} is not understood: it is left out";
+    // import/linkage2/elements.rs
+    LINKAGE_HAS_NO_MASSES = "Linkage has no masses and no forces: the links have no mass";
+    the_scale_is_left_out(factor) = "the scale factor {factor} of the drawing is left out: lengths are those of the drawing, 96 to the inch";
+    the_slider_has_no_path(name, line) = "slider \"{name}\" in line {line} does not name two ends of its path: it is a pin";
+    THE_LINK_NAMES_NO_CONNECTOR = "the link names a connector that the file does not have";
+    THE_WHEEL_HAS_NO_SIZE = "the wheel has no positive `size`";
+    // import/linkage2/build.rs
+    the_actuator_stands_still(name) = "actuator \"{name}\" has no stroke or no speed: it is not driven";
+    the_actuator_makes_one_stroke(name, stroke, unit) = "actuator \"{name}\" moves to and fro by {stroke:.6} {unit} in Linkage: here it makes one stroke at the same speed";
+    // import/linkage2/sliders.rs
+    the_path_is_curved(name) = "the path of slider \"{name}\" is curved: it is left out";
+    the_slider_has_no_guide(name) = "slider \"{name}\" has a path whose ends are not on one link, or is on no link: it is left out";
+    // import/linkage2/gears.rs
+    THE_RATIO_NEEDS_TWO_WHEELS = "the ratio has not two wheels";
+    the_wheels_have_no_carrier(line) = "the axles of the wheels in line {line} are not on one link: the ratio is left out";
     // import/pmks.rs
     THE_SOURCE_HAS_SEVERAL_LINES = "the source has several lines, but it is not XML; a share link has one line";
     THE_ADDRESS_HAS_NO_QUERY = "the address has nothing after its `?`: it contains no mechanism";

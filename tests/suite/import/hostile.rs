@@ -2,7 +2,10 @@
 
 use super::data;
 use crate::cli::tools::Place;
+use crate::common::shipped;
 use crate::common::sketch::RandomSource;
+use analytic::AssurSolver;
+use design::export::mjcf::mjcf;
 use design::import::import;
 use std::path::Path;
 
@@ -30,7 +33,36 @@ fn a_broken_link_is_refused_with_its_place() {
     place.refused("import none.pmks", &["the source none.pmks cannot be read"]);
 }
 
-/// Random damage of the query never panics and never takes long.
+/// Random damage of links, models and files of Linkage never panics and never takes long.
+#[test]
+fn damaged_sources_never_panic() {
+    let model = mjcf(&shipped("quick_return").case, &AssurSolver, "m", 1e-3).unwrap();
+    let texts = [model, data("gears.linkage2"), data("actuator.linkage2"), data("two_sliders.linkage2")];
+    for seed in 0..300 {
+        let random = &mut RandomSource::of_sample(0x2dea, seed);
+        let mut text = texts[random.index(texts.len())].clone().into_bytes();
+        for _ in 0..=random.index(3) {
+            let at = random.index(text.len());
+            match random.index(4) {
+                0 => drop(text.remove(at)),
+                1 => text[at] = b"0-9 \"<>/etruAnP."[random.index(16)],
+                2 => text.insert(at, b"0-9 \"<>/etruAnP."[random.index(16)]),
+                _ => {
+                    let line: Vec<u8> =
+                        text.split_inclusive(|byte| *byte == b'\n').nth(random.index(20)).unwrap_or(b"").into();
+                    let lines = text.iter().position(|byte| *byte == b'\n').unwrap_or(0) + 1;
+                    text.splice(lines..lines, line);
+                }
+            }
+        }
+        let text = String::from_utf8(text).unwrap();
+        if let Ok(found) = import(&text, Path::new("source"), "own") {
+            assert!(found.text.contains("format = 1"), "{text}");
+        }
+    }
+}
+
+/// Random damage of a link with a right last character.
 #[test]
 fn damaged_links_never_panic() {
     let names = ["four_bar", "slot", "force", "welded", "driven_slide"];

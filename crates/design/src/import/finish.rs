@@ -6,6 +6,7 @@ use crate::sentences;
 use analytic::range::{ASIDE, Extent, reachable};
 use linkage::case::Case;
 use linkage::error::{Error, Result};
+use linkage::math::KeepNan;
 use linkage::mechanism::assembly::{Configuration, configurations};
 use linkage::mechanism::{Group, LinkId, LinkPose, Mechanism, Pose};
 use linkage::work::limited;
@@ -106,17 +107,21 @@ fn grid(parts: &mut Parts, case: &Case) -> String {
     let input = crank.input;
     let (start, sense) = (input.shown(crank.start), crank.sense());
     let unit = input.shown_in().0;
+    let travel = parts.drives.first().and_then(|drive| drive.travel).map(|own| input.shown(own * parts.units.metres));
     let extent: Result<Extent> = limited(ASIDE, || reachable(case)).0;
     let (step, count) = match extent {
         Ok(Extent::FullTurn(_)) => (5.0, 72.0),
         Ok(Extent::Limited(limits)) => {
             let [from, to] = limits.map(|limit| input.shown(limit.crank));
             parts.told.push(sentences::the_input_reaches_only(&input.noun(), &from, &to, &unit));
-            let way = if sense > 0.0 { to - start } else { start - from };
-            (rounded(SHARE * way / STEPS), STEPS)
+            let way = SHARE * if sense > 0.0 { to - start } else { start - from };
+            (rounded(travel.map_or(way, |travel| way.smaller(travel)) / STEPS), STEPS)
         }
-        // Without known limits, a small part of the mechanism's size or of a turn.
-        Err(_) => (rounded(input.shown(0.1 * if unit == "mm" { case.mechanism.size() } else { 1.0 }) / STEPS), STEPS),
+        // Without known limits, the travel, or a small part of the mechanism's size or of a turn.
+        Err(_) => {
+            let small = input.shown(0.1 * if unit == "mm" { case.mechanism.size() } else { 1.0 });
+            (rounded(travel.unwrap_or(small) / STEPS), STEPS)
+        }
     };
     let [from, to, step] = [start, start + sense * count * step, sense * step].map(number);
     format!("\n[grid]\nfrom_{unit} = {from}\nto_{unit} = {to}\nstep_{unit} = {step}\n")

@@ -11,7 +11,7 @@ use crate::sentences;
 /// Number of the ground in the list of links.
 pub(super) const FRAME: usize = 0;
 /// Upper limit of the numbers of links, joints and loads. No drawing made by hand is larger.
-const MOST_PARTS: usize = 500;
+const MOST_PARTS: usize = 300;
 
 /// The units of a source, as endings of keys, and the size of its length in m.
 #[derive(Clone, Copy, Debug)]
@@ -104,6 +104,8 @@ pub(super) struct DrivePart {
     pub(super) speed: f64,
     /// Unit of an angular velocity, as the ending of a key.
     pub(super) turning: &'static str,
+    /// Largest way of a slide in the direction of its motion, in the source's length.
+    pub(super) travel: Option<f64>,
     /// If forces determine the motion: the rate at t = 0 in the unit of the speed, and the link whose world angle is the
     /// input, if it is a world angle.
     pub(super) free: Option<(f64, Option<usize>)>,
@@ -131,6 +133,8 @@ pub(super) struct Parts {
     pub(super) told: Vec<String>,
     /// Whether coordinates are written digit by digit. Otherwise they are rounded to twelve digits of the largest.
     pub(super) is_exact: bool,
+    /// Rounding of the coordinates in the source, in its length; 0 if it is finer than twelve digits.
+    pub(super) rounding: f64,
     pub(super) link_names: Names,
     pub(super) point_names: Names,
     pub(super) joint_names: Names,
@@ -151,6 +155,7 @@ impl Parts {
             gravity: None,
             told: Vec::new(),
             is_exact: false,
+            rounding: 0.0,
             link_names: Names::with(&["ground", "housing"]),
             point_names: Names::with(&[]),
             joint_names: Names::with(&[]),

@@ -2,7 +2,7 @@
 
 use super::parts::{DrivePart, FRAME, LinkPart, PartPair, Parts};
 use crate::sentences;
-use linkage::math::Vec2;
+use linkage::math::{KeepNan, Vec2};
 use std::fmt::Write;
 
 /// The text of the scenario with `name`, the start of its groups and its grid, both as they are written.
@@ -107,7 +107,8 @@ impl<'a> Writer<'a> {
     pub(super) fn of(parts: &'a Parts) -> Writer<'a> {
         let size = parts.size();
         let is_rounded = !parts.is_exact && size > 0.0;
-        Writer { parts, step: if is_rounded { 10f64.powf(size.log10().floor() - 11.0) } else { 0.0 } }
+        let step = if is_rounded { 10f64.powf(size.log10().floor() - 11.0).larger(parts.rounding) } else { 0.0 };
+        Writer { parts, step }
     }
 
     fn length(&self, value: f64) -> String {

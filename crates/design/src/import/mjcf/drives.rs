@@ -31,7 +31,13 @@ impl Model<'_> {
                 let joint = &self.parts.joints[own.number];
                 let is_back = !own.is_slide && !joint.links.contains(&FRAME) && joint.links[0] == own.link;
                 let speed = if is_back { -own.rate } else { own.rate };
-                self.parts.drives.push(DrivePart { joint: own.number, speed, turning: "rad_s", free: None });
+                self.parts.drives.push(DrivePart {
+                    joint: own.number,
+                    speed,
+                    turning: "rad_s",
+                    travel: None,
+                    free: None,
+                });
             } else {
                 others.push(at);
             }
@@ -106,7 +112,13 @@ impl Model<'_> {
         let sense = motor.unwrap_or(if rate < 0.0 { -1.0 } else { 1.0 });
         let nominal = if rate.abs() >= 1.0 { rate.abs() } else { 1.0 };
         let free = Some((rate, in_world.then_some(link)));
-        self.parts.drives.push(DrivePart { joint: number, speed: sense * nominal, turning: "rad_s", free });
+        self.parts.drives.push(DrivePart {
+            joint: number,
+            speed: sense * nominal,
+            turning: "rad_s",
+            travel: None,
+            free,
+        });
         Ok(())
     }
 

@@ -40,6 +40,8 @@ impl<'a> Model<'a> {
         for node in self.section("equality") {
             match node.tag_name().name() {
                 "connect" => placed.push(self.closing(node)?),
+                // The tendon of a transmission is told with its name.
+                "tendon" => {}
                 _ => self.tell(node),
             }
         }

@@ -229,7 +229,7 @@ impl Builder {
         };
         let is_back = settings.is_clockwise && !own.is_slide;
         let speed = if is_back { -speed } else { speed };
-        self.parts.drives.push(DrivePart { joint, speed, turning: "rpm", free: None });
+        self.parts.drives.push(DrivePart { joint, speed, turning: "rpm", travel: None, free: None });
     }
 
     fn forces(&mut self) -> Result<()> {
