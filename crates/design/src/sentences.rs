@@ -231,6 +231,11 @@ linkage::sentences! {
     THE_SOURCE_HAS_SEVERAL_LINES = "the source has several lines, but it is not XML; a share link has one line";
     THE_ADDRESS_HAS_NO_QUERY = "the address has nothing after its `?`: it contains no mechanism";
     THE_LINK_HAS_ANOTHER_VERSION = "the link has the newer form `pmks2:` of PMKS+, which this version does not read";
+    // import/pmks/classic.rs
+    THE_LINK_HAS_NO_UNIT = "the link has no units and no masses: coordinates are taken as mm, the speed as rpm, or as mm/s for a slide";
+    THE_RECORD_HAS_NO_KIND = "the record names no links, or no kind of joint behind them";
+    the_kind_is_not_read(kind) = "joints of the kind {kind} are not read, only R and P";
+    DRAW_A_SLIDE_AND_A_PIN = "draw the joint as a slide P and a pin R with a further link between them";
     // import/pmks/token.rs
     the_last_sign_of_the_link_is_wrong(sign, expected, length) = "the last character of the link is \"{sign}\", but a link of {length} characters before it ends in \"{expected}\": the link is incomplete or changed";
     COPY_THE_WHOLE_LINK = "copy the whole link again from the share dialog of PMKS+, and put it in quotes";

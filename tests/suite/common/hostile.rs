@@ -313,14 +313,13 @@ pub fn attack(seed: u64, index: u64, good: &Good) -> Attack {
 }
 
 /// Commands on a scenario; usual commands occur more often in the list.
-const COMMANDS: [&str; 43] = [
+const COMMANDS: [&str; 42] = [
     "sensitivity FILE --figure maxabs:drive.torque_N_m",
     "merge FILE",
     "sweep FILE --vary links.crank.mass_kg=1:2:5 --figure max:drive.torque_N_m --figure reach_to",
     "graph FILE -o out.csv",
     "exercise FILE -o class",
     "mark FILE",
-    "import FILE -o -",
     "run FILE --no-record -q",
     "run FILE",
     "run FILE --no-record --verbose --json out.json --html out.html",
@@ -342,7 +341,7 @@ const COMMANDS: [&str; 43] = [
     "draw FILE -o out.svg --each-mode",
     "export FILE --json -",
     "tune FILE --within 0.01 --engine rapier --channel positions --budget 1e4",
-    "run FILE --no-record -q",
+    "import FILE -o -",
     "accept FILE --budget 1e4",
     "mutate FILE --kind load --no-sizes --budget 1e4",
     "compare good.toml FILE",

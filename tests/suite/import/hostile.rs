@@ -30,13 +30,15 @@ fn a_broken_link_is_refused_with_its_place() {
     refused("?00.VG.K,0.101.6A,A,0,!,0...N_T", &["`joint 1`", "found \"!\" as y"]);
     refused("?00.VG.K,0.901...N_I", &["found \"901\" as units"]);
     refused("?00.VG.K,0.101..YRAB,AB,Fe,Fe,0,0,c5cae9,A,B,,...N_o", &["`AB`", "it names the joint \"A\""]);
+    refused("?mech=ground a RP 0 0 0 tfft", &["`joint 1`", "kind RP"]);
+    refused("?mech=a R 0", &["`joint 1`", "two coordinates"]);
     place.refused("import none.pmks", &["the source none.pmks cannot be read"]);
 }
 
 /// Random damage of links, models and files of Linkage never panics and never takes long.
 #[test]
 fn damaged_sources_never_panic() {
-    let model = mjcf(&shipped("quick_return").case, &AssurSolver, "m", 1e-3).unwrap();
+    let model = mjcf(&shipped("quick_return.toml").case, &AssurSolver, "m", 1e-3).unwrap();
     let texts = [model, data("gears.linkage2"), data("actuator.linkage2"), data("two_sliders.linkage2")];
     for seed in 0..300 {
         let random = &mut RandomSource::of_sample(0x2dea, seed);

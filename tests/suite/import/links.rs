@@ -16,7 +16,7 @@ struct Link {
     told: &'static [&'static str],
 }
 
-const LINKS: [Link; 9] = [
+const LINKS: [Link; 11] = [
     Link { name: "four_bar", metres: 0.01, points: &[("B", [3.0, 2.0]), ("C", [10.0, 7.0])], speed: 20.0, told: &[] },
     Link {
         name: "slider_crank",
@@ -68,6 +68,20 @@ const LINKS: [Link; 9] = [
         told: &["slide \"D\": it moves at 5 cm/s", "the section \"LAB\" is left out"],
     },
     Link { name: "slot", metres: 0.01, points: &[("B", [1.0, 5.0]), ("E", [1.569, 7.845])], speed: 20.0, told: &[] },
+    Link {
+        name: "older_four_bar",
+        metres: 0.001,
+        points: &[("P2", [30.0, 20.0]), ("P3", [60.0, 80.0]), ("P4", [100.0, 70.0])],
+        speed: 30.0,
+        told: &["coordinates are taken as mm"],
+    },
+    Link {
+        name: "older_slider",
+        metres: 0.001,
+        points: &[("P2", [20.0, 15.0]), ("P3", [90.0, -10.0])],
+        speed: 10.0,
+        told: &["coordinates are taken as mm"],
+    },
 ];
 
 #[test]

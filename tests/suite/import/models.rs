@@ -51,7 +51,7 @@ fn every_exported_scenario_comes_back() {
 
 #[test]
 fn what_a_model_has_besides_is_told_or_refused() {
-    let case = shipped("crank_rocker").case;
+    let case = shipped("crank_rocker.toml").case;
     let model = mjcf(&case, &AssurSolver, "m", 1e-3).unwrap();
     let changed = |from: &str, to: &str| {
         assert!(model.contains(from), "{from}");

@@ -1,6 +1,7 @@
-//! Links of PMKS+: the whole mechanism is in the query of the address.
+//! Links of PMKS+ and of the older PMKS: the whole mechanism is in the query of the address.
 
 mod build;
+mod classic;
 mod records;
 mod token;
 
@@ -20,6 +21,9 @@ pub(super) fn parts(address: &str) -> Result<Parts> {
     }
     if query.starts_with("pmks2:") {
         return unknown(sentences::THE_LINK_HAS_ANOTHER_VERSION);
+    }
+    if query.split('&').any(|part| part.starts_with("mech=")) {
+        return classic::parts(&query);
     }
     build::parts(records::records(&query)?)
 }
