@@ -21,6 +21,7 @@ mod golden;
 mod graph;
 mod grid;
 mod html;
+mod import;
 mod inspect;
 mod instant;
 mod jobs;
@@ -150,6 +151,8 @@ commands! {
         Sweep(Box<sweep::Args>) = sweep::sweep,
         /// Join the shards of a sweep into one table
         Merge(merge::Args) = merge::merge,
+        /// Turn a mechanism of another program into a scenario: links of PMKS+, models for MuJoCo, files of Linkage
+        Import(import::Args) = import::import,
         /// Write a mechanism for another program: MJCF, SDF, URDF, USD, or JSON
         Export(export::Args) = export::export,
     }

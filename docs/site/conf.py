@@ -41,7 +41,7 @@ suppress_warnings = ["misc.highlighting_failure"]
 CONTENTS = {
     "Start": ["docs/tutorial", "docs/machines", "docs/course", "docs/guide", "docs/gallery", "docs/scenario", "docs/formulas"],
     "Proofs": ["docs/report", "docs/recording", "docs/compare", "docs/python", "docs/testing", "docs/mutate", "docs/findings", "docs/authors", "docs/foreign", "docs/stories", "docs/skip"],
-    "Design": ["docs/synthesis", "docs/sweep", "docs/scale", "docs/draw", "docs/graph", "docs/plans", "docs/clearance", "docs/sensitivity", "docs/variants60", "docs/exercise", "docs/teaching"],
+    "Design": ["docs/synthesis", "docs/sweep", "docs/scale", "docs/draw", "docs/graph", "docs/plans", "docs/clearance", "docs/sensitivity", "docs/variants60", "docs/import", "docs/exercise", "docs/teaching"],
     "Engines": ["docs/engines", "docs/rapier", "docs/mjcf", "docs/formats", "docs/golden", "docs/peers", "docs/bench", "docs/stress"],
     "Numerics": [f"docs/numerics/{page}" for page in ("bounds", "settings", "forces", "change_points", "given", "friction", "twins", "diagnosis", "laboratory")],
     "Reference": ["docs/verification", "docs/notation", "ARCHITECTURE", "docs/extending", "CHANGELOG", "CONTRIBUTING", "SECURITY"],

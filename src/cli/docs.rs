@@ -22,11 +22,11 @@ macro_rules! pages {
 /// Names and texts of the documentation pages.
 static PAGES: &[(&str, &str)] = pages! {
     "authors" "bench" "clearance" "compare" "course" "draw" "engines" "exercise" "extending" "findings" "foreign"
-    "formats" "formulas" "gallery" "golden" "graph" "guide" "machines" "mjcf" "mutate" "notation" "numerics/bounds"
-    "numerics/change_points" "numerics/diagnosis" "numerics/forces" "numerics/friction" "numerics/given"
-    "numerics/laboratory"
-    "numerics/settings" "numerics/twins" "peers" "plans" "python" "rapier" "recording" "report" "scale" "scenario"
-    "sensitivity" "skip" "stories" "stress" "sweep" "synthesis" "teaching" "testing" "tutorial" "variants60" "verification"
+    "formats" "formulas" "gallery" "golden" "graph" "guide" "import" "machines" "mjcf" "mutate" "notation"
+    "numerics/bounds" "numerics/change_points" "numerics/diagnosis" "numerics/forces" "numerics/friction"
+    "numerics/given" "numerics/laboratory" "numerics/settings" "numerics/twins" "peers" "plans" "python" "rapier"
+    "recording" "report" "scale" "scenario" "sensitivity" "skip" "stories" "stress" "sweep" "synthesis" "teaching"
+    "testing" "tutorial" "variants60" "verification"
 };
 
 pub(super) fn docs(args: &Args) -> Result<()> {

@@ -133,6 +133,18 @@ fn text(file: &Path) -> Result<Cow<'static, str>> {
     TEXT.get_or_init(read).as_ref().map(|text| Cow::Borrowed(text.as_str())).map_err(Error::clone)
 }
 
+/// The text of a file of another program, or of standard input.
+pub(super) fn source(file: &Path) -> Result<Cow<'static, str>> {
+    if is_standard_input(file) {
+        return text(file);
+    }
+    let read = files::read_text(file).map(Cow::Owned);
+    read.map_err(|error| {
+        let way = files::way_out(&error, sentences::GIVE_AN_ADDRESS_OR_A_FILE);
+        Error::new(ErrorKind::Io, sentences::the_source_cannot_be_read(&file.display(), &error)).help(way)
+    })
+}
+
 /// Refuses to write settings if the scenario comes from standard input.
 pub(super) fn refuse_writing(path: &Path) -> Result<()> {
     if !is_standard_input(path) {

@@ -33,7 +33,8 @@ pub(super) struct Args {
     shipped: Option<PathBuf>,
 }
 
-fn target(text: &str) -> std::result::Result<PathBuf, String> {
+/// A scenario file to write, or `-` for standard output.
+pub(super) fn target(text: &str) -> std::result::Result<PathBuf, String> {
     output::writable(text.into())
 }
 
@@ -61,9 +62,9 @@ fn begun(template: &Template, file: &str) -> String {
     sentences::next_linkproof_draw_svg_linkproof(&file, &template.title(), &stem)
 }
 
-/// Refuses to replace an existing file.
-fn free(path: &Path, args: &Args, other: &str) -> Result<()> {
-    if args.force || path.symlink_metadata().is_err() {
+/// Refuses to replace an existing file unless `force` is given. The help offers the `other` way out.
+pub(super) fn free(path: &Path, force: bool, other: &str) -> Result<()> {
+    if force || path.symlink_metadata().is_err() {
         return Ok(());
     }
     Err(Error::new(ErrorKind::Input, sentences::is_there_already(&path.display()))
@@ -80,7 +81,7 @@ fn begin(name: &str, args: &Args) -> Result<u8> {
         output::data(&text)?;
         return Ok(told(&text, Path::new("standard output"), template));
     }
-    free(path, args, sentences::GIVE_ANOTHER_NAME_WITH_OUTPUT)?;
+    free(path, args.force, sentences::GIVE_ANOTHER_NAME_WITH_OUTPUT)?;
     match args.output {
         Some(_) => output::write(&text, path)?,
         None => output::make_by(text.as_bytes(), path, &|_| args.force)?,
@@ -105,7 +106,7 @@ fn told(text: &str, path: &Path, template: &Template) -> u8 {
 fn ship(directory: &Path, args: &Args) -> Result<()> {
     let files = shipped::files();
     for (path, _) in &files {
-        free(&directory.join(path), args, sentences::NAME_ANOTHER_DIRECTORY_AS_IN_SHIPPED)?;
+        free(&directory.join(path), args.force, sentences::NAME_ANOTHER_DIRECTORY_AS_IN_SHIPPED)?;
     }
     for (path, bytes) in &files {
         let path = directory.join(path);

@@ -176,6 +176,10 @@ linkage::sentences! {
     cannot_make_the_directory_of(path, error) = "cannot create the directory of {path}: {error}";
     NAME_ANOTHER_DIRECTORY_AS_IN_SHIPPED = "name another directory, as in --shipped DIR";
     is_written_nevertheless_to_be_corrected(path, template) = "{path} is written anyway, so that you can correct it: `linkproof draw {path} -o picture.svg` shows where it does not close. The template's own lengths fit together: {template}";
+    the_source_cannot_be_read(path, error) = "the source {path} cannot be read: {error}";
+    GIVE_AN_ADDRESS_OR_A_FILE = "give the path of a file, or an address in quotes, with its `?` and all that follows";
+    the_import_is_to_be_completed(path) = "{path} is written anyway, so that you can complete it; `linkproof draw {path} -o picture.svg` shows what is there";
+    next_after_an_import(file, stem) = "{file}\n\nnext  linkproof draw {file} -o {stem}.svg\n      linkproof run {file} -o {stem}.html\n";
     GIVE_ANOTHER_NAME_WITH_OUTPUT = "give another name with --output";
     or_replace_what_is_there(other) = "{other}, or overwrite it with --force";
     is_there_already(path) = "{path} already exists";

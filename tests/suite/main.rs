@@ -32,6 +32,7 @@ mod formulas;
 mod golden;
 mod graphs;
 mod higher_groups;
+mod import;
 mod invariants;
 mod key_tables;
 mod laws;

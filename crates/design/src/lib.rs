@@ -1,5 +1,5 @@
 //! Design of a mechanism from the results of the analytic solvers. This crate is not part of the proof.
-//! The crate covers bearings, clearance, diagrams, exercises, export, flywheel, motor choice, plans,
+//! The crate covers bearings, clearance, diagrams, exercises, export, flywheel, import, motor choice, plans,
 //! relations of joints, sensitivities and synthesis.
 
 pub mod bearings;
@@ -9,6 +9,7 @@ pub mod draw;
 pub mod drive;
 pub mod exercise;
 pub mod export;
+pub mod import;
 pub mod plan;
 pub mod relations;
 pub mod sensitivity;

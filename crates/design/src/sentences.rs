@@ -193,8 +193,97 @@ linkage::sentences! {
     WHAT_ACTS_ON_THE_BODY_IN_THE_JOINT = "Force or moment that the parent body exerts on the body at their joint, in the body's frame. Moments are about the joint's position and do not include frictionloss.";
     DRIVE_A_ROTOR_SO_HEAVY_THAT_ITS_SPEED = "Drive: a rotor so heavy that its speed stays at its initial value.";
     ROTOR_AND_REDUCER_OF_THE_MOTOR = "Rotor and reducer of the motor.";
-    IT_HAS_NO_MASS_OR_NO_INERTIA = "The body has no mass or no moment of inertia: The file has a small value instead.";
+    IT_HAS_NO_MASS_OR_NO_INERTIA = "The body has no mass or no moment of inertia: the file has a small value instead.";
+    IT_HAS_NO_MASS = "The body has no mass: MuJoCo gets a small mass and a small moment of inertia instead.";
+    IT_HAS_NO_INERTIA = "The body has no moment of inertia: MuJoCo gets a small value instead.";
     AS_STIFF_AS_A_STEP_ALLOWS = "As stiff as the time step allows: the time constant is raised to twice the time step.";
+    // import.rs
+    THE_XML_IS_OF_NO_KNOWN_KIND = "the file is XML, but neither a model for MuJoCo (`<mujoco>`) nor a file of Linkage (`<linkage2>`)";
+    GIVE_A_LINK_OR_A_FILE = "give the share link of PMKS+ in quotes, a file of Linkage (.linkage2), or a model that `linkproof export` wrote (.xml)";
+    // import/parts.rs
+    imported_from(source) = "Imported from {source}";
+    the_source_has_too_many_parts(count, most) = "the source has {count} links, joints and loads, but at most {most} are allowed";
+    IMPORT_A_PART_OF_IT = "remove the parts that do not belong to the mechanism in the other program, and export again";
+    // import/write.rs
+    THE_FRAME_OF_A_LINK_BEGINS_AT = "The frame of a link begins at its first point; its x axis points to the second.";
+    THE_POSE_IS_THAT_OF_THE_SOURCE = "The pose at t = 0 is that of the source.";
+    // import/finish.rs
+    the_input_reaches_only(noun, from, to, unit) = "the {noun} reaches only from {from:.6} to {to:.6} {unit}: the grid covers a part of the way from the start in the direction of motion";
+    // import/xml.rs
+    the_file_is_no_xml(error) = "the file is not valid XML: {error}";
+    SAVE_THE_FILE_AGAIN = "correct this line, or save the file again in the other program";
+    the_element_has_no(element, name) = "`{element}` has no `{name}`";
+    is_no_list_of_numbers(name, text) = "`{name}` is \"{text}\", but expected numbers separated by blanks";
+    expected_so_many_numbers(name, count, found) = "`{name}` has {found} numbers, but expected {count}";
+    it_leaves_the_plane(name, z) = "`{name}` has the third component {z}, but a planar mechanism has 0 there";
+    // import/mjcf.rs
+    the_element_is_left_out(element, name, line) = "`{element}`{name} in line {line} is not understood: it is left out";
+    IMPORT_MODELS_THAT_EXPORT_WROTE = "only models with the elements that `linkproof export` writes are read; `linkproof docs mjcf` lists them";
+    // import/mjcf/bodies.rs
+    THE_BODY_TURNS_OUT_OF_THE_PLANE = "`axisangle` is not a rotation about z: the body leaves the plane";
+    the_attribute_is_not_understood(name, element) = "`{name}` of a `{element}` is not understood";
+    WRITE_THE_POSE_AS_AXISANGLE = "write the rotation of the body as `axisangle`, about z";
+    the_body_has_no_inertial(name) = "body \"{name}\" has no `inertial`: it has no mass";
+    // import/mjcf/joints.rs
+    the_body_has_so_many_joints(count) = "the body has {count} joints, but expected one hinge or slide";
+    the_joint_has_the_type(kind) = "the joint has the type \"{kind}\", but expected \"hinge\" or \"slide\"";
+    THE_LOOP_HAS_NO_SITES = "`connect` names no two sites of the file";
+    // import/mjcf/drives.rs
+    the_joint_moves_freely(name) = "joint \"{name}\" has no rotor that keeps its speed: it moves freely, and forces determine its motion";
+    // import/mjcf/loads.rs
+    the_transmission_is_left_out(name) = "\"{name}\" couples joints as a transmission: a model does not say of which kind; add a table [[transmissions]]";
+    the_actuator_is_left_out(name, line) = "actuator \"{name}\" in line {line} is not understood: it is left out";
+    // import/linkage2/elements.rs
+    LINKAGE_HAS_NO_MASSES = "Linkage has no masses and no forces: the links have no mass";
+    the_scale_is_left_out(factor) = "the scale factor {factor} of the drawing is left out: lengths are those of the drawing, 96 to the inch";
+    the_slider_has_no_path(name, line) = "slider \"{name}\" in line {line} does not name two ends of its path: it is a pin";
+    THE_LINK_NAMES_NO_CONNECTOR = "the link names a connector that the file does not have";
+    THE_WHEEL_HAS_NO_SIZE = "the wheel has no positive `size`";
+    // import/linkage2/build.rs
+    the_actuator_stands_still(name) = "actuator \"{name}\" has no stroke or no speed: it is not driven";
+    the_actuator_makes_one_stroke(name, stroke, unit) = "actuator \"{name}\" moves to and fro by {stroke:.6} {unit} in Linkage: here it makes one stroke at the same speed";
+    // import/linkage2/sliders.rs
+    the_path_is_curved(name) = "the path of slider \"{name}\" is curved: it is left out";
+    the_slider_has_no_guide(name) = "slider \"{name}\" has a path whose ends are not on one link, or is on no link: it is left out";
+    // import/linkage2/gears.rs
+    THE_RATIO_NEEDS_TWO_WHEELS = "the ratio has not two wheels";
+    the_wheels_have_no_carrier(line) = "the axles of the wheels in line {line} are not on one link: the ratio is left out";
+    // import/pmks.rs
+    THE_SOURCE_HAS_SEVERAL_LINES = "the source has several lines, but it is not XML; a share link has one line";
+    THE_ADDRESS_HAS_NO_QUERY = "the address has nothing after its `?`: it contains no mechanism";
+    THE_LINK_HAS_ANOTHER_VERSION = "the link has the newer form `pmks2:` of PMKS+, which this version does not read";
+    // import/pmks/classic.rs
+    THE_LINK_HAS_NO_UNIT = "the link has no units and no masses: coordinates are taken as mm, the speed as rpm, or as mm/s for a slide";
+    THE_RECORD_HAS_NO_KIND = "the record names no links, or no kind of joint behind them";
+    the_kind_is_not_read(kind) = "joints of the kind {kind} are not read, only R and P";
+    DRAW_A_SLIDE_AND_A_PIN = "draw the joint as a slide P and a pin R with a further link between them";
+    // import/pmks/token.rs
+    the_last_sign_of_the_link_is_wrong(sign, expected, length) = "the last character of the link is \"{sign}\", but a link of {length} characters before it ends in \"{expected}\": the link is incomplete or changed";
+    COPY_THE_WHOLE_LINK = "copy the whole link again from the share dialog of PMKS+, and put it in quotes";
+    the_record_ends_before(what) = "the record ends before {what}";
+    is_no_number_of_a_link(text, what) = "found \"{text}\" as {what}, but a number consists of up to 9 of the signs 0-9, A-Z, a-z, _ and -";
+    // import/pmks/records.rs
+    are_no_flags_of_a_link(text) = "found \"{text}\" in place of the flags of this record";
+    is_no_unit_of_lengths(text) = "found \"{text}\" as units, but the unit of lengths is 0 (in), 1 (cm) or 2 (m)";
+    // import/pmks/build.rs
+    NO_JOINT_IS_THE_INPUT = "no joint is the input; add a section [drive]";
+    the_section_is_left_out(section) = "the section \"{section}\" is left out: marks for editing, gears and friction of development versions are not understood";
+    THE_NAME_IS_GIVEN_TWICE = "two joints or links have this name";
+    the_joint_is_called(wanted, name) = "joint \"{wanted}\" is called \"{name}\" here";
+    the_link_is_called(wanted, name) = "link \"{wanted}\" is called \"{name}\" here";
+    the_link_has_no_joint(id) = "it names the joint \"{id}\", but there is no such joint";
+    the_fixed_joint_has_no_link(name) = "joint \"{name}\" is fixed, but no link is there: it is left out";
+    the_weld_is_a_pin(name) = "joint \"{name}\" is welded, but joins separate links: it becomes a pin";
+    the_input_has_several_links(name) = "input \"{name}\" joins several links: it drives the first of them";
+    the_slot_has_no_link(carrier) = "the slot is on the link \"{carrier}\", but there is no such link";
+    the_slide_needs_one_block(count) = "the slide joins {count} links, but expected one block with a pin";
+    the_slide_is_fixed(name) = "slide \"{name}\" is not fixed and has no slot: its guide is taken as fixed";
+    the_input_joins_nothing(name) = "input \"{name}\" joins no two links: it is left out";
+    its_own_speed_is_left_out(name) = "input \"{name}\" has its own speed, which is not understood: it has the speed of the document";
+    the_slide_has_the_speed(name, speed, unit) = "a link has no speed for the slide \"{name}\": it moves at {speed} {unit}/s along its direction";
+    the_speed_is_zero(usual) = "the speed of the input is 0: it turns at {usual} rpm, as in a new document";
+    the_force_has_no_link(link) = "the force acts on the link \"{link}\", but there is no such link";
+    the_force_has_no_direction(name) = "force \"{name}\" has no direction: it is left out";
     // drive/flywheel.rs
     ASK_FOR_A_LARGER_COEFFICIENT = "request a larger coefficient";
     the_flywheel_for_a_coefficient(wanted, steps) = "the flywheel for a coefficient of non-uniformity of {wanted} was not found in {steps} steps";

@@ -345,7 +345,7 @@ const COMMANDS: [&str; 45] = [
     "export FILE -o -.urdf --mimic 3",
     "export FILE -o -.usda --no-loads",
     "tune FILE --within 0.01 --engine rapier --channel positions --budget 1e4",
-    "run FILE --no-record -q",
+    "import FILE -o -",
     "accept FILE --budget 1e4",
     "mutate FILE --kind load --no-sizes --budget 1e4",
     "compare good.toml FILE",

@@ -32,7 +32,13 @@ const RUN: &str = "run scenarios/pendulum.toml --route differences";
 
 const SWEEP: &str = "sweep scenarios/crank_rocker.toml --vary links.crank.mass_kg=1:2:3 --figure max:joint.A.fx_N";
 
-const WRITERS: [Writer; 31] = [
+/// A link of PMKS+: a four-bar.
+const LINK: &str = concat!(
+    "import ?00.VG.K,0.101.6A,A,0,0,0.0B,B,ku,VG,0.0C,C,2SG,1jO,0.4D,D,2xW,0,0..YRAB,AB,4uW,7q,NS,Fe,c5cae9,A,B,,.",
+    "YRBC,BC,EfW,ku,1ba,16K,c5cae9,B,C,,.YRCD,CD,CDG,VG,2hu,si,c5cae9,C,D,,...N_q"
+);
+
+const WRITERS: [Writer; 32] = [
     ("run scenarios/pendulum.toml --route differences", "recordings/pendulum.mcap", Then::Keeps, false),
     ("run scenarios/pendulum.toml --route differences", "recordings/pendulum.foxglove.json", Then::Keeps, true),
     (
@@ -73,6 +79,7 @@ const WRITERS: [Writer; 31] = [
     ("accept scenarios/pendulum.toml --route differences", "scenarios/pendulum.accepted", Then::Refuses, false),
     ("new four-bar", "four_bar.toml", Then::Refuses, false),
     ("new --shipped out", "out/catalogues/motors.toml", Then::Refuses, false),
+    (LINK, "pmks.toml", Then::Refuses, false),
     ("man -o out", "out/linkproof-run.1", Then::Refuses, true),
 ];
 
@@ -178,8 +185,8 @@ fn foreign_files_are_replaced_only_if_named() {
         let first = place.run(command);
         assert_eq!(first.code, 0, "{command}: {}", first.stderr);
         let own = fs::read(&at).unwrap();
-        match command.starts_with("new") {
-            // `new` does not replace even a file that it wrote before.
+        match command.starts_with("new") || command.starts_with("import") {
+            // `new` and `import` do not replace even a file that they wrote before.
             true => drop(meets(&place, writer, "its output")),
             false => assert_eq!(place.run(command).code, 0, "{command}: {file}"),
         }

@@ -87,8 +87,11 @@ fn body(xml: &mut Xml, model: &MjcfModel, forces: &Forces, link: LinkId) {
     let (name, at, turn) = (escape(data.name.as_str()), flat(own.offset), about_z(own.turn));
     xml.nest(format_args!(r#"body name="{name}" pos="{at}" axisangle="{turn}""#), |xml| {
         let (mass, inertia) = model.inertial(link);
-        if !(data.mass > 0.0 && data.inertia > 0.0) {
-            xml.comment(sentences::IT_HAS_NO_MASS_OR_NO_INERTIA);
+        // The import of models reads these comments.
+        if !(data.mass > 0.0) {
+            xml.comment(sentences::IT_HAS_NO_MASS);
+        } else if !(data.inertia > 0.0) {
+            xml.comment(sentences::IT_HAS_NO_INERTIA);
         }
         // Three equal moments of inertia satisfy the triangle inequality. The moments of inertia about x and y have no
         // effect in planar motion.

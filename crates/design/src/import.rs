@@ -1,0 +1,44 @@
+//! Mechanisms of other programs as scenarios: links of PMKS+, models for MuJoCo, files of Linkage.
+//!
+//! A reader turns a source into [`Parts`](parts::Parts): links in their start pose, joints, drives and loads.
+//! The writer turns these parts into the text of a scenario, and finds the assembly modes of the start pose and a grid.
+//! What a reader does not understand is listed by name.
+
+mod finish;
+mod linkage2;
+mod mjcf;
+mod names;
+mod parts;
+mod pmks;
+mod write;
+mod xml;
+
+pub use finish::ImportedScenario;
+
+use crate::sentences;
+use linkage::error::{ErrorKind, Result};
+use std::path::Path;
+
+/// The scenario of the mechanism in `source`, with the scenario's `name`: the address of a link, or the text of the file
+/// at `path`.
+///
+/// # Errors
+/// [`ErrorKind::Input`] for a damaged source, with the line or the parameter of the address.
+/// [`ErrorKind::Unsupported`] for a source that this version does not know, or that has too many parts.
+pub fn import(source: &str, path: &Path, name: &str) -> Result<ImportedScenario> {
+    let source = source.trim_start_matches('\u{feff}').trim();
+    if !source.starts_with('<') {
+        return Ok(finish::finished(pmks::parts(source)?, name));
+    }
+    let file = xml::XmlFile::of(source, path)?;
+    let root = file.tree.root_element();
+    let parts = match root.tag_name().name() {
+        "mujoco" => mjcf::parts(&file)?,
+        "linkage2" => linkage2::parts(&file)?,
+        _ => {
+            let message = sentences::THE_XML_IS_OF_NO_KNOWN_KIND.into();
+            return Err(file.fault(root, ErrorKind::Unsupported, message, sentences::GIVE_A_LINK_OR_A_FILE));
+        }
+    };
+    Ok(finish::finished(parts, name))
+}

@@ -1,0 +1,216 @@
+//! A mechanism as another program describes it: links in their start pose, joints, drives and loads.
+//! Lengths, masses and forces stay in the units of that program, so that the scenario shows the numbers of its source.
+
+use super::names::Names;
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::{KeepNan, Vec2, rotated, unit};
+use linkage::mechanism::LinkPose;
+
+use crate::sentences;
+
+/// Number of the ground in the list of links.
+pub(super) const FRAME: usize = 0;
+/// Upper limit of the numbers of links, joints and loads. No drawing made by hand is larger.
+const MOST_PARTS: usize = 300;
+
+/// The units of a source, as endings of keys, and the size of its length in m.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SourceUnits {
+    pub(super) length: &'static str,
+    pub(super) metres: f64,
+    pub(super) mass: &'static str,
+    pub(super) force: &'static str,
+}
+
+/// Units of a source that uses SI.
+pub(super) const SI: SourceUnits = SourceUnits { length: "m", metres: 1.0, mass: "kg", force: "N" };
+
+/// Mass of a link.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LinkMass {
+    pub(super) mass: f64,
+    /// Mass centre in the frame of the link.
+    pub(super) centre: Vec2,
+    /// Moment of inertia about the mass centre (kg m^2).
+    pub(super) inertia: f64,
+}
+
+/// A link with its frame in the start pose.
+#[derive(Clone, Debug)]
+pub(super) struct LinkPart {
+    pub(super) name: String,
+    pub(super) pose: LinkPose,
+    /// Points in the frame of the link.
+    pub(super) points: Vec<(String, Vec2)>,
+    pub(super) mass: Option<LinkMass>,
+}
+
+impl LinkPart {
+    /// A link whose frame begins at its first place and has its x axis towards the second; its points are given in
+    /// the world. The frame of a link with a single place has the direction `otherwise` (rad).
+    pub(super) fn through(name: String, places: Vec<(String, Vec2)>, otherwise: f64) -> LinkPart {
+        let origin = places.first().map_or(Vec2::zeros(), |(_, place)| *place);
+        let along = places.iter().map(|(_, place)| place - origin).find(|along| along.norm() > 0.0);
+        let pose = LinkPose { origin, angle: along.map_or(otherwise, |along| along.y.atan2(along.x)) };
+        let points = places.into_iter().map(|(name, place)| (name, local(&pose, place))).collect();
+        LinkPart { name, pose, points, mass: None }
+    }
+
+    /// The world in the frame of this link.
+    pub(super) fn local(&self, place: Vec2) -> Vec2 {
+        local(&self.pose, place)
+    }
+
+    /// Position of a point in the frame of the link.
+    pub(super) fn place_of(&self, point: &str) -> Option<Vec2> {
+        self.points.iter().find(|(name, _)| name == point).map(|(_, place)| *place)
+    }
+
+    /// Adds a point that the link does not have yet.
+    pub(super) fn put(&mut self, name: &str, place: Vec2) {
+        if self.place_of(name).is_none() {
+            self.points.push((name.into(), place));
+        }
+    }
+}
+
+fn local(pose: &LinkPose, place: Vec2) -> Vec2 {
+    rotated(unit(-pose.angle), place - pose.origin)
+}
+
+/// The pair of a joint.
+#[derive(Clone, Debug)]
+pub(super) enum PartPair {
+    /// A pin at the point of this name on both links.
+    Pin(String),
+    /// A slide through a point of the first link and a point of the second, with its direction in the frame of each
+    /// link (rad).
+    Slide { points: [String; 2], axes: [f64; 2] },
+}
+
+/// A joint between two links.
+#[derive(Clone, Debug)]
+pub(super) struct JointPart {
+    pub(super) name: String,
+    pub(super) links: [usize; 2],
+    pub(super) pair: PartPair,
+}
+
+/// A drive at a joint.
+#[derive(Clone, Debug)]
+pub(super) struct DrivePart {
+    pub(super) joint: usize,
+    /// Speed: an angular velocity in the unit `turning`, or a rate of a slide in the source's length per second.
+    pub(super) speed: f64,
+    /// Unit of an angular velocity, as the ending of a key.
+    pub(super) turning: &'static str,
+    /// Largest way of a slide in the direction of its motion, in the source's length.
+    pub(super) travel: Option<f64>,
+    /// If forces determine the motion: the rate at t = 0 in the unit of the speed, and the link whose world angle is the
+    /// input, if it is a world angle.
+    pub(super) free: Option<(f64, Option<usize>)>,
+}
+
+/// A table of the scenario as it is written: its heading and its keys with their values.
+pub(super) type WrittenTable = (&'static str, Vec<(String, String)>);
+
+/// A mechanism of another program.
+#[derive(Debug)]
+pub(super) struct Parts {
+    /// The program and its kind of file, for the comment at the top of the scenario.
+    pub(super) source: &'static str,
+    pub(super) title: String,
+    pub(super) units: SourceUnits,
+    /// Links, the ground first.
+    pub(super) links: Vec<LinkPart>,
+    pub(super) joints: Vec<JointPart>,
+    pub(super) drives: Vec<DrivePart>,
+    /// Transmissions, motors and loads.
+    pub(super) tables: Vec<WrittenTable>,
+    /// Acceleration of gravity (m/s^2).
+    pub(super) gravity: Option<Vec2>,
+    /// What was not understood, or understood by a rule that the user should know.
+    pub(super) told: Vec<String>,
+    /// Whether coordinates are written digit by digit. Otherwise they are rounded to twelve digits of the largest.
+    pub(super) is_exact: bool,
+    /// Rounding of the coordinates in the source, in its length; 0 if it is finer than twelve digits.
+    pub(super) rounding: f64,
+    pub(super) link_names: Names,
+    pub(super) point_names: Names,
+    pub(super) joint_names: Names,
+}
+
+impl Parts {
+    /// A mechanism without moving links.
+    pub(super) fn new(source: &'static str, units: SourceUnits) -> Parts {
+        let ground = LinkPart { name: "ground".into(), pose: LinkPose::GROUND, points: Vec::new(), mass: None };
+        Parts {
+            source,
+            title: sentences::imported_from(&source),
+            units,
+            links: vec![ground],
+            joints: Vec::new(),
+            drives: Vec::new(),
+            tables: Vec::new(),
+            gravity: None,
+            told: Vec::new(),
+            is_exact: false,
+            rounding: 0.0,
+            link_names: Names::with(&["ground", "housing"]),
+            point_names: Names::with(&[]),
+            joint_names: Names::with(&[]),
+        }
+    }
+
+    /// Joins all links on a pin in pairs, each with the first of them. The names are those of the pin, then of the pin
+    /// with a number.
+    pub(super) fn pin(&mut self, point: &str, links: &[usize]) {
+        for &link in links.iter().skip(1) {
+            let name = self.joint_names.legal(point);
+            self.joints.push(JointPart { name, links: [links[0], link], pair: PartPair::Pin(point.into()) });
+        }
+    }
+
+    /// World position of a point of a link, in the source's length.
+    pub(super) fn world(&self, link: usize, point: &str) -> Vec2 {
+        let own = &self.links[link];
+        own.pose.point(own.place_of(point).unwrap_or_else(Vec2::zeros))
+    }
+
+    /// The input of a drive in the start pose: rad, or the source's length.
+    pub(super) fn start(&self, drive: &DrivePart) -> f64 {
+        let joint = &self.joints[drive.joint];
+        let [first, second] = joint.links;
+        if let Some((_, Some(link))) = drive.free {
+            return self.links[link].pose.angle;
+        }
+        match &joint.pair {
+            PartPair::Pin(_) if second == FRAME => self.links[first].pose.angle,
+            PartPair::Pin(_) => self.links[second].pose.angle - self.links[first].pose.angle,
+            PartPair::Slide { points, axes } => {
+                let gap = self.world(second, &points[1]) - self.world(first, &points[0]);
+                unit(self.links[first].pose.angle + axes[0]).dot(&gap)
+            }
+        }
+    }
+
+    /// Largest distance of a point from the origin of its link's frame, or of the ground points from each other.
+    pub(super) fn size(&self) -> f64 {
+        let ground = &self.links[FRAME].points;
+        let apart = ground.iter().flat_map(|(_, a)| ground.iter().map(move |(_, b)| (a - b).norm()));
+        let own = self.links[1..].iter().flat_map(|link| link.points.iter().map(|(_, place)| place.norm()));
+        apart.chain(own).fold(0.0, f64::larger)
+    }
+
+    /// Refuses a source with more parts than anybody draws.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Unsupported`] above the limit.
+    pub(super) fn check_count(count: usize) -> Result<()> {
+        if count <= MOST_PARTS {
+            return Ok(());
+        }
+        let message = sentences::the_source_has_too_many_parts(&count, &MOST_PARTS);
+        Err(Error::new(ErrorKind::Unsupported, message).help(sentences::IMPORT_A_PART_OF_IT))
+    }
+}
