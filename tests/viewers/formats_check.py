@@ -407,7 +407,8 @@ FAULTS = {
 def plant(form, case, text, reader):
     """Faults that the reader must find; those whose pattern does not occur are left out."""
     for pattern, factor in FAULTS[form]:
-        found = re.search(pattern, text, re.MULTILINE)
+        # The largest value: a link without mass or inertia has a small value that is not compared.
+        found = max(re.finditer(pattern, text, re.MULTILINE), key=lambda own: abs(float(own[1])), default=None)
         if not found:
             continue
         wrong = f"{text[: found.start(1)]}{float(found[1]) * factor!r}{text[found.end(1) :]}"
