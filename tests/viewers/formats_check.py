@@ -312,11 +312,21 @@ def check_poses(case, robot, motion):
             check(f"direction of {link} in motion", off <= 1e-9, off)
 
 
+def relations(text):
+    """The relations in the comment of a URDF file."""
+    line = next(line for line in text.splitlines() if '"driven":' in line)
+    return json.loads(line.strip().removeprefix("<!--").removesuffix("-->"))
+
+
+def range_of(told_by):
+    """Range of the driven joint's coordinate (rad or m)."""
+    return told_by.get("domain_rad") or told_by["domain_m"]
+
+
 def check_relations(case, robot, motion, degree):
     """The relations of `--mimic`: no error of the poses exceeds its bound, and the bounds are tight."""
-    line = next(line for line in robot.text.splitlines() if '"driven":' in line)
-    told_by = json.loads(line.strip().removeprefix("<!--").removesuffix("-->"))
-    domain = told_by.get("domain_rad") or told_by["domain_m"]
+    told_by = relations(robot.text)
+    domain = range_of(told_by)
     true = robot.coordinates(motion)
     driven = true[told_by["driven"]]
     inside = (driven >= domain[0] - 1e-12) & (driven <= domain[1] + 1e-12)
@@ -407,7 +417,8 @@ FAULTS = {
 def plant(form, case, text, reader):
     """Faults that the reader must find; those whose pattern does not occur are left out."""
     for pattern, factor in FAULTS[form]:
-        found = re.search(pattern, text, re.MULTILINE)
+        # The largest value: a link without mass or inertia has a small value that is not compared.
+        found = max(re.finditer(pattern, text, re.MULTILINE), key=lambda own: abs(float(own[1])), default=None)
         if not found:
             continue
         wrong = f"{text[: found.start(1)]}{float(found[1]) * factor!r}{text[found.end(1) :]}"
@@ -423,9 +434,7 @@ def check_motion(linkproof, path, case, file, options):
     """URDF at instants of the motion, and the relations of its joints."""
     last = case.json["times_s"][-1]
     check_poses(case, Robot(case, file.read_text()), Motion(case, linkproof, path, f"{last / POSES!r}:{last!r}:{last / POSES!r}"))
-    drives = case.json["drives"]
-    if len(drives) == 1 and drives[0]["motion"]["law"] == "constant" and drives[0].get("start_rad") is not None:
-        last = min(last, 2.0 * math.pi / abs(drives[0]["motion"]["speed_rad_s"]))
+    law = case.json["drives"][0]["motion"]
     for degree in DEGREES:
         command = [linkproof, "export", path, "-o", str(file), "--mimic", str(degree), *options]
         run = subprocess.run(command, capture_output=True, text=True)
@@ -433,8 +442,11 @@ def check_motion(linkproof, path, case, file, options):
             check("relations are refused with a way out", "help:" in run.stderr, run.stderr)
             print(f"  relations: {run.stderr.splitlines()[0]}")
             return
-        motion = Motion(case, linkproof, path, f"0:{last!r}:{last / RELATED!r}")
-        check_relations(case, Robot(case, file.read_text()), motion, degree)
+        robot = Robot(case, file.read_text())
+        # At constant speed, the poses cover the range of the relations.
+        low, high = range_of(relations(robot.text))
+        span = min(last, (high - low) / abs(law.get("speed_rad_s") or law.get("speed_m_s"))) if law["law"] == "constant" else last
+        check_relations(case, robot, Motion(case, linkproof, path, f"0:{span!r}:{span / RELATED!r}"), degree)
 
 
 def check_file(linkproof, path):

@@ -113,8 +113,11 @@ fn visuals(xml: &mut Xml, model: &RigidModel, link: LinkId) {
     }
 }
 
+/// Name of a geometry in SDF, and its sizes with their names.
+type Geometry = (&'static str, Vec<(&'static str, String)>);
+
 /// Position (m) with roll, pitch and yaw (rad) of a shape, the name of its geometry, and its sizes.
-fn placed(shape: Shape) -> ([f64; 6], (&'static str, Vec<(&'static str, String)>)) {
+fn placed(shape: Shape) -> ([f64; 6], Geometry) {
     match shape {
         Shape::Rod { ends: [from, to], radius } => {
             let (middle, way) = ((from + to) / 2.0, to - from);
