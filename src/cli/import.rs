@@ -11,8 +11,8 @@ use scenario::header::is_name;
 #[derive(Debug, clap::Args)]
 #[command(after_help = include_str!("help/import.txt").trim_ascii_end())]
 pub(super) struct Args {
-    /// Share link of PMKS+ in quotes, or a file with such a link, with a model for MuJoCo, or of Linkage; `-` for standard
-    /// input
+    /// Share link of PMKS+ in quotes, or a file: with such a link, with a model for MuJoCo, or of Linkage; `-` for
+    /// standard input
     #[arg(value_name = "SOURCE")]
     source: PathBuf,
     /// Scenario file to write, or `-` for standard output [default: the name of the source, in this directory]

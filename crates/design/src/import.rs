@@ -19,8 +19,8 @@ use crate::sentences;
 use linkage::error::{ErrorKind, Result};
 use std::path::Path;
 
-/// The scenario of the mechanism in `source`, with the scenario's `name`: the address of a link, or the text of the file
-/// at `path`.
+/// The scenario of the mechanism in `source`, with the scenario's `name`.
+/// The source is the address of a link, or the text of the file at `path`.
 ///
 /// # Errors
 /// [`ErrorKind::Input`] for a damaged source, with the line or the parameter of the address.

@@ -20,7 +20,8 @@ fn solved(case: &Case) -> Trajectory {
     NewtonSolver.solve(&case).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Every shipped scenario that can be exported. The zero of a crank angle is not in a model, so inputs are not compared.
+/// Every shipped scenario that can be exported.
+/// The zero of a crank angle is not in a model, so inputs are not compared.
 #[test]
 fn every_exported_scenario_comes_back() {
     let (mut count, mut coupled) = (0, Vec::new());

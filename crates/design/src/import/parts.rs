@@ -106,8 +106,8 @@ pub(super) struct DrivePart {
     pub(super) turning: &'static str,
     /// Largest way of a slide in the direction of its motion, in the source's length.
     pub(super) travel: Option<f64>,
-    /// If forces determine the motion: the rate at t = 0 in the unit of the speed, and the link whose world angle is the
-    /// input, if it is a world angle.
+    /// If forces determine the motion: the rate at t = 0 in the unit of the speed, and the link whose world angle is
+    /// the input, if the input is a world angle.
     pub(super) free: Option<(f64, Option<usize>)>,
 }
 
