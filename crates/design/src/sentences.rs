@@ -199,7 +199,7 @@ linkage::sentences! {
     AS_STIFF_AS_A_STEP_ALLOWS = "As stiff as the time step allows: the time constant is raised to twice the time step.";
     // import.rs
     THE_XML_IS_OF_NO_KNOWN_KIND = "the file is XML, but neither a model for MuJoCo (`<mujoco>`) nor a file of Linkage (`<linkage2>`)";
-    GIVE_A_LINK_OR_A_FILE = "give the share link of PMKS+ in quotes, a file of Linkage (.linkage2), or a model that `linkproof export` wrote (.xml)";
+    GIVE_A_LINK_OR_A_FILE = "give the share link of PMKS+ in quotes, a file of Linkage (.linkage2), or a model for MuJoCo that this program has exported (.xml)";
     // import/parts.rs
     imported_from(source) = "Imported from {source}";
     the_source_has_too_many_parts(count, most) = "the source has {count} links, joints and loads, but at most {most} are allowed";
@@ -218,7 +218,7 @@ linkage::sentences! {
     it_leaves_the_plane(name, z) = "`{name}` has the third component {z}, but a planar mechanism has 0 there";
     // import/mjcf.rs
     the_element_is_left_out(element, name, line) = "`{element}`{name} in line {line} is not understood: it is left out";
-    IMPORT_MODELS_THAT_EXPORT_WROTE = "only models with the elements that `linkproof export` writes are read; `linkproof docs mjcf` lists them";
+    IMPORT_MODELS_THAT_EXPORT_WROTE = "only models with the elements of an exported model are read";
     // import/mjcf/bodies.rs
     THE_BODY_TURNS_OUT_OF_THE_PLANE = "`axisangle` is not a rotation about z: the body leaves the plane";
     the_attribute_is_not_understood(name, element) = "`{name}` of a `{element}` is not understood";
