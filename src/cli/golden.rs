@@ -1,7 +1,7 @@
 //! `linkproof golden`.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::outputs::{Outputs, results};
 use super::{output, progress};
@@ -105,7 +105,7 @@ fn one(&(path, name, sort): &Entry, place: &Path) -> Result<Golden> {
 }
 
 /// Writes a file, and its directory. A file with other contents is not replaced.
-fn put(path: &PathBuf, bytes: &[u8]) -> Result<()> {
+fn put(path: &Path, bytes: &[u8]) -> Result<()> {
     let parent = path.parent().unwrap_or(Path::new("."));
     fs::create_dir_all(parent).map_err(|error| {
         Error::new(ErrorKind::Io, sentences::cannot_make_the_directory_of(&path.display(), &error))

@@ -64,9 +64,8 @@ pub(crate) struct Golden {
 /// [`ErrorKind::Io`] if a table cannot be written.
 pub(crate) fn tables(proof: &Proof) -> Result<[(&'static str, Vec<u8>); 3]> {
     let truth = &proof.reference_trajectory;
-    let failed = |error: &dyn std::fmt::Display| {
-        Error::new(ErrorKind::Io, sentences::the_table_cannot_be_written(&error))
-    };
+    let failed =
+        |error: &dyn std::fmt::Display| Error::new(ErrorKind::Io, sentences::the_table_cannot_be_written(&error));
     let mut text = Vec::new();
     solution(truth, &mut text).map_err(|error| failed(&error))?;
     let input = truth.input();

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::fs;
 
+use linkage::math::KeepNan;
 use serde_json::Value;
 
 use crate::cli::tools::Place;
@@ -32,14 +33,14 @@ fn the_truth_is_that_of_other_commands() {
         let (truth, bounds) = (columns(&truth), columns(&read(&format!("set/{name}/bounds.csv"))));
         assert_eq!(bounds["channel"].len(), truth.len() - 2, "{name}");
         let number = |column: &str, k: usize| bounds[column][k].parse::<f64>().unwrap();
-        let size = |k: usize| number("smallest", k).abs().max(number("largest", k).abs());
+        let size = |k: usize| number("smallest", k).abs().larger(number("largest", k).abs());
         for (k, channel) in bounds["channel"].iter().enumerate() {
             let [low, high, bound] = ["smallest", "largest", "bound"].map(|column| number(column, k));
             let values = truth[channel].iter().map(|value| value.parse::<f64>().unwrap());
-            let ends = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
+            let ends = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.smaller(v), b.larger(v)));
             assert_eq!((low, high), ends, "{name}: {channel}");
             let alike = (0..truth.len() - 2).filter(|&own| bounds["unit"][own] == bounds["unit"][k]);
-            let largest = alike.map(size).fold(0.0, f64::max);
+            let largest = alike.map(size).fold(0.0, f64::larger);
             assert!(bound > 0.0 && bound < 1e-8 * largest, "{name}: {channel}: {bound} of {largest}");
         }
     }
