@@ -255,8 +255,8 @@ mod tests {
     }
 
     /// Commands without a module or crate of their name besides `src/cli/NAME.rs`.
-    const ONLY_HERE: [&str; 11] =
-        ["merge", "completions", "docs", "inspect", "list", "man", "new", "schema", "solve", "view", "watch"];
+    const ONLY_HERE: [&str; 12] =
+        ["merge", "completions", "docs", "golden", "inspect", "list", "man", "new", "schema", "solve", "view", "watch"];
 
     /// The code of the command `NAME` is in `src/cli/NAME.rs`, and in the module or crate `NAME` that does the work.
     #[test]

@@ -44,10 +44,10 @@ const CELL: f64 = 0.1;
 /// Length of an arrow on a curve (mm).
 const ARROW: f64 = 4.0;
 
-/// Colour, width and dashes of the curve with the number `index`.
+/// Colour, width and dashes of the curve with the number `index`. The numbers of colours and dashes have no common
+/// divisor, so that every pair comes before one is repeated.
 fn pen(index: usize) -> Style {
-    let round = index / DASHES.len();
-    let (colour, dash) = (SERIES[(index + round) % SERIES.len()].light, DASHES[index % DASHES.len()]);
+    let (colour, dash) = (SERIES[index % SERIES.len()].light, DASHES[index % DASHES.len()]);
     Style { colour, width: CURVE, dash }
 }
 
@@ -363,8 +363,8 @@ mod tests {
     #[test]
     fn pens_differ_in_dashes_and_later_in_colour() {
         let look = |index: usize| (pen(index).colour, pen(index).dash);
-        let all: std::collections::BTreeSet<_> = (0..49).map(look).collect();
-        assert_eq!(all.len(), 49);
+        let all: std::collections::BTreeSet<_> = (0..56).map(look).collect();
+        assert_eq!(all.len(), 56);
         let dashes: std::collections::BTreeSet<_> = (0..7).map(|index| pen(index).dash).collect();
         assert_eq!(dashes.len(), 7);
     }
