@@ -1,6 +1,6 @@
 //! Mechanisms of other programs as scenarios: links of PMKS+, models for MuJoCo, files of Linkage.
 //!
-//! A reader turns a source into [`Parts`](parts::Parts): links in their start pose, joints, drives and loads.
+//! A reader turns a source into `Parts`: links in their start pose, joints, drives and loads.
 //! The writer turns these parts into the text of a scenario, and finds the assembly modes of the start pose and a grid.
 //! What a reader does not understand is listed by name.
 
