@@ -9,9 +9,9 @@ use crate::report::{case_json, table_csv};
 use crate::sentences;
 use analytic::AssurSolver;
 use analytic::range::explained;
-use design::export::rigid::RigidModel;
-use design::export::urdf::mimic::Mimics;
-use design::export::{cam, first_state, mjcf, sdf, urdf, usd};
+use design::export::{ModelFormat, cam, first_state, urdf};
+use design::relations::Mimics;
+use design::rigid::RigidModel;
 use linkage::error::{Error, ErrorKind, Result};
 use prover::engines::usual_step;
 
@@ -55,18 +55,21 @@ pub(super) fn export(args: &Args) -> Result<()> {
     let unloaded = args.no_loads.then(|| scenario.case.with(|parts| parts.loads.clear())).transpose()?;
     let case = unloaded.as_ref().unwrap_or(&scenario.case);
     let dt = args.dt.or(scenario.engine.step.get()).unwrap_or_else(|| usual_step(case));
+    let model = |format: ModelFormat| format.model(case, &AssurSolver, &scenario.name, dt);
     let text = |form| match form {
         Exports::Json => first_state(case, &AssurSolver).map(|start| case_json::text(&scenario.name, case, &start)),
         Exports::Csv => table_csv::cams(case),
         Exports::Dxf => cam::drawing(case),
-        Exports::Mjcf => mjcf::mjcf(case, &AssurSolver, &scenario.name, dt),
-        Exports::Sdf => sdf::sdf(case, &AssurSolver, &scenario.name, dt),
-        Exports::Urdf => {
-            let relations = |degree| Mimics::new(&RigidModel::new(case, &first_state(case, &AssurSolver)?, ""), degree);
-            let mimics = args.mimic.map(relations).transpose()?;
-            urdf::urdf(case, &AssurSolver, &scenario.name, mimics.as_ref())
-        }
-        Exports::Usd => usd::usd(case, &AssurSolver, &scenario.name),
+        Exports::Mjcf => model(ModelFormat::Mjcf),
+        Exports::Sdf => model(ModelFormat::Sdf),
+        Exports::Urdf => match args.mimic {
+            None => model(ModelFormat::Urdf),
+            Some(degree) => {
+                let mimics = Mimics::new(&RigidModel::new(case, &first_state(case, &AssurSolver)?, ""), degree)?;
+                urdf::urdf(case, &AssurSolver, &scenario.name, Some(&mimics))
+            }
+        },
+        Exports::Usd => model(ModelFormat::Usd),
     };
     let all: Vec<(Exports, &Path)> = args.outputs.each().collect();
     if args.mimic.is_some() && all.iter().all(|(form, _)| *form != Exports::Urdf) {

@@ -1,6 +1,5 @@
 //! `linkproof golden`.
 
-use std::fs;
 use std::path::Path;
 
 use super::outputs::{Outputs, results};
@@ -8,7 +7,7 @@ use super::{output, progress};
 use crate::report::golden::{CHECKER, Golden, SET, largest_bound, manifest, readme, tables};
 use crate::{sentences, shipped};
 use analytic::AssurSolver;
-use design::export::{mjcf, sdf, urdf, usd};
+use design::export::ModelFormat;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::threads::{cores, made};
 use prover::bounds::Verdict;
@@ -33,21 +32,29 @@ results! { GoldenSets {
     Results = "directory of the set [default: golden]",
 } }
 
-/// A scenario of the set: its path, name, and sort.
-type Entry = (&'static str, &'static str, &'static str);
+/// A scenario of the set.
+struct Entry {
+    path: &'static str,
+    name: &'static str,
+    sort: &'static str,
+    bytes: &'static [u8],
+}
 
 pub(super) fn golden(args: &Args) -> Result<()> {
-    let entries: Vec<Entry> = SET.iter().map(|(path, sort)| (*path, name_of(path), *sort)).collect();
+    let files = shipped::files();
+    let bytes_of = |path: &str| files.iter().find(|(own, _)| own == path).expect("a shipped file").1;
+    let entry = |&(path, sort)| Entry { path, name: name_of(path), sort, bytes: bytes_of(path) };
+    let entries: Vec<Entry> = SET.iter().map(entry).collect();
     if args.list {
-        return output::data(&entries.iter().map(|(_, name, sort)| format!("{name}: {sort}\n")).collect::<String>());
+        return output::data(&entries.iter().map(|own| format!("{}: {}\n", own.name, own.sort)).collect::<String>());
     }
-    if let Some(unknown) = args.names.iter().find(|name| entries.iter().all(|(_, own, _)| own != name)) {
-        let known: Vec<&str> = entries.iter().map(|(_, name, _)| *name).collect();
+    if let Some(unknown) = args.names.iter().find(|name| entries.iter().all(|own| own.name != *name)) {
+        let known: Vec<&str> = entries.iter().map(|own| own.name).collect();
         let error = Error::new(ErrorKind::Input, sentences::is_no_mechanism_of_the_set(unknown));
         return Err(error.help(sentences::the_set_has(&known.join(", "))));
     }
-    let is_wanted = |name: &str| args.names.is_empty() || args.names.iter().any(|own| own == name);
-    let wanted: Vec<Entry> = entries.into_iter().filter(|(_, name, _)| is_wanted(name)).collect();
+    let is_wanted = |entry: &Entry| args.names.is_empty() || args.names.iter().any(|name| name == entry.name);
+    let wanted: Vec<Entry> = entries.into_iter().filter(is_wanted).collect();
     let place = args.outputs.first(GoldenSets::Results).unwrap_or(Path::new("golden"));
     let mut bar = progress::Bar::new("golden");
     let found = made(&wanted, cores(), |entry| one(entry, place), |done| bar.at(done as f64 / wanted.len() as f64));
@@ -64,8 +71,7 @@ fn name_of(path: &'static str) -> &'static str {
 }
 
 /// Proves a mechanism and writes its files.
-fn one(&(path, name, sort): &Entry, place: &Path) -> Result<Golden> {
-    let bytes = shipped::files().into_iter().find(|(own, _)| own == path).expect("a shipped file").1;
+fn one(&Entry { path, name, sort, bytes }: &Entry, place: &Path) -> Result<Golden> {
     let text = std::str::from_utf8(bytes).expect("a scenario is text");
     let scenario = Scenario::parse(text, Path::new(path))?;
     let proof = prove(&scenario, &Options::default())?;
@@ -78,16 +84,10 @@ fn one(&(path, name, sort): &Entry, place: &Path) -> Result<Golden> {
         put(&directory.join(file), &bytes)?;
     }
     let step = scenario.engine.step.get().unwrap_or_else(|| usual_step(&scenario.case));
-    let (case, own) = (&scenario.case, &scenario.name);
-    let made = [
-        ("xml", mjcf::mjcf(case, &AssurSolver, own, step)),
-        ("sdf", sdf::sdf(case, &AssurSolver, own, step)),
-        ("urdf", urdf::urdf(case, &AssurSolver, own, None)),
-        ("usda", usd::usd(case, &AssurSolver, own)),
-    ];
     let mut models = Vec::new();
-    for (ending, made) in made {
-        let why = match made {
+    for format in ModelFormat::ALL {
+        let ending = format.ending();
+        let why = match format.model(&scenario.case, &AssurSolver, &scenario.name, step) {
             Ok(text) => put(&directory.join(format!("{name}.{ending}")), text.as_bytes()).map(|()| None)?,
             Err(error) => Some(error.message().to_string()),
         };
@@ -106,10 +106,5 @@ fn one(&(path, name, sort): &Entry, place: &Path) -> Result<Golden> {
 
 /// Writes a file, and its directory. A file with other contents is not replaced.
 fn put(path: &Path, bytes: &[u8]) -> Result<()> {
-    let parent = path.parent().unwrap_or(Path::new("."));
-    fs::create_dir_all(parent).map_err(|error| {
-        Error::new(ErrorKind::Io, sentences::cannot_make_the_directory_of(&path.display(), &error))
-            .help(sentences::CHECK_THAT_THIS_DIRECTORY_MAY)
-    })?;
-    output::make_by(bytes, path, &|found| found == bytes)
+    output::make_below(bytes, path, &|found| found == bytes)
 }

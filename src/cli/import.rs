@@ -35,11 +35,7 @@ pub(super) fn import(args: &Args) -> Result<u8> {
     if output::is_standard(path) {
         output::data(&found.text)?;
     } else {
-        new::free(path, args.force, sentences::GIVE_ANOTHER_NAME_WITH_OUTPUT)?;
-        match args.output {
-            Some(_) => output::write(&found.text, path)?,
-            None => output::make_by(found.text.as_bytes(), path, &|_| args.force)?,
-        }
+        new::put(&found.text, path, args.output.is_some(), args.force)?;
     }
     found.told.iter().for_each(|told| output::note(&files::visible(told)));
     if let Some(problem) = &found.problem {

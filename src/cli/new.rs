@@ -63,7 +63,7 @@ fn begun(template: &Template, file: &str) -> String {
 }
 
 /// Refuses to replace an existing file unless `force` is given. The help offers the `other` way out.
-pub(super) fn free(path: &Path, force: bool, other: &str) -> Result<()> {
+fn free(path: &Path, force: bool, other: &str) -> Result<()> {
     if force || path.symlink_metadata().is_err() {
         return Ok(());
     }
@@ -81,16 +81,19 @@ fn begin(name: &str, args: &Args) -> Result<u8> {
         output::data(&text)?;
         return Ok(told(&text, Path::new("standard output"), template));
     }
-    free(path, args.force, sentences::GIVE_ANOTHER_NAME_WITH_OUTPUT)?;
-    match args.output {
-        Some(_) => output::write(&text, path)?,
-        None => output::make_by(text.as_bytes(), path, &|_| args.force)?,
-    }
+    put(&text, path, args.output.is_some(), args.force)?;
     let code = told(&text, path, template);
     if code == exit_code::AGREE {
         output::print(&begun(template, &path.display().to_string()))?;
     }
     Ok(code)
+}
+
+/// Writes a scenario to a file that the caller named, or whose name the program chose. An existing file is replaced only
+/// with `force`.
+pub(super) fn put(text: &str, path: &Path, is_named: bool, force: bool) -> Result<()> {
+    free(path, force, sentences::GIVE_ANOTHER_NAME_WITH_OUTPUT)?;
+    if is_named { output::write(text, path) } else { output::make_by(text.as_bytes(), path, &|_| force) }
 }
 
 /// Reports why the mechanism cannot be assembled or its crank cannot rotate; returns the exit code.
@@ -109,13 +112,7 @@ fn ship(directory: &Path, args: &Args) -> Result<()> {
         free(&directory.join(path), args.force, sentences::NAME_ANOTHER_DIRECTORY_AS_IN_SHIPPED)?;
     }
     for (path, bytes) in &files {
-        let path = directory.join(path);
-        let made = path.parent().map_or(Ok(()), std::fs::create_dir_all);
-        made.map_err(|error| {
-            Error::new(ErrorKind::Io, sentences::cannot_make_the_directory_of(&path.display(), &error))
-                .help(sentences::CHECK_THAT_THIS_DIRECTORY_MAY)
-        })?;
-        output::make_by(bytes, &path, &|_| args.force)?;
+        output::make_below(bytes, &directory.join(path), &|_| args.force)?;
     }
     output::print(&sentences::files_in(&files.len(), &directory.display()))
 }

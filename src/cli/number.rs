@@ -4,7 +4,7 @@ use crate::sentences;
 use std::fmt::Display;
 use std::str::FromStr;
 
-use design::export::urdf::mimic::MOST_DEGREE;
+use design::relations::MOST_DEGREE;
 use scenario::engine::MOST_TIMES;
 
 type Parsed<T> = std::result::Result<T, String>;

@@ -112,6 +112,15 @@ pub(super) fn make_by(bytes: &[u8], to: &Path, is_ours: &dyn Fn(&[u8]) -> bool) 
     put(&OutputTarget::Made(to, is_ours), to, Some(bytes.len() as u64), |out| out.write_all(bytes))
 }
 
+/// Like [`make_by`], but also creates the file's directory.
+pub(super) fn make_below(bytes: &[u8], to: &Path, is_ours: &dyn Fn(&[u8]) -> bool) -> Result<()> {
+    to.parent().map_or(Ok(()), fs::create_dir_all).map_err(|error| {
+        Error::new(ErrorKind::Io, sentences::cannot_make_the_directory_of(&to.display(), &error))
+            .help(sentences::CHECK_THAT_THIS_DIRECTORY_MAY)
+    })?;
+    make_by(bytes, to, is_ours)
+}
+
 /// Checks in advance that [`make`] may write to these paths.
 /// Returns an error if a file exists that [`make`] may not replace.
 pub(super) fn may_make(places: &[PathBuf]) -> Result<()> {

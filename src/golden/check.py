@@ -5,7 +5,7 @@
 
 The first argument is a directory of this set, with truth.csv and bounds.csv.
 A result is a CSV file with a header: t_s, and any columns of truth.csv under the same names, in the same units.
-STEP= (s) before the name is needed for the order; without it, the error of the result alone is told.
+STEP= (s) before the name is needed for the order; without it, only the error of the result is printed.
 Results may have their own instants: the truth is interpolated, by cubics with its rates where it has them."""
 import csv
 import math

@@ -3,10 +3,11 @@
 use serde_json::{Value, json};
 
 use super::html::filled;
-use super::table_csv::{as_csv, solution};
+use super::table_csv::{as_csv, number, solution};
 use crate::sentences;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
+use linkage::math::statistics::ends;
 use linkage::trajectory::Trajectory;
 use prover::run::Proof;
 use sweep::column_table;
@@ -76,27 +77,19 @@ pub(crate) fn tables(proof: &Proof) -> Result<[(&'static str, Vec<u8>); 3]> {
     let table = column_table(&columns).map_err(|error| failed(&error))?;
     let head = ["channel", "unit", "smallest", "largest", "bound"].map(String::from);
     let rows = truth.iter().zip(&proof.reference_bounds).map(|((channel, values), bound)| {
-        let [low, high] = ends(values);
+        let [low, high] = ends(values.iter().copied());
         [channel.to_string(), channel.kind.unit.symbol().into(), number(low), number(high), number(*bound)]
     });
     let bounds = as_csv(std::iter::once(head).chain(rows))?;
     Ok([("truth.csv", text), ("truth.parquet", table), ("bounds.csv", bounds.into_bytes())])
 }
 
-fn number(value: f64) -> String {
-    format!("{value:.16e}")
-}
-
-fn ends(values: &[f64]) -> [f64; 2] {
-    values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], own| [low.smaller(*own), high.larger(*own)])
-}
-
 /// Largest bound of a channel, divided by the largest magnitude of all channels with its unit.
 pub(crate) fn largest_bound(truth: &Trajectory, bounds: &[f64]) -> f64 {
-    let size = |values: &[f64]| values.iter().fold(0.0, |most: f64, own| most.larger(own.abs()));
+    let size = |values: &[f64]| ends(values.iter().map(|own| own.abs()))[1];
     let share = |(channel, bound): (&linkage::trajectory::Channel, &f64)| {
         let alike = truth.iter().filter(|(own, _)| own.kind.unit == channel.kind.unit);
-        let scale = alike.fold(0.0, |most: f64, (_, values)| most.larger(size(values)));
+        let scale = alike.map(|(_, values)| size(values)).fold(0.0, f64::larger);
         // Smaller values are rounding errors of a quantity that is zero.
         if scale > *bound { bound / scale } else { 0.0 }
     };

@@ -75,6 +75,11 @@ fn io_error(error: csv::Error) -> Error {
     }
 }
 
+/// A number with 17 significant digits.
+pub(crate) fn number(value: f64) -> String {
+    format!("{value:.16e}")
+}
+
 /// Writes a table: the columns `own`, then the channels of a trajectory.
 /// The table is written row by row, because the text of all rows would need three times the memory of the numbers.
 fn table(
@@ -87,7 +92,7 @@ fn table(
     let names = trajectory.channels().iter().map(ToString::to_string);
     writer.write_record(own.iter().map(ToString::to_string).chain(names)).map_err(io_error)?;
     for row in rows {
-        writer.write_record(row.iter().map(|value| format!("{value:.16e}"))).map_err(io_error)?;
+        writer.write_record(row.into_iter().map(number)).map_err(io_error)?;
     }
     writer.flush()
 }

@@ -1,48 +1,59 @@
 //! Export of a mechanism as a model for other programs, and of the profiles of its cams.
 
 pub mod cam;
-pub(crate) mod limits;
+mod limits;
 pub mod mjcf;
 mod names;
-pub mod rigid;
 pub mod sdf;
 mod shapes;
+mod start;
 pub mod urdf;
 pub mod usd;
 mod xml;
 
-use crate::sentences;
-use linkage::case::{Case, Grid, Wanted};
-use linkage::error::Result;
-use linkage::input::Input;
-use linkage::solver::{Solver, State};
-use linkage::trajectory::Stage;
-use rigid::RigidModel;
+pub use start::first_state;
 
-/// Lines at the beginning of a model file: its origin, and every driven joint.
-fn model_header(model: &RigidModel) -> Vec<String> {
-    let mut lines = vec![sentences::written_by_linkproof(&env!("CARGO_PKG_VERSION"))];
-    for drive in &model.case.drives {
-        let body = model.bodies.iter().find(|body| body.branch.joint == drive.joint);
-        let rate = body.map_or(0.0, |body| body.rate);
-        let unit = if drive.input == Input::Slide { "m/s" } else { "rad/s" };
-        lines.push(sentences::the_drive_of(&model.joint_name(drive.joint), &drive.law_name(), &rate, &unit));
-    }
-    lines
+use linkage::case::Case;
+use linkage::error::Result;
+use linkage::solver::Solver;
+
+/// A format of models for other programs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ModelFormat {
+    /// MJCF of MuJoCo.
+    Mjcf,
+    /// SDFormat of Gazebo.
+    Sdf,
+    /// URDF of ROS.
+    Urdf,
+    /// USD with UsdPhysics.
+    Usd,
 }
 
-/// Computes the state at t = 0 with velocities and accelerations by `solver`.
-///
-/// # Errors
-/// The errors of the solver.
-pub fn first_state(case: &Case, solver: &dyn Solver) -> Result<State> {
-    let wanted = Wanted::of(&[Stage::Positions, Stage::Velocities, Stage::Accelerations]);
-    let case = case.on(Grid::of_times(case.crank(), vec![0.0]))?.wanting(wanted);
-    let mut found = State::at_rest(&case);
-    let mut keep = |_, state: &State| {
-        found.clone_from(state);
-        Ok(())
-    };
-    solver.each(&case, &mut keep)?;
-    Ok(found)
+impl ModelFormat {
+    /// All formats.
+    pub const ALL: [ModelFormat; 4] = [ModelFormat::Mjcf, ModelFormat::Sdf, ModelFormat::Urdf, ModelFormat::Usd];
+
+    /// The usual ending of files.
+    pub const fn ending(self) -> &'static str {
+        match self {
+            ModelFormat::Mjcf => "xml",
+            ModelFormat::Sdf => "sdf",
+            ModelFormat::Urdf => "urdf",
+            ModelFormat::Usd => "usda",
+        }
+    }
+
+    /// The case as a model called `name`, with the time step `step` (s) if the format has one.
+    ///
+    /// # Errors
+    /// The errors of [`mjcf::mjcf`], [`sdf::sdf`], [`urdf::urdf`] and [`usd::usd`].
+    pub fn model(self, case: &Case, solver: &dyn Solver, name: &str, step: f64) -> Result<String> {
+        match self {
+            ModelFormat::Mjcf => mjcf::mjcf(case, solver, name, step),
+            ModelFormat::Sdf => sdf::sdf(case, solver, name, step),
+            ModelFormat::Urdf => urdf::urdf(case, solver, name, None),
+            ModelFormat::Usd => usd::usd(case, solver, name),
+        }
+    }
 }

@@ -12,6 +12,7 @@ pub mod export;
 pub mod import;
 pub mod plan;
 pub mod relations;
+pub mod rigid;
 pub mod sensitivity;
 mod sentences;
 pub mod synthesize;

@@ -4,17 +4,19 @@
 //! The bounds hold for every pose of the range, also between the nodes: see the file `bound.rs`.
 
 mod bound;
+mod chebyshev;
+mod mimics;
 mod range;
 
+pub use mimics::{JointRelation, MOST_DEGREE, MimicError, Mimics, PinError};
+
 use crate::clearance;
-use crate::export::limits;
-use crate::export::rigid::{Body, RigidModel};
-use crate::export::urdf::chebyshev::{self, Chebyshev};
-use crate::export::urdf::mimic::{JointRelation, MimicError, Mimics, PinError};
+use crate::rigid::{Body, RigidModel};
 use crate::sentences;
 use analytic::PoseSolver;
+use chebyshev::Chebyshev;
 use linkage::case::Case;
-use linkage::error::Result;
+use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
 use linkage::mechanism::GROUND;
 use linkage::trajectory::Stage;
@@ -35,11 +37,8 @@ impl Mimics {
     /// The errors of the pose solver.
     pub fn new(model: &RigidModel, degree: usize) -> Result<Self> {
         if !model.case.drives.further().is_empty() {
-            return Err(limits::refused(
-                sentences::RELATIONS_WITH_SEVERAL_DRIVES,
-                limits::URDF,
-                sentences::WRITE_NO_RELATIONS,
-            ));
+            let message = sentences::cannot_be_written_to(&sentences::RELATIONS_WITH_SEVERAL_DRIVES, &"URDF");
+            return Err(Error::new(ErrorKind::Unsupported, message).help(sentences::WRITE_NO_RELATIONS));
         }
         let ends = clearance::range(model.case)?;
         let case = &model.case.nominal();

@@ -279,7 +279,7 @@ linkage::sentences! {
     the_slide_needs_one_block(count) = "the slide joins {count} links, but expected one block with a pin";
     the_slide_is_fixed(name) = "slide \"{name}\" is not fixed and has no slot: its guide is taken as fixed";
     the_input_joins_nothing(name) = "input \"{name}\" joins no two links: it is left out";
-    its_own_speed_is_left_out(name) = "input \"{name}\" has its own speed, which is not understood: it has the speed of the document";
+    its_own_speed_is_left_out(name) = "the speed of the single input \"{name}\" is not understood: it has the speed of the document";
     the_slide_has_the_speed(name, speed, unit) = "a link has no speed for the slide \"{name}\": it moves at {speed} {unit}/s along its direction";
     the_speed_is_zero(usual) = "the speed of the input is 0: it turns at {usual} rpm, as in a new document";
     the_force_has_no_link(link) = "the force acts on the link \"{link}\", but there is no such link";

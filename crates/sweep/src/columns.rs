@@ -10,6 +10,8 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
 
+use crate::table::column;
+
 /// A table of columns with their names and units, as the bytes of a Parquet file with one row group.
 /// The metadata `linkproof.units` contain the units, as JSON.
 ///
@@ -33,9 +35,7 @@ pub fn column_table(columns: &[(String, String, &[f64])]) -> Result<Vec<u8>, Par
     let mut writer = SerializedFileWriter::new(Vec::new(), schema, Arc::new(properties))?;
     let mut group = writer.next_row_group()?;
     for (.., values) in columns {
-        let mut column = group.next_column()?.ok_or_else(|| ParquetError::General("too few columns".into()))?;
-        column.typed::<DoubleType>().write_batch(values, None, None)?;
-        column.close()?;
+        column::<DoubleType, _>(&mut group, values, None)?;
     }
     group.close()?;
     writer.into_inner()

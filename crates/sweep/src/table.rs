@@ -12,6 +12,7 @@
 //! figures (`linkproof.units`, JSON).
 
 use std::fs::File;
+use std::io::Write;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -95,8 +96,8 @@ fn properties(plan: &SweepPlan, metadata: Option<Vec<KeyValue>>) -> WriterProper
 }
 
 /// Writes one column of a row group. `present` marks the rows of an optional column that have a value.
-fn column<T: DataType>(
-    group: &mut SerializedRowGroupWriter<'_, &File>,
+pub(crate) fn column<T: DataType, W: Write + Send>(
+    group: &mut SerializedRowGroupWriter<'_, W>,
     values: &[T::T],
     present: Option<&[i16]>,
 ) -> Result<(), ParquetError> {
@@ -108,7 +109,7 @@ fn column<T: DataType>(
 fn numbers(group: &mut SerializedRowGroupWriter<'_, &File>, values: &[f64]) -> Result<(), ParquetError> {
     let present: Vec<i16> = values.iter().map(|value| i16::from(!value.is_nan())).collect();
     let values: Vec<f64> = values.iter().copied().filter(|value| !value.is_nan()).collect();
-    column::<DoubleType>(group, &values, Some(&present))
+    column::<DoubleType, _>(group, &values, Some(&present))
 }
 
 fn texts<'r>(
@@ -120,7 +121,7 @@ fn texts<'r>(
         present.push(i16::from(text.is_some()));
         values.extend(text.map(ByteArray::from));
     }
-    column::<ByteArrayType>(group, &values, Some(&present))
+    column::<ByteArrayType, _>(group, &values, Some(&present))
 }
 
 /// Writes the rows of one part as a table of one row group.
@@ -128,9 +129,9 @@ pub(crate) fn write(plan: &SweepPlan, rows: &Rows, to: &File) -> Result<(), Parq
     let mut writer = SerializedFileWriter::new(to, schema(plan)?, properties(plan, None))?;
     let mut group = writer.next_row_group()?;
     let cases: Vec<i64> = (rows.first..).take(rows.results.len()).map(|case| case as i64).collect();
-    column::<Int64Type>(&mut group, &cases, None)?;
+    column::<Int64Type, _>(&mut group, &cases, None)?;
     for values in &rows.values {
-        column::<DoubleType>(&mut group, values, None)?;
+        column::<DoubleType, _>(&mut group, values, None)?;
     }
     for values in &rows.figures {
         numbers(&mut group, values)?;
@@ -138,7 +139,7 @@ pub(crate) fn write(plan: &SweepPlan, rows: &Rows, to: &File) -> Result<(), Parq
     let [solved, refused] = [SOLVED, REFUSED].map(ByteArray::from);
     let state = |own: &CaseResult| if own.refusal.is_none() { &solved } else { &refused };
     let states: Vec<ByteArray> = rows.results.iter().map(|own| state(own).clone()).collect();
-    column::<ByteArrayType>(&mut group, &states, None)?;
+    column::<ByteArrayType, _>(&mut group, &states, None)?;
     texts(&mut group, rows.results.iter().map(|own| own.refusal.as_deref()))?;
     if plan.prove_every.is_some() {
         texts(&mut group, rows.results.iter().map(|own| own.verdict.as_deref()))?;

@@ -10,7 +10,7 @@ use scenario::Scenario;
 
 /// Longest time for which a request waits for a change.
 const PATIENCE: Duration = Duration::from_secs(20);
-/// A new draft is told together with its first results if these come within this time.
+/// A new draft is sent together with its first results if these come within this time.
 const TOGETHER: Duration = Duration::from_millis(40);
 
 /// The state behind the page.
@@ -140,12 +140,12 @@ impl Desk {
 
     /// Waits for a change after the version `after`, or for a while, and returns the state for the page.
     pub(super) fn told(&self, after: u64) -> String {
-        let wait = |state, time, is_early: fn(&State, u64) -> bool| {
-            let ended = self.changed.wait_timeout_while(state, time, |state| is_early(state, after));
-            ended.unwrap_or_else(PoisonError::into_inner).0
-        };
-        let now = wait(self.state(), PATIENCE, |state, after| state.version <= after);
-        let now = wait(now, TOGETHER, |state, _| state.outcome.draft < state.draft);
+        let is_old = |state: &mut State| state.version <= after;
+        let now = self.changed.wait_timeout_while(self.state(), PATIENCE, is_old);
+        let (now, _) = now.unwrap_or_else(PoisonError::into_inner);
+        let is_unsolved = |state: &mut State| state.outcome.draft < state.draft;
+        let now = self.changed.wait_timeout_while(now, TOGETHER, is_unsolved);
+        let (now, _) = now.unwrap_or_else(PoisonError::into_inner);
         let shown = Shown {
             version: now.version,
             draft: now.draft,

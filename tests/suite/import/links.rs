@@ -12,7 +12,7 @@ struct Link {
     metres: f64,
     points: &'static [(&'static str, [f64; 2])],
     speed: f64,
-    /// What is told besides.
+    /// Further notes.
     told: &'static [&'static str],
 }
 

@@ -40,8 +40,8 @@ pub(crate) struct Held {
 
 impl Held {
     /// For a load against the motion of a point: unit vector of this motion, zero at standstill.
-    /// `velocity` is the point's velocity (m/s). The direction turns with the velocity. If the point reverses within a step, the direction does not reverse with
-    /// it.
+    /// `velocity` is the point's velocity (m/s). The direction turns with the velocity.
+    /// If the point reverses within a step, the direction does not reverse with it.
     fn way(&self, load: usize, velocity: Vec2) -> Vec2 {
         let held = self.ways[load];
         let now = sense_of(velocity);

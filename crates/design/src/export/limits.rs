@@ -1,16 +1,13 @@
 //! What a model file cannot hold: each error names the part and a way out.
 
-use super::rigid::{Body, RigidModel};
+use crate::rigid::{Body, RigidModel};
 use crate::sentences;
 use linkage::drive::{Drive, Load};
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::mechanism::{GROUND, JointId, Transmission};
 
-/// Name of URDF in messages.
-pub(crate) const URDF: &str = "URDF";
-
 /// The error that `what` cannot be written to the format `format`.
-pub(crate) fn refused(what: &str, format: &str, help: impl Into<Advice>) -> Error {
+pub(super) fn refused(what: &str, format: &str, help: impl Into<Advice>) -> Error {
     Error::new(ErrorKind::Unsupported, sentences::cannot_be_written_to(&what, &format)).help(help)
 }
 

@@ -46,7 +46,7 @@ mod write;
 
 pub use model::MjcfModel;
 
-use super::first_state;
+use super::start::first_state;
 use linkage::case::Case;
 use linkage::error::Result;
 use linkage::solver::Solver;

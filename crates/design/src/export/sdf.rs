@@ -12,15 +12,15 @@ use quick_xml::escape::escape;
 
 use super::limits::{self, Follower};
 use super::names;
-use super::rigid::{Body, Freedom, RigidModel};
 use super::shapes::{self, Shape};
+use super::start::{first_state, model_header};
 use super::xml::{Xml, flat, number, numbers};
-use super::{first_state, model_header};
+use crate::rigid::{Body, Freedom, RigidModel};
 use crate::sentences;
 use linkage::case::Case;
 use linkage::error::Result;
 use linkage::math::Vec2;
-use linkage::mechanism::{GROUND, JointId, LinkId};
+use linkage::mechanism::{GROUND, LinkId};
 use linkage::solver::Solver;
 
 /// Name of the format in messages.
@@ -175,8 +175,7 @@ fn mimic(xml: &mut Xml, model: &RigidModel, own: &Follower) {
 
 /// A controller for every prescribed drive: it keeps the speed of the joint's coordinate.
 fn controllers(xml: &mut Xml, model: &RigidModel) {
-    let driven = |joint: JointId| model.case.drives.iter().any(|drive| drive.joint == joint && !drive.is_free());
-    for body in model.bodies.iter().filter(|body| driven(body.branch.joint)) {
+    for body in model.bodies.iter().filter(|body| model.is_prescribed(body.branch.joint)) {
         let class = r#"filename="gz-sim-joint-controller-system" name="gz::sim::systems::JointController""#;
         xml.nest(format_args!("plugin {class}"), |xml| {
             xml.value("joint_name", escape(model.joint_name(body.branch.joint)));

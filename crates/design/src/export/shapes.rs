@@ -1,6 +1,6 @@
 //! Simple shapes that show the links: they have no mass and no contacts.
 
-use super::rigid::RigidModel;
+use crate::rigid::RigidModel;
 use linkage::math::{Vec2, rotated, unit};
 use linkage::mechanism::{GROUND, JointSide, LinkId};
 

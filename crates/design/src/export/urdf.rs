@@ -7,8 +7,7 @@
 //! - URDF has no place for gravity, drives and speeds.
 //! - With [`Mimics`], every joint but the driven one follows the driven joint by a linear relation.
 
-pub(crate) mod chebyshev;
-pub mod mimic;
+mod mimic;
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -16,19 +15,21 @@ use quick_xml::escape::escape;
 
 use super::limits::{self, Follower};
 use super::names;
-use super::rigid::{Body, Freedom, RigidModel};
 use super::sdf;
 use super::shapes::{self, Shape};
+use super::start::{first_state, model_header};
 use super::xml::{Xml, flat, number, numbers};
-use super::{first_state, model_header};
+use crate::relations::Mimics;
+use crate::rigid::{Body, Freedom, RigidModel};
 use crate::sentences;
 use linkage::case::Case;
 use linkage::error::Result;
 use linkage::math::{Vec2, rotated, unit};
 use linkage::mechanism::{GROUND, JointId, LinkId};
 use linkage::solver::Solver;
-use mimic::Mimics;
 
+/// Name of the format in messages.
+const FORMAT: &str = "URDF";
 /// Name of the root link. Gazebo takes a link with this name as the world.
 const ROOT: &str = "world";
 /// Largest force (N) and speed (m/s) in the limits of a prismatic joint, which URDF requires.
@@ -44,8 +45,7 @@ const ENDLESS: f64 = 1e9;
 pub fn urdf(case: &Case, solver: &dyn Solver, name: &str, mimics: Option<&Mimics>) -> Result<String> {
     names::check_urdf(&case.mechanism)?;
     let model = RigidModel::new(case, &first_state(case, solver)?, name);
-    let (mut followers, frictions) =
-        (limits::followers(&model, limits::URDF)?, limits::frictions(&model, limits::URDF)?);
+    let (mut followers, frictions) = (limits::followers(&model, FORMAT)?, limits::frictions(&model, FORMAT)?);
     let mut offsets = vec![0.0; followers.len()];
     if let Some(mimics) = mimics {
         (followers, offsets) = mimics.linear();

@@ -11,9 +11,9 @@ mod text;
 
 use super::limits;
 use super::names;
-use super::rigid::{Body, Freedom, RigidModel};
 use super::shapes::{self, Shape};
-use super::{first_state, model_header};
+use super::start::{first_state, model_header};
+use crate::rigid::{Body, Freedom, RigidModel};
 use crate::sentences;
 use linkage::case::Case;
 use linkage::error::Result;
@@ -143,7 +143,7 @@ fn root(usd: &mut Usd, ground: &str) {
 fn joint(usd: &mut Usd, model: &RigidModel, body: &Body, [links, joints]: [&[String]; 2], closes: bool) {
     let branch = body.branch;
     let name = &joints[branch.joint.index()];
-    let driven = model.case.drives.iter().any(|drive| drive.joint == branch.joint && !drive.is_free());
+    let driven = model.is_prescribed(branch.joint);
     // Both frames of a joint have the same place and directions in the start pose.
     let place = model.point(branch.joint, branch.link);
     let (kind, axis, own, drive, speed) = match body.freedom {

@@ -8,9 +8,9 @@
 //! Parts are halved until every bound is near the largest error at the middles of parts.
 
 use super::range::InputRange;
+use super::{JointRelation, MimicError, Mimics};
 use crate::clearance::tube::{MOST_HALVINGS, RangePart, Tube, Tubes};
-use crate::export::rigid::{Body, Freedom, RigidModel};
-use crate::export::urdf::mimic::{JointRelation, MimicError, Mimics};
+use crate::rigid::{Body, Freedom, RigidModel};
 use crate::sentences;
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Result};

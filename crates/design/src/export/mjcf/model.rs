@@ -4,7 +4,7 @@ use std::ops::Deref;
 
 use super::limits;
 use super::names;
-use crate::export::rigid::RigidModel;
+use crate::rigid::RigidModel;
 use crate::sentences;
 use linkage::case::Case;
 use linkage::drive::Load;

@@ -10,9 +10,9 @@ use super::effects;
 use super::forces::Forces;
 use super::model::MjcfModel;
 use super::names::{of_transmission, side};
-use crate::export::rigid::Freedom;
 use crate::export::shapes::{self, Shape};
 use crate::export::xml::{Xml, about_z, flat, number, numbers};
+use crate::rigid::Freedom;
 use linkage::math::{KeepNan, corners};
 use linkage::mechanism::{GROUND, LinkId};
 

@@ -40,7 +40,7 @@ impl<'a> Model<'a> {
         for node in self.section("equality") {
             match node.tag_name().name() {
                 "connect" => placed.push(self.closing(node)?),
-                // The tendon of a transmission is told with its name.
+                // The list of what is left out names the tendon of a transmission.
                 "tendon" => {}
                 _ => self.tell(node),
             }
@@ -77,7 +77,7 @@ impl<'a> Model<'a> {
             let links = sides.map(|(link, _)| link);
             links == [parent, child] || links == [child, parent]
         });
-        // Without sites of its own the joint is on the parent where the body is.
+        // Without separate sites the joint is on the parent where the body is.
         let pos = self.file.flat(node, "pos")?;
         let sides = sides.unwrap_or_else(|| [(parent, self.parts.links[parent].local(own.point(pos))), (child, pos)]);
         let (links, places) = (sides.map(|(link, _)| link), sides.map(|(_, place)| place));
@@ -151,7 +151,7 @@ impl<'a> Model<'a> {
         }
     }
 
-    /// A point of a link at this place; it is added if there is none.
+    /// A point of a link at this place; a missing point is added.
     pub(super) fn point(&mut self, link: usize, place: Vec2, nearest: f64, wanted: &str) -> String {
         self.point_at(link, place, nearest, wanted).unwrap_or_else(|| {
             let name = self.parts.point_names.legal(wanted);

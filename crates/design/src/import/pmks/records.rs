@@ -45,7 +45,7 @@ pub(super) struct PmksJoint {
     pub(super) angle: f64,
     /// Link on which a slot lies, and the two joints that give its direction.
     pub(super) slot: Option<[String; 3]>,
-    /// Speed of its own, which development versions write.
+    /// Speed of this joint alone, which development versions write.
     pub(super) has_speed: bool,
 }
 

@@ -54,7 +54,7 @@ impl<'a> Fields<'a> {
         Fields { record, all: text.split(',').collect(), next: 0 }
     }
 
-    /// The next field; an error if there is none.
+    /// The next field; an error at the end of the record.
     pub(super) fn text(&mut self, what: &str) -> Result<&'a str> {
         let found = self.all.get(self.next);
         self.next += 1;

@@ -90,6 +90,11 @@ impl<'a> RigidModel<'a> {
         self.case.drives.iter().any(|drive| drive.joint == joint)
     }
 
+    /// Whether a law prescribes the motion of a joint.
+    pub(crate) fn is_prescribed(&self, joint: JointId) -> bool {
+        self.case.drives.iter().any(|drive| drive.joint == joint && !drive.is_free())
+    }
+
     /// Mass (kg) and moment of inertia (kg m^2) of a link for physics engines.
     /// If the link has no mass or no inertia, the missing value is that of a light rod.
     pub fn inertial(&self, link: LinkId) -> (f64, f64) {
