@@ -23,6 +23,7 @@ pub(crate) mod drivers;
 pub(crate) mod exercise;
 pub mod explain;
 pub(crate) mod fixed;
+pub(crate) mod front;
 pub(crate) mod golden;
 pub(crate) mod html;
 pub(crate) mod inspect;

@@ -7,7 +7,7 @@ use std::str::FromStr;
 use design::relations::MOST_DEGREE;
 use scenario::engine::MOST_TIMES;
 
-type Parsed<T> = std::result::Result<T, String>;
+pub(super) type Parsed<T> = std::result::Result<T, String>;
 
 /// A finite number.
 pub(super) fn finite(text: &str) -> Parsed<f64> {

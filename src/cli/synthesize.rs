@@ -2,6 +2,7 @@
 
 mod check;
 mod closed_form;
+mod front;
 mod search;
 
 use linkage::error::Result;
@@ -22,6 +23,8 @@ enum Command {
     /// Lengths and pivots of any linkage whose output should follow a timing: random search, then refinement of the
     /// best candidates
     Search(search::Args),
+    /// Front of two wishes: the smallest deviation from the task over a limit that is varied
+    Front(front::Args),
     /// Show how well scenarios keep the timing of a synthesis file; compare several at one speed
     Check(check::CheckArgs),
     /// Draw the phases of all organs of a machine over its main shaft, and their displacements
@@ -33,6 +36,7 @@ pub(super) fn synthesize(args: &Args) -> Result<()> {
         Command::CrankRocker(args) => closed_form::crank_rocker(args),
         Command::SliderCrank(args) => closed_form::slider_crank(args),
         Command::Search(args) => search::search(args),
+        Command::Front(args) => front::front(args),
         Command::Check(args) => check::check(args),
         Command::Cyclogram(args) => check::cyclogram(args),
     }

@@ -254,6 +254,8 @@ linkage::sentences! {
     // cli/synthesize/search.rs
     found_by(command, report) = "Found by: {command}\n{report}";
     linkproof_synthesize_search_seed_candidates(args, seed, candidates, refined, evaluations) = "linkproof synthesize search {args} --seed {seed} --candidates {candidates} --refined {refined} --evaluations {evaluations}";
+    is_no_varied_limit(text, most) = "expected NAME=FROM:TO:COUNT with 2 to {most} points, such as acceleration_m_s2=130:200:8, found \"{text}\"";
+    the_methods_are(names) = "the methods are: {names}";
     // cli/synthesize/target.rs
     NAME_ANOTHER_FILE = "name another file";
     the_scenario_found_would_overwrite(source) = "the new scenario would overwrite {source}, from which it is made";

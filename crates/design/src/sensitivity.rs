@@ -22,6 +22,7 @@ use scenario::{CaseKey, CaseSlopes, Claim, SampledFigure, Scenario, Statistic, T
 
 pub use self::answer::{FigureSlopes, Sensitivity, SensitivityQuestion};
 use self::instants::{Derived, derived};
+pub(crate) use self::quantity::Quantity;
 use self::quantity::solved;
 use self::rivals::rival;
 pub use self::tolerance::{APART, KeyTolerance, LinearLimit, ToleranceStack, stacks};

@@ -2,11 +2,16 @@
 //! pivots.
 
 pub mod achieved;
+mod bars;
 pub mod crank_rocker;
 pub mod draft;
 mod evaluate;
+pub mod front;
+mod gradient;
 pub mod machine_file;
+mod nearest;
 mod rating;
+pub mod reached;
 pub mod redraw;
 pub mod search;
 pub mod slider_crank;

@@ -26,7 +26,7 @@ use crate::trajectory::{CHANNELS, Channel, ChannelSubject, OfLink, Reading, Stag
 pub use builder::CaseBuilder;
 pub use friction::{Friction, FrictionSeat, JointReactions};
 pub use grid::{Grid, When};
-pub use numbers::CaseNumber;
+pub use numbers::{CaseNumber, load_places};
 pub use parts::{CaseParts, Wanted};
 pub use scene::{LeftOut, Scene};
 pub use seats::{Seat, Seats};

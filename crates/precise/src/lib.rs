@@ -25,6 +25,7 @@ mod sentences;
 mod task;
 #[cfg(test)]
 mod tests;
+mod transmission;
 mod vector;
 pub mod whole;
 

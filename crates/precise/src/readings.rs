@@ -59,7 +59,7 @@ fn within_half_a_turn(channel: &Channel, case: &Case, angle: f64) -> f64 {
 /// Reads the channels of a mechanism from its states.
 #[derive(Debug)]
 pub struct Readings<'a, S> {
-    whole: Whole<'a, S>,
+    pub(crate) whole: Whole<'a, S>,
     links: BTreeMap<&'a str, LinkId>,
     /// Links and indices of points.
     points: BTreeMap<&'a str, (LinkId, usize)>,

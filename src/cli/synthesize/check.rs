@@ -99,7 +99,7 @@ pub(super) fn check(args: &CheckArgs) -> Result<()> {
     let result = |result| -> Result<Made> {
         Ok(match result {
             CheckResults::Json => report::json(&story).into(),
-            CheckResults::Svg => report::picture(&story).into(),
+            CheckResults::Svg => report::picture(&story)?.into(),
             CheckResults::Csv => comparison::table(&contenders()?)?.into(),
             CheckResults::Markdown => comparison::markdown(&contenders()?).into(),
         })

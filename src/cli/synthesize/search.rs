@@ -4,12 +4,13 @@ use crate::sentences;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::cli::number::Parsed;
 use crate::cli::outputs::{Made, Outputs, results};
 use crate::cli::{output, progress};
 use crate::report::synthesize::{self as report, Story};
-use design::synthesize::task::Task;
+use design::synthesize::task::{Refinement, Task};
 use design::synthesize::task_file::TaskFile;
-use design::synthesize::{self, Achieved, redraw};
+use design::synthesize::{self, Achieved, SearchResult, redraw};
 use linkage::error::Result;
 use scenario::Scenario;
 
@@ -33,7 +34,10 @@ pub(super) struct Args {
     /// Best candidates to refine [default: the number in the file]
     #[arg(long, value_name = "N")]
     refined: Option<usize>,
-    /// Evaluations of each refinement [default: the number in the file]
+    /// Method of the refinement [default: the method in the file]
+    #[arg(long, value_name = "METHOD", value_parser = refinement)]
+    refinement: Option<Refinement>,
+    /// Evaluations of each refinement; with exact derivatives, its steps [default: the number in the file]
     #[arg(long, value_name = "N")]
     evaluations: Option<usize>,
     /// Threads; the result does not depend on them [default: the number of cores]
@@ -49,30 +53,43 @@ pub(super) fn search(args: &Args) -> Result<()> {
         [&args.file, &drawing.path].into_iter().try_for_each(|source| is_no_source(to, source))?;
     }
     let effort = &mut task.effort;
+    effort.refinement = args.refinement.unwrap_or(effort.refinement);
     effort.seed = args.seed.unwrap_or(effort.seed);
     effort.candidates = args.candidates.unwrap_or(effort.candidates);
     effort.refined = args.refined.unwrap_or(effort.refined);
     effort.evaluations = args.evaluations.unwrap_or(effort.evaluations);
     let mut bar = progress::Bar::new(&task.name);
-    let found = synthesize::search(&task, args.threads, &mut |part| bar.at(part))?;
+    let searched = synthesize::search(&task, args.threads, &mut |part| bar.at(part))?;
     drop(bar);
-    let values = redraw::round_values(&task, &found.values);
-    // The text of the scenario is read back before the report. The reported figures are therefore those of the written
-    // scenario.
-    let place = drawing.path.with_file_name(format!("{}.toml", task.name));
-    let bare = Scenario::parse(&redraw::redrawn(&task, &drawing.text, &values, "")?, &place)?;
-    let own = Task { case: bare.case, ..task.clone() };
-    let achieved = Achieved::of(&own, found.forward)?;
+    let Found { task: own, achieved, values } = found(&task, &drawing, &searched)?;
     let text = redraw::redrawn(&task, &drawing.text, &values, &comment(args, &own, &achieved))?;
-    let story = Story { task: &own, achieved: &achieved, search: Some((&found, &values)) };
-    let result = |result| -> Made {
-        match result {
+    let story = Story { task: &own, achieved: &achieved, search: Some((&searched, &values)) };
+    let result = |result| -> Result<Made> {
+        Ok(match result {
             SearchResults::Scenario => text.clone().into(),
             SearchResults::Json => report::json(&story).into(),
-            SearchResults::Svg => report::picture(&story).into(),
-        }
+            SearchResults::Svg => report::picture(&story)?.into(),
+        })
     };
-    args.outputs.deliver(|form| Ok(result(form)), |_| report::text(&story))
+    args.outputs.deliver(result, |_| report::text(&story))
+}
+
+/// The mechanism of a search, as its scenario states it.
+pub(super) struct Found {
+    pub(super) task: Task,
+    pub(super) achieved: Achieved,
+    /// Values of the variables (SI), rounded as they are written.
+    pub(super) values: Vec<f64>,
+}
+
+/// Reads the text of the scenario back, so that the reported figures are those of the written scenario.
+pub(super) fn found(task: &Task, drawing: &Scenario, searched: &SearchResult) -> Result<Found> {
+    let values = redraw::round_values(task, &searched.values);
+    let place = drawing.path.with_file_name(format!("{}.toml", task.name));
+    let bare = Scenario::parse(&redraw::redrawn(task, &drawing.text, &values, "")?, &place)?;
+    let task = Task { case: bare.case, ..task.clone() };
+    let achieved = Achieved::of(&task, searched.forward)?;
+    Ok(Found { task, achieved, values })
 }
 
 /// Comment on the origin and the quality of the scenario.
@@ -85,7 +102,13 @@ fn comment(args: &Args, task: &Task, achieved: &Achieved) -> String {
         &effort.refined,
         &effort.evaluations,
     );
+    let command = args.refinement.map_or(command.clone(), |own| command + " --refinement " + own.name());
     sentences::found_by(&command, &report::summary(task, achieved))
+}
+
+pub(super) fn refinement(text: &str) -> Parsed<Refinement> {
+    let all = || Refinement::ALL.map(Refinement::name).join(", ");
+    Refinement::named(text).ok_or_else(|| sentences::the_methods_are(&all()))
 }
 
 /// Refuses to write the scenario over one of its sources.

@@ -11,7 +11,7 @@ use scenario::Claim;
 
 /// A quantity as an expression of channels, with its partial derivatives.
 #[derive(Debug)]
-pub(super) struct Quantity {
+pub(crate) struct Quantity {
     /// For every name of the expression: the channel; if the name is a magnitude, the channel of the other component of
     /// the vector; the factor from SI to the unit of the name.
     names: Vec<(Channel, Option<Channel>, f64)>,
@@ -23,7 +23,7 @@ pub(super) struct Quantity {
 
 impl Quantity {
     /// The quantity of a claim; `None` if the claim names more than channels.
-    pub(super) fn of(claim: &Claim) -> Option<Quantity> {
+    pub(crate) fn of(claim: &Claim) -> Option<Quantity> {
         let words: Vec<&str> = claim.channels.iter().map(|(name, _)| name.as_str()).collect();
         let mut graph = FormulaGraph::new(&words, 0);
         let node = graph.add(&claim.tree).ok()?;
@@ -37,7 +37,7 @@ impl Quantity {
     }
 
     /// The quantity in a state. At a kink, and where the quantity has no value, its derivatives are NaN.
-    pub(super) fn at<const N: usize>(
+    pub(crate) fn at<const N: usize>(
         &mut self,
         readings: &Readings<Dual<f64, N>>,
         state: &Snapshot<Dual<f64, N>>,

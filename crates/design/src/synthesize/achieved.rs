@@ -1,17 +1,20 @@
 //! The achieved motion of a mechanism, compared with the required motion of its output, on a fine grid of its scenario.
 
 use crate::sentences;
-use linkage::math::KeepNan;
 use linkage::math::statistics::ends;
+use linkage::math::{KeepNan, Vec2};
 use std::f64::consts::TAU;
 
 use super::evaluate::Evaluator;
+use super::reached::{ReachedPoint, reached};
 use crate::synthesize::task::{Phase, Sense, Task};
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::mechanism::GroupKind;
 
 /// Rows per turn.
 const ROWS: usize = 7200;
+/// Rows between two positions of a path.
+pub const PATH: usize = 10;
 /// Half width of the band about a dwell (fraction of the stroke). The dwell ends where the output leaves the band.
 pub const BAND: f64 = 0.01;
 
@@ -56,6 +59,11 @@ pub struct Achieved {
     pub shares: Vec<f64>,
     /// Sense of the output that counts as forward: +1 or -1.
     pub forward: f64,
+    /// Positions at the precision points of the task.
+    pub points: Vec<ReachedPoint>,
+    /// World places of the working point (m) and angles of the output link (rad), at every tenth of the crank angles
+    /// `turns`. Empty for a task without precision points.
+    pub path: Vec<(Vec2, f64)>,
 }
 
 impl Achieved {
@@ -63,11 +71,13 @@ impl Achieved {
     /// `forward` is the sense of the output that counts as forward (+1 or -1).
     ///
     /// # Errors
-    /// [`ErrorKind::Geometry`] if the mechanism cannot be assembled over the whole turn, or if its output turns fully.
+    /// [`ErrorKind::Geometry`] if the mechanism cannot be assembled over the whole turn, or if the task has phases and
+    /// the output turns fully.
     pub fn of(task: &Task, forward: f64) -> Result<Self> {
         let turns = fine_turns();
         let as_drawn = Task { places: Vec::new(), ..task.clone() };
-        let mut evaluator = Evaluator::new(&as_drawn);
+        let has_points = !task.points.is_empty();
+        let mut evaluator = if has_points { Evaluator::recording(&as_drawn) } else { Evaluator::new(&as_drawn) };
         evaluator.run(&[], task.case.crank().zero, &turns).map_err(|_| {
             Error::new(ErrorKind::Geometry, sentences::THE_MECHANISM_CANNOT_BE_ASSEMBLED).help(Advice::LookAtRange)
         })?;
@@ -83,6 +93,8 @@ impl Achieved {
             shares: curve.iter().map(share).collect(),
             turns,
             forward,
+            points: reached(task)?,
+            path: (0..evaluator.recorded.len()).step_by(PATH).map(|row| evaluator.position(row)).collect(),
         };
         found.phases = (0..task.timing.phases().len()).map(|phase| found.phase(task, phase)).collect();
         Ok(found)

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use crate::synthesize::task::{OutputQuantity, Task};
 use analytic::assur::groups::{SolutionPlan, Step};
-use linkage::math::{KeepNan, Motion, cross, unit};
+use linkage::math::{KeepNan, Motion, Vec2, cross, unit};
 use linkage::mechanism::assembly::transmission_sine;
 use linkage::mechanism::{LinkPose, Mechanism, PerLink, Pose, first_pose};
 use linkage::solver::State;
@@ -28,6 +28,11 @@ pub(super) struct Evaluator<'a> {
     /// Largest acceleration of the working point so far (m/s^2), at the drawing's crank speed; 0 if the task does not
     /// limit the acceleration.
     pub(super) acceleration: f64,
+    /// Number of poses that were solved so far, with all runs.
+    pub(super) poses: u64,
+    /// Motions of all links at the crank angles of the last run, if `records` is true.
+    pub(super) recorded: Vec<PerLink<Motion>>,
+    records: bool,
 }
 
 impl<'a> Evaluator<'a> {
@@ -41,7 +46,15 @@ impl<'a> Evaluator<'a> {
             curve: Vec::new(),
             sine: 1.0,
             acceleration: 0.0,
+            poses: 0,
+            recorded: Vec::new(),
+            records: false,
         }
+    }
+
+    /// An evaluator that also keeps the motions of all links.
+    pub(super) fn recording(task: &'a Task) -> Self {
+        Evaluator { records: true, ..Evaluator::new(task) }
     }
 
     /// Sets the dimensions.
@@ -65,6 +78,7 @@ impl<'a> Evaluator<'a> {
         let plan = SolutionPlan::of(&self.mechanism, &case.structure, &case.modes);
         self.curve.clear();
         self.curve.resize(turns.len(), 0.0);
+        self.recorded.clear();
         (self.sine, self.acceleration) = (1.0, 0.0);
         let sense = self.task.turning();
         let world = |turn: f64| zero + sense * turn;
@@ -88,15 +102,17 @@ impl<'a> Evaluator<'a> {
         for probe in 0..PROBES {
             // Opposite poses are tried first: 0, 4, 2, 6, 1, 5, 3, 7 eighths of the turn.
             let at = probe.reverse_bits() >> (usize::BITS - 3);
+            self.poses += 1;
             if plan.positions(&[world(turns[at * last / PROBES])], &mut self.motions).is_err() {
                 return Err(probe as f64 / (2 * PROBES) as f64);
             }
         }
         for (row, &turn) in turns.iter().enumerate() {
+            self.poses += 1;
             if plan.positions(&[world(turn)], &mut self.motions).is_err() {
                 return Err(0.5 + 0.5 * row as f64 / turns.len() as f64);
             }
-            self.curve[row] = self.output();
+            self.keep(row);
             self.watch(&plan);
             self.accelerate(&mut plan);
         }
@@ -119,18 +135,38 @@ impl<'a> Evaluator<'a> {
             (motion.origin, motion.direction) = (link.origin, unit(link.angle));
         }
         let mut angle = start;
+        self.poses += 1;
         plan.positions(&[angle], &mut self.motions).map_err(|_| 0.0)?;
         for (row, &turn) in turns.iter().enumerate() {
             let (from, way) = (angle, world(turn) - angle);
             let steps = (way.abs() / FOLLOWED).ceil().larger(1.0);
             for step in 1..=steps as usize {
                 angle = from + way * (step as f64 / steps);
+                self.poses += 1;
                 plan.positions(&[angle], &mut self.motions).map_err(|_| row as f64 / turns.len() as f64)?;
             }
-            self.curve[row] = self.output();
+            self.keep(row);
             self.accelerate(&mut plan);
         }
         Ok(())
+    }
+
+    /// Stores the output of a pose, and its motions if they are recorded.
+    #[inline]
+    fn keep(&mut self, row: usize) {
+        self.curve[row] = self.output();
+        if self.records {
+            self.recorded.push(self.motions.clone());
+        }
+    }
+
+    /// World place of the output link's working point (m), or the origin without such a point, and angle of the output
+    /// link (rad), in a recorded row.
+    pub(super) fn position(&self, row: usize) -> (Vec2, f64) {
+        let (link, point) = self.task.output.working_point();
+        let motion = &self.recorded[row][link];
+        let place = point.map(|point| motion.point(self.mechanism.links()[link].points[point].local));
+        (place.unwrap_or_default(), motion.direction.y.atan2(motion.direction.x))
     }
 
     /// Updates the largest acceleration of the working point, if the task limits the acceleration.
@@ -181,7 +217,7 @@ impl<'a> Evaluator<'a> {
     }
 
     /// Removes jumps by a full turn from angles.
-    /// Returns an error if the output is not periodic over the turn.
+    /// Returns an error if the task has phases, and the output is not periodic over the turn.
     fn unwind(&mut self) -> Result<(), f64> {
         if let OutputQuantity::Angle { .. } = self.task.output {
             for row in 1..self.curve.len() {
@@ -190,6 +226,7 @@ impl<'a> Evaluator<'a> {
             }
         }
         let [first, last] = [self.curve[0], self.curve[self.curve.len() - 1]];
-        if (last - first).abs() <= 1e-6 * (1.0 + first.abs()) { Ok(()) } else { Err(0.99) }
+        let has_phases = !self.task.timing.phases().is_empty();
+        if !has_phases || (last - first).abs() <= 1e-6 * (1.0 + first.abs()) { Ok(()) } else { Err(0.99) }
     }
 }

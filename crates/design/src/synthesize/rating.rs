@@ -19,7 +19,7 @@ use linkage::math::statistics::ends;
 const WRONG: f64 = 4.0;
 /// Where a motion ends and the opposite motion begins, the output's rate should be zero.
 /// The rate times this crank angle (rad, 20 deg) counts as a deviation (fraction of the stroke).
-const LATE: f64 = TAU / 18.0;
+pub(super) const LATE: f64 = TAU / 18.0;
 /// Upper limit of the distance between a limit of a phase and each of the two rows beside it (rad, 0.25 deg).
 /// The rate at the limit is computed from these two rows.
 const BESIDE: f64 = TAU / 1440.0;
@@ -32,9 +32,9 @@ pub(super) struct Rater<'a> {
     /// Crank angles (rad) of the samples, from 0 to a full turn.
     pub(super) turns: Vec<f64>,
     /// Row at which each phase ends.
-    ends: Vec<usize>,
+    pub(super) ends: Vec<usize>,
     /// The required curve; empty if the output need not follow it.
-    wanted: Vec<f64>,
+    pub(super) wanted: Vec<f64>,
     /// The output over two turns, so that any row can be the beginning of the turn.
     twice: Vec<f64>,
     span: f64,

@@ -3,10 +3,12 @@
 use crate::sentences;
 use toml_edit::{ArrayOfTables, DocumentMut, InlineTable, Item, TableLike, value};
 
+use crate::synthesize::bars::BarMass;
 use crate::synthesize::task::{Task, TaskNumber};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
 use linkage::mechanism::{GROUND, Link, LinkId, Mechanism, first_pose};
+use precise::{Dual, Scalar};
 
 /// Dimensions are rounded to the accuracy of a workshop.
 /// The first number is the number of steps per millimetre, the second is the number of steps per degree.
@@ -139,18 +141,11 @@ fn flat(place: Vec2) -> InlineTable {
 
 /// Writes the masses of slender bars of `bar` (kg/m) that join the first point of a link to each of its other points.
 fn weigh(table: &mut dyn TableLike, body: &Link, bar: f64) {
-    let first = body.points[0].local;
-    let bars: Vec<Vec2> = body.points[1..].iter().map(|point| point.local - first).collect();
-    let mass: f64 = bars.iter().map(|arm| bar * arm.norm()).sum();
-    if !(mass > 0.0) {
-        return;
-    }
-    let centre = bars.iter().map(|arm| *arm * (0.5 * bar * arm.norm())).sum::<Vec2>() / mass;
-    let about_centre = |arm: &Vec2| {
-        let own = bar * arm.norm();
-        own * arm.norm_squared() / 12.0 + own * (*arm * 0.5 - centre).norm_squared()
-    };
-    let inertia: f64 = bars.iter().map(about_centre).sum();
+    let points: Vec<_> =
+        body.points.iter().map(|point| [point.local.x, point.local.y].map(Dual::<f64, 0>::of)).collect();
+    let Some(bars) = BarMass::of(&points, bar) else { return };
+    let (mass, inertia) = (bars.mass.value, bars.inertia.value);
+    let centre = Vec2::new(bars.centre[0].value, bars.centre[1].value);
     for key in ["mass_g", "mass_kg", "inertia_kg_m2", "mass_centre"] {
         table.remove(key);
     }
@@ -158,7 +153,7 @@ fn weigh(table: &mut dyn TableLike, body: &Link, bar: f64) {
     // Six significant digits.
     let digits = 10f64.powi(5 - inertia.log10().floor() as i32);
     table.insert("inertia_kg_m2", value(rounded(inertia, digits)));
-    table.insert("mass_centre", value(flat(first + centre)));
+    table.insert("mass_centre", value(flat(centre)));
 }
 
 #[cfg(test)]

@@ -16,13 +16,17 @@ use chacha20::rand_core::SeedableRng;
 
 use super::achieved::fine_turns;
 use super::evaluate::Evaluator;
+use super::gradient;
 use super::rating::Rater;
 use super::redraw::round_values;
-use crate::synthesize::task::Task;
+use crate::synthesize::task::{PrecisionPoint, Refinement, Task};
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::KeepNan;
 use linkage::solver::Progress;
 use linkage::threads::{cores, made};
-use refine::{Candidate, even, free_zero, of_share, values};
+use refine::even;
+pub(super) use refine::{Candidate, free_zero, of_share, share_of, values};
+use std::f64::consts::TAU;
 
 /// Number of evenly spaced crank angles at which the cost of a random candidate is computed.
 const COARSE: usize = 72;
@@ -51,48 +55,78 @@ pub struct SearchResult {
     pub values: Vec<f64>,
     /// Sense of the output that counts as forward: +1 or -1.
     pub forward: f64,
-    /// Cost of the best candidate: a sum of squares of fractions of the stroke.
+    /// Cost of the best candidate. With an evolution strategy: a sum of squares of fractions of the stroke.
+    /// With exact derivatives: the largest deviation, and ten times the largest violation of a limit.
     pub cost: f64,
-    /// Cost of the best candidate before refinement, on a coarser grid than that of `cost`.
+    /// Cost of the best random candidate before refinement, on a coarser grid than that of `cost`. NaN if there is no
+    /// such candidate.
     pub random_cost: f64,
     /// Number of random candidates, and number of candidates that assemble over the whole turn and nearly keep the
     /// limits.
     pub candidates: [usize; 2],
     /// Costs of all refined candidates, ascending.
     pub refined: Vec<f64>,
+    /// Number of poses solved by the random search and by the refinement.
+    pub poses: [u64; 2],
 }
 
 /// Searches for the dimensions of a task with `threads` threads; 0 means one thread for each core.
 /// `progress` is called with values from 0 to 1.
 ///
 /// # Errors
-/// The errors of [`Task::check`]; [`ErrorKind::Numeric`] if no candidate assembles over the whole turn and nearly keeps
+/// The errors of [`Task::check`]; [`ErrorKind::Unsupported`] for a mechanism whose derivatives are not known;
+/// [`ErrorKind::Numeric`] if no candidate assembles over the whole turn and nearly keeps
 /// the limits.
 pub fn search(task: &Task, threads: usize, progress: Progress) -> Result<SearchResult> {
+    search_from(task, &[], threads, progress)
+}
+
+/// Like [`search`]; the results `starts` of other searches are refined with the best random candidates.
+///
+/// # Errors
+/// The errors of [`search`].
+pub fn search_from(task: &Task, starts: &[SearchResult], threads: usize, progress: Progress) -> Result<SearchResult> {
     task.check()?;
+    if task.effort.refinement == Refinement::Gradients {
+        gradient::check(task)?;
+    }
     let threads = if threads == 0 { cores() } else { threads.min(MOST_THREADS) };
     let effort = task.effort;
     let blocks: Vec<usize> = (0..effort.candidates.div_ceil(BLOCK)).collect();
-    let (mut kept, mut assembled) = (Vec::new(), 0);
+    let (mut kept, mut assembled, mut poses) = (Vec::new(), 0, [0; 2]);
     let rounds = blocks.chunks(ROUND);
     let count = rounds.len();
     for (round, blocks) in rounds.enumerate() {
         let found = made(blocks, threads, |&block| Random::new(task).block(block), |_| {});
-        for (best, own) in found {
-            kept.extend(best);
-            assembled += own;
+        for block in found {
+            kept.extend(block.best);
+            assembled += block.assembled;
+            poses[0] += block.poses;
         }
         keep(&mut kept, effort.refined);
         progress(RANDOM_SHARE * (round + 1) as f64 / count as f64);
     }
-    let Some(random_cost) = kept.first().map(|best| best.cost) else { return Err(none(task)) };
+    let random_cost = kept.first().map_or(f64::NAN, |best| best.cost);
+    let start = |(index, start): (usize, &SearchResult)| Candidate {
+        shares: start.values.iter().zip(&task.variables).map(|(value, variable)| share_of(*value, variable)).collect(),
+        forward: start.forward,
+        cost: f64::INFINITY,
+        number: effort.candidates + index,
+        poses: 0,
+    };
+    kept.extend(starts.iter().enumerate().map(start));
+    let refine = |candidate: &Candidate| match effort.refinement {
+        Refinement::Evolution => refine::refine(task, candidate),
+        Refinement::Gradients => gradient::refine(task, candidate),
+    };
     let mut refined = Vec::new();
     let total = kept.len();
     for chunk in kept.chunks(ROUND) {
-        refined.extend(made(chunk, threads, |candidate| refine::refine(task, candidate), |_| {}));
+        refined.extend(made(chunk, threads, refine, |_| {}));
         progress(RANDOM_SHARE + (1.0 - RANDOM_SHARE) * refined.len() as f64 / total as f64);
     }
     let count = refined.len();
+    poses[1] = refined.iter().map(|candidate| candidate.poses).sum();
     keep(&mut refined, count);
     let Some(best) = refined.iter().find(|candidate| holds(task, candidate)) else { return Err(none(task)) };
     Ok(SearchResult {
@@ -102,6 +136,7 @@ pub fn search(task: &Task, threads: usize, progress: Progress) -> Result<SearchR
         random_cost,
         candidates: [effort.candidates, assembled],
         refined: refined.iter().map(|candidate| candidate.cost).collect(),
+        poses,
     })
 }
 
@@ -124,6 +159,16 @@ fn keep(candidates: &mut Vec<Candidate>, count: usize) {
     candidates.truncate(count);
 }
 
+/// Result of a block of random candidates.
+struct Block {
+    /// The best candidates, in order.
+    best: Vec<Candidate>,
+    /// Number of candidates that assemble and nearly keep the limits.
+    assembled: usize,
+    /// Number of poses solved.
+    poses: u64,
+}
+
 /// Draws candidates and computes their costs.
 struct Random<'a> {
     task: &'a Task,
@@ -137,15 +182,15 @@ impl<'a> Random<'a> {
     fn new(task: &'a Task) -> Self {
         Random {
             task,
-            evaluator: Evaluator::new(task),
+            evaluator: if task.points.is_empty() { Evaluator::new(task) } else { Evaluator::recording(task) },
             rater: Rater::even(&task.timing, COARSE),
             zero: free_zero(task),
             values: vec![0.0; task.variables.len()],
         }
     }
 
-    /// The best candidates of a block, and the number of its candidates that assemble and nearly keep the limits.
-    fn block(&mut self, block: usize) -> (Vec<Candidate>, usize) {
+    /// Draws the candidates of a block.
+    fn block(&mut self, block: usize) -> Block {
         let effort = &self.task.effort;
         let mut rng = ChaCha8Rng::seed_from_u64(effort.seed);
         rng.set_stream(block as u64);
@@ -160,11 +205,11 @@ impl<'a> Random<'a> {
             let Some((cost, forward)) = self.rate(&mut shares) else { continue };
             assembled += 1;
             if cost < worst {
-                best.push(Candidate { shares: shares.clone(), forward, cost, number });
+                best.push(Candidate { shares: shares.clone(), forward, cost, number, poses: 0 });
                 keep(&mut best, effort.refined);
             }
         }
-        (best, assembled)
+        Block { best, assembled, poses: self.evaluator.poses }
     }
 
     /// Cost of a candidate, and the sense of its output that counts as forward.
@@ -183,10 +228,12 @@ impl<'a> Random<'a> {
         let [least, most] = self.task.stroke;
         let (sine, acceleration) = (self.evaluator.sine, self.evaluator.acceleration);
         let is_near = NEAR * span >= least && span <= NEAR * most && acceleration <= NEAR * self.task.acceleration;
-        if !(span > 0.0 && is_near && NEAR * sine >= self.task.transmission.sin()) {
+        let has_phases = !self.task.timing.phases().is_empty();
+        if has_phases && !(span > 0.0 && is_near) || !(NEAR * sine >= self.task.transmission.sin()) {
             return None;
         }
-        let excess = self.rater.excess(self.task, sine, acceleration);
+        let missed: f64 = self.task.points.all().iter().map(|point| self.missed(point)).sum();
+        let excess = missed + self.rater.excess(self.task, sine, acceleration);
         let senses: &[f64] = match self.task.forward {
             Some(sense) if sense > 0.0 => &[1.0],
             Some(_) => &[-1.0],
@@ -218,6 +265,18 @@ impl<'a> Random<'a> {
         }
         Some((best.0 + excess, best.1))
     }
+
+    /// Sum of the squared deviations from a precision point: in the row nearest to its crank angle, or in the best row.
+    fn missed(&self, point: &PrecisionPoint) -> f64 {
+        let at = |row: usize| {
+            let (place, angle) = self.evaluator.position(row);
+            self.task.points.deviations(point, place, angle).iter().map(|own| own * own).sum()
+        };
+        match point.turn {
+            Some(turn) => at((turn.rem_euclid(TAU) / TAU * COARSE as f64).round() as usize),
+            None => (0..COARSE).map(at).fold(f64::INFINITY, f64::smaller),
+        }
+    }
 }
 
 #[cfg(test)]
@@ -226,7 +285,7 @@ mod tests {
 
     #[test]
     fn equal_candidates_are_kept_in_the_order_of_drawing() {
-        let candidate = |cost, number| Candidate { shares: Vec::new(), forward: 1.0, cost, number };
+        let candidate = |cost, number| Candidate { shares: Vec::new(), forward: 1.0, cost, number, poses: 0 };
         let mut all = vec![candidate(2.0, 0), candidate(1.0, 7), candidate(1.0, 3), candidate(f64::NAN, 1)];
         keep(&mut all, 3);
         assert_eq!(all.iter().map(|one| one.number).collect::<Vec<_>>(), [3, 7, 0]);

@@ -3,15 +3,18 @@
 //! constraints.
 //! The required motion is the motion of a link or of a point.
 
+mod points;
 mod timing;
 
 use crate::sentences;
+pub use points::{PrecisionPoint, PrecisionPoints};
 pub use timing::{Phase, Sense, Timing};
 
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{Vec2, unit};
 use linkage::mechanism::{GroupKind, Handle, LinkId, Mechanism, StartGroup};
+use scenario::Claim;
 
 /// The output quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -100,6 +103,36 @@ impl PointPosition {
     }
 }
 
+/// A limited quantity: a channel, or an expression of channels, that must stay within bounds at every crank angle.
+#[derive(Clone, Debug)]
+pub struct LimitedQuantity {
+    /// The quantity.
+    pub claim: Claim,
+    /// Smallest and largest permitted value, in the unit of the quantity. Infinite without a limit.
+    pub bounds: [f64; 2],
+}
+
+impl LimitedQuantity {
+    /// The value by which a violation of the limits is divided: the permitted range, or the size of the only limit.
+    pub(super) fn scale(&self) -> f64 {
+        let [low, high] = self.bounds;
+        let only = if low.is_finite() { low.abs() } else { high.abs() };
+        let scale = if (high - low).is_finite() { high - low } else { only };
+        if scale > 0.0 { scale } else { 1.0 }
+    }
+}
+
+linkage::words! {
+    /// Method by which the best random candidates are refined.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Refinement: name {
+        /// An evolution strategy, then COBYLA: no derivatives, any mechanism.
+        Evolution = "evolution",
+        /// Sequential quadratic programming with exact derivatives.
+        Gradients = "gradients",
+    }
+}
+
 /// Effort of the search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SearchEffort {
@@ -109,8 +142,10 @@ pub struct SearchEffort {
     pub candidates: usize,
     /// Number of the best candidates that are refined.
     pub refined: usize,
-    /// Evaluations that each refinement may take.
+    /// Evaluations that each refinement may take; with exact derivatives, the steps.
     pub evaluations: usize,
+    /// Method of the refinement.
+    pub refinement: Refinement,
 }
 
 /// A synthesis task.
@@ -134,8 +169,10 @@ pub struct Task {
     pub output: OutputQuantity,
     /// Sense of the output that counts as forward: +1 or -1. `None` if the search chooses the sense.
     pub forward: Option<f64>,
-    /// The required motion of the output.
+    /// The required motion of the output; without phases if only precision points are required.
     pub timing: Timing,
+    /// Positions that the output link must reach.
+    pub points: PrecisionPoints,
     /// Smallest and largest permitted stroke of the output (rad or m).
     pub stroke: [f64; 2],
     /// Smallest permitted transmission angle of any dyad (rad).
@@ -143,6 +180,8 @@ pub struct Task {
     /// Largest permitted acceleration of the working point (m/s^2), at the drawing's crank speed. Infinite if the
     /// acceleration has no limit.
     pub acceleration: f64,
+    /// Further limits. Only a refinement with exact derivatives keeps them.
+    pub keep: Vec<LimitedQuantity>,
     /// Effort of the search.
     pub effort: SearchEffort,
     /// Mass of the links found, per metre of their length (kg/m). `None` if the links keep the masses of the drawing.
@@ -169,6 +208,10 @@ impl Task {
             let message = sentences::THE_MECHANISM_HAS_SEVERAL_DRIVES;
             return wrong(ErrorKind::Unsupported, "scenario", message, sentences::TAKE_A_SCENARIO_WITH_ONE_DRIVE);
         }
+        if self.effort.refinement == Refinement::Evolution && !(self.keep.is_empty() && self.points.is_empty()) {
+            let message = sentences::ONLY_GRADIENTS_KEEP_LIMITS;
+            return wrong(ErrorKind::Unsupported, "search", message, sentences::REFINE_BY_GRADIENTS);
+        }
         if self.variables.is_empty() {
             return wrong(ErrorKind::Input, "vary", sentences::NOTHING_MAY_VARY, sentences::ADD_A_TABLE_VARY_FOR_EACH);
         }
@@ -180,6 +223,10 @@ impl Task {
         if self.acceleration.is_finite() && self.output.working_point().1.is_none() {
             let message = sentences::AN_ACCELERATION_IS_LIMITED_BUT_NO_POINT;
             return wrong(ErrorKind::Input, "limits", message, sentences::NAME_THE_WORKING_POINT_OF_THE_OUTPUT);
+        }
+        if self.points.all().iter().any(|point| point.place.is_some()) && self.output.working_point().1.is_none() {
+            let message = sentences::A_POINT_NEEDS_A_WORKING_POINT;
+            return wrong(ErrorKind::Input, "output", message, sentences::NAME_THE_WORKING_POINT_OF_THE_OUTPUT);
         }
         let effort = &self.effort;
         let counts = [effort.candidates, effort.refined, effort.evaluations];

@@ -5,18 +5,19 @@ use crate::sentences;
 use std::path::Path;
 
 use crate::synthesize::task::{
-    OutputQuantity, Phase, PointPosition, SearchEffort, Sense, Task, TaskNumber, Timing, Variable,
+    LimitedQuantity, OutputQuantity, Phase, PointPosition, PrecisionPoint, PrecisionPoints, Refinement, SearchEffort,
+    Sense, Task, TaskNumber, Timing, Variable,
 };
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::math::unit;
+use linkage::math::{Vec2, unit};
 use linkage::mechanism::{GROUND, Link, LinkId, Mechanism, PerLink};
-use scenario::Scenario;
 use scenario::header::{check_format, name};
 use scenario::joints::link;
 use scenario::reader::{Sign, TomlTable};
 use scenario::source::Source;
 use scenario::unit::{ACCELERATION, ANGLE, LENGTH, MASS_PER_LENGTH, UnitFamily};
 use scenario::words::suggestion;
+use scenario::{Claim, Scenario};
 
 /// Default of the smallest displacement of a moving phase (fraction of the stroke).
 const LEAST: f64 = 0.1;
@@ -76,15 +77,18 @@ fn read(root: &mut TomlTable) -> Result<TaskFile> {
     let (own_name, title) = (name(root)?, root.string("title")?);
     let file = root.string("scenario")?;
     let (phases, follow) = (root.tables("phases")?, root.optional_boolean("follow")?.unwrap_or(false));
+    let points = root.tables("points")?;
     let (output, limits) = (root.table("output")?, root.optional_table("limits")?);
     let (zero, vary) = (root.optional_table("zero")?, root.tables("vary")?);
+    let keep = root.tables("keep")?;
     let (effort, bar) = (root.table("search")?, root.optional_quantity("bar", &MASS_PER_LENGTH, Sign::Positive)?);
     root.finish()?;
 
     let load = |path: &Path| Scenario::load(path);
     let drawing = beside(root, "scenario", &file, sentences::NAME_THE_SCENARIO_FILE_OF_THE_DRAWING, load)?;
     let mechanism = &drawing.case.mechanism;
-    let timing = timing(phases)?;
+    let points = points.into_iter().map(point).collect::<Result<Vec<_>>>()?;
+    let timing = if phases.is_empty() && !points.is_empty() { Timing::without_phases() } else { timing(phases)? };
     let timing = if follow { timing.followed()? } else { timing };
     let (output, forward) = read_output(output, mechanism)?;
     let family = if matches!(output, OutputQuantity::Angle { .. }) { &ANGLE } else { &LENGTH };
@@ -101,6 +105,7 @@ fn read(root: &mut TomlTable) -> Result<TaskFile> {
             free(&mut variables, Variable { name: "zero".into(), bounds, is_angle: true })
         }
     };
+    let keep = keep.into_iter().map(|table| limited(table, &drawing)).collect::<Result<_>>()?;
     let task = Task {
         name: own_name,
         title,
@@ -112,9 +117,11 @@ fn read(root: &mut TomlTable) -> Result<TaskFile> {
         output,
         forward,
         timing,
+        points: PrecisionPoints::of(points, mechanism.size()),
         stroke,
         transmission,
         acceleration,
+        keep,
         effort: read_effort(effort)?,
         bar,
     };
@@ -144,6 +151,21 @@ fn timing(tables: Vec<TomlTable>) -> Result<Timing> {
             None => error,
         }
     })
+}
+
+/// One entry `[[points]]`.
+fn point(mut table: TomlTable) -> Result<PrecisionPoint> {
+    let turn = table.optional_quantity("crank", &ANGLE, Sign::Any)?;
+    let x = table.optional_quantity("x", &LENGTH, Sign::Any)?;
+    let y = table.optional_quantity("y", &LENGTH, Sign::Any)?;
+    let angle = table.optional_quantity("angle", &ANGLE, Sign::Any)?;
+    table.finish()?;
+    let place = match (x, y) {
+        (Some(x), Some(y)) => Some(Vec2::new(x, y)),
+        (None, None) if angle.is_some() => None,
+        _ => return Err(table.fault(sentences::A_POINT_HAS_NO_POSITION).help(sentences::GIVE_X_AND_Y_OR_AN_ANGLE)),
+    };
+    Ok(PrecisionPoint { turn, place, angle })
 }
 
 /// Output, and the sense of forward motion.
@@ -219,7 +241,41 @@ fn read_limits(table: Option<TomlTable>, family: &'static UnitFamily) -> Result<
     })
 }
 
+/// One entry `[[keep]]`: a quantity with its limits.
+fn limited(mut table: TomlTable, drawing: &Scenario) -> Result<LimitedQuantity> {
+    let quantity = table.string("quantity")?;
+    let limits = [table.optional_number("from")?, table.optional_number("to")?];
+    let bounds = [limits[0].unwrap_or(f64::NEG_INFINITY), limits[1].unwrap_or(f64::INFINITY)];
+    table.finish()?;
+    let claim = match Claim::parse(&quantity, &drawing.case) {
+        Ok(claim) => claim,
+        Err(fault) => return table.refuse("quantity", fault.message, fault.help.as_str()),
+    };
+    if !claim.figures.is_empty() || claim.has_masses() {
+        let message = sentences::a_reduced_quantity_is_not_differentiated(&quantity);
+        return table.refuse("quantity", message, sentences::LIMIT_A_CHANNEL);
+    }
+    if limits == [None, None] || !(bounds[0] <= bounds[1]) {
+        return Err(table.fault(sentences::A_QUANTITY_HAS_NO_LIMITS).help(sentences::GIVE_FROM_OR_TO));
+    }
+    Ok(LimitedQuantity { claim, bounds })
+}
+
 fn read_effort(mut table: TomlTable) -> Result<SearchEffort> {
+    let refinement = match table.optional_string("refinement")? {
+        None => Refinement::Gradients,
+        Some(word) => match Refinement::named(&word) {
+            Some(found) => found,
+            None => {
+                let help = suggestion(&word, Refinement::ALL.map(Refinement::name), "\"");
+                return table.refuse("refinement", sentences::is_no_refinement(&word), help);
+            }
+        },
+    };
+    let [candidates, evaluations] = match refinement {
+        Refinement::Evolution => [200_000, 20_000],
+        Refinement::Gradients => [20_000, 200],
+    };
     let mut count = |key: &str, default: i64| -> Result<u64> {
         let found = table.optional_integer(key)?.unwrap_or(default);
         let message = || sentences::found_but_a_count_is_not_negative(&found);
@@ -227,10 +283,10 @@ fn read_effort(mut table: TomlTable) -> Result<SearchEffort> {
     };
     let seed = count("seed", 1)?;
     let size = |found: u64| usize::try_from(found).unwrap_or(usize::MAX);
-    let (candidates, refined) = (size(count("candidates", 200_000)?), size(count("refined", 16)?));
-    let evaluations = size(count("evaluations", 20_000)?);
+    let (candidates, refined) = (size(count("candidates", candidates)?), size(count("refined", 16)?));
+    let evaluations = size(count("evaluations", evaluations)?);
     table.finish()?;
-    Ok(SearchEffort { seed, candidates, refined, evaluations })
+    Ok(SearchEffort { seed, candidates, refined, evaluations, refinement })
 }
 
 /// `from` and `to` of a quantity (SI).

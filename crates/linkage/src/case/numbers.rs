@@ -106,7 +106,7 @@ impl Case {
         }
         plane(&|axis| CaseNumber::Gravity { axis }, self.gravity);
         for (load, own) in self.loads.iter().enumerate() {
-            for (end, at) in places(own).into_iter().flatten().enumerate() {
+            for (end, at) in load_places(own).into_iter().flatten().enumerate() {
                 plane(&|axis| CaseNumber::LoadPlace { load, end, axis }, at.local);
             }
         }
@@ -142,8 +142,9 @@ fn law_numbers(motion: &DriveMotion) -> Vec<f64> {
     }
 }
 
-/// The points on which a load acts.
-fn places(load: &Load) -> Option<Vec<JointSide>> {
+/// The points on which a load acts, in the order of [`CaseNumber::LoadPlace`]. `None` for a load without points.
+#[must_use]
+pub fn load_places(load: &Load) -> Option<Vec<JointSide>> {
     match load {
         Load::Force { at, .. } | Load::ResistingForce { at, .. } => Some(vec![*at]),
         Load::Spring { ends, .. } | Load::Damper { ends, .. } => Some(ends.to_vec()),

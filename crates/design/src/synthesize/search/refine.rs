@@ -86,7 +86,7 @@ pub(super) fn refine(task: &Task, candidate: &Candidate) -> Candidate {
     if let Some(zero) = zero {
         bench.best[zero] = bench.best[zero].rem_euclid(1.0);
     }
-    Candidate { shares: bench.best, cost: bench.cost, ..*candidate }
+    Candidate { shares: bench.best, cost: bench.cost, poses: bench.evaluator.poses, ..*candidate }
 }
 
 /// Evolution strategy with one parent and one child. The better of the two becomes the parent.
@@ -143,14 +143,16 @@ fn approximate(bench: &mut Bench, zero: Option<usize>, evaluations: usize) {
 
 /// A candidate and its cost.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Candidate {
+pub(in crate::synthesize) struct Candidate {
     /// The variables as fractions of the ranges between their bounds: 0 is the lower bound, 1 the upper bound.
-    pub(super) shares: Vec<f64>,
+    pub(in crate::synthesize) shares: Vec<f64>,
     /// Sense of the output that counts as forward: +1 or -1.
-    pub(super) forward: f64,
-    pub(super) cost: f64,
+    pub(in crate::synthesize) forward: f64,
+    pub(in crate::synthesize) cost: f64,
     /// Number of the candidate. Of two candidates with equal cost, the one with the lower number is kept.
-    pub(super) number: usize,
+    pub(in crate::synthesize) number: usize,
+    /// Number of poses that its refinement solved.
+    pub(in crate::synthesize) poses: u64,
 }
 
 /// A number from 0 to 1: the upper 53 bits of a random draw.
@@ -159,23 +161,31 @@ pub(super) fn even(rng: &mut ChaCha8Rng) -> f64 {
 }
 
 /// Values (SI) of variables that are given as fractions of the ranges between their bounds.
-pub(super) fn values(task: &Task, shares: &[f64]) -> Vec<f64> {
+pub(in crate::synthesize) fn values(task: &Task, shares: &[f64]) -> Vec<f64> {
     let value = |(share, variable): (&f64, &Variable)| of_share(*share, variable);
     shares.iter().zip(&task.variables).map(value).collect()
 }
 
 #[inline]
-pub(super) fn of_share(share: f64, variable: &Variable) -> f64 {
+pub(in crate::synthesize) fn of_share(share: f64, variable: &Variable) -> f64 {
     let [low, high] = variable.bounds;
     low + share * (high - low)
 }
 
+/// A value as a fraction of the range between the bounds.
+pub(in crate::synthesize) fn share_of(value: f64, variable: &Variable) -> f64 {
+    let [low, high] = variable.bounds;
+    if high > low { (value - low) / (high - low) } else { 0.0 }
+}
+
 /// The variable that is the crank's zero.
-/// `None` if the zero is fixed, if its bounds do not span a full turn, or if the mechanism has a higher group.
+/// `None` if the zero is fixed, if its bounds do not span a full turn, if the mechanism has a higher group, or if the
+/// task has precision points.
 /// This variable is periodic, because it only shifts the motion along the crank angle.
-pub(super) fn free_zero(task: &Task) -> Option<usize> {
+pub(in crate::synthesize) fn free_zero(task: &Task) -> Option<usize> {
     let TaskNumber::Free(index) = task.zero else { return None };
     let [low, high] = task.variables[index].bounds;
+    let only_shifts = task.points.is_empty();
     let closed_form = task.case.structure.groups.iter().all(|group| group.kind != GroupKind::Higher);
-    (closed_form && (high - low - TAU).abs() < 1e-9).then_some(index)
+    (only_shifts && closed_form && (high - low - TAU).abs() < 1e-9).then_some(index)
 }

@@ -61,6 +61,11 @@ pub struct Timing {
 }
 
 impl Timing {
+    /// The timing of a task that requires precision points only. It has no phases.
+    pub fn without_phases() -> Self {
+        Timing { phases: Vec::new(), levels: None, follow: false }
+    }
+
     /// The timing of these phases.
     ///
     /// # Errors

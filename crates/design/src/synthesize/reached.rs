@@ -1,0 +1,88 @@
+//! Positions of a mechanism at the precision points of its task.
+
+use std::f64::consts::TAU;
+
+use analytic::PoseSolver;
+use linkage::error::Result;
+use linkage::math::{KeepNan, Vec2, extremum};
+use linkage::trajectory::Stage;
+
+use super::evaluate::Evaluator;
+use super::nearest::nearest;
+use crate::synthesize::task::{PrecisionPoint, Task};
+
+/// Rows per turn among which a free crank angle is searched for.
+const ROWS: usize = 720;
+
+/// The position of a mechanism that comes nearest to a precision point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ReachedPoint {
+    /// Crank angle (rad, from crank angle zero in the sense of rotation).
+    pub turn: f64,
+    /// World place of the working point (m); the origin if the output link has no working point.
+    pub place: Vec2,
+    /// Angle of the output link (rad).
+    pub angle: f64,
+    /// Distance from the required place (m). `None` if no place is required.
+    pub distance: Option<f64>,
+    /// Angle minus required angle (rad). `None` if no angle is required.
+    pub turned: Option<f64>,
+}
+
+/// The positions of the mechanism of `task.case` at its precision points.
+/// A free crank angle is the one at which the mechanism comes nearest to the point.
+///
+/// # Errors
+/// The errors of [`PoseSolver::solve_at`].
+pub fn reached(task: &Task) -> Result<Vec<ReachedPoint>> {
+    let (link, working) = task.output.working_point();
+    let local = working.map(|point| task.case.mechanism.links()[link].points[point].local);
+    let mut poses = PoseSolver::new(&task.case)?;
+    let mut position = |turn: f64| -> Result<(Vec2, f64)> {
+        let state = poses.solve_at(task.turning() * turn, Stage::Positions)?;
+        let place = local.map_or(Vec2::zeros(), |local| state.motions[link].point(local));
+        Ok((place, state.angles[link]))
+    };
+    let coarse = coarse(task);
+    let one = |(point, near): (&PrecisionPoint, &f64)| {
+        let apart = |(place, angle): (Vec2, f64)| {
+            task.points.deviations(point, place, angle).iter().map(|own| own * own).sum::<f64>()
+        };
+        let turn = match point.turn {
+            Some(turn) => turn,
+            None => {
+                let turns = [near - TAU / ROWS as f64, *near, near + TAU / ROWS as f64];
+                let mut value = |turn: f64| Ok(-apart(position(turn)?));
+                let samples = turns.iter().map(|&turn| value(turn)).collect::<Result<Vec<f64>>>()?;
+                extremum::greatest(&turns, &samples, &mut value)?.0
+            }
+        };
+        let (place, angle) = position(turn)?;
+        let [.., turned] = task.points.deviations(point, place, angle);
+        Ok(ReachedPoint {
+            turn,
+            place,
+            angle,
+            distance: point.place.map(|wanted| (place - wanted).norm()),
+            turned: point.angle.map(|_| turned),
+        })
+    };
+    task.points.all().iter().zip(&coarse).map(one).collect()
+}
+
+/// Crank angles (rad) of the precision points, among evenly spaced ones.
+fn coarse(task: &Task) -> Vec<f64> {
+    let turns: Vec<f64> = (0..=ROWS).map(|row| TAU * (row as f64 / ROWS as f64)).collect();
+    let as_drawn = Task { places: Vec::new(), ..task.clone() };
+    let mut evaluator = Evaluator::recording(&as_drawn);
+    match evaluator.run(&[], task.case.crank().zero, &turns) {
+        Ok(()) => nearest(task, &evaluator, &turns),
+        Err(_) => task.points.all().iter().map(|point| point.turn.unwrap_or(0.0)).collect(),
+    }
+}
+
+/// Largest distance from a required place (m) and largest deviation of an angle (rad); `None` if none is required.
+pub fn largest_deviations(points: &[ReachedPoint]) -> [Option<f64>; 2] {
+    let largest = |of: &dyn Fn(&ReachedPoint) -> Option<f64>| points.iter().filter_map(of).reduce(f64::larger);
+    [largest(&|point| point.distance), largest(&|point| point.turned.map(f64::abs))]
+}
