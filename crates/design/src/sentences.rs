@@ -412,13 +412,15 @@ linkage::sentences! {
     no_gradients(reason) = "a refinement with exact derivatives is not possible: {reason}";
     A_GROUP_HAS_DRIVEN_JOINTS = "a transmission angle is limited, and a group has driven joints";
     REFINE_BY_EVOLUTION = "write `refinement = \"evolution\"` in the section `search`";
-    ONLY_GRADIENTS_KEEP_LIMITS = "an evolution strategy keeps neither precision points nor limited quantities";
+    ONLY_GRADIENTS_KEEP_LIMITS = "an evolution strategy keeps neither precision points nor limits of quantities, clearance and mass";
     REFINE_BY_GRADIENTS = "write `refinement = \"gradients\"` in the section `search`";
     A_POINT_HAS_NO_POSITION = "a precision point needs both coordinates, an angle, or all three";
     GIVE_X_AND_Y_OR_AN_ANGLE = "write `x_mm` and `y_mm`, `angle_deg`, or all three";
     A_POINT_NEEDS_A_WORKING_POINT = "a precision point has coordinates, but the output link has no working point";
     no_limit_is_called(name) = "the synthesis file has no limit \"{name}\"";
     name_one_of(names) = "name one of: {names}";
+    THE_DRAWING_HAS_NO_OUTLINES = "a clearance is limited, but the drawing has no section `clearance`";
+    ADD_CLEARANCE_TO_THE_DRAWING = "add a section `clearance` with a radius or outlines to the drawing";
     is_no_refinement(word) = "\"{word}\" is not a method of refinement";
     LIMIT_A_CHANNEL = "limit a channel, or an expression of channels";
     A_QUANTITY_HAS_NO_LIMITS = "a limited quantity needs a number `from`, a number `to`, or both in ascending order";

@@ -83,6 +83,13 @@ impl<'a, S: Scalar> Readings<'a, S> {
         }
     }
 
+    /// World coordinates (m) of a position that is given in the frame of a link (m).
+    #[must_use]
+    pub fn world(&self, instant: &Snapshot<S>, link: LinkId, [x, y]: [S; 2]) -> [S; 2] {
+        let place = instant.frames[link].point(Vector { x, y });
+        [place.x, place.y]
+    }
+
     /// The value of a channel in a state; `None` for a channel that the mechanism does not have.
     #[must_use]
     pub fn read(&self, instant: &Snapshot<S>, channel: &Channel) -> Option<S> {

@@ -4,7 +4,7 @@ pub mod outline;
 pub mod question;
 
 use crate::sentences;
-pub use outline::{Flaw, MOST_CORNERS, Outline};
+pub use outline::{Flaw, MOST_CORNERS, Outline, nearest};
 pub use question::{ClearanceBody, ClearanceQuestion};
 
 use super::keys::key::{FileKey, Section, ValueKind, needed, optional};

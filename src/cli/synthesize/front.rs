@@ -11,7 +11,7 @@ use design::synthesize::front::{FrontLimit, front as points};
 use design::synthesize::task_file::TaskFile;
 use linkage::error::{ErrorKind, Result};
 
-use super::search::{Found, found};
+use super::search::{EffortArgs, Found, found};
 
 results! { FrontResults {
     Csv = "the points with their dimensions",
@@ -31,6 +31,8 @@ pub(super) struct Args {
     /// and last value and the number of points
     #[arg(long, value_name = "NAME=FROM:TO:COUNT", value_parser = varied)]
     limit: Varied,
+    #[command(flatten)]
+    effort: EffortArgs,
     /// Threads; the result does not depend on them [default: the number of cores]
     #[arg(long, value_name = "N", default_value = "0", hide_default_value = true)]
     threads: usize,
@@ -58,7 +60,8 @@ fn varied(text: &str) -> Parsed<Varied> {
 }
 
 pub(super) fn front(args: &Args) -> Result<()> {
-    let TaskFile { task, drawing } = TaskFile::load(&args.file)?;
+    let TaskFile { mut task, drawing } = TaskFile::load(&args.file)?;
+    args.effort.apply(&mut task.effort);
     let limit = FrontLimit::named(&args.limit.name, &task)
         .map_err(|error| if error.kind() == ErrorKind::Input { error.key("--limit") } else { error })?;
     let mut bar = progress::Bar::new(&task.name);

@@ -8,7 +8,7 @@ use crate::cli::number::Parsed;
 use crate::cli::outputs::{Made, Outputs, results};
 use crate::cli::{output, progress};
 use crate::report::synthesize::{self as report, Story};
-use design::synthesize::task::{Refinement, Task};
+use design::synthesize::task::{Refinement, SearchEffort, Task};
 use design::synthesize::task_file::TaskFile;
 use design::synthesize::{self, Achieved, SearchResult, redraw};
 use linkage::error::Result;
@@ -20,11 +20,9 @@ results! { SearchResults {
     Svg = "required and achieved motion",
 } }
 
+/// Effort of a search, in place of that in the file.
 #[derive(Debug, clap::Args)]
-pub(super) struct Args {
-    /// Synthesis file
-    #[arg(value_name = "FILE")]
-    file: PathBuf,
+pub(super) struct EffortArgs {
     /// Seed of the random numbers [default: the seed in the file]
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
@@ -40,6 +38,15 @@ pub(super) struct Args {
     /// Evaluations of each refinement; with exact derivatives, its steps [default: the number in the file]
     #[arg(long, value_name = "N")]
     evaluations: Option<usize>,
+}
+
+#[derive(Debug, clap::Args)]
+pub(super) struct Args {
+    /// Synthesis file
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    #[command(flatten)]
+    effort: EffortArgs,
     /// Threads; the result does not depend on them [default: the number of cores]
     #[arg(long, value_name = "N", default_value = "0", hide_default_value = true)]
     threads: usize,
@@ -47,17 +54,23 @@ pub(super) struct Args {
     outputs: Outputs<SearchResults>,
 }
 
+impl EffortArgs {
+    /// Puts the given options into the effort of a task.
+    pub(super) fn apply(&self, effort: &mut SearchEffort) {
+        effort.refinement = self.refinement.unwrap_or(effort.refinement);
+        effort.seed = self.seed.unwrap_or(effort.seed);
+        effort.candidates = self.candidates.unwrap_or(effort.candidates);
+        effort.refined = self.refined.unwrap_or(effort.refined);
+        effort.evaluations = self.evaluations.unwrap_or(effort.evaluations);
+    }
+}
+
 pub(super) fn search(args: &Args) -> Result<()> {
     let TaskFile { mut task, drawing } = TaskFile::load(&args.file)?;
     for to in args.outputs.of(SearchResults::Scenario) {
         [&args.file, &drawing.path].into_iter().try_for_each(|source| is_no_source(to, source))?;
     }
-    let effort = &mut task.effort;
-    effort.refinement = args.refinement.unwrap_or(effort.refinement);
-    effort.seed = args.seed.unwrap_or(effort.seed);
-    effort.candidates = args.candidates.unwrap_or(effort.candidates);
-    effort.refined = args.refined.unwrap_or(effort.refined);
-    effort.evaluations = args.evaluations.unwrap_or(effort.evaluations);
+    args.effort.apply(&mut task.effort);
     let mut bar = progress::Bar::new(&task.name);
     let searched = synthesize::search(&task, args.threads, &mut |part| bar.at(part))?;
     drop(bar);
@@ -102,7 +115,7 @@ fn comment(args: &Args, task: &Task, achieved: &Achieved) -> String {
         &effort.refined,
         &effort.evaluations,
     );
-    let command = args.refinement.map_or(command.clone(), |own| command + " --refinement " + own.name());
+    let command = args.effort.refinement.map_or(command.clone(), |own| command + " --refinement " + own.name());
     sentences::found_by(&command, &report::summary(task, achieved))
 }
 

@@ -62,6 +62,45 @@ fn a_search_is_written_drawn_and_checked() {
     assert!(place.ok("inspect found.toml").contains("RRR"));
 }
 
+/// A path through precision points is found with exact derivatives, written, drawn and proven.
+#[test]
+fn a_path_is_found_written_and_proven() {
+    let place = Place::new();
+    let task = "scenarios/synthesis/path_task.toml --candidates 500 --refined 4";
+    let text = place.ok(&format!("synthesize search {task} -o path.toml -o path.svg -o path.json"));
+    for words in ["refined with exact derivatives", "poses solved", "Largest distance from a precision point"] {
+        assert!(text.contains(words), "{words}: {text}");
+    }
+    let json: Value = serde_json::from_str(&fs::read_to_string(place.path("path.json")).unwrap()).unwrap();
+    let distances: Vec<f64> =
+        json["points"].as_array().unwrap().iter().map(|point| point["distance_m"].as_f64().unwrap()).collect();
+    assert_eq!(distances.len(), 6);
+    assert_within!(distances.iter().copied().fold(0.0, f64::larger), 4e-4);
+    assert!(place.ok("run path.toml --no-record").contains("AGREE"));
+    let svg = fs::read_to_string(place.path("path.svg")).unwrap();
+    assert!(roxmltree::Document::parse(&svg).unwrap().descendants().any(|node| node.text() == Some("x, mm")));
+}
+
+/// A looser limit never gives a larger deviation.
+#[test]
+fn a_front_falls_with_its_limit() {
+    let place = Place::new();
+    let front = "synthesize front scenarios/ov7_drives/eyelet_needle_gradients_task.toml --candidates 300";
+    place.ok(&format!("{front} --limit acceleration_m_s2=150:190:3 -o front.csv -o front.svg -o front.json"));
+    let json: Value = serde_json::from_str(&fs::read_to_string(place.path("front.json")).unwrap()).unwrap();
+    let deviations: Vec<f64> =
+        json["points"].as_array().unwrap().iter().map(|point| point["deviation"].as_f64().unwrap()).collect();
+    assert!(deviations.len() == 3 && deviations.windows(2).all(|pair| pair[1] <= pair[0]), "{deviations:?}");
+    assert!(deviations[0] < 0.055, "{deviations:?}");
+    assert_eq!(fs::read_to_string(place.path("front.csv")).unwrap().lines().count(), 4);
+    place.refused(&format!("{front} --limit speed=1:2:3"), &["has no limit \"speed\"", "acceleration_m_s2"]);
+    place.refused(&format!("{front} --limit acceleration_m_s2=1:2:1"), &["NAME=FROM:TO:COUNT"]);
+    place.refused(
+        "synthesize search scenarios/synthesis/path_task.toml --refinement evolution",
+        &["precision points", "refinement = \"gradients\""],
+    );
+}
+
 #[test]
 fn mistakes_are_reported() {
     let place = Place::new();

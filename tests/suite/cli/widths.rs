@@ -89,6 +89,8 @@ fn lists_helps_and_the_other_commands_fit_80_columns() {
         "synthesize check scenarios/ov7_drives/sinker_task.toml scenarios/ov7_drives/sinker.toml",
         "synthesize check scenarios/ov7_drives/eyelet_needle_task.toml scenarios/ov7_base.toml scenarios/ov7_new.toml scenarios/ov7_drives/eyelet_needle_found.toml",
         "synthesize cyclogram scenarios/ov7_drives/machine.toml",
+        "synthesize search scenarios/synthesis/path_task.toml --candidates 300 --refined 1",
+        "synthesize front scenarios/synthesis/path_task.toml --limit transmission_deg=10:20:2 --candidates 300 --refined 1",
         "mutate scenarios/crank_rocker.toml --no-sizes --kind mass-heaviest",
         "stress speed --quick -o stress",
         "bench scenarios/five_bar.toml --quick --only positions -o bench",

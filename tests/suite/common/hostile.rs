@@ -266,10 +266,12 @@ pub fn attack(seed: u64, index: u64, good: &Good) -> Attack {
             files.push(("machine.toml".into(), machine));
             [
                 "synthesize search task.toml --candidates 500 --refined 1 --evaluations 50 -o out.toml --svg out.svg",
+                "synthesize search task.toml --candidates 300 --refined 1 --evaluations 5 --refinement gradients",
+                "synthesize front task.toml --limit transmission_deg=5:20:2 --candidates 300 --refined 1 --evaluations 5",
                 "synthesize check task.toml sinker.toml",
                 "run rockers_drawing.toml --no-record -q",
                 "synthesize cyclogram machine.toml",
-            ][random.index(4)]
+            ][random.index(6)]
             .into()
         }
         11 => {

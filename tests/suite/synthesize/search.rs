@@ -1,15 +1,15 @@
 //! The search on problems with known solutions.
 
 use std::f64::consts::TAU;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use design::synthesize::crank_rocker::{CrankRocker, CrankRockerSpec};
 use design::synthesize::redraw;
-use design::synthesize::task::{SearchEffort, Task};
+use design::synthesize::task::{Refinement, SearchEffort, Task};
 use design::synthesize::task_file::TaskFile;
 use design::synthesize::{Achieved, search};
 use linkage::ErrorKind;
-use linkage::math::Vec2;
+use linkage::math::{KeepNan, Vec2};
 use scenario::Scenario;
 
 use crate::common::{assert_within, shipped};
@@ -29,6 +29,7 @@ forward = "positive"
 [limits]
 stroke = { from_deg = 32, to_deg = 32 }
 [search]
+refinement = "evolution"
 candidates = 20000
 refined = 2
 evaluations = 20000
@@ -61,17 +62,22 @@ fn task(text: &str) -> TaskFile {
     TaskFile::load(&path).unwrap_or_else(|error| panic!("{error}"))
 }
 
-#[test]
-fn the_search_finds_the_lengths_of_the_closed_form() {
-    let TaskFile { task, .. } = task(TASK);
-    let wish = CrankRockerSpec {
+/// The closed form of the task.
+fn known() -> CrankRocker {
+    CrankRocker::of(CrankRockerSpec {
         crank_pivot: Vec2::zeros(),
         rocker_pivot: Vec2::new(0.15, 0.015),
         rocker: 0.25,
         extreme: 50f64.to_radians(),
         swing: 32f64.to_radians(),
-    };
-    let known = CrankRocker::of(wish).unwrap();
+    })
+    .unwrap()
+}
+
+#[test]
+fn the_search_finds_the_lengths_of_the_closed_form() {
+    let TaskFile { task, .. } = task(TASK);
+    let known = known();
     let found = search(&task, 2, &mut |_| {}).unwrap();
     assert_within!(found.cost, 1e-7, "{found:?}");
     assert!(found.cost < found.random_cost, "{found:?}");
@@ -84,11 +90,53 @@ fn the_search_finds_the_lengths_of_the_closed_form() {
     }
 }
 
+/// With exact derivatives, the same task has the lengths of the closed form to the accuracy of the optimiser.
+#[test]
+fn derivatives_give_the_closed_form_exactly() {
+    let TaskFile { mut task, .. } = task(TASK);
+    task.effort = SearchEffort {
+        candidates: 2000,
+        refined: 4,
+        evaluations: 200,
+        refinement: Refinement::Gradients,
+        ..task.effort
+    };
+    let found = search(&task, 2, &mut |_| {}).unwrap();
+    assert_within!(found.cost, 1e-7, "{found:?}");
+    let known = known();
+    // The crank angle between the extreme positions hardly depends on the lengths, so their error is larger than that of
+    // the motion.
+    for (value, expected) in found.values.iter().zip([known.crank, known.coupler, known.stretched.crank]) {
+        assert_within!((value - expected).abs(), 1e-5, "{found:?} {known:?}");
+    }
+}
+
+/// A path through six points, in the order of the file.
+#[test]
+fn a_path_passes_its_points_in_order() {
+    let top = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/synthesis/path_task.toml");
+    let TaskFile { mut task, drawing } = TaskFile::load(&top).unwrap();
+    task.effort = SearchEffort { candidates: 500, refined: 4, ..task.effort };
+    let found = search(&task, 2, &mut |_| {}).unwrap();
+    assert_within!(found.cost, 0.01, "{found:?}");
+    let values = redraw::round_values(&task, &found.values);
+    let text = redraw::redrawn(&task, &drawing.text, &values, "").unwrap();
+    let case = Scenario::parse(&text, &drawing.path).unwrap().case;
+    let achieved = Achieved::of(&Task { case, ..task.clone() }, found.forward).unwrap();
+    let places = achieved.points.iter().zip(task.points.all());
+    let apart = places.map(|(own, wanted)| (own.place - wanted.place.unwrap()).norm()).fold(0.0, f64::larger);
+    // The points are 25 mm long; both coordinates are within 1 %, and dimensions are rounded to a micrometre.
+    assert_within!(apart, 0.01 * 0.025 * 1.5, "{achieved:?}");
+    assert!(achieved.points.windows(2).all(|pair| pair[0].turn < pair[1].turn), "{:?}", achieved.points);
+    assert!(achieved.transmission.unwrap() > 19.9f64.to_radians());
+}
+
 #[test]
 fn results_depend_on_the_seed_and_not_on_the_threads() {
     let TaskFile { mut task, .. } = task(TASK);
     task.stroke = [0.3, 0.9];
-    task.effort = SearchEffort { seed: 7, candidates: 9000, refined: 5, evaluations: 500 };
+    task.effort =
+        SearchEffort { seed: 7, candidates: 9000, refined: 5, evaluations: 500, refinement: Refinement::Evolution };
     let mut parts = Vec::new();
     let one = search(&task, 1, &mut |part| parts.push(part)).unwrap();
     assert!(
@@ -213,7 +261,8 @@ fn mistakes_in_the_file_are_reported() {
 #[test]
 fn an_unsuccessful_search_is_reported() {
     let TaskFile { mut task, .. } = task(TASK);
-    task.effort = SearchEffort { seed: 1, candidates: 500, refined: 2, evaluations: 10 };
+    task.effort =
+        SearchEffort { seed: 1, candidates: 500, refined: 2, evaluations: 10, refinement: Refinement::Evolution };
     task.transmission = 1.5;
     let error = search(&task, 1, &mut |_| {}).unwrap_err();
     assert!(error.kind() == ErrorKind::Numeric && error.message().contains("none of 500"), "{error}");

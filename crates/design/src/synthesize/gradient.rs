@@ -5,6 +5,7 @@
 //! 1988).
 
 mod dimensions;
+mod gaps;
 mod programme;
 mod rows;
 mod sloped;

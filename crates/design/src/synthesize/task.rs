@@ -15,6 +15,7 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{Vec2, unit};
 use linkage::mechanism::{GroupKind, Handle, LinkId, Mechanism, StartGroup};
 use scenario::Claim;
+use scenario::clearance::ClearanceQuestion;
 
 /// The output quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -122,6 +123,15 @@ impl LimitedQuantity {
     }
 }
 
+/// Smallest permitted distances between links and from the housing.
+#[derive(Clone, Debug)]
+pub struct WantedClearance {
+    /// The bodies with their outlines, and the pairs. A corner of an outline at a point of its link moves with the point.
+    pub question: ClearanceQuestion,
+    /// Smallest permitted distance of every pair (m).
+    pub wanted: f64,
+}
+
 linkage::words! {
     /// Method by which the best random candidates are refined.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -180,8 +190,12 @@ pub struct Task {
     /// Largest permitted acceleration of the working point (m/s^2), at the drawing's crank speed. Infinite if the
     /// acceleration has no limit.
     pub acceleration: f64,
-    /// Further limits. Only a refinement with exact derivatives keeps them.
+    /// Further limits. Only a refinement with exact derivatives keeps them, and the next two.
     pub keep: Vec<LimitedQuantity>,
+    /// Required distances of links. `None` if distances are not limited.
+    pub clearance: Option<WantedClearance>,
+    /// Largest permitted mass of all moving links (kg). Infinite without a limit.
+    pub mass: f64,
     /// Effort of the search.
     pub effort: SearchEffort,
     /// Mass of the links found, per metre of their length (kg/m). `None` if the links keep the masses of the drawing.
@@ -208,7 +222,9 @@ impl Task {
             let message = sentences::THE_MECHANISM_HAS_SEVERAL_DRIVES;
             return wrong(ErrorKind::Unsupported, "scenario", message, sentences::TAKE_A_SCENARIO_WITH_ONE_DRIVE);
         }
-        if self.effort.refinement == Refinement::Evolution && !(self.keep.is_empty() && self.points.is_empty()) {
+        let needs_gradients =
+            !self.keep.is_empty() || !self.points.is_empty() || self.clearance.is_some() || self.mass.is_finite();
+        if self.effort.refinement == Refinement::Evolution && needs_gradients {
             let message = sentences::ONLY_GRADIENTS_KEEP_LIMITS;
             return wrong(ErrorKind::Unsupported, "search", message, sentences::REFINE_BY_GRADIENTS);
         }

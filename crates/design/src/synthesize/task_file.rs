@@ -6,7 +6,7 @@ use std::path::Path;
 
 use crate::synthesize::task::{
     LimitedQuantity, OutputQuantity, Phase, PointPosition, PrecisionPoint, PrecisionPoints, Refinement, SearchEffort,
-    Sense, Task, TaskNumber, Timing, Variable,
+    Sense, Task, TaskNumber, Timing, Variable, WantedClearance,
 };
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{Vec2, unit};
@@ -15,7 +15,7 @@ use scenario::header::{check_format, name};
 use scenario::joints::link;
 use scenario::reader::{Sign, TomlTable};
 use scenario::source::Source;
-use scenario::unit::{ACCELERATION, ANGLE, LENGTH, MASS_PER_LENGTH, UnitFamily};
+use scenario::unit::{ACCELERATION, ANGLE, LENGTH, MASS, MASS_PER_LENGTH, UnitFamily};
 use scenario::words::suggestion;
 use scenario::{Claim, Scenario};
 
@@ -92,7 +92,7 @@ fn read(root: &mut TomlTable) -> Result<TaskFile> {
     let timing = if follow { timing.followed()? } else { timing };
     let (output, forward) = read_output(output, mechanism)?;
     let family = if matches!(output, OutputQuantity::Angle { .. }) { &ANGLE } else { &LENGTH };
-    let Limits { stroke, transmission, acceleration } = read_limits(limits, family)?;
+    let Limits { stroke, transmission, acceleration, clearance, mass } = read_limits(limits, family, &drawing)?;
     let (mut variables, mut places) = (Vec::new(), Vec::new());
     for table in vary {
         let found = place(table, mechanism, &mut variables, &places)?;
@@ -122,6 +122,8 @@ fn read(root: &mut TomlTable) -> Result<TaskFile> {
         transmission,
         acceleration,
         keep,
+        clearance,
+        mass,
         effort: read_effort(effort)?,
         bar,
     };
@@ -220,11 +222,19 @@ struct Limits {
     stroke: [f64; 2],
     transmission: f64,
     acceleration: f64,
+    clearance: Option<WantedClearance>,
+    mass: f64,
 }
 
-/// Limits of the stroke in units of `family`, the smallest transmission angle, and the largest acceleration.
-fn read_limits(table: Option<TomlTable>, family: &'static UnitFamily) -> Result<Limits> {
-    let unlimited = Limits { stroke: [0.0, f64::INFINITY], transmission: 0.0, acceleration: f64::INFINITY };
+/// Limits of the stroke in units of `family`, and all other limits.
+fn read_limits(table: Option<TomlTable>, family: &'static UnitFamily, drawing: &Scenario) -> Result<Limits> {
+    let unlimited = Limits {
+        stroke: [0.0, f64::INFINITY],
+        transmission: 0.0,
+        acceleration: f64::INFINITY,
+        clearance: None,
+        mass: f64::INFINITY,
+    };
     let Some(mut table) = table else { return Ok(unlimited) };
     let transmission = table.optional_quantity("transmission", &ANGLE, Sign::NotNegative)?.unwrap_or(0.0);
     if transmission >= std::f64::consts::FRAC_PI_2 {
@@ -233,11 +243,22 @@ fn read_limits(table: Option<TomlTable>, family: &'static UnitFamily) -> Result<
     }
     let stroke = table.optional_table("stroke")?.map(|stroke| bounds(stroke, family)).transpose()?;
     let acceleration = table.optional_quantity("acceleration", &ACCELERATION, Sign::Positive)?;
+    let mass = table.optional_quantity("mass", &MASS, Sign::Positive)?;
+    let clearance = match (table.optional_quantity("clearance", &LENGTH, Sign::NotNegative)?, &drawing.clearance) {
+        (None, _) => None,
+        (Some(wanted), Some(question)) => Some(WantedClearance { question: question.clone(), wanted }),
+        (Some(_), None) => {
+            let message = sentences::THE_DRAWING_HAS_NO_OUTLINES;
+            return table.refuse("clearance", message, sentences::ADD_CLEARANCE_TO_THE_DRAWING);
+        }
+    };
     table.finish()?;
     Ok(Limits {
         stroke: stroke.unwrap_or(unlimited.stroke),
         transmission,
         acceleration: acceleration.unwrap_or(unlimited.acceleration),
+        clearance,
+        mass: mass.unwrap_or(unlimited.mass),
     })
 }
 

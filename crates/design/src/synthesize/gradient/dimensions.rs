@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use linkage::case::{Case, CaseNumber, load_places};
 use linkage::error::Result;
 use linkage::math::Vec2;
-use linkage::mechanism::{GROUND, LinkId};
+use linkage::mechanism::{GROUND, Link, LinkId};
 use precise::{CaseNumbers, Dual, Scalar};
 
 use crate::synthesize::bars::BarMass;
@@ -52,6 +52,15 @@ impl<'a, const N: usize> Dimensions<'a, N> {
         self.numbers[&number]
     }
 
+    /// Mass of all moving links (kg).
+    pub(super) fn mass(&self) -> Dual<f64, N> {
+        let mass = |(link, body): (LinkId, &Link)| {
+            self.numbers.get(&CaseNumber::Mass(link)).copied().unwrap_or(Dual::of(body.mass))
+        };
+        let moving = self.task.case.mechanism.links().entries().filter(|(link, _)| *link != GROUND);
+        moving.map(mass).fold(Dual::ZERO, |sum, mass| sum + mass)
+    }
+
     fn number(&self, number: TaskNumber) -> Dual<f64, N> {
         match number {
             TaskNumber::Fixed(value) => Dual::of(value),
@@ -60,7 +69,7 @@ impl<'a, const N: usize> Dimensions<'a, N> {
     }
 
     /// A point of a link in its frame (m).
-    fn local(&self, link: LinkId, point: usize) -> [Dual<f64, N>; 2] {
+    pub(super) fn local(&self, link: LinkId, point: usize) -> [Dual<f64, N>; 2] {
         let drawn = self.task.case.mechanism.links()[link].points[point].local;
         let number = |axis: usize| self.numbers.get(&CaseNumber::Point { link, point, axis }).copied();
         [0, 1].map(|axis| number(axis).unwrap_or(Dual::of(drawn[axis])))

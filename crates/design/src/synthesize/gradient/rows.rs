@@ -13,6 +13,7 @@ use linkage::trajectory::Channel;
 use precise::{Dual, Readings, Scalar, Whole};
 
 use super::dimensions::Dimensions;
+use super::gaps::Gaps;
 use super::sloped::Sloped;
 use crate::sensitivity::Quantity;
 use crate::synthesize::evaluate::Evaluator;
@@ -44,6 +45,8 @@ pub(super) struct Row {
     pub(super) sines: Vec<Sloped>,
     /// The limited quantities of the task, in their units.
     pub(super) kept: Vec<Sloped>,
+    /// Distances of all pairs of bodies (m). Empty without a limit.
+    pub(super) gaps: Vec<Sloped>,
 }
 
 /// Position of the output link at one crank angle.
@@ -62,6 +65,8 @@ pub(super) struct Sampled {
     pub(super) rows: Vec<Row>,
     /// At the crank angles of the precision points.
     pub(super) poses: Vec<PoseRow>,
+    /// Mass of all moving links (kg).
+    pub(super) mass: Sloped,
 }
 
 /// Channels whose sum, with factors, is a quantity.
@@ -78,6 +83,7 @@ pub(super) struct Rows<'a> {
     acceleration: Vec<Channel>,
     groups: Vec<&'a Group>,
     kept: Vec<Quantity>,
+    gaps: Option<Gaps>,
     /// Place of the working point and angle of the output link, and their rates.
     pose: [Terms; 3],
     pose_rates: [Terms; 3],
@@ -132,6 +138,7 @@ impl<'a> Rows<'a> {
             acceleration,
             groups: task.case.structure.groups.iter().filter(|_| is_limited).collect(),
             kept: task.keep.iter().filter_map(|keep| Quantity::of(&keep.claim)).collect(),
+            gaps: task.clearance.as_ref().map(|own| Gaps::of(&own.question, &task.case)),
             evaluator: Evaluator::recording(task),
             task,
             case,
@@ -186,14 +193,18 @@ impl<'a> Rows<'a> {
         turns: &[f64],
         sorted: &[usize],
     ) -> Option<Sampled> {
-        let numbers = Dimensions::<N>::of(self.task, shares, first).lifted(&self.case).ok()?;
+        let dimensions = Dimensions::<N>::of(self.task, shares, first);
+        let numbers = dimensions.lifted(&self.case).ok()?;
         let readings = Readings::of(Whole::new(&self.case, &numbers));
         let crank = self.case.crank();
         let (sense, speed) = (crank.sense(), crank.top_speed().abs());
         let mut angles: Vec<f64> = vec![0.0; self.case.mechanism.links().len()];
         let frame = self.turns.len();
-        let mut found =
-            Sampled { rows: Vec::with_capacity(frame), poses: vec![PoseRow::default(); turns.len() - frame] };
+        let mut found = Sampled {
+            rows: Vec::with_capacity(frame),
+            poses: vec![PoseRow::default(); turns.len() - frame],
+            mass: sloped(dimensions.mass()),
+        };
         for (&row, motions) in sorted.iter().zip(&self.evaluator.recorded) {
             follow(&mut angles, motions);
             let time = (turns[row] - sense * crank.start) / speed;
@@ -219,6 +230,7 @@ impl<'a> Rows<'a> {
                 acceleration: (!self.acceleration.is_empty()).then(|| sloped(squared / Dual::of(limit))),
                 sines: self.groups.iter().filter_map(sine).map(sloped).collect(),
                 kept: self.kept.iter_mut().map(|own| sloped(own.at(&readings, &state))).collect(),
+                gaps: self.gaps.iter().flat_map(|own| own.at(&dimensions, &readings, &state)).map(sloped).collect(),
             });
         }
         self.poses += turns.len() as u64;
@@ -229,14 +241,15 @@ impl<'a> Rows<'a> {
 impl Sampled {
     /// All quantities with derivatives.
     fn all(&mut self) -> impl Iterator<Item = &mut Sloped> {
-        self.rows.iter_mut().flat_map(Row::all).chain(self.poses.iter_mut().flat_map(|pose| &mut pose.values))
+        let poses = self.poses.iter_mut().flat_map(|pose| &mut pose.values);
+        self.rows.iter_mut().flat_map(Row::all).chain(poses).chain([&mut self.mass])
     }
 }
 
 impl Row {
     fn all(&mut self) -> impl Iterator<Item = &mut Sloped> {
-        let Row { output, rate, acceleration, sines, kept } = self;
-        [output, rate].into_iter().chain(acceleration).chain(sines).chain(kept)
+        let Row { output, rate, acceleration, sines, kept, gaps } = self;
+        [output, rate].into_iter().chain(acceleration).chain(sines).chain(kept).chain(gaps)
     }
 }
 

@@ -1,15 +1,18 @@
 //! Derivatives of all constraints, compared with differences; searches with known solutions.
 
+use super::rows::Row;
 use super::*;
+use crate::synthesize::search::share_of;
 use crate::synthesize::task::{
     LimitedQuantity, OutputQuantity, Phase, PointPosition, PrecisionPoint, PrecisionPoints, Refinement, SearchEffort,
-    Sense, TaskNumber, Timing, Variable,
+    Sense, TaskNumber, Timing, Variable, WantedClearance,
 };
 use crate::synthesize::{reached, search};
 use linkage::case::Case;
 use linkage::math::Vec2;
 use linkage::mechanism::{AssemblyMode, LinkId};
 use scenario::Claim;
+use scenario::clearance::{ClearanceBody, ClearanceQuestion, Outline};
 
 /// A crank-rocker with a coupler point, a weight of the coupler and a spring to it.
 fn case() -> Case {
@@ -55,6 +58,8 @@ fn task(points: Vec<PrecisionPoint>, phases: Vec<Phase>) -> Task {
         name: "found".into(),
         title: "Found".into(),
         keep: vec![keep("joint.B.f_N", [0.0, 2000.0]), keep("point.P.x_mm - 3", [-900.0, f64::INFINITY])],
+        clearance: None,
+        mass: f64::INFINITY,
         starts: Vec::new(),
         places,
         zero,
@@ -88,6 +93,24 @@ fn two_points() -> Vec<PrecisionPoint> {
     ]
 }
 
+/// Bars along all links, and a housing below the crank.
+fn outlines(case: &Case) -> ClearanceQuestion {
+    let body =
+        |name: &str, link: usize, outline: Outline| ClearanceBody { name: name.into(), link: LinkId(link), outline };
+    let of_points = |link: usize| {
+        let points: Vec<Vec2> = case.mechanism.links()[LinkId(link)].points.iter().map(|point| point.local).collect();
+        Outline::of_points(&points, 0.01).unwrap()
+    };
+    let wall = [Vec2::new(-0.2, -0.2), Vec2::new(0.5, -0.25), Vec2::new(0.1, -0.3)];
+    let bodies = vec![
+        body("crank", 1, of_points(1)),
+        body("coupler", 2, of_points(2)),
+        body("rocker", 3, of_points(3)),
+        body("wall", 0, Outline::polygon(&wall, 0.0).unwrap()),
+    ];
+    ClearanceQuestion { bodies, pairs: vec![[0, 2], [0, 3], [1, 3]], wanted: None, tolerance: None, area: 5e-3 }
+}
+
 fn phases() -> Vec<Phase> {
     let phase = |from: f64, to: f64, sense| Phase {
         from: from.to_radians(),
@@ -101,7 +124,9 @@ fn phases() -> Vec<Phase> {
 
 #[test]
 fn derivatives_equal_differences() {
-    let task = task(two_points(), phases());
+    let mut task = task(two_points(), phases());
+    task.mass = 2.0;
+    task.clearance = Some(WantedClearance { question: outlines(&task.case), wanted: 0.02 });
     let frame = Rater::fitted(&task.timing, 0.2);
     let wishes = Wishes::of(&task, 1.0, &frame);
     let mut rows = Rows::new(&task, frame.turns.clone()).unwrap();
@@ -150,29 +175,35 @@ fn a_known_path_is_found() {
     assert!(found.random_cost > 1e-3 && found.poses[1] > 0);
 }
 
+/// The largest value of a quantity over half a degree of rows.
+fn largest(task: &Task, values: &[f64], of: impl Fn(&Row) -> f64) -> f64 {
+    let mut rows = Rows::new(task, Rater::even(&task.timing, 720).turns.clone()).unwrap();
+    let shares: Vec<f64> = values.iter().zip(&task.variables).map(|(value, own)| share_of(*value, own)).collect();
+    rows.at(&shares, &[], Order::Values).unwrap().rows.iter().map(of).fold(f64::NEG_INFINITY, f64::larger)
+}
+
 #[test]
 fn limits_are_kept() {
     let mut task = task(Vec::new(), phases());
     task.keep.truncate(1);
+    // A wide clearance is no limit, but the distances are computed.
+    task.clearance = Some(WantedClearance { question: outlines(&task.case), wanted: -1.0 });
     let free = search(&task, 2, &mut |_| {}).unwrap();
-    let force = |values: &[f64]| {
-        let frame = Rater::even(&task.timing, 720);
-        let mut rows = Rows::new(&task, frame.turns.clone()).unwrap();
-        let shares: Vec<f64> = values
-            .iter()
-            .zip(&task.variables)
-            .map(|(value, own)| crate::synthesize::search::share_of(*value, own))
-            .collect();
-        let found = rows.at(&shares, &[], Order::Values).unwrap();
-        found.rows.iter().map(|row| row.kept[0].value).fold(0.0, f64::larger)
-    };
-    let most = force(&free.values);
-    let tighter =
-        Task { keep: vec![LimitedQuantity { bounds: [0.0, 0.9 * most], ..task.keep[0].clone() }], ..task.clone() };
-    let limited = search(&tighter, 2, &mut |_| {}).unwrap();
-    // The limit holds in the rows of the programme; between them the force is larger by a curvature of 3 degrees.
-    assert!(force(&limited.values) < 0.902 * most, "{most} {}", force(&limited.values));
-    assert!(limited.cost > free.cost, "{} {}", limited.cost, free.cost);
+    let force = |values: &[f64]| largest(&task, values, |row| row.kept[0].value);
+    let gap =
+        |values: &[f64]| -largest(&task, values, |row| -row.gaps.iter().map(|own| own.value).fold(1.0, f64::smaller));
+    let (most, least) = (force(&free.values), gap(&free.values));
+    let limited = |task: Task| search(&task, 2, &mut |_| {}).unwrap();
+    let quieter = limited(Task {
+        keep: vec![LimitedQuantity { bounds: [0.0, 0.9 * most], ..task.keep[0].clone() }],
+        ..task.clone()
+    });
+    // The limits hold in the rows of the programme; between these rows, 3 degrees apart, curvature adds a little.
+    assert!(force(&quieter.values) < 0.902 * most && quieter.cost > free.cost, "{most} {}", force(&quieter.values));
+    let wanted = least + 0.01;
+    let wider =
+        limited(Task { clearance: Some(WantedClearance { question: outlines(&task.case), wanted }), ..task.clone() });
+    assert!(gap(&wider.values) > wanted - 1e-4 && wider.cost >= free.cost, "{least} {}", gap(&wider.values));
 }
 
 #[test]

@@ -11,7 +11,7 @@
 //! - Known levels: u differs by at most h, and also over the whole turn if it must follow a curve.
 //! - Precision points: their coordinates, divided by the extent of all points, and their angles differ by at most h.
 //!   Free crank angles ascend.
-//! - Stroke, acceleration, transmission angles and limited quantities stay within their limits.
+//! - Stroke, acceleration, transmission angles, distances, mass and limited quantities stay within their limits.
 
 use super::rows::{PoseRow, Row, Sampled};
 use super::sloped::Sloped;
@@ -175,7 +175,7 @@ impl<'a> Wishes<'a> {
             all.within(&share.scaled(1.0, -wanted), None, 1.0);
         }
         self.reach(&mut all, &found.poses);
-        limits(&mut all, self.task, &found.rows, &output);
+        limits(&mut all, self.task, found, &output);
         all.found
     }
 
@@ -216,7 +216,7 @@ fn moving(all: &mut Collected, output: &Output, phase: &Phase, [from, to]: [usiz
 }
 
 /// The constraints of all limits.
-fn limits(all: &mut Collected, task: &Task, rows: &[Row], output: &Output) {
+fn limits(all: &mut Collected, task: &Task, found: &Sampled, output: &Output) {
     let [least, most] = task.stroke;
     if least > 0.0 {
         all.add(output.stroke.scaled(-1.0 / least, 1.0), &[]);
@@ -224,8 +224,14 @@ fn limits(all: &mut Collected, task: &Task, rows: &[Row], output: &Output) {
     if most.is_finite() {
         all.add(output.stroke.scaled(1.0 / most, -1.0), &[]);
     }
+    if task.mass.is_finite() {
+        all.add(found.mass.scaled(1.0 / task.mass, -1.0), &[]);
+    }
     let flat = task.transmission.sin().powi(2);
-    for row in rows {
+    let size = task.case.mechanism.size();
+    for row in &found.rows {
+        let wanted = task.clearance.as_ref().map_or(0.0, |own| own.wanted);
+        row.gaps.iter().for_each(|gap| all.add(gap.scaled(-1.0 / size, wanted / size), &[]));
         row.acceleration.iter().for_each(|square| all.add(square.scaled(0.5, -0.5), &[]));
         row.sines.iter().for_each(|sine| all.add(sine.scaled(-1.0, flat), &[]));
         for (kept, keep) in row.kept.iter().zip(&task.keep) {
