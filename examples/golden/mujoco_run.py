@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Simulates a mechanism of the set of truths in MuJoCo: python mujoco_run.py golden/crank_rocker STEP RESULT.csv
 
-The result is at the instants of the truth; the step is shortened so that it divides their interval. It has the angle, the angular velocity, and the place and velocity of the mass centre of every link, and the forces
-of the joints that close loops. `check.py` of the set compares it with the truth. Needs mujoco and numpy."""
+The result is at the instants of the truth; the step is shortened so that it divides their interval. It has the angle, the
+angular velocity, and the place and velocity of the mass centre of every link, and the forces of the joints that close
+loops. `check.py` of the set compares it with the truth. Needs mujoco and numpy."""
 import csv
 import math
 import sys

@@ -52,9 +52,15 @@ fn loads_are_left_out_on_request() {
     let place = Place::new();
     let message = "a load of type \"moment\" cannot be written to SDF";
     place.refused("export scenarios/four_bar_relative.toml -o -.sdf", &[message, "--no-loads"]);
+    // The header says so, but not of a scenario without loads.
     for ending in ["xml", "sdf", "urdf", "usda"] {
-        place.ok(&format!("export scenarios/four_bar_relative.toml --no-loads -o -.{ending}"));
+        for (scenario, notes) in [("four_bar_relative", 1), ("quick_return", 0)] {
+            let text = place.ok(&format!("export scenarios/{scenario}.toml --no-loads -o -.{ending}"));
+            assert_eq!(text.matches(" without the loads of the scenario; SI units").count(), notes, "{text}");
+        }
     }
+    let text = place.ok("export scenarios/crank_rocker.toml --no-loads -o -.urdf --mimic 3");
+    assert!(text.contains(" without the loads of the scenario;"), "{text}");
 }
 
 #[test]
