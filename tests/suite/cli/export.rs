@@ -64,6 +64,22 @@ fn loads_are_left_out_on_request() {
 }
 
 #[test]
+fn a_model_starts_in_another_pose_with_another_mass() {
+    let place = Place::new();
+    let changed = "--start-crank-deg 70 --set links.crank.mass_kg=9";
+    let text = place.ok(&format!("export scenarios/crank_rocker.toml {changed} -o -.json"));
+    let case: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let link = |name: &str| case["links"].as_array().unwrap().iter().find(|link| link["name"] == name).unwrap();
+    let angle = |name: &str| link(name)["start"]["angle_rad"].as_f64().unwrap();
+    assert_eq!(link("crank")["mass_kg"], 9.0);
+    let solved = place.ok("solve scenarios/crank_rocker.toml --crank-deg 70 --only positions");
+    let rows: Vec<Vec<&str>> = solved.lines().map(|line| line.split(',').collect()).collect();
+    let column = rows[0].iter().position(|name| *name == "link.rocker.angle_rad").unwrap();
+    assert_within!((angle("crank") - 70_f64.to_radians()).abs(), 1e-12);
+    assert_within!((angle("rocker") - rows[1][column].parse::<f64>().unwrap()).abs(), 1e-12);
+}
+
+#[test]
 fn relations_belong_to_urdf() {
     let place = Place::new();
     let text = place.ok("export scenarios/crank_rocker.toml -o -.urdf --mimic 1");
