@@ -1,18 +1,17 @@
 #!/usr/bin/env python3
 """Simulates a mechanism of the set of truths in MuJoCo: python mujoco_run.py golden/crank_rocker STEP RESULT.csv
 
-The result has the angle, the angular velocity, and the place and velocity of the mass centre of every link, and the forces
-of the joints that close loops. `check.py` of the set compares it with the truth. Needs mujoco and numpy."""
+The result is at the instants of the truth; the step is shortened so that it divides their interval. It has the angle, the
+angular velocity, and the place and velocity of the mass centre of every link, and the forces of the joints that close
+loops. `check.py` of the set compares it with the truth. Needs mujoco and numpy."""
 import csv
+import math
 import sys
 import tomllib
 from pathlib import Path
 
 import mujoco
 import numpy as np
-
-# Number of instants of the result.
-ROWS = 240
 
 
 def state(model, data, links, loops):
@@ -37,16 +36,16 @@ def main(directory, step, result):
         times = [float(row["t_s"]) for row in csv.DictReader(file)]
     model = mujoco.MjModel.from_xml_path(str(place / f"{place.name}.xml"))
     loops = [model.equality(k).name for k in range(model.neq) if model.eq_type[k] == mujoco.mjtEq.mjEQ_CONNECT]
-    steps = round((max(times) - min(times)) / float(step))
-    model.opt.timestep = (max(times) - min(times)) / steps
+    # Steps in an interval of the truth.
+    parts = math.ceil((times[1] - times[0]) / float(step) - 1e-6)
+    model.opt.timestep = (times[1] - times[0]) / parts
     data = mujoco.MjData(model)
     mujoco.mj_resetDataKeyframe(model, data, model.key("start").id)
     rows = []
-    for k in range(steps + 1):
-        if k % max(steps // ROWS, 1) == 0:
-            mujoco.mj_forward(model, data)
-            rows.append(state(model, data, links, loops))
-        mujoco.mj_step(model, data)
+    for _ in times:
+        mujoco.mj_forward(model, data)
+        rows.append(state(model, data, links, loops))
+        mujoco.mj_step(model, data, parts)
     names = ["angle_rad", "omega_rad_s", "x_m", "y_m", "vx_m_s", "vy_m_s"]
     head = ["t_s", *[f"link.{link}.{name}" for link in links for name in names],
             *[f"joint.{loop}.{name}" for loop in loops for name in ("fx_N", "fy_N")]]

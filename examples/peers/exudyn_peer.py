@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Exudyn as a peer of `linkproof bench`: plane rigid bodies and revolute joints (pip install exudyn numpy).
+"""Exudyn as a peer of `linkproof bench`: plane rigid bodies, revolute and prismatic joints, gears (pip install exudyn numpy).
 
     linkproof bench scenarios/crank_rocker.toml -o bench --peer exudyn='python3 examples/peers/exudyn_peer.py'
 
@@ -22,6 +22,8 @@ SETTINGS = {
     "alpha, radius 0.5, full Newton": dict(spectralRadius=0.5),
     "Newmark, index 2": dict(useNewmark=True, useIndex2Constraints=True),
 }
+# Loads beside those that are constant.
+LOADS = ("resistance", "spring", "damper", "torsion_spring", "torsion_damper")
 # Numbers of steps in an interval of the grid.
 PARTS = (1, 2, 4, 8, 16)
 REPEATS = 3
@@ -32,26 +34,28 @@ KINDS = exudyn.OutputVariableType
 
 def check(case):
     """Refuses cases that this peer cannot model."""
-    for joint in case.joints:
-        if joint["type"] != "revolute":
-            raise Refused(f"joint {joint['name']} is {joint['type']}: this peer has revolute joints only")
-    for link in case.moving:
-        if not (link["mass_kg"] > 0.0 and link["inertia_kg_m2"] > 0.0):
-            raise Refused(f"link {link['name']} has no mass or no inertia")
+    for transmission in case.data["transmissions"]:
+        if transmission["ratio"] is None or transmission["type"] != "gears" or transmission["efficiency"] != [1.0, 1.0]:
+            raise Refused(f"transmission {transmission['name']}: this peer has gears without losses only")
     for load in case.loads:
-        if load["type"] not in ("resistance", "spring", "damper", "torsion_damper") and not constant(load):
+        if load["type"] not in LOADS and not constant(load):
             raise Refused(f"this peer has no load of type {load['type']}")
     for drive in case.drives:
         motor = drive["motion"].get("motor")
         if drive["motion"]["law"] not in ("constant", "ramp", "cycloidal", "free"):
             raise Refused(f"this peer has no law {drive['motion']['law']}")
+        if motor and "start_m" in drive:
+            raise Refused("this peer has motors of turning links only")
         if motor and (motor["torque"]["law"] not in ("constant", "linear") or motor["efficiency"] < 1.0):
             raise Refused("this peer has motors without losses whose law is a straight line")
     return case.uniform()
 
 
 def constant(load):
-    return load["type"] == "moment" and load["acts"] == "always" and isinstance(load["moment_N_m"], float)
+    """Whether a load is a constant moment, or a force that is constant in the world."""
+    if load["type"] == "moment":
+        return load["acts"] == "always" and isinstance(load["moment_N_m"], float)
+    return load["type"] == "force" and not load["follows"] and all(isinstance(part, float) for part in load["force_N"])
 
 
 def ways(request, case):
@@ -62,14 +66,15 @@ def ways(request, case):
 
 
 def law(motion, t):
-    """Rotation from the start, and speed, of a prescribed drive at a time."""
+    """Rotation or slide from the start, and speed, of a prescribed drive at a time."""
+    named = lambda name: next(value for key, value in motion.items() if key.startswith(name))
     if motion["law"] == "constant":
-        return motion["speed_rad_s"] * t, motion["speed_rad_s"]
+        return named("speed") * t, named("speed")
     time, s = motion["time_s"], t / motion["time_s"]
     if motion["law"] == "ramp":
-        speed = motion["speed_rad_s"]
+        speed = named("speed")
         return (speed * t * s / 2, speed * s) if t < time else (speed * (t - time / 2), speed)
-    rise = motion["rise_rad"]
+    rise = named("rise")
     return rise * (s - math.sin(2 * math.pi * s) / (2 * math.pi)), rise / time * (1 - math.cos(2 * math.pi * s))
 
 
@@ -101,22 +106,25 @@ class Model:
                 exu.ObjectRigidBody2D(mass=link["mass_kg"], inertia=inertia, nodeNumber=self.nodes[name]))
             centre = system.AddMarker(exu.MarkerBodyPosition(bodyNumber=self.bodies[name]))
             system.AddLoad(exu.Force(markerNumber=centre, loadVector=[*(case.gravity * link["mass_kg"]), 0]))
-        self.still = system.AddMarker(
-            exu.MarkerNodeCoordinate(nodeNumber=system.AddNode(exu.NodePointGround()), coordinate=0))
-        self.joints = {}
-        for joint in case.joints:
-            pair = [self.place(joint[side]) for side in ("first", "second")]
-            self.joints[joint["name"]] = system.AddObject(exu.RevoluteJoint2D(markerNumbers=pair))
+        still = system.AddNode(exu.NodePointGround())
+        self.still = system.AddMarker(exu.MarkerNodeCoordinate(nodeNumber=still, coordinate=0))
+        self.nothing = system.AddMarker(exu.MarkerNodeCoordinates(nodeNumber=still))
+        self.joints = {joint["name"]: self.joint(joint) for joint in case.joints}
         self.constraints = [self.drive(drive) for drive in case.drives]
+        for transmission in case.data["transmissions"]:
+            self.gears(transmission)
         for load in case.loads:
             self.load(load)
         sensor = lambda **of: system.AddSensor(exu.SensorNode(storeInternal=True, **of))
         kinds = (KINDS.Coordinates, KINDS.Coordinates_t, KINDS.Coordinates_tt)
         self.motion = {name: [sensor(nodeNumber=node, outputVariableType=kind) for kind in kinds]
                        for name, node in self.nodes.items()}
-        force = lambda number: system.AddSensor(
-            exu.SensorObject(objectNumber=number, storeInternal=True, outputVariableType=KINDS.Force))
-        self.forces = {name: force(number) for name, number in self.joints.items()}
+        force = lambda number, kind=KINDS.Force: system.AddSensor(
+            exu.SensorObject(objectNumber=number, storeInternal=True, outputVariableType=kind))
+        slides = {joint["name"] for joint in case.joints if joint["axes"]}
+        self.forces = {name: force(number, KINDS.ForceLocal if name in slides else KINDS.Force)
+                       for name, number in self.joints.items()}
+        self.moments = {name: force(self.joints[name], KINDS.TorqueLocal) for name in slides}
         self.torques = [None if number is None else force(number) for number in self.constraints]
         system.Assemble()
 
@@ -125,10 +133,47 @@ class Model:
         c, s = math.cos(angle), math.sin(angle)
         return np.array([c * local[0] - s * local[1], s * local[0] + c * local[1]])
 
-    def place(self, side):
+    def place(self, side, axis=None):
+        """A point of a link, or a frame with x along an axis of the link."""
         link = self.case.links[side["link"]]
         local = np.array(side["at_m"]) - (0 if side["link"] == "ground" else np.array(link["mass_centre_m"]))
-        return self.system.AddMarker(exu.MarkerBodyPosition(bodyNumber=self.bodies[side["link"]], localPosition=[*local, 0]))
+        of = dict(bodyNumber=self.bodies[side["link"]])
+        if axis is None:
+            return self.system.AddMarker(exu.MarkerBodyPosition(localPosition=[*local, 0], **of))
+        (x, y), at = axis, [*local, 0]
+        frame = exudyn.HT(rotation=[[x, -y, 0], [y, x, 0], [0, 0, 1]], translation=at)
+        return self.system.AddMarker(exu.MarkerBodyRigid(localHT=frame, **of))
+
+    def joint(self, joint):
+        sides, axes = (joint["first"], joint["second"]), joint["axes"]
+        pair = [self.place(side, axes and axes[k]) for k, side in enumerate(sides)]
+        if not axes:
+            return self.system.AddObject(exu.RevoluteJoint2D(markerNumbers=pair))
+        # The generic joint, unlike the plane one, has a sensor of its moment, and its slide can be prescribed.
+        driven = (drive for drive in self.case.drives if drive["joint"] == joint["name"] and drive["motion"]["law"] != "free")
+        drive = next(driven, None)
+        if not drive:
+            return self.system.AddObject(exu.GenericJoint(markerNumbers=pair, constrainedAxes=[0, 1, 0, 0, 0, 1]))
+        offset = lambda part, begun: lambda mbs, t, item, given: [begun + law(drive["motion"], t)[part], 0, 0, 0, 0, 0]
+        return self.system.AddObject(exu.GenericJoint(
+            markerNumbers=pair, constrainedAxes=[1, 1, 0, 0, 0, 1],
+            offsetUserFunction=offset(0, drive["start_m"]), offsetUserFunction_t=offset(1, 0.0)))
+
+    def gears(self, transmission):
+        """Relative to the carrier, the second link turns `ratio` times as far as the first."""
+        (first, second), ratio = transmission["links"], transmission["ratio"]
+        factors = {first: ratio, second: -1.0}
+        factors[transmission["carrier"]] = factors.get(transmission["carrier"], 0.0) + 1.0 - ratio
+        factors.pop("ground", None)
+        # An object without mass bundles the coordinates of the links.
+        size = 3 * len(factors)
+        bundle = self.system.AddObject(exu.ObjectGenericODE2(
+            nodeNumbers=[self.nodes[link] for link in factors], massMatrix=np.zeros((size, size))))
+        row = np.array([[0.0, 0.0, factor] for factor in factors.values()]).reshape(1, size)
+        begun = sum(factor * self.reference[link][2] for link, factor in factors.items())
+        self.system.AddObject(exu.CoordinateVectorConstraint(
+            markerNumbers=[self.nothing, self.system.AddMarker(exu.MarkerObjectODE2Coordinates(objectNumber=bundle))],
+            scalingMarker1=row, offset=[begun]))
 
     def angle(self, link):
         if link == "ground":
@@ -136,8 +181,10 @@ class Model:
         return self.system.AddMarker(exu.MarkerNodeCoordinate(nodeNumber=self.nodes[link], coordinate=2))
 
     def drive(self, drive):
-        """The constraint of a prescribed drive; None for a motor."""
+        """The constraint of a prescribed angle; None for a motor, and for a slide, which its joint prescribes."""
         pair, motion = [self.still, self.angle(drive["link"])], drive["motion"]
+        if "start_m" in drive:
+            return None
         if motion["law"] != "free":
             return self.system.AddObject(exu.CoordinateConstraint(
                 markerNumbers=pair, offsetUserFunction=lambda mbs, t, item, offset: law(motion, t)[0],
@@ -163,11 +210,16 @@ class Model:
             system.AddObject(exu.CoordinateSpringDamperExt(
                 markerNumbers=[self.still, self.angle(load["link"])], dynamicFrictionForce=load["moment_N_m"],
                 frictionProportionalZone=ZONE))
+        elif load["type"] == "force":
+            system.AddLoad(exu.Force(markerNumber=self.place(load["at"]), loadVector=[*load["force_N"], 0]))
         elif load["type"] == "moment":
             system.AddLoad(exu.LoadCoordinate(markerNumber=self.angle(load["link"]), load=load["moment_N_m"]))
-        elif load["type"] == "torsion_damper":
+        elif load["type"].startswith("torsion"):
+            # The coordinates are rotations from the start.
+            one, two = (self.reference.get(link, np.zeros(3))[2] for link in load["links"])
             system.AddObject(exu.CoordinateSpringDamper(
-                markerNumbers=[self.angle(link) for link in load["links"]], damping=load["damping_N_m_s_rad"]))
+                markerNumbers=[self.angle(link) for link in load["links"]], stiffness=load.get("stiffness_N_m_rad", 0.0),
+                damping=load.get("damping_N_m_s_rad", 0.0), offset=load.get("free_angle_rad", 0.0) - (two - one)))
         else:
             spring = dict(stiffness=load["stiffness_N_m"], referenceLength=load["free_length_m"]) if (
                 load["type"] == "spring") else dict(stiffness=0.0, damping=load["damping_N_s_m"], referenceLength=1.0)
@@ -214,6 +266,11 @@ def solve(request, case, way):
         seconds.append(taken)
         if sum(seconds) > 0.5:
             break
+    return motion_of(case, model), seconds, {"steps": steps}
+
+
+def motion_of(case, model):
+    """The motion and the forces at the instants of the case, after a run."""
     motion = Motion({}, {}, {}, {}, {}, {})
     for link in case.moving:
         name = link["name"]
@@ -228,15 +285,31 @@ def solve(request, case, way):
         motion.velocity[name] = speed[:, :2] - across * speed[:, 2:]
         motion.acceleration[name] = rate[:, :2] - across * rate[:, 2:] + arm * speed[:, 2:] ** 2
     if "reactions" in case.stages:
-        # Exudyn gives the force of the second marker on the first; `linkproof` expects the force of the first link on
-        # the second.
-        motion.force = {name: -model.read(sensor)[:, :2] for name, sensor in model.forces.items()}
-        if all(load["type"] in ("resistance", "moment") for load in case.loads):
-            motion.torque = [torque(case, model, motion, drive, sensor) for drive, sensor in zip(case.drives, model.torques)]
-    return motion, seconds, {"steps": steps}
+        reactions(case, model, motion)
+    return motion
+
+
+def reactions(case, model, motion):
+    """Adds the force of the first link on the second; Exudyn gives that of the second marker on the first."""
+    # Gears exert moments alone here, so that their axles lack the tooth forces.
+    geared = {link for own in case.data["transmissions"] for link in (*own["links"], own["carrier"], "ground")}
+    for joint in case.joints:
+        name = joint["name"]
+        if {joint["first"]["link"], joint["second"]["link"]} <= geared:
+            continue
+        motion.force[name] = -model.read(model.forces[name])[:, :2]
+        if joint["axes"]:
+            across = motion.force[name][:, 1]
+            angle = motion.angle.get(joint["first"]["link"], 0.0) + math.atan2(*joint["axes"][0][::-1])
+            c, s = np.cos(angle), np.sin(angle)
+            motion.force[name] = np.stack([-s * across, c * across], axis=-1)
+            motion.moment[name] = model.read(model.moments[name])[:, 2]
+    motion.torque = [torque(case, model, motion, drive, sensor) for drive, sensor in zip(case.drives, model.torques)]
 
 
 def torque(case, model, motion, drive, sensor):
+    if "start_m" in drive:
+        return -model.read(model.forces[drive["joint"]])[:, 0]
     if sensor is not None:
         # The force of the constraint acts on its first marker.
         return -model.read(sensor)[:, 0]

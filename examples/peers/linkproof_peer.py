@@ -108,7 +108,7 @@ def columns(case, motion):
     for index, drive in enumerate(case.drives):
         if index < len(motion.torque):
             name = "drive" if index == 0 else f"drive.{drive['joint']}"
-            found[f"{name}.torque_N_m"] = motion.torque[index]
+            found[f"{name}.{'force_N' if 'start_m' in drive else 'torque_N_m'}"] = motion.torque[index]
     return {name: found[name] for name in ["t_s", *case.channels] if name in found}
 
 
@@ -131,6 +131,10 @@ def slide(case, motion, joint, found):
 
 def shaking(case, motion, found):
     """Adds force and moment on the frame, from the joints on the ground and the drives."""
+    # Springs and dampers on the ground, and driven slides, load the frame too.
+    ends = [end for load in case.loads for end in (*load.get("links", []), *(own["link"] for own in load.get("ends", [])))]
+    if "ground" in ends or any("start_m" in drive for drive in case.drives):
+        return
     if len(motion.torque) < len(case.drives) or any(joint["name"] not in motion.force for joint in case.joints):
         return
     force, moment = np.zeros((len(case.times), 2)), -sum(motion.torque)

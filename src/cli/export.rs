@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use super::load::load;
+use super::grid::GridArgs;
+use super::load::StartArgs;
 use super::outputs::{Outputs, Results, results};
 use super::{number, output};
 use crate::report::{case_json, table_csv};
@@ -27,10 +28,8 @@ pub(super) struct Args {
     /// fastest driving link]
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = number::positive)]
     dt: Option<f64>,
-    /// Start a group in a different assembly mode from that of the file. A number as MODE means the configuration with
-    /// this number in `inspect --modes`. May be given for several groups
-    #[arg(long, value_name = "LINK,LINK=MODE")]
-    mode: Vec<String>,
+    #[command(flatten)]
+    start: StartArgs,
     /// Leave all loads out of the file. A prescribed motion does not depend on them
     #[arg(long)]
     no_loads: bool,
@@ -51,11 +50,13 @@ results! { Exports {
 } }
 
 pub(super) fn export(args: &Args) -> Result<()> {
-    let scenario = load(&args.file, &args.mode)?;
+    let scenario = args.start.load(&args.file, &GridArgs::default())?;
     let unloaded = args.no_loads.then(|| scenario.case.with(|parts| parts.loads.clear())).transpose()?;
     let case = unloaded.as_ref().unwrap_or(&scenario.case);
     let dt = args.dt.or(scenario.engine.step.get()).unwrap_or_else(|| usual_step(case));
-    let model = |format: ModelFormat| format.model(case, &AssurSolver, &scenario.name, dt);
+    let has_lost_loads = case.loads.len() < scenario.case.loads.len();
+    let noted = |format: ModelFormat, text: String| if has_lost_loads { format.noting_no_loads(&text) } else { text };
+    let model = |format: ModelFormat| Ok(noted(format, format.model(case, &AssurSolver, &scenario.name, dt)?));
     let text = |form| match form {
         Exports::Json => first_state(case, &AssurSolver).map(|start| case_json::text(&scenario.name, case, &start)),
         Exports::Csv => table_csv::cams(case),
@@ -66,7 +67,8 @@ pub(super) fn export(args: &Args) -> Result<()> {
             None => model(ModelFormat::Urdf),
             Some(degree) => {
                 let mimics = Mimics::new(&RigidModel::new(case, &first_state(case, &AssurSolver)?, ""), degree)?;
-                urdf::urdf(case, &AssurSolver, &scenario.name, Some(&mimics))
+                let model = urdf::urdf(case, &AssurSolver, &scenario.name, Some(&mimics))?;
+                Ok(noted(ModelFormat::Urdf, model))
             }
         },
         Exports::Usd => model(ModelFormat::Usd),

@@ -4,10 +4,11 @@ use std::path::Path;
 
 use super::outputs::{Outputs, results};
 use super::{output, progress};
+use crate::report::case_json;
 use crate::report::golden::{CHECKER, Golden, SET, largest_bound, manifest, readme, tables};
 use crate::{sentences, shipped};
 use analytic::AssurSolver;
-use design::export::ModelFormat;
+use design::export::{ModelFormat, first_state};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::threads::{cores, made};
 use prover::bounds::Verdict;
@@ -84,7 +85,10 @@ fn one(&Entry { path, name, sort, bytes }: &Entry, place: &Path) -> Result<Golde
         put(&directory.join(file), &bytes)?;
     }
     let step = scenario.engine.step.get().unwrap_or_else(|| usual_step(&scenario.case));
-    let mut models = Vec::new();
+    // A format that holds every mechanism: the case as numbers.
+    let numbers = case_json::text(&scenario.name, &scenario.case, &first_state(&scenario.case, &AssurSolver)?);
+    put(&directory.join(format!("{name}.json")), numbers.as_bytes())?;
+    let mut models = vec![("json", None)];
     for format in ModelFormat::ALL {
         let ending = format.ending();
         let why = match format.model(&scenario.case, &AssurSolver, &scenario.name, step) {

@@ -54,6 +54,8 @@ fn the_truth_is_that_of_other_commands() {
         place.ok("export scenarios/swinging_parallelogram.toml -o -")
     );
     assert!(!place.path("set/boom_lift/boom_lift.xml").exists());
+    assert_eq!(read("set/boom_lift/boom_lift.json"), place.ok("export scenarios/boom_lift.toml -o -.json"));
+    assert_eq!(manifest["mechanisms"][1]["models"]["json"], "boom_lift/boom_lift.json");
     for ending in ["sdf", "urdf", "usda"] {
         let made = read(&format!("set/swinging_parallelogram/swinging_parallelogram.{ending}"));
         assert_eq!(made, place.ok(&format!("export scenarios/swinging_parallelogram.toml -o -.{ending}")), "{ending}");

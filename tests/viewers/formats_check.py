@@ -3,6 +3,7 @@
 usage: formats_check.py LINKPROOF SCENARIO...
 
 Of every file: the pose of each body in the start pose, mass, mass centre and moment of inertia, and both anchors of each joint.
+The same for files of three further starts, whose poses are those of `linkproof solve`.
 URDF is also posed at three instants with the joint values of `linkproof solve`.
 A format that refuses a scenario must do so by name. Planted faults must be found.
 """
@@ -26,6 +27,10 @@ from urdf_parser_py import urdf as ros
 
 # Errors relative to the size of the mechanism. The physics attributes of USD have single precision.
 DOUBLE, SINGLE = 1e-12, 2e-7
+# Shares of the time whose inputs are further starts.
+STARTS = (0.25, 0.5, 0.75)
+# Part of the time before the first change point. After it, the mode of the file is another configuration.
+UNTIL = {"n_four_bar_1": 0.07, "n_four_bar_2": 0.07}
 # Number of poses in which URDF is compared beside the start pose, and number of poses for the errors of relations.
 POSES, RELATED = 3, 10_000
 # Degrees of the relations, and the largest bound as a multiple of the largest error found.
@@ -276,8 +281,8 @@ def arms(angles, local):
 class Motion:
     """The motion of all links as `linkproof solve` computes it."""
 
-    def __init__(self, case, linkproof, path, times):
-        table = told(linkproof, "solve", path, "--with", "assur", "--only", "positions", "--times", times)
+    def __init__(self, case, linkproof, path, times, *options):
+        table = told(linkproof, "solve", path, "--with", "assur", "--only", "positions", "--times", times, *options)
         rows = list(csv.reader(io.StringIO(table)))
         self.case = case
         self.columns = dict(zip(rows[0], np.array(rows[1:], dtype=float).T))
@@ -414,6 +419,16 @@ FAULTS = {
 }
 
 
+def finds(reader, case, text):
+    """Whether a reader finds a difference; its checks are not counted."""
+    kept = results.copy()
+    with contextlib.redirect_stdout(io.StringIO()):
+        reader(case, text)
+    found = not all(results[len(kept) :])
+    results[:] = kept
+    return found
+
+
 def plant(form, case, text, reader):
     """Faults that the reader must find; those whose pattern does not occur are left out."""
     for pattern, factor in FAULTS[form]:
@@ -422,12 +437,34 @@ def plant(form, case, text, reader):
         if not found:
             continue
         wrong = f"{text[: found.start(1)]}{float(found[1]) * factor!r}{text[found.end(1) :]}"
-        kept = results.copy()
-        with contextlib.redirect_stdout(io.StringIO()):
-            reader(case, wrong)
-        missed = all(results[len(kept) :])
-        results[:] = kept
-        check(f"a planted fault in {form} is found", not missed, found[0])
+        check(f"a planted fault in {form} is found", finds(reader, case, wrong), found[0])
+
+
+def further_starts(linkproof, path, case):
+    """Options of further starts and their cases, whose poses are compared with the solution."""
+    last = case.json["times_s"][-1] * UNTIL.get(case.json["name"], 1.0)
+    motion = Motion(case, linkproof, path, ",".join(repr(share * last) for share in STARTS))
+    name, inputs = list(motion.columns.items())[1]
+    # Further drives are at every start as they are at t = 0.
+    is_one = len(case.json["drives"]) == 1
+    found = []
+    for row, value in enumerate(inputs):
+        start = ["--start-crank-deg", repr(math.degrees(value) if name.endswith("_rad") else 1e3 * float(value))]
+        try:
+            own = Case(linkproof, path, start)
+        except subprocess.CalledProcessError as error:
+            # The phases of transmissions, and laws as formulas, belong to the start of the file.
+            check("a start is refused with a reason", re.search(r"starts of the transmissions|law begins", error.stderr), error.stderr)
+            print(f"  further starts: {error.stderr.splitlines()[0]}")
+            return []
+        true, at = (motion, row) if is_one else (Motion(own, linkproof, path, "0", *start), 0)
+        for link in case.moving:
+            (origin, rotation), there = own.pose(link), true.origin(link)[at]
+            check(f"place of {link} at {start}", np.linalg.norm(origin - there) <= 1e-9 * (case.size + np.linalg.norm(there)), (origin, there))
+            check(f"direction of {link} at {start}", np.abs(rotation - turn(true.angle(link)[at])).max() <= 1e-9, rotation)
+            check(f"masses at {start}", all(own.links[link][key] == case.links[link][key] for key in ("mass_kg", "inertia_kg_m2")))
+        found.append((start, own))
+    return found
 
 
 def check_motion(linkproof, path, case, file, options):
@@ -451,7 +488,7 @@ def check_motion(linkproof, path, case, file, options):
 
 def check_file(linkproof, path):
     """All formats of one scenario; returns the formats that hold it."""
-    held = []
+    held, starts = [], None
     with tempfile.TemporaryDirectory() as directory:
         for form, reader in READERS.items():
             for options in ([], ["--no-loads"]):
@@ -462,6 +499,12 @@ def check_file(linkproof, path):
                     reader(case, file.read_text())
                     held.append(form)
                     plant(form, case, file.read_text(), reader)
+                    if starts is None:
+                        starts = further_starts(linkproof, path, case)
+                    for start, own in starts:
+                        there = told(linkproof, "export", path, "-o", f"-.{form}", *options, *start)
+                        reader(own, there)
+                        check(f"another start is found in {form}", finds(reader, case, there), start)
                     if form == "urdf":
                         check_motion(linkproof, path, case, file, options)
                     break

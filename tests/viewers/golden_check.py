@@ -1,9 +1,11 @@
 """Checks the set of truths with its checker: golden_check.py LINKPROOF
 
-Rapier's results must have order 2 where the speed is prescribed, MuJoCo's positions too. A wrong length, a wrong column and a wrong unit must be
-seen."""
+Rapier's results must have order 2 where the speed is prescribed, MuJoCo's positions too, and Exudyn's motion and reactions everywhere.
+A wrong inertia, a wrong length, a wrong column and a wrong unit must be seen."""
 
 import csv
+import json
+import math
 import re
 import subprocess
 import sys
@@ -13,6 +15,13 @@ from pathlib import Path
 TOP = Path(__file__).resolve().parent.parent.parent
 STEPS = (360, 720, 1440)
 PRESCRIBED = ("double_crank", "six_bar_slider", "fourth_class")
+POSITIONS = ("angles", "positions")
+# Of each engine: sorts of quantities whose order is checked, and the order under forces. It is 2 where the speed is prescribed.
+ENGINES = {
+    "rapier": (POSITIONS, 1),
+    "mujoco": (POSITIONS, 1),
+    "exudyn": ((*POSITIONS, "velocities", "accelerations", "reactions"), 2),
+}
 
 
 def run(*words):
@@ -26,6 +35,15 @@ def need(condition, what):
 
 def checked(place, name, results, *more):
     return run(sys.executable, place / "check.py", place / name, *[f"{step!r}={file}" for step, file in results], *more)
+
+
+def simulated(linkproof, engine, place, name, step, file):
+    """The result of an engine for a mechanism of the set."""
+    if engine == "rapier":
+        run(linkproof, "solve", place / name / f"{name}.toml", "--with", "rapier", "--dt", repr(step), "-o", file)
+    else:
+        run(sys.executable, TOP / f"examples/golden/{engine}_run.py", place / name, repr(step), file)
+    return step, file
 
 
 def orders(told):
@@ -48,24 +66,29 @@ def main(linkproof):
         run(linkproof, "golden", *PRESCRIBED, "swinging_parallelogram", "-o", place)
         for name in (*PRESCRIBED, "swinging_parallelogram"):
             times = [float(row["t_s"]) for row in csv.DictReader((place / name / "truth.csv").open())]
-            results = {"rapier": [], "mujoco": []}
-            for count in STEPS:
-                step = (max(times) - min(times)) / count
-                for engine, all_results in results.items():
-                    file = Path(directory, f"{engine}_{name}_{count}.csv")
-                    if engine == "rapier":
-                        run(linkproof, "solve", place / name / f"{name}.toml", "--with", "rapier", "--dt", repr(step), "-o", file)
-                    else:
-                        run(sys.executable, TOP / "examples/golden/mujoco_run.py", place / name, repr(step), file)
-                    all_results.append((step, file))
-            for engine, all_results in results.items():
+            # Steps that divide the intervals of the truth.
+            steps = [(times[1] - times[0]) / math.ceil(count / (len(times) - 1)) for count in STEPS]
+            for engine, (sorts, under_forces) in ENGINES.items():
+                file = lambda step: Path(directory, f"{engine}_{name}_{step}.csv")
+                all_results = [simulated(linkproof, engine, place, name, step, file(step)) for step in steps]
                 picture = Path(directory, "errors.svg")
                 found = orders(checked(place, name, all_results, "-o", picture))
-                wanted = 2 if name in PRESCRIBED else 1
-                near = [found.get(sort, 0) for sort in ("angles", "positions")]
+                wanted = 2 if name in PRESCRIBED else under_forces
+                near = [found.get(sort, 0) for sort in sorts]
                 need(all(abs(order - wanted) < 0.15 for order in near), f"{name}, {engine}: orders {found}")
                 need("<polyline" in picture.read_text(), f"{name}, {engine}: no curve is drawn")
                 print(f"  ok     {name}, {engine}: {', '.join(f'{sort} {order:.2f}' for sort, order in sorted(found.items()))}")
+        # A wrong moment of inertia changes the reactions, and leaves a prescribed motion as it is.
+        name = "double_crank"
+        numbers = json.loads((place / name / f"{name}.json").read_text())
+        numbers["links"][2]["inertia_kg_m2"] *= 1.01
+        wrong = Path(directory, "wrong", name)
+        wrong.mkdir(parents=True)
+        (wrong / f"{name}.json").write_text(json.dumps(numbers))
+        # The crank turns once in 1 s.
+        results = [simulated(linkproof, "exudyn", wrong.parent, name, 1.0 / count, wrong / f"{count}.csv") for count in STEPS[1:]]
+        found = orders(checked(place, name, results))
+        need("positions" in found and "reactions" not in found, f"{name}: a wrong inertia is not seen: {found}")
         # Faults: the checker tells their size.
         name, (step, good) = "double_crank", (1.0, place / "double_crank/truth.csv")
         exact = checked(place, name, [(step, good)])
@@ -82,7 +105,7 @@ def main(linkproof):
         turned = lambda row: {**row, "link.follower.angle_rad": float(row["link.follower.angle_rad"]) + 6.283185307179586}
         told = checked(place, name, [(step, changed(good, Path(directory, "turned.csv"), turned))])
         need("of the range" not in told, f"a whole turn is an error: {told}")
-        print("golden: orders of both engines, and faults in angles, reactions and units are found")
+        print("golden: orders of all engines, and faults in inertia, angles, reactions and units are found")
 
 
 main(sys.argv[1])

@@ -13,6 +13,7 @@ mod xml;
 
 pub use start::first_state;
 
+use crate::sentences;
 use linkage::case::Case;
 use linkage::error::Result;
 use linkage::solver::Solver;
@@ -55,5 +56,18 @@ impl ModelFormat {
             ModelFormat::Urdf => urdf::urdf(case, solver, name, None),
             ModelFormat::Usd => usd::usd(case, solver, name),
         }
+    }
+
+    /// A model of this format, whose first comment then says that the loads of the scenario are left out.
+    #[must_use]
+    pub fn noting_no_loads(self, model: &str) -> String {
+        let opening = match self {
+            ModelFormat::Mjcf | ModelFormat::Sdf | ModelFormat::Urdf => "<!-- ",
+            ModelFormat::Usd => "doc = \"",
+        };
+        let version = env!("CARGO_PKG_VERSION");
+        let [found, noted] = [sentences::written_by(&version), sentences::written_without_loads_by(&version)]
+            .map(|origin| format!("{opening}{origin}"));
+        model.replacen(&found, &noted, 1)
     }
 }

@@ -144,6 +144,8 @@ linkage::sentences! {
     the_leads_are_parallel_their(names) = "the leads {names} are parallel: their singular point lies at infinity";
     // export.rs
     written_by_linkproof(version) = "Written by linkproof {version}; SI units, plane of motion XOY.";
+    written_by(version) = "Written by linkproof {version};";
+    written_without_loads_by(version) = "Written by linkproof {version} without the loads of the scenario;";
     the_drive_of(joint, law, rate, unit) = "Joint {joint} is driven: law \"{law}\", rate of its coordinate at the start {rate} {unit}.";
     // export/cam.rs
     THE_MECHANISM_HAS_NO_CAM = "the mechanism has no cam, so there is no profile to write";

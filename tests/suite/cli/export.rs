@@ -52,9 +52,31 @@ fn loads_are_left_out_on_request() {
     let place = Place::new();
     let message = "a load of type \"moment\" cannot be written to SDF";
     place.refused("export scenarios/four_bar_relative.toml -o -.sdf", &[message, "--no-loads"]);
+    // The header says so, but not of a scenario without loads.
     for ending in ["xml", "sdf", "urdf", "usda"] {
-        place.ok(&format!("export scenarios/four_bar_relative.toml --no-loads -o -.{ending}"));
+        for (scenario, notes) in [("four_bar_relative", 1), ("quick_return", 0)] {
+            let text = place.ok(&format!("export scenarios/{scenario}.toml --no-loads -o -.{ending}"));
+            assert_eq!(text.matches(" without the loads of the scenario; SI units").count(), notes, "{text}");
+        }
     }
+    let text = place.ok("export scenarios/crank_rocker.toml --no-loads -o -.urdf --mimic 3");
+    assert!(text.contains(" without the loads of the scenario;"), "{text}");
+}
+
+#[test]
+fn a_model_starts_in_another_pose_with_another_mass() {
+    let place = Place::new();
+    let changed = "--start-crank-deg 70 --set links.crank.mass_kg=9";
+    let text = place.ok(&format!("export scenarios/crank_rocker.toml {changed} -o -.json"));
+    let case: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let link = |name: &str| case["links"].as_array().unwrap().iter().find(|link| link["name"] == name).unwrap();
+    let angle = |name: &str| link(name)["start"]["angle_rad"].as_f64().unwrap();
+    assert_eq!(link("crank")["mass_kg"], 9.0);
+    let solved = place.ok("solve scenarios/crank_rocker.toml --crank-deg 70 --only positions");
+    let rows: Vec<Vec<&str>> = solved.lines().map(|line| line.split(',').collect()).collect();
+    let column = rows[0].iter().position(|name| *name == "link.rocker.angle_rad").unwrap();
+    assert_within!((angle("crank") - 70_f64.to_radians()).abs(), 1e-12);
+    assert_within!((angle("rocker") - rows[1][column].parse::<f64>().unwrap()).abs(), 1e-12);
 }
 
 #[test]
