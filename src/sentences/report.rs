@@ -289,8 +289,8 @@ linkage::sentences! {
     CRANK_ROCKER_FROM_TWO_EXTREME_POSITIONS = "crank-rocker from two extreme positions\n";
     proof_of_the_scenario(proof) = "  proof         {proof}";
     // report/precision.rs
-    four_bars_pass_all(found, branch, order, full) = "{found} four-bars pass all positions: {branch} in one assembly mode,\n{order} of these in the given order, {full} of these with a crank that turns fully.";
-    FREE_ROTATIONS_WERE_SCANNED = "Free rotations were scanned on a grid; the table has no two similar four-bars.";
+    four_bars_pass_all(found, branch, order, full) = "  found         {found} through all positions, {branch} of these in one assembly mode,\n                {order} also in the given order, {full} also with a full turn of the crank";
+    FREE_ROTATIONS_WERE_SCANNED = "  scan          free rotations on a grid; the table has no two similar four-bars";
     four_bar_of_the_table(number) = "four-bar {number} of the table";
     pivots_and_pins(o, c, a, b) = "  pivots        O {o}, C {c} mm\n  position 1    A {a}, B {b} mm";
     points_of_the_coupler(point, a, b) = "  coupler       P {point},\n                A {a}, B {b} mm in its frame";

@@ -198,10 +198,13 @@ pub struct LinkFrame {
 }
 
 impl LinkFrame {
-    /// A point (m) in the coordinates of the link.
+    /// A point (m) in the coordinates of the link. A coordinate below the rounding error is zero.
     #[must_use]
     pub fn local(&self, point: Complex) -> Complex {
-        (point - self.origin) * Complex::from_polar(1.0, -self.angle)
+        let at = (point - self.origin) * Complex::from_polar(1.0, -self.angle);
+        let least = 4.0 * f64::EPSILON * (point.norm() + self.origin.norm());
+        let shown = |value: f64| if value.abs() <= least { 0.0 } else { value };
+        Complex::new(shown(at.re), shown(at.im))
     }
 }
 
