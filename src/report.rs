@@ -41,6 +41,7 @@ pub mod mutate;
 pub mod outcomes;
 pub(crate) mod plan;
 pub(crate) mod plotjuggler;
+pub(crate) mod precision;
 mod pretty;
 pub(crate) mod range;
 pub(crate) mod recorded;

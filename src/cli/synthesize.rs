@@ -3,6 +3,8 @@
 mod check;
 mod closed_form;
 mod front;
+mod precision;
+mod proven;
 mod search;
 
 use linkage::error::Result;
@@ -20,6 +22,12 @@ enum Command {
     CrankRocker(closed_form::CrankRockerArgs),
     /// Slider-crank from stroke and offset, and either the rod's length or the time ratio
     SliderCrank(closed_form::SliderCrankArgs),
+    /// Four-bar whose crank and rocker pass three to five pairs of angles
+    Function(precision::FunctionArgs),
+    /// Four-bar whose coupler passes three to five poses
+    Motion(precision::MotionArgs),
+    /// Four-bar with a coupler point that passes three to five points at given crank angles
+    Path(precision::PathArgs),
     /// Lengths and pivots of any linkage whose output should follow a timing: random search, then refinement of the
     /// best candidates
     Search(search::Args),
@@ -35,6 +43,9 @@ pub(super) fn synthesize(args: &Args) -> Result<()> {
     match &args.command {
         Command::CrankRocker(args) => closed_form::crank_rocker(args),
         Command::SliderCrank(args) => closed_form::slider_crank(args),
+        Command::Function(args) => precision::function(args),
+        Command::Motion(args) => precision::motion(args),
+        Command::Path(args) => precision::path(args),
         Command::Search(args) => search::search(args),
         Command::Front(args) => front::front(args),
         Command::Check(args) => check::check(args),

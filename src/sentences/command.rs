@@ -251,6 +251,20 @@ linkage::sentences! {
     CRANK_ROCKER_FROM_TWO_EXTREME = "Crank-rocker from two extreme positions of its rocker";
     linkproof_synthesize_crank_rocker_crank(crank_pivot_mm, crank_pivot_mm_2, pivot_mm, pivot_mm_2, rocker_mm, extreme_deg, swing_deg) = "linkproof synthesize crank-rocker --crank-pivot-mm {crank_pivot_mm},{crank_pivot_mm_2} --pivot-mm {pivot_mm},{pivot_mm_2} --rocker-mm {rocker_mm} --extreme-deg {extreme_deg} --swing-deg {swing_deg}";
     TWO_NUMBERS_WITH_A_COMMA = "two numbers separated by a comma, such as 150,15";
+    // cli/synthesize/precision.rs
+    linkproof_synthesize_precision(command, arguments) = "linkproof synthesize {command}{arguments}";
+    THREE_NUMBERS_WITH_COMMAS = "three numbers separated by commas, such as 100,20,45";
+    FUNCTION_GENERATOR_THROUGH_PAIRS = "Function generator: four-bar through pairs of crank and rocker angles";
+    MOTION_GENERATOR_THROUGH_POSES = "Motion generator: four-bar through poses of its coupler";
+    PATH_GENERATOR_THROUGH_POINTS = "Path generator: four-bar whose coupler point passes points at given crank angles";
+    points_and_crank_angles_differ(points, cranks) = "found {points} points and {cranks} crank angles";
+    GIVE_EVERY_POINT_ITS_CRANK_ANGLE = "give one --crank-deg for each --point-mm, in the same order";
+    the_table_has_only(count, taken) = "four-bar {taken} is requested, but the table has {count}";
+    TAKE_A_NUMBER_OF_THE_TABLE = "leave out --take, or take a number of the table";
+    four_bars_have_defects(found) = "{found} four-bars pass all positions, but none of them passes the positions in one assembly mode and in the given order";
+    TAKE_ONE_NEVERTHELESS = "change a position or the order; --take 1 shows the table, and takes the first four-bar nevertheless";
+    // cli/synthesize/proven.rs
+    the_scenario_is_not_proven(reason) = "NOT PROVEN: {reason}";
     // cli/synthesize/search.rs
     found_by(command, report) = "Found by: {command}\n{report}";
     linkproof_synthesize_search_seed_candidates(args, seed, candidates, refined, evaluations) = "linkproof synthesize search {args} --seed {seed} --candidates {candidates} --refined {refined} --evaluations {evaluations}";

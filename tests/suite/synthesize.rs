@@ -4,5 +4,6 @@
 mod closed_form;
 mod drives;
 mod motor;
+mod precision;
 mod search;
 mod sheet;

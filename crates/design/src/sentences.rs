@@ -326,6 +326,32 @@ linkage::sentences! {
     JOINTS_NAME_GUIDE_TYPE_PRISMATIC = "[[joints]]\nname = \"guide\"\ntype = \"prismatic\"\nlinks = [\"ground\", \"slider\"]\npoints = [\"G\", \"B\"]\naxis_deg = 0\n\n";
     ground_points_on_the_slider(offset) = "[ground.points]\nO = {{ x_m = 0, y_m = 0 }}\nG = {{ x_m = 0, y_m = {offset} }} # on the slider's line\n";
     joints_name_type_revolute_links(name, first, second) = "[[joints]]\nname = \"{name}\"\ntype = \"revolute\"\nlinks = [\"{first}\", \"{second}\"]\n\n";
+    // synthesize/precision/choice.rs
+    NO_FOUR_BAR_PASSES_THE_POSITIONS = "no four-bar passes all positions";
+    MOVE_A_POSITION_OR_LEAVE_ONE_OUT = "change a position a little, or leave one out: fewer positions have more solutions";
+    // synthesize/precision/function.rs
+    world_angles_of_so_many_pairs(count) = "world angles of {count} pairs determine no four-bar: Freudenstein's equation has three unknowns";
+    LET_THE_START_BE_FREE = "give three pairs, or let the start be free, so that only the differences from the first pair matter";
+    THE_PAIRS_DETERMINE_NO_FOUR_BAR = "Freudenstein's equation has no unique solution for these three pairs";
+    CHANGE_A_PAIR_OR_FREE_THE_START = "change an angle, or let the start be free, so that only the differences from the first pair matter";
+    ROCKER_AND_CRANK_TURN_ALIKE = "the rocker turns like the crank in all pairs, or not at all";
+    CHANGE_A_PAIR_OR_USE_A_PARALLELOGRAM = "change a pair; a parallelogram turns the rocker like the crank";
+    // synthesize/precision/motion.rs
+    THE_POSES_ARE_ONE_ROTATION = "all poses are rotations about one point, or translations: no finite dyad is determined";
+    TURN_A_POSE_OR_USE_A_PARALLELOGRAM = "change the angle or the point of a pose; one pin guides rotations about one point, a parallelogram guides translations";
+    pivots_and_pins_are_given(count, poses) = "{count} pivots and pins are given with {poses} poses";
+    GIVE_TWO_PIVOTS_OR_PINS_WITH_THREE_POSES = "give at most two pivots and pins together, with three poses; four and five poses determine them";
+    the_pin_of_the_pivot_is_at_infinity(x, y) = "seen from the coupler, the pivot ({x:.6}, {y:.6}) m has its three positions on a line: its pin is at infinity";
+    the_pivot_of_the_pin_is_at_infinity(x, y) = "the three positions of the pin ({x:.6}, {y:.6}) m of the coupler lie on a line: its pivot is at infinity";
+    MOVE_THE_PIVOT_OR_THE_PIN = "move this pivot or pin, or leave it out";
+    // synthesize/precision/path.rs
+    THE_POINTS_ARE_A_CIRCLE = "the crank alone moves its pin through all points at these crank angles: no coupler is determined";
+    MOVE_A_POINT_OR_CHANGE_A_CRANK_ANGLE = "move a point, or change a crank angle";
+    // synthesize/precision/points.rs
+    found_so_many_positions(count, least, most) = "found {count} positions, but expected {least} to {most}";
+    GIVE_THREE_TO_FIVE_POSITIONS = "give three, four or five positions";
+    positions_coincide(first, second) = "positions {first} and {second} coincide";
+    LEAVE_ONE_OF_THE_POSITIONS_OUT = "leave one of the two out, or change it";
     // synthesize/search.rs
     DRAW_MORE_CANDIDATES_NARROW_THE_BOUNDS = "draw more candidates, narrow the bounds around a drawing that turns fully, or relax `limits`";
     none_of_candidates_can_be_assembled(candidates) = "none of {candidates} candidates can be assembled over a whole turn of the crank with the required transmission angle and stroke";

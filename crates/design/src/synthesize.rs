@@ -10,6 +10,7 @@ pub mod front;
 mod gradient;
 pub mod machine_file;
 mod nearest;
+pub mod precision;
 mod rating;
 pub mod reached;
 pub mod redraw;
@@ -26,6 +27,7 @@ pub use search::{SearchResult, search};
 pub use slider_crank::SliderCrank;
 
 use linkage::error::{Error, ErrorKind};
+use linkage::math::KeepNan;
 use std::f64::consts::PI;
 
 /// Time of the slower stroke divided by that of the faster stroke, at a constant speed of the crank:
@@ -34,6 +36,13 @@ use std::f64::consts::PI;
 /// positions.
 fn time_ratio(theta: f64) -> f64 {
     (PI + theta.abs()) / (PI - theta.abs())
+}
+
+/// Transmission angle (rad, at most a right angle) between coupler and rocker at their pin, by the law of cosines.
+/// `distance` is that of the other two pins (m).
+fn transmission_angle(distance: f64, coupler: f64, rocker: f64) -> f64 {
+    let cos = (coupler.powi(2) + rocker.powi(2) - distance * distance) / (2.0 * coupler * rocker);
+    cos.abs().smaller(1.0).acos()
 }
 
 fn wrong(key: &str, message: String, help: &str) -> Error {

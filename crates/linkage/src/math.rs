@@ -25,6 +25,9 @@ pub use piecewise::Piecewise;
 /// Vector in the plane XOY.
 pub type Vec2 = nalgebra::Vector2<f64>;
 
+/// Complex number, as a vector of the plane or a rotation.
+pub type Complex = nalgebra::Complex<f64>;
+
 /// Matrix of any size, for quantities that are not computed in every pose.
 pub type Matrix = nalgebra::DMatrix<f64>;
 

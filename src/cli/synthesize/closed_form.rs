@@ -4,6 +4,7 @@ use crate::sentences;
 use std::f64::consts::TAU;
 use std::path::Path;
 
+use super::proven::proven;
 use crate::cli::number;
 use crate::cli::outputs::{Outputs, results};
 use crate::report::closed_form::{self as report, Told};
@@ -29,21 +30,27 @@ struct Target {
 
 impl Target {
     fn sheet(&self, name: &str, title: &str, comment: String) -> DraftContents {
-        let to = self.outputs.first(ClosedForms::Scenario);
-        let stem = to.and_then(Path::file_stem).map_or("-".into(), |stem| stem.to_string_lossy());
-        let name = if stem == "-" { name.to_string() } else { stem.to_string() };
+        let name = named(&self.outputs, name);
         DraftContents { name, title: title.into(), comment, speed: self.rpm * TAU / 60.0, bar: self.bar_kg_per_m }
     }
+}
 
-    /// Writes the results. An invalid scenario name is reported before a file is written.
-    fn deliver(&self, scenario: &str, told: &Told) -> Result<()> {
-        self.outputs.of(ClosedForms::Scenario).try_for_each(|to| Scenario::parse(scenario, to).map(|_| ()))?;
-        let result = |form| match form {
-            ClosedForms::Scenario => scenario.to_string(),
-            ClosedForms::Json => told.json.clone(),
-        };
-        self.outputs.deliver(|form| Ok(result(form)), |_| told.text.clone())
-    }
+/// The name of a scenario: that of its file, or `name` if it is not written to a file.
+pub(super) fn named(outputs: &Outputs<ClosedForms>, name: &str) -> String {
+    let stem = outputs.first(ClosedForms::Scenario).and_then(Path::file_stem);
+    stem.map(|stem| stem.to_string_lossy()).filter(|stem| stem != "-").map_or(name.into(), |stem| stem.into())
+}
+
+/// Proves a scenario, then writes the results. `tell` makes the report from the verdict.
+/// An invalid scenario name is reported before a file is written.
+pub(super) fn deliver(outputs: &Outputs<ClosedForms>, scenario: &str, tell: impl FnOnce(&str) -> Told) -> Result<()> {
+    outputs.of(ClosedForms::Scenario).try_for_each(|to| Scenario::parse(scenario, to).map(|_| ()))?;
+    let told = tell(&proven(scenario, outputs.first(ClosedForms::Scenario).unwrap_or(Path::new("-")))?);
+    let result = |form| match form {
+        ClosedForms::Scenario => scenario.to_string(),
+        ClosedForms::Json => told.json.clone(),
+    };
+    outputs.deliver(|form| Ok(result(form)), |_| told.text.clone())
 }
 
 results! { ClosedForms {
@@ -52,11 +59,15 @@ results! { ClosedForms {
 } }
 
 /// Two numbers separated by a comma.
-fn pair(text: &str) -> std::result::Result<[f64; 2], String> {
-    const EXPECTED: &str = sentences::TWO_NUMBERS_WITH_A_COMMA;
+pub(super) fn pair(text: &str) -> std::result::Result<[f64; 2], String> {
+    numbers(text, sentences::TWO_NUMBERS_WITH_A_COMMA)
+}
+
+/// `N` numbers separated by commas; `expected` describes them.
+pub(super) fn numbers<const N: usize>(text: &str, expected: &str) -> std::result::Result<[f64; N], String> {
     let numbers: Vec<f64> =
-        text.split(',').map(|part| number::decimal(part, EXPECTED)).collect::<std::result::Result<_, _>>()?;
-    <[f64; 2]>::try_from(numbers).map_err(|_| format!("expected {EXPECTED}"))
+        text.split(',').map(|part| number::decimal(part, expected)).collect::<std::result::Result<_, _>>()?;
+    <[f64; N]>::try_from(numbers).map_err(|_| format!("expected {expected}"))
 }
 
 #[derive(Debug, clap::Args)]
@@ -100,7 +111,7 @@ pub(super) fn crank_rocker(args: &CrankRockerArgs) -> Result<()> {
         &args.swing_deg,
     );
     let sheet = args.target.sheet("crank_rocker_found", sentences::CRANK_ROCKER_FROM_TWO_EXTREME, comment);
-    args.target.deliver(&found.scenario(&sheet), &report::crank_rocker(&found, wish.rocker))
+    deliver(&args.target.outputs, &found.scenario(&sheet), |proof| report::crank_rocker(&found, wish.rocker, proof))
 }
 
 #[derive(Debug, clap::Args)]
@@ -131,5 +142,5 @@ pub(super) fn slider_crank(args: &SliderCrankArgs) -> Result<()> {
     let found = SliderCrank::of(args.stroke_mm / 1e3, args.offset_mm / 1e3, given)?;
     let comment = sentences::linkproof_synthesize_slider_crank_stroke(&args.stroke_mm, &args.offset_mm, &told);
     let sheet = args.target.sheet("slider_crank_found", sentences::SLIDER_CRANK_FROM_STROKE_AND_OFFSET, comment);
-    args.target.deliver(&found.scenario(&sheet), &report::slider_crank(&found))
+    deliver(&args.target.outputs, &found.scenario(&sheet), |proof| report::slider_crank(&found, proof))
 }

@@ -36,6 +36,35 @@ fn a_slider_crank_is_found_written_and_proven() {
     assert!(scenario.contains("[links.slider]") && scenario.contains("format = 1"), "{scenario}");
 }
 
+const MOTION: &str = "synthesize motion --pose 0,0,0 --pose 40,25,15 --pose 80,30,35 --pose 115,20,60";
+
+/// The closed forms of three, four and five positions are written, proven, and proven again by `run`.
+#[test]
+fn four_bars_through_precision_points_are_written_and_proven() {
+    let place = Place::new();
+    for (command, file) in [
+        ("synthesize function --pivot-mm 100,0 --pair-deg 40,60 --pair-deg 80,80 --pair-deg 120,105", "f3"),
+        (MOTION, "m4"),
+        (
+            "synthesize path --point-mm 0,0 --crank-deg 0 --point-mm 30,25 --crank-deg 40 --point-mm 70,30 --crank-deg 90",
+            "p3",
+        ),
+    ] {
+        let text = place.ok(&format!("{command} -o {file}.toml"));
+        assert!(text.contains(&format!("proof         {file}: AGREE")), "{text}");
+        assert!(text.contains("four-bar 1 of the table") && text.contains(" -\n"), "{text}");
+        let proof = place.ok(&format!("run {file}.toml --no-record"));
+        assert!(proof.contains("AGREE"), "{proof}");
+        let written = fs::read_to_string(place.path(&format!("{file}.toml"))).unwrap();
+        let command = command.replace("function", "function --crank-pivot-mm 0,0");
+        assert!(written.starts_with(&format!("# linkproof {command}\n")), "{written}");
+        assert_eq!(written.contains("P = { x_m"), file != "f3", "{written}");
+    }
+    let json: Value = serde_json::from_str(&place.ok(&format!("{MOTION} --take 2 --json -"))).unwrap();
+    assert_eq!((json["four_bars"].as_array().unwrap().len(), &json["taken"]), (10, &Value::from(2)));
+    assert!(json["proof"].as_str().unwrap().contains("AGREE"), "{json}");
+}
+
 #[test]
 fn a_search_is_written_drawn_and_checked() {
     let place = Place::new();
@@ -126,6 +155,18 @@ fn mistakes_are_reported() {
         ("synthesize slider-crank --stroke-mm 100 --rod-mm 200 -o no.csv", ["FILE.toml, FILE.json", "found .csv"]),
         ("synthesize slider-crank --stroke-mm 100 --rod-mm 200 -o No.toml", ["cannot be the name", "lower-case"]),
         ("synthesize slider-crank --stroke-mm 100 --rod-mm 200 --rpm 0", ["--rpm", "not 0"]),
+        ("synthesize motion --pose 0,0,0 --pose 40,25,15", ["found 2 positions", "three, four or five"]),
+        ("synthesize motion --pose 0,0 --pose 40,25,15", ["three numbers", "100,20,45"]),
+        ("synthesize motion --pose 0,0,0 --pose 4,2,0 --pose 9,3,0", ["translations", "parallelogram"]),
+        ("synthesize path --point-mm 0,0 --point-mm 1,0 --crank-deg 3", ["2 points and 1 crank angles", "--point-mm"]),
+        (
+            "synthesize function --pivot-mm 0,0 --pair-deg 0,1 --pair-deg 2,3 --pair-deg 9,8",
+            ["two pivots coincide", "separate pivot"],
+        ),
+        (
+            "synthesize function --pivot-mm 9,0 --pair-deg 0,9 --pair-deg 20,30 --pair-deg 90,80 --take 2",
+            ["the table has 1", "leave out --take"],
+        ),
         ("synthesize search nothing.toml", ["cannot be read", "sinker_task.toml"]),
         ("synthesize search scenarios/crank_rocker.toml", ["`scenario` is missing", "add `scenario`"]),
         ("drive scenarios/crank_rocker.toml --catalogue nothing.toml", ["cannot be read", "catalogues/motors.toml"]),

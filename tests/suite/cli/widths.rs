@@ -86,6 +86,7 @@ fn lists_helps_and_the_other_commands_fit_80_columns() {
         "drive scenarios/crank_rocker.toml --non-uniformity 0.02",
         "synthesize slider-crank --stroke-mm 100 --offset-mm 30 --time-ratio 1.2",
         "synthesize crank-rocker --pivot-mm 150,15 --rocker-mm 250 --extreme-deg 50 --swing-deg 32",
+        "synthesize motion --pose 0,0,0 --pose 40,25,15 --pose 80,30,35 --pose 115,20,60",
         "synthesize check scenarios/ov7_drives/sinker_task.toml scenarios/ov7_drives/sinker.toml",
         "synthesize check scenarios/ov7_drives/eyelet_needle_task.toml scenarios/ov7_base.toml scenarios/ov7_new.toml scenarios/ov7_drives/eyelet_needle_found.toml",
         "synthesize cyclogram scenarios/ov7_drives/machine.toml",

@@ -8,10 +8,10 @@
 use crate::sentences;
 use std::f64::consts::{PI, TAU};
 
-use super::{time_ratio, wrong};
+use super::{time_ratio, transmission_angle, wrong};
 use analytic::range::{FourBar, FourBarType};
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::math::{KeepNan, Vec2, cross, unit};
+use linkage::math::{Vec2, cross, unit};
 use linkage::mechanism::AssemblyMode;
 
 /// Requirements on a crank-rocker.
@@ -138,10 +138,7 @@ fn check(wish: &CrankRockerSpec) -> Result<()> {
 /// The transmission angle has its extremes where the crank is on the line of the pivots (Alt 1932).
 /// In these two poses, A is nearest to C, or farthest from C.
 fn transmission([frame, crank, coupler, rocker]: [f64; 4], line: Vec2) -> (f64, f64) {
-    let at = |distance: f64| {
-        let cos = (coupler.powi(2) + rocker.powi(2) - distance * distance) / (2.0 * coupler * rocker);
-        cos.abs().smaller(1.0).acos()
-    };
+    let at = |distance: f64| transmission_angle(distance, coupler, rocker);
     let towards = line.y.atan2(line.x).rem_euclid(TAU);
     let (near, far) = (at(frame - crank), at(frame + crank));
     if near <= far { (near, towards) } else { (far, (towards + PI).rem_euclid(TAU)) }

@@ -4,7 +4,9 @@ use crate::sentences;
 use std::fmt::Write;
 
 use super::crank_rocker::CrankRocker;
+use super::precision::{CrankTravel, PrecisionFourBar};
 use super::slider_crank::SliderCrank;
+use linkage::math::{Complex, KeepNan};
 
 /// Contents of a scenario besides the dimensions.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,26 +32,65 @@ impl DraftContents {
 
     /// Scenario text of a link that is one bar. The bar lies along the link's x axis, with its first point at the
     /// origin.
-    fn bar(&self, name: &str, points: [&str; 2], length: f64) -> String {
-        let mass = self.bar * length;
-        format!(
-            "[links.{name}]\nmass_kg = {mass:?}\ninertia_kg_m2 = {:?}\nmass_centre = {{ x_m = {:?}, y_m = 0 }}\n\
-             [links.{name}.points]\n{} = {{ x_m = 0, y_m = 0 }}\n{} = {{ x_m = {length:?}, y_m = 0 }}\n\n",
-            mass * length * length / 12.0,
-            length / 2.0,
-            points[0],
-            points[1],
-        )
+    fn bar(&self, name: &str, [first, second]: [&str; 2], length: f64) -> String {
+        self.bars(name, &[(first, Complex::default()), (second, Complex::new(length, 0.0))])
     }
 
-    fn tail(&self, group: &str, mode: &str) -> String {
-        let (sign, end) = if self.speed < 0.0 { ("-", -360) } else { ("", 360) };
+    /// Scenario text of a link of slender bars from its first point to each of its other points (m, in the link's
+    /// frame).
+    fn bars(&self, name: &str, points: &[(&str, Complex)]) -> String {
+        let first = points[0].1;
+        let arms = || points[1..].iter().map(|(_, point)| point - first);
+        let mass: f64 = arms().map(|arm| self.bar * arm.norm()).sum();
+        // Moments about the first point: m l / 2, and m l^2 / 3.
+        let moment: Complex = arms().map(|arm| arm * (self.bar * arm.norm() / 2.0)).sum();
+        let centre = moment / mass;
+        let inertia = arms().map(|arm| self.bar * arm.norm().powi(3) / 3.0).sum::<f64>() - mass * centre.norm_sqr();
+        let mut text = format!(
+            "[links.{name}]\nmass_kg = {mass:?}\ninertia_kg_m2 = {inertia:?}\nmass_centre = {}\n[links.{name}.points]\n",
+            place(first + centre)
+        );
+        points.iter().for_each(|(point, at)| text += &format!("{point} = {}\n", place(*at)));
+        text + "\n"
+    }
+
+    fn tail(&self, group: &str, mode: &str, course: &Course) -> String {
+        let Course { from, to, step } = course;
         format!(
-            "[drive]\njoint = \"O\"\nspeed_rad_s = {:?}\n\n[gravity]\nx_m_s2 = 0\ny_m_s2 = -9.81\n\n[start]\ncrank_deg = 0\n\
-             [[start.groups]]\nlinks = [{group}]\nmode = \"{mode}\"\n\n[grid]\nfrom_deg = 0\nto_deg = {end}\nstep_deg = {sign}1\n",
+            "[drive]\njoint = \"O\"\nspeed_rad_s = {:?}\n\n[gravity]\nx_m_s2 = 0\ny_m_s2 = -9.81\n\n[start]\ncrank_deg = {from}\n\
+             [[start.groups]]\nlinks = [{group}]\nmode = \"{mode}\"\n\n[grid]\nfrom_deg = {from}\nto_deg = {to}\nstep_deg = {step}\n",
             self.speed
         )
     }
+}
+
+/// Crank angles of a scenario (deg), from the start.
+struct Course {
+    from: f64,
+    to: f64,
+    step: f64,
+}
+
+impl Course {
+    /// Largest step (deg).
+    const STEP: f64 = 1.0;
+
+    /// A full turn from zero in the sense of a speed.
+    fn turn(speed: f64) -> Self {
+        let sense = if speed < 0.0 { -1.0 } else { 1.0 };
+        Course { from: 0.0, to: 360.0 * sense, step: Course::STEP * sense }
+    }
+
+    /// The angles between two angles (deg).
+    fn between(from: f64, to: f64) -> Self {
+        let steps = ((to - from).abs() / Course::STEP).ceil().larger(20.0);
+        Course { from, to, step: (to - from) / steps }
+    }
+}
+
+/// Scenario text of a point (m).
+fn place(at: Complex) -> String {
+    format!("{{ x_m = {:?}, y_m = {:?} }}", at.re + 0.0, at.im + 0.0)
 }
 
 /// Scenario text of pins. Each pin joins two links.
@@ -60,22 +101,62 @@ fn pins(all: &[(&str, [&str; 2])]) -> String {
     all.iter().map(pin).collect()
 }
 
+/// Pins of a four-bar with the links of each pin.
+const FOUR_BAR: [(&str, [&str; 2]); 4] = [
+    ("O", ["ground", "crank"]),
+    ("A", ["crank", "coupler"]),
+    ("B", ["coupler", "rocker"]),
+    ("C", ["ground", "rocker"]),
+];
+
+/// Links of a four-bar's dyad.
+const FOUR_BAR_GROUP: &str = "\"coupler\", \"rocker\"";
+
+/// Scenario text of the pivots of crank and rocker (m).
+fn ground([o, c]: [Complex; 2]) -> String {
+    format!("[ground.points]\nO = {}\nC = {}\n\n", place(o), place(c))
+}
+
 impl CrankRocker {
     /// The scenario file.
     pub fn scenario(&self, sheet: &DraftContents) -> String {
-        let [o, c] = [self.wish.crank_pivot, self.wish.rocker_pivot];
-        let mut text = sheet.head();
-        let _ = writeln!(
-            text,
-            "[ground.points]\nO = {{ x_m = {:?}, y_m = {:?} }}\nC = {{ x_m = {:?}, y_m = {:?} }}\n",
-            o.x, o.y, c.x, c.y
-        );
+        let pivots = [self.wish.crank_pivot, self.wish.rocker_pivot].map(|pivot| Complex::new(pivot.x, pivot.y));
+        let mut text = sheet.head() + &ground(pivots);
         text += &sheet.bar("crank", ["O", "A"], self.crank);
         text += &sheet.bar("coupler", ["A", "B"], self.coupler);
         text += &sheet.bar("rocker", ["C", "B"], self.wish.rocker);
-        let (o, a) = (("O", ["ground", "crank"]), ("A", ["crank", "coupler"]));
-        text += &pins(&[o, a, ("B", ["coupler", "rocker"]), ("C", ["ground", "rocker"])]);
-        text + &sheet.tail("\"coupler\", \"rocker\"", self.mode.name())
+        text += &pins(&FOUR_BAR);
+        text + &sheet.tail(FOUR_BAR_GROUP, self.mode.name(), &Course::turn(sheet.speed))
+    }
+}
+
+impl PrecisionFourBar {
+    /// The scenario file. The crank turns in the sense of the positions; only the magnitude of the speed is used.
+    pub fn scenario(&self, sheet: &DraftContents) -> String {
+        let [crank, coupler, rocker] = self.frames;
+        let ([o, c], [a, b]) = (self.pivots, self.pins);
+        let point = self.point.map(|point| ("P", coupler.local(point)));
+        let of_coupler: Vec<(&str, Complex)> =
+            [("A", coupler.local(a)), ("B", coupler.local(b))].into_iter().chain(point).collect();
+        let course = self.course();
+        let sheet = DraftContents { speed: sheet.speed.abs().copysign(course.step), ..sheet.clone() };
+        let mut text = sheet.head() + &ground(self.pivots);
+        text += &sheet.bars("crank", &[("O", crank.local(o)), ("A", crank.local(a))]);
+        text += &sheet.bars("coupler", &of_coupler);
+        text += &sheet.bars("rocker", &[("C", rocker.local(c)), ("B", rocker.local(b))]);
+        text += &pins(&FOUR_BAR);
+        text + &sheet.tail(FOUR_BAR_GROUP, self.checks.mode.name(), &course)
+    }
+
+    /// Crank angles of the scenario: a full turn from position 1, or the range between the positions.
+    fn course(&self) -> Course {
+        let degrees = |turn: f64| (self.frames[0].angle + turn).to_degrees();
+        match self.checks.travel {
+            CrankTravel::FullTurn { sense } => {
+                Course { from: degrees(0.0), to: degrees(0.0) + 360.0 * sense, step: Course::STEP * sense }
+            }
+            CrankTravel::Between([from, to]) => Course::between(degrees(from), degrees(to)),
+        }
     }
 }
 
@@ -94,6 +175,6 @@ impl SliderCrank {
         );
         text += &pins(&[("O", ["ground", "crank"]), ("A", ["crank", "rod"]), ("B", ["rod", "slider"])]);
         text += sentences::JOINTS_NAME_GUIDE_TYPE_PRISMATIC;
-        text + &sheet.tail("\"rod\", \"slider\"", "ahead")
+        text + &sheet.tail("\"rod\", \"slider\"", "ahead", &Course::turn(sheet.speed))
     }
 }
