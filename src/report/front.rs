@@ -22,6 +22,8 @@ pub(crate) struct Reached {
     pub(crate) achieved: Achieved,
     /// Values of the variables (SI).
     pub(crate) values: Vec<f64>,
+    /// The verdict of its proof, in one sentence.
+    pub(crate) verdict: String,
 }
 
 /// A front.
@@ -34,6 +36,12 @@ pub(crate) struct Front<'a> {
 }
 
 impl Reached {
+    /// The word of the verdict, which is written in capitals.
+    fn word(&self) -> &str {
+        let is_verdict = |word: &&str| word.len() > 1 && word.chars().all(|letter| letter.is_ascii_uppercase());
+        self.verdict.split([':', ' ']).find(is_verdict).unwrap_or("-")
+    }
+
     /// Deviation of the mechanism in percent: the largest motion in a dwell as a fraction of the stroke, or the largest
     /// distance from a precision point as a fraction of their extent.
     fn deviation(&self) -> f64 {
@@ -47,12 +55,19 @@ impl Reached {
 pub(crate) fn text(front: &Front) -> String {
     let rows = front.points.iter().map(|(limit, found)| {
         let limit = numbers::significant(*limit, 6);
-        let Some(found) = found else { return [limit, "-".into(), "-".into(), "-".into(), "-".into()] };
+        let Some(found) = found else { return [limit, "-".into(), "-".into(), "-".into(), "-".into(), "-".into()] };
         let angle = found.achieved.transmission.map_or("-".into(), |own| numbers::fixed(own.to_degrees(), 2));
         let wrong = numbers::fixed(100.0 * found.achieved.wrong(), 3);
-        [limit, numbers::fixed(found.deviation(), 3), wrong, stroke(&found.task, &found.achieved), angle]
+        [
+            limit,
+            numbers::fixed(found.deviation(), 3),
+            wrong,
+            stroke(&found.task, &found.achieved),
+            angle,
+            found.word().into(),
+        ]
     });
-    let mut points = table("limit> | deviation %> | reversed %> | stroke> | transmission deg>");
+    let mut points = table("limit> | deviation %> | reversed %> | stroke> | transmission deg> | proof");
     points.add_rows(rows);
     let mut text = format!("{}: {}\n\n", front.task.name, front.task.title);
     say!(text, "{points}\n\n{}\n", sentences::the_front_varies(&front.limit));
@@ -82,7 +97,8 @@ pub(crate) fn json(front: &Front) -> String {
             let names = front.task.variables.iter().map(|own| own.name.clone());
             names.zip(found.values.iter().map(|value| json!(value))).collect::<serde_json::Map<_, _>>()
         });
-        json!({"limit": limit, "deviation": found.as_ref().map(|own| own.deviation() / 100.0), "dimensions": dimensions})
+        json!({"limit": limit, "deviation": found.as_ref().map(|own| own.deviation() / 100.0), "dimensions": dimensions,
+               "verdict": found.as_ref().map(Reached::word)})
     });
     pretty(&json!({"schema": 1, "name": front.task.name, "limit": front.limit, "points": points}))
 }

@@ -70,10 +70,8 @@ pub(super) fn front(args: &Args) -> Result<()> {
     let mut rows = Vec::with_capacity(points.len());
     for point in points {
         let found = point.found.as_ref().map(|own| found(&point.task, &drawing, own)).transpose()?;
-        rows.push((
-            point.limit,
-            found.map(|Found { task, achieved, values }| report::Reached { task, achieved, values }),
-        ));
+        let reached = |Found { task, achieved, values, verdict }| report::Reached { task, achieved, values, verdict };
+        rows.push((point.limit, found.map(reached)));
     }
     let all = Front { task: &task, limit: &args.limit.name, points: &rows };
     let result = |result| -> Result<Made> {

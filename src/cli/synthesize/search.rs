@@ -4,6 +4,7 @@ use crate::sentences;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use super::proven::proven;
 use crate::cli::number::Parsed;
 use crate::cli::outputs::{Made, Outputs, results};
 use crate::cli::{output, progress};
@@ -74,7 +75,7 @@ pub(super) fn search(args: &Args) -> Result<()> {
     let mut bar = progress::Bar::new(&task.name);
     let searched = synthesize::search(&task, args.threads, &mut |part| bar.at(part))?;
     drop(bar);
-    let Found { task: own, achieved, values } = found(&task, &drawing, &searched)?;
+    let Found { task: own, achieved, values, verdict } = found(&task, &drawing, &searched)?;
     let text = redraw::redrawn(&task, &drawing.text, &values, &comment(args, &own, &achieved))?;
     let story = Story { task: &own, achieved: &achieved, search: Some((&searched, &values)) };
     let result = |result| -> Result<Made> {
@@ -84,7 +85,7 @@ pub(super) fn search(args: &Args) -> Result<()> {
             SearchResults::Svg => report::picture(&story)?.into(),
         })
     };
-    args.outputs.deliver(result, |_| report::text(&story))
+    args.outputs.deliver(result, |_| format!("{}\n{verdict}\n", report::text(&story)))
 }
 
 /// The mechanism of a search, as its scenario states it.
@@ -93,16 +94,20 @@ pub(super) struct Found {
     pub(super) achieved: Achieved,
     /// Values of the variables (SI), rounded as they are written.
     pub(super) values: Vec<f64>,
+    /// The verdict of its proof, in one sentence.
+    pub(super) verdict: String,
 }
 
-/// Reads the text of the scenario back, so that the reported figures are those of the written scenario.
+/// Reads the text of the scenario back, so that the reported figures are those of the written scenario, and proves it.
 pub(super) fn found(task: &Task, drawing: &Scenario, searched: &SearchResult) -> Result<Found> {
     let values = redraw::round_values(task, &searched.values);
     let place = drawing.path.with_file_name(format!("{}.toml", task.name));
-    let bare = Scenario::parse(&redraw::redrawn(task, &drawing.text, &values, "")?, &place)?;
+    let text = redraw::redrawn(task, &drawing.text, &values, "")?;
+    let verdict = proven(&text, &place)?;
+    let bare = Scenario::parse(&text, &place)?;
     let task = Task { case: bare.case, ..task.clone() };
     let achieved = Achieved::of(&task, searched.forward)?;
-    Ok(Found { task, achieved, values })
+    Ok(Found { task, achieved, values, verdict })
 }
 
 /// Comment on the origin and the quality of the scenario.
