@@ -327,9 +327,9 @@ mod tests {
     #[test]
     fn translations_and_one_rotation_determine_no_dyad() {
         let (_, turns, ways) = known(5);
-        assert_eq!(dyads(&vec![Complex::new(1.0, 0.0); 5], &ways), None);
+        assert_eq!(dyads(&[Complex::new(1.0, 0.0); 5], &ways), None);
         let rotation: Vec<Complex> = turns.iter().map(|turn| Complex::new(2.0, 1.0) * (turn - 1.0)).collect();
         assert_eq!(dyads(&turns, &rotation), None);
-        assert_eq!(dyads(&turns, &vec![Complex::default(); 5]), None);
+        assert_eq!(dyads(&turns, &[Complex::default(); 5]), None);
     }
 }
