@@ -3,6 +3,8 @@
 #[cfg(feature = "command")]
 mod command;
 mod machine;
+#[cfg(feature = "command")]
+mod precision;
 mod report;
 #[cfg(feature = "command")]
 mod sweep;
@@ -10,6 +12,8 @@ mod sweep;
 #[cfg(feature = "command")]
 pub(crate) use command::*;
 pub(crate) use machine::*;
+#[cfg(feature = "command")]
+pub(crate) use precision::*;
 pub(crate) use report::*;
 #[cfg(feature = "command")]
 pub(crate) use sweep::*;

@@ -288,18 +288,6 @@ linkage::sentences! {
     crank_oa_coupler_ab_rocker(crank, coupler, rocker) = "  crank OA      {crank:.6} m\n  coupler AB    {coupler:.6} m\n  rocker CB     {rocker:.6} m";
     CRANK_ROCKER_FROM_TWO_EXTREME_POSITIONS = "crank-rocker from two extreme positions\n";
     proof_of_the_scenario(proof) = "  proof         {proof}";
-    // report/precision.rs
-    four_bars_pass_all(found, branch, order, full) = "  found         {found} through all positions, {branch} of these in one assembly mode,\n                {order} also in the given order, {full} also with a full turn of the crank";
-    FREE_ROTATIONS_WERE_SCANNED = "  scan          free rotations on a grid; the table has no two similar four-bars";
-    four_bar_of_the_table(number) = "four-bar {number} of the table";
-    pivots_and_pins(o, c, a, b) = "  pivots        O {o}, C {c} mm\n  position 1    A {a}, B {b} mm";
-    points_of_the_coupler(point, a, b) = "  coupler       P {point},\n                A {a}, B {b} mm in its frame";
-    crank_at_the_positions(angles) = "  crank         at {angles} deg";
-    travel_of_the_crank(travel) = "  motion        {travel}";
-    FULL_TURN_CLOCKWISE = "full turn, clockwise";
-    FULL_TURN_COUNTER_CLOCKWISE = "full turn, counter-clockwise";
-    from_to_deg(from, to) = "crank from {from} to {to} deg";
-    transmission_and_mode(transmission, mode) = "  transmission  {transmission:.4} deg at least\n  mode          {mode}";
     // report/diagram.rs
     construction_scale_of_time(sort, scale) = "\nconstruction by {sort}   mu_t = {scale} s/mm";
     rays_from_the_pole(method, from, given, unit, to, pole, scale, unit_2) = "\n{method}   mu_{from} = {given} {unit}, pole distance H = {pole} mm, mu_{to} = {scale} {unit_2}";

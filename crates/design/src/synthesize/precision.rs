@@ -13,7 +13,7 @@ mod path;
 mod points;
 
 pub use choice::PrecisionSynthesis;
-pub use four_bar::{CrankTravel, FourBarChecks, LinkFrame, PrecisionFourBar};
+pub use four_bar::{CrankTravel, FourBarChecks, PositionFrame, PrecisionFourBar};
 pub use function::{FunctionSpec, FunctionStart};
 pub use motion::{CouplerPose, MotionSpec};
 pub use path::{PathSpec, TimedPoint};

@@ -27,8 +27,8 @@
 //!   A is of degree 1 and B of degree 2 in u_p, so F is a real trigonometric polynomial of degree 3: six roots.
 //!   Two roots are trivial: all u_j = 1, and all u_j = k_j; X and Y are then infinite. Up to four dyads remain.
 //!
-//! Newton's method polishes the dyads of five positions in equations without rotations, `|X + d_j - Y (k_j - 1)| = |X|`.
-//! Every dyad is verified in these equations.
+//! Newton's method polishes the dyads of five positions in equations without rotations,
+//! `|X + d_j - Y (k_j - 1)| = |X|`. Every dyad is verified in these equations.
 
 use linkage::math::dense::Lu;
 use linkage::math::{Complex, KeepNan, harmonic};
@@ -69,8 +69,9 @@ struct Rows {
     size: f64,
 }
 
-/// Dyads whose vector Y has the rotations `turns`, and whose end has the displacements `ways` (m), both from position 1.
-/// The lists have one entry for each of three to five positions; the first rotation is 1, the first displacement 0.
+/// Dyads whose vector Y has the rotations `turns`, and whose end has the displacements `ways` (m), both since
+/// position 1. The lists have one entry for each of three to five positions; the first rotation is 1, the first
+/// displacement 0.
 /// Free rotations are scanned on a fixed grid.
 ///
 /// Returns `None` if the positions determine no dyad: all of them are rotations about one point, or translations.
@@ -326,9 +327,9 @@ mod tests {
     #[test]
     fn translations_and_one_rotation_determine_no_dyad() {
         let (_, turns, ways) = known(5);
-        assert_eq!(dyads(&vec![Complex::new(1.0, 0.0); 5], &ways), None);
+        assert_eq!(dyads(&[Complex::new(1.0, 0.0); 5], &ways), None);
         let rotation: Vec<Complex> = turns.iter().map(|turn| Complex::new(2.0, 1.0) * (turn - 1.0)).collect();
         assert_eq!(dyads(&turns, &rotation), None);
-        assert_eq!(dyads(&turns, &vec![Complex::default(); 5]), None);
+        assert_eq!(dyads(&turns, &[Complex::default(); 5]), None);
     }
 }

@@ -149,7 +149,8 @@ impl Motion {
         }
     }
 
-    /// Smallest transmission angle (rad). Its extremes are at the ends, and where the crank is on the line of the pivots.
+    /// Smallest transmission angle (rad). Its extremes are at the ends, and where the crank is on the line of the
+    /// pivots.
     /// `first` is the crank's angle from this line in position 1 (rad).
     fn transmission(&self, [frame, crank, coupler, rocker]: [f64; 4], first: f64) -> f64 {
         let diagonal = |x: f64| (frame * frame + crank * crank - 2.0 * frame * crank * x.cos()).larger(0.0).sqrt();
@@ -190,14 +191,14 @@ fn is_cyclic(angles: &[f64], sense: f64) -> bool {
 
 /// The frame of a link in position 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LinkFrame {
+pub struct PositionFrame {
     /// Origin (m).
     pub origin: Complex,
     /// Angle of the x axis (rad, counter-clockwise).
     pub angle: f64,
 }
 
-impl LinkFrame {
+impl PositionFrame {
     /// A point (m) in the coordinates of the link. A coordinate below the rounding error is zero.
     #[must_use]
     pub fn local(&self, point: Complex) -> Complex {
@@ -218,7 +219,7 @@ pub struct PrecisionFourBar {
     /// Working point P of the coupler in position 1 (m); `None` for a function generator.
     pub point: Option<Complex>,
     /// Frames of crank, coupler and rocker in position 1.
-    pub frames: [LinkFrame; 3],
+    pub frames: [PositionFrame; 3],
     /// Rotations of the crank from position 1 to every position (rad), along the travel where the travel has them.
     pub crank_turns: Vec<f64>,
     /// The checks.
@@ -241,7 +242,7 @@ pub(super) struct GivenFrames {
 impl PrecisionFourBar {
     pub(super) fn of([crank, rocker]: [&GroundLink; 2], given: &GivenFrames, checks: FourBarChecks) -> Self {
         let coupler = rocker.pin - crank.pin;
-        let along = |origin: Complex, arm: Complex, angle: Option<f64>| LinkFrame {
+        let along = |origin: Complex, arm: Complex, angle: Option<f64>| PositionFrame {
             origin,
             angle: angle.unwrap_or_else(|| arm.arg()),
         };

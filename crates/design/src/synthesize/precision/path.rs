@@ -50,7 +50,7 @@ impl PathSpec {
         for own in dyads(&cranks, &ways).ok_or_else(none)? {
             let pin = first.point - own.free;
             let crank = GroundLink { pivot: pin - own.given, pin, turns: cranks.clone() };
-            // With five points, the crank's own dyad is one of the solutions.
+            // With five points, the crank's dyad is one of the solutions; its four-bar has no frame and is refused.
             let rockers = dyads(&own.turns, &ways).unwrap_or_default();
             let rockers = rockers.into_iter().map(|dyad| of_motion(dyad, first.point));
             rockers.for_each(|rocker| choice.offer([&crank, &rocker]));
