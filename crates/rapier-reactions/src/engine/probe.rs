@@ -7,7 +7,7 @@ use super::rapier::prelude::{
     PhysicsWorld, Pose, RigidBodyBuilder, RigidBodyHandle, Rotation, SpringCoefficients, Vector,
 };
 use super::snapshot::{JointHandle, JointReaction, Middle, Snapshot, WorldRef};
-use super::{Real, TOLERANCE, TURN, real};
+use super::{Real, TOLERANCE, TURN, real, wide};
 use crate::balance::relative_speed;
 use crate::error::ReactionError;
 use crate::model::{ModelBody, ModelJoint, Stance};
@@ -60,7 +60,7 @@ impl Probing {
             sweeps *= 2;
             let fine = probed(middle, step, sweeps)?;
             let change = change(&coarse, &fine, arm);
-            if change <= self.tolerance + SWEEP_ULPS * sweeps as f64 * f64::from(Real::EPSILON) / self.turn {
+            if change <= self.tolerance + SWEEP_ULPS * sweeps as f64 * wide(Real::EPSILON) / self.turn {
                 return Ok(fine);
             }
             if 2 * sweeps > self.most_sweeps {

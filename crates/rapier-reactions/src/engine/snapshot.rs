@@ -120,13 +120,14 @@ impl Snapshot {
             placements: Vec::new(),
         };
         let mut numbers = BTreeMap::new();
-        for (joint, data, bodies, kept) in joints(world) {
+        for joint in joints(world) {
+            let FoundJoint { handle, data, bodies, .. } = joint;
             let is_moved = |handle: &RigidBodyHandle| world.bodies[*handle].is_dynamic();
             let is_off = |handle: &RigidBodyHandle| !world.bodies[*handle].is_enabled();
             if !bodies.iter().any(is_moved) || bodies.iter().any(is_off) {
                 continue;
             }
-            let (joint_type, efforts) = read_joint(joint, data, kept)?;
+            let (joint_type, efforts) = read_joint(&joint)?;
             let mut number = |handle: RigidBodyHandle| match numbers.get(&handle.into_raw_parts()) {
                 Some(&number) => Ok(number),
                 None => {
@@ -138,7 +139,7 @@ impl Snapshot {
             let bodies = [number(bodies[0])?, number(bodies[1])?];
             let frames = [placement(&data.local_frame1), placement(&data.local_frame2)];
             snapshot.model.joints.push(ModelJoint { bodies, joint_type, frames, efforts });
-            snapshot.joints.push(joint);
+            snapshot.joints.push(handle);
         }
         let is_finite = |own: &Placement| own.origin.iter().chain(own.direction.iter()).all(|value| value.is_finite());
         if snapshot.placements.iter().all(is_finite) { Ok(snapshot) } else { Err(ReactionError::NotFinite) }
@@ -193,73 +194,77 @@ pub(super) struct Middle<'a> {
     pub(super) motions: Vec<Motion>,
 }
 
-/// Efforts of a multibody joint besides its motor: whether each free coordinate has a damper, a spring, dry friction,
-/// the inertia of a rotor, or a given speed.
-type Kept = [bool; 3];
+/// A joint of the user's world.
+struct FoundJoint<'a> {
+    handle: JointHandle,
+    data: &'a GenericJoint,
+    bodies: [RigidBodyHandle; 2],
+    /// For each coordinate, whether it has a damper, a spring, dry friction, the inertia of a rotor, or a given speed.
+    /// An error if a coordinate is coupled with that of another joint.
+    passive: Result<[bool; 3], &'static str>,
+}
 
-/// All enabled joints: handle, data, bodies, and efforts that the data do not show.
-fn joints<'a>(
-    world: &WorldRef<'a>,
-) -> impl Iterator<Item = (JointHandle, &'a GenericJoint, [RigidBodyHandle; 2], Result<Kept, &'static str>)> {
+/// All enabled joints.
+fn joints<'a>(world: &WorldRef<'a>) -> impl Iterator<Item = FoundJoint<'a>> {
     let impulse = world.impulse_joints.iter().filter(|(_, joint)| joint.data.is_enabled());
-    let impulse = impulse.map(|(handle, joint)| {
-        (JointHandle::Impulse(handle), &joint.data, [joint.body1(), joint.body2()], Ok([false; 3]))
+    let impulse = impulse.map(|(handle, joint)| FoundJoint {
+        handle: JointHandle::Impulse(handle),
+        data: &joint.data,
+        bodies: [joint.body1(), joint.body2()],
+        passive: Ok([false; 3]),
     });
     let multibody = world.multibody_joints.iter().filter_map(|(handle, _, multibody, link)| {
         let parent = multibody.link(link.parent_id()?)?;
-        let bodies = [parent.rigid_body_handle(), link.rigid_body_handle()];
-        Some((JointHandle::Multibody(handle), &link.joint().data, bodies, kept(multibody, link)))
+        Some(FoundJoint {
+            handle: JointHandle::Multibody(handle),
+            data: &link.joint().data,
+            bodies: [parent.rigid_body_handle(), link.rigid_body_handle()],
+            passive: passive(multibody, link),
+        })
     });
     impulse.chain(multibody)
 }
 
-/// The efforts of a multibody joint that its data do not show; an error if the joint is coupled with another one.
-fn kept(multibody: &Multibody, link: &MultibodyLink) -> Result<Kept, &'static str> {
+/// The field `passive` of [`FoundJoint`] for a joint of a multibody.
+fn passive(multibody: &Multibody, link: &MultibodyLink) -> Result<[bool; 3], &'static str> {
     let own = link.link_id();
     if multibody.couplings().iter().any(|coupling| coupling.link1 == own || coupling.link2 == own) {
         return Err(sentences::COUPLED_COORDINATES);
     }
-    let (joint, mut coordinate, mut kept) = (link.joint(), link.assembly_id(), [false; 3]);
-    for (axis, kept) in kept.iter_mut().enumerate() {
+    let (joint, mut coordinate, mut passive) = (link.joint(), link.assembly_id(), [false; 3]);
+    for (axis, passive) in passive.iter_mut().enumerate() {
         if joint.data.locked_axes.bits() >> axis & 1 == 1 {
             continue;
         }
         let terms = [multibody.damping(), multibody.armature(), multibody.frictions()];
         let has_term = terms.iter().any(|term| term.get(coordinate).is_some_and(|value| *value != 0.0));
-        *kept = joint.kinematic || joint.spring(axis).0 != 0.0 || has_term;
+        *passive = joint.kinematic || joint.spring(axis).0 != 0.0 || has_term;
         coordinate += 1;
     }
-    Ok(kept)
+    Ok(passive)
 }
 
 /// Type and efforts of a joint.
-fn read_joint(
-    handle: JointHandle,
-    data: &GenericJoint,
-    kept: Result<Kept, &'static str>,
-) -> Result<(JointType, [bool; 3]), ReactionError> {
-    let refused = |property| Err(ReactionError::Unsupported(handle.name(), property));
-    let locked = data.locked_axes;
-    let kept = match kept {
-        Ok(kept) => kept,
-        Err(property) => return refused(property),
-    };
+fn read_joint(joint: &FoundJoint) -> Result<(JointType, [bool; 3]), ReactionError> {
+    let refused = |property| ReactionError::Unsupported(joint.handle.name(), property);
+    let (data, locked) = (joint.data, joint.data.locked_axes);
+    let passive = joint.passive.map_err(refused)?;
     if !data.coupled_axes.is_empty() {
-        return refused(sentences::COUPLED_AXES);
+        return Err(refused(sentences::COUPLED_AXES));
     }
     if !(data.limit_axes & !locked).is_empty() {
-        return refused(sentences::LIMITS);
+        return Err(refused(sentences::LIMITS));
     }
     let joint_type = match locked {
         JointAxesMask::LOCKED_REVOLUTE_AXES => JointType::Revolute,
         JointAxesMask::LOCKED_PRISMATIC_AXES => JointType::Prismatic,
         JointAxesMask::LOCKED_FIXED_AXES => JointType::Fixed,
-        JointAxesMask::LOCKED_PIN_SLOT_AXES => return refused(sentences::A_PIN_IN_A_SLOT),
+        JointAxesMask::LOCKED_PIN_SLOT_AXES => return Err(refused(sentences::A_PIN_IN_A_SLOT)),
         _ if locked.is_empty() => JointType::Free,
-        _ => return refused(sentences::OTHER_LOCKED_AXES),
+        _ => return Err(refused(sentences::OTHER_LOCKED_AXES)),
     };
     let motors = (data.motor_axes & !locked).bits();
-    Ok((joint_type, [0, 1, ROTATION].map(|axis| kept[axis] || motors >> axis & 1 == 1)))
+    Ok((joint_type, [0, 1, ROTATION].map(|axis| passive[axis] || motors >> axis & 1 == 1)))
 }
 
 fn refused_body(handle: RigidBodyHandle, property: &'static str) -> ReactionError {

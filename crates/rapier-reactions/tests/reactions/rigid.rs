@@ -163,9 +163,9 @@ fn a_kinematic_body_carries_a_block() {
         let mut world = empty_world(step, 64);
         let disc = world.bodies.insert(RigidBodyBuilder::kinematic_velocity_based().angvel(SPEED));
         let block = body(&mut world, (0.0, BLOCK.0, BLOCK.1, BLOCK.2), PLACE.0, PLACE.1);
-        let mut joint = GenericJointBuilder::new(JointAxesMask::LOCKED_FIXED_AXES).contacts_enabled(false).build();
+        let joint = GenericJointBuilder::new(JointAxesMask::LOCKED_FIXED_AXES).contacts_enabled(false);
+        let mut joint = joint.softness(SpringCoefficients::new(1e12, 1.0)).build();
         joint.set_local_frame1(Pose::from_parts(Vector::new(PLACE.0[0], PLACE.0[1]), Rotation::new(PLACE.1)));
-        joint.set_softness(SpringCoefficients::new(1e12, 1.0));
         world.impulse_joints.insert(disc, block, joint, true);
         let (mut reader, mut window, mut impulses) = (ImpulseReader::default(), PoseWindow::default(), Vec::new());
         for _ in 0..=steps {
