@@ -51,7 +51,8 @@ const CRATES: &[(&str, &str, &str, &str)] = &[
         "analytic columns design formula linkage linkproof prover scenario sweep",
         "arrow-array arrow-buffer arrow-schema base64 pyo3 pyo3-arrow",
     ),
-    ("rapier_twin", "crates/rapier-twin", "linkage", "parry2d parry2d-f64 rapier2d rapier2d-f64"),
+    ("rapier_reactions", "crates/rapier-reactions", "", "nalgebra rapier2d rapier2d-f64"),
+    ("rapier_twin", "crates/rapier-twin", "linkage rapier-reactions", "parry2d parry2d-f64 rapier2d rapier2d-f64"),
     ("recording", "crates/recording", "drawing files linkage", "mcap prost prost-types"),
     ("scenario", "crates/scenario", "columns files formula linkage", "csv parry2d-f64 strsim toml toml_edit"),
     (
@@ -211,7 +212,7 @@ const HOMES: &[(&str, &str)] = &[
     ("read_dir", "files scenario sweep"),
     ("tempfile", "files lab::outside"),
     ("read", "lab::outside recording scenario sweep prover::tables"),
-    ("nalgebra", "linkage::math"),
+    ("nalgebra", "linkage::math rapier_reactions"),
     ("petgraph", "linkage::mechanism"),
     ("differential_equations", "analytic::motion analytic::reduced"),
     ("num_integer", "analytic::reduced"),

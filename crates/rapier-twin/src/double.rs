@@ -1,6 +1,7 @@
 //! Rapier worlds in double precision.
 
 pub(super) use parry2d_f64 as parry;
+pub(super) use rapier_reactions::double as reactions;
 pub(super) use rapier2d_f64 as rapier;
 
 /// The engine's floating-point type.

@@ -20,6 +20,7 @@ use linkage::math::Vec2;
 use linkage::mechanism::{JointId, LinkPose, PerJoint};
 use linkage::solver::State;
 use linkage::work::{Count, WorkTally};
+use rapier_reactions::{TinyStep, tiny_steps};
 
 /// The worlds that are probed.
 pub(super) struct Probe<'a> {
@@ -50,7 +51,7 @@ impl<'a> Probe<'a> {
         state.transmitted.iter_mut().for_each(|force| *force = 0.0);
         state.torques.fill(0.0);
         for index in 0..self.worlds.len() {
-            for (step, share, settling) in [(self.step, -1.0, 2), (0.5 * self.step, 2.0, 1)] {
+            for (TinyStep { step, share }, settling) in tiny_steps(self.step).into_iter().zip([2, 1]) {
                 self.tally.one(Count::Probes);
                 let ([before, now], guard) = (&mut self.poses, &mut self.worlds[index]);
                 window.poses(case, t, step, before);

@@ -1,6 +1,7 @@
 //! Rapier worlds in single precision.
 
 pub(super) use parry2d as parry;
+pub(super) use rapier_reactions::single as reactions;
 pub(super) use rapier2d as rapier;
 
 /// The engine's floating-point type.

@@ -120,19 +120,3 @@ pub(super) fn parameters(settings: &Settings) -> IntegrationParameters {
         ..IntegrationParameters::default()
     }
 }
-
-/// Position of a joint's constraint rows at the start of a step.
-/// The direction is that of the x axis of the first joint frame.
-/// The arms go from the mass centres of both bodies to the rows.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Frame {
-    pub(super) axis: Vec2,
-    pub(super) arms: [Vec2; 2],
-}
-
-impl Frame {
-    pub(super) fn towards(self, end: Frame, share: f64) -> Frame {
-        let mix = |from: Vec2, to: Vec2| from + (to - from) * share;
-        Frame { axis: mix(self.axis, end.axis).normalize(), arms: [0, 1].map(|k| mix(self.arms[k], end.arms[k])) }
-    }
-}

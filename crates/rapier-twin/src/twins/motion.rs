@@ -1,7 +1,7 @@
 //! Sets and reads poses and velocities, and does the steps.
 
 use super::rapier::prelude::{JointAxesMask, JointAxis, Multibody, PhysicsWorld, Pose, Rotation};
-use super::{Place, Twin, joints, real, wide};
+use super::{Place, Twin, joints, reactions, real, wide};
 use crate::tree::{SpanningTree, coordinate};
 use crate::world::{LinkAngle, LinkFrame, World};
 use linkage::drive::Wrench;
@@ -72,8 +72,7 @@ impl Twin {
 
     /// Duration of a substep (s), which Rapier itself treats as a step.
     pub(super) fn substep(&self) -> f64 {
-        let parameters = &self.world.integration_parameters;
-        wide(parameters.dt) / parameters.num_solver_iterations as f64
+        reactions::substep(&self.world.integration_parameters)
     }
 }
 

@@ -1,10 +1,10 @@
 //! Converts impulses to forces.
 
-use super::joints::Frame;
-use super::{Twin, wide};
+use super::{Twin, reactions, wide};
 use crate::world::World;
-use linkage::math::{Vec2, cross, rotated, turned};
+use linkage::math::{Vec2, rotated, turned};
 use linkage::mechanism::{JointId, LinkId};
+use rapier_reactions::{JointRows, JointType};
 
 impl Twin {
     /// Stores points of action and axes of the joints to be read.
@@ -34,57 +34,29 @@ impl Twin {
             };
             let centre = |link: LinkId| self.point(linkage::mechanism::JointSide { link, local: self.centres[link] });
             let arms = [place - centre(joint.first.link), second - centre(joint.second.link)];
-            let start = &mut self.cuts[index].start;
-            *start = if share == 1.0 { Frame { axis, arms } } else { start.towards(Frame { axis, arms }, share) };
+            let (start, rows) = (&mut self.cuts[index].start, JointRows { axis, arms });
+            *start = if share == 1.0 { rows } else { start.towards(rows, share) };
         }
     }
 
     pub(super) fn read_reaction(&self, joint: JointId) -> Option<(Vec2, f64)> {
         let cut = self.cuts.iter().find(|cut| cut.index == joint)?;
         let impulses = self.world.impulse_joints.get(cut.handle)?.impulses;
-        let mut rows = [impulses[0], impulses[1], impulses[2]].map(wide);
-        let Frame { axis, arms } = cut.start;
-        let across = turned(axis);
-        let inverse = [cut.joint.first.link, cut.joint.second.link].map(|link| self.inverse[link]);
-        let turning =
-            |of: [f64; 2], other: [f64; 2]| of[0] * other[0] * inverse[0][1] + of[1] * other[1] * inverse[1][1];
-        let lever = |along: Vec2| arms.map(|arm| cross(arm, along));
-        // Rapier makes a joint's rows orthogonal to each other only if the joint connects separate bodies. The impulses
-        // of other joints are therefore not corrected.
-        let is_orthogonal = self.multibodies.is_empty();
-        let (force, moment) = match cut.joint.keeps_angle() {
-            true => {
-                if is_orthogonal {
-                    // Rapier made the row across the axis orthogonal to the row that keeps the angle.
-                    // The impulse of the row that keeps the angle is corrected for this orthogonalisation.
-                    rows[2] -= rows[1] * turning(lever(across), [1.0; 2]) / turning([1.0; 2], [1.0; 2]);
-                }
-                (across * rows[1], rows[2])
-            }
-            false => {
-                if is_orthogonal {
-                    // Rapier made the second row orthogonal to the first row. The impulse of the first row is corrected
-                    // for this orthogonalisation.
-                    let mass = inverse[0][0] + inverse[1][0] + turning(lever(axis), lever(axis));
-                    rows[0] -= rows[1] * turning(lever(axis), lever(across)) / mass;
-                }
-                (axis * rows[0] + across * rows[1], 0.0)
-            }
-        };
+        let rows = [impulses[0], impulses[1], impulses[2]].map(wide);
+        let links = [cut.joint.first.link, cut.joint.second.link];
+        let separate = self.multibodies.is_empty().then(|| links.map(|link| self.inverse[link]));
+        let joint_type = if cut.joint.keeps_angle() { JointType::Prismatic } else { JointType::Revolute };
+        let (impulse, turning) = cut.start.impulse(joint_type, rows, separate);
         // The impulse is that of the last substep, and acts on Rapier's first body.
         // The reaction is the force on the joint's second link, so its sign depends on the order of the bodies.
         let swapped = cut.steered.is_some_and(|(link, _)| link != cut.joint.first.link);
         let duration = if swapped { self.substep() } else { -self.substep() };
-        Some((force / duration, moment / duration))
+        Some((impulse / duration, turning / duration))
     }
 
     pub(super) fn read_torque(&self, drive: usize) -> f64 {
         let motor = &self.motors[drive];
         let joint = self.world.impulse_joints.get(motor.handle).expect("the motor exists");
-        if joint.data.motor_axes.is_empty() {
-            // For a motor that is off, Rapier keeps the impulse of its last active step, so the impulse is not read.
-            return 0.0;
-        }
-        -wide(joint.data.motors[motor.axis as usize].impulse) / self.substep() * motor.sense
+        reactions::motor_effort(joint, motor.axis, self.substep()) * motor.sense
     }
 }

@@ -6,7 +6,7 @@ mod meshes;
 mod motion;
 mod reading;
 
-use super::{Real, parry, rapier, real, wide};
+use super::{Real, parry, rapier, reactions, real, wide};
 use crate::sentences;
 
 use rapier::prelude::{
@@ -22,6 +22,7 @@ use linkage::engine::Settings;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
 use linkage::mechanism::{GROUND, Joint, JointId, LinkId, LinkPose, Transmission};
+use rapier_reactions::JointRows;
 
 /// If a tree has at least this many branches, a free motion has a separate multibody for every link that is joined to
 /// the ground.
@@ -47,8 +48,8 @@ struct Cut {
     /// The link that is Rapier's first body, and the direction of the first row in that link's frame.
     /// `None` if Rapier's first body and the direction are those of the joint itself.
     steered: Option<(LinkId, Vec2)>,
-    /// Position of the joint at the start of the last substep.
-    start: joints::Frame,
+    /// Rows of the joint at the start of the last substep.
+    start: JointRows,
 }
 
 /// A transmission in the world.
@@ -178,7 +179,7 @@ impl Twin {
             };
             let handle = world.impulse_joints.insert(bodies[order[0]], bodies[order[1]], between, true);
             let steered = steered.map(|(order, axis)| (order[0], axis));
-            Cut { joint, index, handle, steered, start: joints::Frame::default() }
+            Cut { joint, index, handle, steered, start: JointRows::default() }
         });
         let cuts = cuts.collect();
         let motors = case.drives.iter().map(|drive| {
