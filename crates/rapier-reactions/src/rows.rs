@@ -47,7 +47,8 @@ impl JointRows {
     /// Rows between these rows (`share` 0) and the rows `end` (`share` 1).
     ///
     /// With several substeps, the last one starts between two poses that can be read.
-    /// The rows are assumed to move along a straight line between these poses; the error is of second order in the step.
+    /// The rows are assumed to move along a straight line between these poses.
+    /// The error is of second order in the step.
     pub fn towards(self, end: JointRows, share: f64) -> JointRows {
         let mix = |from: Vec2, to: Vec2| from + (to - from) * share;
         JointRows { axis: mix(self.axis, end.axis).normalize(), arms: [0, 1].map(|k| mix(self.arms[k], end.arms[k])) }
@@ -58,8 +59,8 @@ impl JointRows {
     ///
     /// `rows` are the numbers of `ImpulseJoint::impulses`.
     /// `separate` is `None` if one of the bodies is a link of a multibody.
-    /// Otherwise it has the inverses of mass (1/kg) and moment of inertia (1/(kg m^2)) of both bodies, 0 for a body that
-    /// is not dynamic.
+    /// Otherwise it has the inverses of mass (1/kg) and moment of inertia (1/(kg m^2)) of both bodies.
+    /// The inverses of a body that is not dynamic are 0.
     /// Between two separate bodies, Rapier makes the rows of a joint orthogonal, and the raw numbers are not a force.
     /// This function undoes the orthogonalisation.
     pub fn impulse(&self, joint_type: JointType, rows: [f64; 3], separate: Option<[[f64; 2]; 2]>) -> (Vec2, f64) {
@@ -109,7 +110,8 @@ impl JointRows {
         rows
     }
 
-    /// Effect of a unit force along a coordinate, or of a unit moment, on a body: force, and moment about its mass centre.
+    /// Effect of a unit force along a coordinate, or of a unit moment, on a body.
+    /// The result is a force, and a moment about the mass centre.
     /// Side 1 is the second body, on which the unit force acts with its sign; on the first body it acts reversed.
     pub(crate) fn unit(&self, coordinate: usize, side: usize) -> [f64; 3] {
         let sign = if side == 1 { 1.0 } else { -1.0 };

@@ -49,12 +49,12 @@ impl ImpulseReader {
         let share = 1.0 - 1.0 / world.parameters.num_solver_iterations as f64;
         let at = |of: &Snapshot| after.model.stances(&of.placements).into_iter();
         let stances: Vec<Stance> = at(&before).zip(at(&after)).map(|(start, end)| start.towards(end, share)).collect();
-        read(world, &after, &stances)
+        from_impulses(world, &after, &stances)
     }
 }
 
 /// The reactions of the impulse joints of a snapshot whose rows had these stances.
-pub(super) fn read(
+pub(super) fn from_impulses(
     world: &WorldRef,
     snapshot: &Snapshot,
     stances: &[Stance],
@@ -110,8 +110,8 @@ fn separate(snapshot: &Snapshot, index: usize) -> Option<[[f64; 2]; 2]> {
 
 /// Force (N) or moment (N m) of a joint's motor on body 2 in the last substep, along an axis of joint frame 1.
 ///
-/// `substep` is the duration of a substep (s). The effort of a motor that is off is 0, although Rapier keeps the impulse
-/// of its last active step.
+/// `substep` is the duration of a substep (s).
+/// The effort of a motor that is off is 0, although Rapier keeps the impulse of its last active step.
 pub fn motor_effort(joint: &ImpulseJoint, axis: JointAxis, substep: f64) -> f64 {
     if !joint.data.motor_axes.contains(JointAxesMask::from(axis)) {
         return 0.0;

@@ -1,6 +1,6 @@
 //! Reactions from tiny steps of a separate world.
 
-use super::impulses::read;
+use super::impulses::from_impulses;
 use super::rapier::parry::mass_properties::MassProperties;
 use super::rapier::prelude::{
     GenericJoint, GenericJointBuilder, ImpulseJointHandle, IntegrationParameters, JointAxesMask, JointAxis, MotorModel,
@@ -35,7 +35,8 @@ pub struct Probing {
     /// Rotation of the fastest body in the tiny step (rad). The tiny step is at most the step of the window.
     pub turn: f64,
     /// The sweeps are doubled until no force changes by more than this fraction of the largest force.
-    /// A moment counts as a force at the longest arm of a joint. The rounding error of the sweeps is allowed in addition.
+    /// A moment counts as a force at the longest arm of a joint.
+    /// The rounding error of the sweeps is allowed in addition.
     pub tolerance: f64,
     /// The first number of sweeps.
     pub sweeps: usize,
@@ -176,7 +177,7 @@ impl Sandbox {
         snapshot.joints = self.joints.iter().copied().map(JointHandle::Impulse).collect();
         snapshot.model.bodies.iter_mut().for_each(|own| own.is_link = false);
         snapshot.handles.clone_from(&self.bodies);
-        let reactions = read(&WorldRef::from(&self.world), &snapshot, &middle.stances)?;
+        let reactions = from_impulses(&WorldRef::from(&self.world), &snapshot, &middle.stances)?;
         Ok(reactions.iter().enumerate().map(|(index, own)| named(own, middle.snapshot, index)).collect())
     }
 
