@@ -3,17 +3,17 @@
 #[cfg(feature = "command")]
 mod command;
 mod machine;
-#[cfg(feature = "command")]
-mod precision;
 mod report;
 #[cfg(feature = "command")]
 mod sweep;
+#[cfg(feature = "command")]
+mod synthesize;
 
 #[cfg(feature = "command")]
 pub(crate) use command::*;
 pub(crate) use machine::*;
-#[cfg(feature = "command")]
-pub(crate) use precision::*;
 pub(crate) use report::*;
 #[cfg(feature = "command")]
 pub(crate) use sweep::*;
+#[cfg(feature = "command")]
+pub(crate) use synthesize::*;

@@ -31,6 +31,8 @@ pub(crate) struct Front<'a> {
     pub(crate) task: &'a Task,
     /// Name of the limit that is varied.
     pub(crate) limit: &'a str,
+    /// The limit in words, and its unit.
+    pub(crate) noun: [String; 2],
     /// Limits with their mechanisms; `None` if no mechanism keeps the limits.
     pub(crate) points: &'a [(f64, Option<Reached>)],
 }
@@ -75,7 +77,7 @@ pub(crate) fn text(front: &Front) -> String {
 }
 
 /// The front as CSV: the limit, the deviation, and all dimensions in SI. Empty fields belong to limits without mechanism.
-pub(crate) fn csv(front: &Front) -> String {
+pub(crate) fn rows(front: &Front) -> String {
     let names =
         front.task.variables.iter().map(|own| format!("{} {}", own.name, if own.is_angle { "rad" } else { "m" }));
     let head = [front.limit.to_string(), "deviation_percent".into()].into_iter().chain(names);
@@ -110,11 +112,11 @@ pub(crate) fn json(front: &Front) -> String {
 pub(crate) fn picture(front: &Front) -> Result<Drawing> {
     let points = front.points.iter().filter_map(|(limit, found)| Some([*limit, found.as_ref()?.deviation()]));
     let points: Vec<[f64; 2]> = points.collect();
-    let marks = points.iter().map(|point| (*point, numbers::significant(point[1], 3))).collect();
+    let marks = points.iter().map(|point| (*point, String::new())).collect();
     let axis =
         |name: &str, unit: &str| PlotAxis { name: name.into(), unit: unit.into(), rounded: true, degrees: false };
     let chart = PlotChart {
-        axes: [axis(front.limit, ""), axis(sentences::DEVIATION, "%")],
+        axes: [axis(&front.noun[0], &front.noun[1]), axis(sentences::DEVIATION, "%")],
         curves: vec![PlotCurve { points, marks, ..PlotCurve::default() }],
         size: [160.0, 90.0],
         ..PlotChart::default()

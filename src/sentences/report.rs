@@ -523,17 +523,6 @@ found down to: faults larger than this are found in every scenario, to a factor 
     required_of(name) = "{name}, required";
     // report/synthesize.rs
     a_dwell_ends_where_the_output(value) = "A dwell ends when the output is {value} % of the stroke away from the middle of its extremes. A motion ends at its extreme position.";
-    random_candidates(drawn, assembled) = "{drawn} random candidates, of which {assembled} can be assembled over the whole turn and nearly keep the limits";
-    refined_without_derivatives(cost, refined, worst) = "; best cost {cost}, after refinement {refined} (worst refined candidate {worst})";
-    refined_with_derivatives(refined, worst) = "; refined with exact derivatives, largest deviation {refined} % (worst refined candidate {worst} %)";
-    poses_solved(all, random, refined) = "\n{all} poses solved: {random} for random candidates, {refined} for the refinement\n";
-    largest_distance(distance) = "Largest distance from a precision point {distance} mm.";
-    the_smallest_transmission_angle(angle) = "Smallest transmission angle {angle:.2} deg.";
-    CRANK_ANGLE = "crank angle";
-    ANGLE_OF_THE_OUTPUT = "angle of the output link";
-    DEVIATION = "deviation";
-    the_front_varies(limit) = "Each row is the mechanism with the smallest deviation at this value of {limit}.\nDeviation: largest motion in a dwell in % of the stroke, or largest distance from a precision point in % of their extent.";
-    largest_turned(angle) = "Largest deviation of an angle {angle} deg.";
     stroke_largest_motion_in_a_dwell(stroke, angle, unrest, wrong, late, short) = "Stroke {stroke}{angle}. Largest motion in a dwell {unrest:.3} % of the stroke,\nlargest motion in the wrong direction {wrong:.3} %. Extreme positions within {late:.2} deg of their required crank angles, dwells at most {short:.2} deg too short.";
     smallest_transmission_angle_deg(angle) = ", smallest transmission angle {angle:.2} deg";
     // report/table_csv.rs

@@ -22,7 +22,7 @@ const CRATES: &[(&str, &str, &str, &str)] = &[
         "design",
         "crates/design",
         "analytic drawing files formula linkage precise scenario",
-        "chacha20 cobyla parry2d-f64 quick-xml roxmltree toml_edit",
+        "basin chacha20 cobyla parry2d-f64 quick-xml roxmltree toml_edit",
     ),
     (
         "drawing",

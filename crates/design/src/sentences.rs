@@ -445,6 +445,8 @@ linkage::sentences! {
     A_POINT_HAS_NO_POSITION = "a precision point needs both coordinates, an angle, or all three";
     GIVE_X_AND_Y_OR_AN_ANGLE = "write `x_mm` and `y_mm`, `angle_deg`, or all three";
     A_POINT_NEEDS_A_WORKING_POINT = "a precision point has coordinates, but the output link has no working point";
+    LARGEST_ACCELERATION = "largest acceleration of the output point";
+    SMALLEST_TRANSMISSION_ANGLE = "smallest transmission angle";
     no_limit_is_called(name) = "the synthesis file has no limit \"{name}\"";
     name_one_of(names) = "name one of: {names}";
     THE_DRAWING_HAS_NO_OUTLINES = "a clearance is limited, but the drawing has no section `clearance`";

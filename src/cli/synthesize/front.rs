@@ -73,10 +73,10 @@ pub(super) fn front(args: &Args) -> Result<()> {
         let reached = |Found { task, achieved, values, verdict }| report::Reached { task, achieved, values, verdict };
         rows.push((point.limit, found.map(reached)));
     }
-    let all = Front { task: &task, limit: &args.limit.name, points: &rows };
+    let all = Front { task: &task, limit: &args.limit.name, noun: limit.noun(&task), points: &rows };
     let result = |result| -> Result<Made> {
         Ok(match result {
-            FrontResults::Csv => report::csv(&all).into(),
+            FrontResults::Csv => report::rows(&all).into(),
             FrontResults::Json => report::json(&all).into(),
             FrontResults::Svg => report::picture(&all)?.into(),
         })

@@ -85,7 +85,8 @@ fn a_search_is_written_drawn_and_checked() {
     assert_eq!(written, fs::read_to_string(place.path("again.toml")).unwrap());
     let checked = place.ok(&format!("synthesize check {SINKER} found.toml"));
     let tail = |text: &str| text[text.find(" from deg").unwrap()..].to_string();
-    assert_eq!(tail(&checked), tail(&text));
+    assert!(tail(&text).starts_with(&tail(&checked)), "{text}");
+    assert!(text.ends_with('\n') && text.contains(": AGREE: "), "{text}");
     let json: Value =
         serde_json::from_str(&place.ok(&format!("synthesize check {SINKER} found.toml --json -"))).unwrap();
     assert_eq!(json["phases"].as_array().unwrap().len(), 6);
@@ -96,7 +97,7 @@ fn a_search_is_written_drawn_and_checked() {
 #[test]
 fn a_path_is_found_written_and_proven() {
     let place = Place::new();
-    let task = "scenarios/synthesis/path_task.toml --candidates 500 --refined 4";
+    let task = "scenarios/synthesis/path_task.toml";
     let text = place.ok(&format!("synthesize search {task} -o path.toml -o path.svg -o path.json"));
     for words in ["refined with exact derivatives", "poses solved", "Largest distance from a precision point"] {
         assert!(text.contains(words), "{words}: {text}");
@@ -105,7 +106,7 @@ fn a_path_is_found_written_and_proven() {
     let distances: Vec<f64> =
         json["points"].as_array().unwrap().iter().map(|point| point["distance_m"].as_f64().unwrap()).collect();
     assert_eq!(distances.len(), 6);
-    assert_within!(distances.iter().copied().fold(0.0, f64::larger), 4e-4);
+    assert_within!(distances.iter().copied().fold(0.0, f64::larger), 1e-5);
     assert!(place.ok("run path.toml --no-record").contains("AGREE"));
     let svg = fs::read_to_string(place.path("path.svg")).unwrap();
     assert!(roxmltree::Document::parse(&svg).unwrap().descendants().any(|node| node.text() == Some("x, mm")));

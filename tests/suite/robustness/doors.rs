@@ -179,7 +179,7 @@ fn hostile_inputs_stay_within_limits_and_change_no_other_files() {
 /// Names of values in the help that are not paths of files or directories.
 const NO_PATHS: &str = "KEY=NUMBER REFERENCE ENGINE S ACCURACY N ROUTE TIMES STEPS GB FROM:TO:STEP LINK,LINK=MODE DEG FACTOR HZ \
     [HOST:]PORT WORD EXPR CHANNEL NAME=EXPR NUMBER [CHANNEL=]SHARE CHANNEL=SIZE WHAT NAME SOLVER SHARE KIND PARTY FAMILY \
-    TEMPLATE MM MPA POINT PIXELS X,Y KG_PER_M K RPM SHELL PAGE[#SECTION] WITH COMMAND \
+    TEMPLATE MM MPA POINT PIXELS X,Y X,Y,DEG CRANK,ROCKER KG_PER_M K RPM SHELL PAGE[#SECTION] WITH COMMAND \
     METHOD SCALE SEED PERCENT LANGUAGE CURVE[,CURVE...] PORT TEXT NAME,NAME W,H KEY=VALUES every:N I/N END:FIGURE FIGURE KEY";
 /// Options that name an output file. The command replaces any existing file at this path.
 const WRITTEN: [&str; 3] = ["--output", "--run-up", "--write-map"];

@@ -68,6 +68,15 @@ impl FrontLimit {
         task
     }
 
+    /// The limit in words, and its unit; without unit for a limited quantity, whose text names it.
+    pub fn noun(self, task: &Task) -> [String; 2] {
+        match self {
+            FrontLimit::Acceleration => [sentences::LARGEST_ACCELERATION.into(), "m/s²".into()],
+            FrontLimit::Transmission => [sentences::SMALLEST_TRANSMISSION_ANGLE.into(), "deg".into()],
+            FrontLimit::Quantity(index) => [task.keep[index].claim.text.clone(), String::new()],
+        }
+    }
+
     /// Whether a larger value allows more mechanisms.
     fn loosens(self) -> bool {
         self != FrontLimit::Transmission
