@@ -86,7 +86,7 @@ impl FrontLimit {
 /// The front over these values of a limit, in their order. `values` are in the unit of the limit's name.
 ///
 /// # Errors
-/// The errors of [`super::search`], except that no candidate was found.
+/// The errors of [`super::search()`], except that no candidate was found.
 pub fn front(
     task: &Task,
     limit: FrontLimit,
