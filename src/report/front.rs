@@ -5,7 +5,7 @@ use serde_json::json;
 
 use super::pretty::{list, pretty};
 use super::synthesize::stroke;
-use super::table_csv::number;
+use super::table_csv::{as_csv, number};
 use crate::plain::cells::table;
 use design::synthesize::Achieved;
 use design::synthesize::reached::largest_deviations;
@@ -77,19 +77,20 @@ pub(crate) fn text(front: &Front) -> String {
 }
 
 /// The front as CSV: the limit, the deviation, and all dimensions in SI. Empty fields belong to limits without mechanism.
-pub(crate) fn rows(front: &Front) -> String {
+///
+/// # Errors
+/// The errors of [`as_csv`].
+pub(crate) fn rows(front: &Front) -> Result<String> {
     let names =
         front.task.variables.iter().map(|own| format!("{} {}", own.name, if own.is_angle { "rad" } else { "m" }));
     let head = [front.limit.to_string(), "deviation_percent".into()].into_iter().chain(names);
-    let row = |(limit, found): &(f64, Option<Reached>)| {
-        let numbers = found.as_ref().map(|found| [found.deviation()].into_iter().chain(found.values.iter().copied()));
-        let numbers: Vec<f64> = numbers.into_iter().flatten().collect();
-        let fields =
-            (0..=front.task.variables.len()).map(|index| numbers.get(index).copied().map_or(String::new(), number));
-        [number(*limit)].into_iter().chain(fields).collect::<Vec<_>>().join(",")
+    let row = |(limit, found): &(f64, Option<Reached>)| -> Vec<String> {
+        let found = found.as_ref().map(|found| [found.deviation()].into_iter().chain(found.values.iter().copied()));
+        let mut fields: Vec<String> = [*limit].into_iter().chain(found.into_iter().flatten()).map(number).collect();
+        fields.resize(2 + front.task.variables.len(), String::new());
+        fields
     };
-    let rows = front.points.iter().map(row);
-    [head.collect::<Vec<_>>().join(",")].into_iter().chain(rows).map(|line| line + "\n").collect()
+    as_csv([head.collect()].into_iter().chain(front.points.iter().map(row)))
 }
 
 /// The front as JSON, schema 1.

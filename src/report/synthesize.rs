@@ -90,6 +90,9 @@ fn effort(task: &Task, found: &SearchResult) -> String {
 
 /// The phases as a table; `None` for a task without phases.
 fn phases(task: &Task, achieved: &Achieved) -> Option<String> {
+    if achieved.phases.is_empty() {
+        return None;
+    }
     let mut text = String::new();
     let rows = task.timing.phases().iter().zip(&achieved.phases).map(|(phase, done)| {
         let percent = |share: f64| numbers::fixed(100.0 * share, 3);
@@ -104,11 +107,14 @@ fn phases(task: &Task, achieved: &Achieved) -> Option<String> {
     phases.add_rows(rows);
     say!(text, "{phases}\n\n{}", summary(task, achieved));
     say!(text, sentences::a_dwell_ends_where_the_output(&(100.0 * BAND)));
-    (!achieved.phases.is_empty()).then_some(text)
+    Some(text)
 }
 
 /// The precision points as a table; `None` for a task without precision points.
 fn points(task: &Task, achieved: &Achieved) -> Option<String> {
+    if achieved.points.is_empty() {
+        return None;
+    }
     let missing = || "-".to_string();
     let rows = task.points.all().iter().zip(&achieved.points).map(|(wanted, found)| {
         let place = |value: f64| wanted.place.map_or_else(missing, |_| numbers::fixed(value * 1e3, 4));
@@ -124,7 +130,7 @@ fn points(task: &Task, achieved: &Achieved) -> Option<String> {
         true => summary(task, achieved),
         false => reached(achieved),
     };
-    (!achieved.points.is_empty()).then(|| format!("{points}\n\n{largest}\n"))
+    Some(format!("{points}\n\n{largest}\n"))
 }
 
 /// The largest deviations from the precision points.
@@ -145,8 +151,9 @@ pub(crate) fn json(story: &Story) -> String {
         })
     });
     let points = list(task.points.all().iter().zip(&achieved.points), |(wanted, found)| {
+        let place = wanted.place.map(|_| found.place);
         json!({
-            "crank_rad": found.turn, "x_m": wanted.place.map(|_| found.place.x), "y_m": wanted.place.map(|_| found.place.y),
+            "crank_rad": found.turn, "x_m": place.map(|own| own.x), "y_m": place.map(|own| own.y),
             "angle_rad": wanted.angle.map(|_| found.angle), "distance_m": found.distance, "deviation_rad": found.turned,
         })
     });
@@ -164,7 +171,8 @@ pub(crate) fn json(story: &Story) -> String {
     pretty(&json!({
         "schema": 1, "name": task.name, "stroke": achieved.stroke, "forward": achieved.forward,
         "transmission_rad": achieved.transmission, "unrest": achieved.unrest(task), "wrong": achieved.wrong(),
-        "late_rad": achieved.late(task), "short_rad": achieved.short(task), "phases": phases, "points": points, "search": search,
+        "late_rad": achieved.late(task), "short_rad": achieved.short(task), "phases": phases, "points": points,
+        "search": search,
     }))
 }
 

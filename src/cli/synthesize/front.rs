@@ -76,7 +76,7 @@ pub(super) fn front(args: &Args) -> Result<()> {
     let all = Front { task: &task, limit: &args.limit.name, noun: limit.noun(&task), points: &rows };
     let result = |result| -> Result<Made> {
         Ok(match result {
-            FrontResults::Csv => report::rows(&all).into(),
+            FrontResults::Csv => report::rows(&all)?.into(),
             FrontResults::Json => report::json(&all).into(),
             FrontResults::Svg => report::picture(&all)?.into(),
         })

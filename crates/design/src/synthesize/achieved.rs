@@ -76,8 +76,7 @@ impl Achieved {
     pub fn of(task: &Task, forward: f64) -> Result<Self> {
         let turns = fine_turns();
         let as_drawn = Task { places: Vec::new(), ..task.clone() };
-        let has_points = !task.points.is_empty();
-        let mut evaluator = if has_points { Evaluator::recording(&as_drawn) } else { Evaluator::new(&as_drawn) };
+        let mut evaluator = Evaluator::new(&as_drawn);
         evaluator.run(&[], task.case.crank().zero, &turns).map_err(|_| {
             Error::new(ErrorKind::Geometry, sentences::THE_MECHANISM_CANNOT_BE_ASSEMBLED).help(Advice::LookAtRange)
         })?;

@@ -30,7 +30,7 @@ pub(super) struct Evaluator<'a> {
     pub(super) acceleration: f64,
     /// Number of poses that were solved so far, with all runs.
     pub(super) poses: u64,
-    /// Motions of all links at the crank angles of the last run, if `records` is true.
+    /// Motions of all links at the crank angles of the last run, for a task with precision points.
     pub(super) recorded: Vec<PerLink<Motion>>,
     records: bool,
 }
@@ -48,11 +48,11 @@ impl<'a> Evaluator<'a> {
             acceleration: 0.0,
             poses: 0,
             recorded: Vec::new(),
-            records: false,
+            records: !task.points.is_empty(),
         }
     }
 
-    /// An evaluator that also keeps the motions of all links.
+    /// An evaluator that keeps the motions of all links for any task.
     pub(super) fn recording(task: &'a Task) -> Self {
         Evaluator { records: true, ..Evaluator::new(task) }
     }

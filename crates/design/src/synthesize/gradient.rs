@@ -18,9 +18,8 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
 use precise::CaseNumbers;
 
-use super::rating::Rater;
-use super::search::Candidate;
-use super::search::free_zero;
+use super::rating::{Rater, STEP};
+use super::search::{Candidate, free_zero};
 use super::target::at_speed;
 use super::task::Task;
 use crate::sentences;
@@ -28,8 +27,6 @@ use programme::Programme;
 use rows::{Order, Rows};
 use wishes::Wishes;
 
-/// Largest crank angle between two rows (rad): 3 degrees.
-const STEP: f64 = std::f64::consts::PI / 60.0;
 /// Weight of the largest violation of a limit in the cost of a candidate, relative to the largest deviation.
 const VIOLATION: f64 = 10.0;
 /// Accuracy at which the optimiser ends: of the deviation, of the constraints and of the fractions.
@@ -78,10 +75,11 @@ fn descent<'a>(task: &'a Task, wishes: &Wishes<'a>, rows: &mut Rows<'a>, shares:
     let cost = |rows: &mut Rows, shares: &[f64], turns: &[f64]| {
         let found = rows.at(shares, turns, Order::Values)?;
         let point = wishes.start(&found, shares, turns);
-        let violation = wishes.constraints(&found, &point).iter().fold(0.0, |most: f64, own| most.larger(own.value));
-        Some((point[wishes.deviation()] + VIOLATION * violation, point))
+        let constraints = wishes.constraints(&found, &point);
+        let violation = constraints.iter().fold(0.0, |most: f64, own| most.larger(own.value));
+        Some((point[wishes.deviation()] + VIOLATION * violation, point, constraints.len()))
     };
-    let (before, start) = cost(rows, shares, &turns)?;
+    let (before, start, count) = cost(rows, shares, &turns)?;
     let zero = free_zero(task);
     let bound = |index: usize| match index {
         index if zero == Some(index) => (start[index] - 0.5, start[index] + 0.5),
@@ -91,7 +89,7 @@ fn descent<'a>(task: &'a Task, wishes: &Wishes<'a>, rows: &mut Rows<'a>, shares:
         _ => (-MOST_DEVIATION, MOST_DEVIATION),
     };
     let (lower, upper) = (0..start.len()).map(bound).unzip();
-    let programme = Programme::new(wishes, rows, [lower, upper], &start)?;
+    let programme = Programme::new(wishes, rows, [lower, upper], count);
     let optimiser = Slsqp::new().with_absolute_accuracy_tolerance(ACCURACY);
     let steps = task.effort.evaluations as u64;
     let run = Executor::new(programme, optimiser, SelectedFirstOrderState::new(start)).max_iter(steps).run();
@@ -101,7 +99,7 @@ fn descent<'a>(task: &'a Task, wishes: &Wishes<'a>, rows: &mut Rows<'a>, shares:
     if let Some(zero) = zero {
         reached[zero] = reached[zero].rem_euclid(1.0);
     }
-    let after = cost(rows, &reached, &wishes.turns(point)).map_or(f64::INFINITY, |(cost, _)| cost);
+    let after = cost(rows, &reached, &wishes.turns(point)).map_or(f64::INFINITY, |(cost, ..)| cost);
     Some(if after < before { (reached, after) } else { (shares.to_vec(), before) })
 }
 

@@ -13,7 +13,7 @@ pub(super) fn nearest(task: &Task, evaluator: &Evaluator, turns: &[f64]) -> Vec<
     let free: Vec<&PrecisionPoint> = task.points.all().iter().filter(|point| point.turn.is_none()).collect();
     let cost = |point: &PrecisionPoint, row: usize| -> f64 {
         let (place, angle) = evaluator.position(row % count);
-        task.points.deviations(point, place, angle).iter().map(|own| own * own).sum()
+        task.points.squared_deviation(point, place, angle)
     };
     let costs: Vec<Vec<f64>> = free.iter().map(|point| (0..count).map(|row| cost(point, row)).collect()).collect();
     let (_, rows) = (0..count)

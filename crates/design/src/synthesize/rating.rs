@@ -14,6 +14,8 @@ use crate::synthesize::task::{Phase, Sense, Task, Timing};
 use linkage::math::KeepNan;
 use linkage::math::statistics::ends;
 
+/// Largest crank angle between two rows (rad) at which refined candidates are compared with the task: 3 degrees.
+pub(super) const STEP: f64 = TAU / 120.0;
 /// Weight of two terms relative to motion in a dwell.
 /// The terms are motion in the wrong sense, and too little motion in a moving phase.
 const WRONG: f64 = 4.0;

@@ -35,6 +35,9 @@ pub struct ReachedPoint {
 /// # Errors
 /// The errors of [`PoseSolver::solve_at`].
 pub fn reached(task: &Task) -> Result<Vec<ReachedPoint>> {
+    if task.points.is_empty() {
+        return Ok(Vec::new());
+    }
     let (link, working) = task.output.working_point();
     let local = working.map(|point| task.case.mechanism.links()[link].points[point].local);
     let mut poses = PoseSolver::new(&task.case)?;
@@ -45,9 +48,7 @@ pub fn reached(task: &Task) -> Result<Vec<ReachedPoint>> {
     };
     let coarse = coarse(task);
     let one = |(point, near): (&PrecisionPoint, &f64)| {
-        let apart = |(place, angle): (Vec2, f64)| {
-            task.points.deviations(point, place, angle).iter().map(|own| own * own).sum::<f64>()
-        };
+        let apart = |(place, angle): (Vec2, f64)| task.points.squared_deviation(point, place, angle);
         let turn = match point.turn {
             Some(turn) => turn,
             None => {
@@ -74,7 +75,7 @@ pub fn reached(task: &Task) -> Result<Vec<ReachedPoint>> {
 fn coarse(task: &Task) -> Vec<f64> {
     let turns: Vec<f64> = (0..=ROWS).map(|row| TAU * (row as f64 / ROWS as f64)).collect();
     let as_drawn = Task { places: Vec::new(), ..task.clone() };
-    let mut evaluator = Evaluator::recording(&as_drawn);
+    let mut evaluator = Evaluator::new(&as_drawn);
     match evaluator.run(&[], task.case.crank().zero, &turns) {
         Ok(()) => nearest(task, &evaluator, &turns),
         Err(_) => task.points.all().iter().map(|point| point.turn.unwrap_or(0.0)).collect(),

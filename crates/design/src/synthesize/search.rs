@@ -182,7 +182,7 @@ impl<'a> Random<'a> {
     fn new(task: &'a Task) -> Self {
         Random {
             task,
-            evaluator: if task.points.is_empty() { Evaluator::new(task) } else { Evaluator::recording(task) },
+            evaluator: Evaluator::new(task),
             rater: Rater::even(&task.timing, COARSE),
             zero: free_zero(task),
             values: vec![0.0; task.variables.len()],
@@ -270,7 +270,7 @@ impl<'a> Random<'a> {
     fn missed(&self, point: &PrecisionPoint) -> f64 {
         let at = |row: usize| {
             let (place, angle) = self.evaluator.position(row);
-            self.task.points.deviations(point, place, angle).iter().map(|own| own * own).sum()
+            self.task.points.squared_deviation(point, place, angle)
         };
         match point.turn {
             Some(turn) => at((turn.rem_euclid(TAU) / TAU * COARSE as f64).round() as usize),

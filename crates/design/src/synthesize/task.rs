@@ -126,7 +126,8 @@ impl LimitedQuantity {
 /// Smallest permitted distances between links and from the housing.
 #[derive(Clone, Debug)]
 pub struct WantedClearance {
-    /// The bodies with their outlines, and the pairs. A corner of an outline at a point of its link moves with the point.
+    /// The bodies with their outlines, and the pairs.
+    /// A corner of an outline at a point of its link moves with the point.
     pub question: ClearanceQuestion,
     /// Smallest permitted distance of every pair (m).
     pub wanted: f64,

@@ -33,17 +33,14 @@ pub(super) struct Programme<'a, 'b> {
 }
 
 impl<'a, 'b> Programme<'a, 'b> {
-    /// The programme near the unknowns `start`, with bounds of all unknowns.
-    /// `None` if the candidate at `start` cannot be assembled.
+    /// The programme with bounds of all unknowns and `count` constraints.
     pub(super) fn new(
         wishes: &'a Wishes<'b>,
         rows: &'a mut Rows<'b>,
         [lower, upper]: [Vec<f64>; 2],
-        start: &[f64],
-    ) -> Option<Self> {
-        let found = rows.at(wishes.shares(start), &wishes.turns(start), Order::Values)?;
-        let count = wishes.constraints(&found, start).len();
-        Some(Programme { wishes, rows: RefCell::new(rows), lower, upper, count, last: RefCell::new(None) })
+        count: usize,
+    ) -> Self {
+        Programme { wishes, rows: RefCell::new(rows), lower, upper, count, last: RefCell::new(None) }
     }
 
     /// Calls `read` with the constraints at a point; `None` stands for a candidate that cannot be assembled.

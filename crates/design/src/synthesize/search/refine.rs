@@ -9,12 +9,10 @@ use chacha20::rand_core::{Rng, SeedableRng};
 use cobyla::{RhoBeg, minimize};
 
 use crate::synthesize::evaluate::Evaluator;
-use crate::synthesize::rating::Rater;
+use crate::synthesize::rating::{Rater, STEP};
 use crate::synthesize::task::{Task, TaskNumber, Variable};
 use linkage::mechanism::GroupKind;
 
-/// Largest crank angle between two rows (rad): 3 degrees.
-const STEP: f64 = std::f64::consts::PI / 60.0;
 /// Lowest cost of a candidate that cannot be assembled over the whole turn.
 /// If no pose can be assembled, the cost is twice as high.
 const BROKEN: f64 = 100.0;

@@ -51,6 +51,11 @@ impl PrecisionPoints {
         [apart.x, apart.y, turned - TAU * (turned / TAU).round()]
     }
 
+    /// Sum of the squared [deviations](PrecisionPoints::deviations) of a position from a point.
+    pub fn squared_deviation(&self, point: &PrecisionPoint, place: Vec2, angle: f64) -> f64 {
+        self.deviations(point, place, angle).iter().map(|own| own * own).sum()
+    }
+
     /// The length by which deviations of places are divided (m).
     pub fn extent(&self) -> f64 {
         self.extent
