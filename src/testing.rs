@@ -104,7 +104,7 @@ fn failure(proof: &Proof) -> Option<String> {
 }
 
 /// A proof of a scenario file, prepared by [`Proving::of`].
-/// A setting that is not made here comes from the scenario file.
+/// Settings that no method of `Proving` sets come from the scenario file.
 #[derive(Clone, Debug)]
 #[must_use = "nothing is proven before `prove` or `assert`"]
 pub struct Proving {

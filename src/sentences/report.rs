@@ -5,8 +5,8 @@ linkage::sentences! {
     EXPECTED_A_FILE_THAT_ENDS = "expected a file that ends in .svg, .pdf, .png, .dxf, .gif or .webp, or `-`";
     no_pictures_end_in_expected(other) = "unknown picture type .{other}; expected .svg, .pdf, .png, .dxf, .gif or .webp";
     AN_ANIMATION_SHOWS_ONE_POSITION = "an animation shows one position at a time";
-    GROUPS_ARE_DRAWN_AT_ONE_INSTANT = "groups are drawn apart at one instant, without paths and loads";
-    ALL_CONFIGURATIONS_HAVE_ONE_INSTANT = "all configurations are drawn as a whole, at one instant";
+    GROUPS_ARE_DRAWN_AT_ONE_INSTANT = "groups are drawn apart at one instant; such a picture has no paths and no loads";
+    ALL_CONFIGURATIONS_HAVE_ONE_INSTANT = "all configurations are drawn as a whole; such a picture shows one instant and no separate groups";
     MAKE_TWO_PICTURES = "make two pictures";
     positions_are_requested(count) = "{count} positions are requested";
     give_positions_between(least, most) = "give a number from {least} to {most}";
@@ -38,8 +38,8 @@ linkage::sentences! {
     names_are_given_for_curves(names, curves) = "{names} names are given, but {curves} curves are drawn";
     // graph/ask.rs
     is_a_chart_of_its_kind(word) = "the chart \"{word}\" cannot have further curves";
-    ASK_FOR_IT_ALONE = "ask for it in a separate chart";
-    A_PATTERN_SUCH_AS_JOINT_F_N = "a pattern has a name's ending, such as joint.*.f_N or link.*.omega_rad_s";
+    ASK_FOR_IT_ALONE = "request this chart separately";
+    A_PATTERN_SUCH_AS_JOINT_F_N = "a pattern is a channel name with a star in place of a part, such as joint.*.f_N or link.*.omega_rad_s";
     no_channel_fits(pattern) = "no channel fits the pattern {pattern}";
     is_one_number_and_no_curve(name) = "{name} is one number for the whole mechanism, not a curve";
     NAME_CHANNELS_THAT_CHANGE = "name channels, which change during the motion";
@@ -54,7 +54,7 @@ linkage::sentences! {
     A_DIFFERENCE_HAS_NO_HODOGRAPH = "a difference has no hodograph";
     DRAW_BOTH_OR_THE_COMPONENTS = "draw both parties, or the difference of the components";
     // graph/under_motor.rs
-    has_no_motor(name) = "{name} has no motor, so nothing runs up";
+    has_no_motor(name) = "{name} has no motor, so there is no run-up";
     ADD_A_MOTOR_TO_THE_DRIVE = "add a motor to the drive of the scenario";
     there_is_no_averaged_curve(name) = "{name}: no averaged curve, because the motor's law is not a straight line, or the motor cannot start against the mean resistance";
     EXACT_MODEL = "equation of motion";
@@ -451,7 +451,7 @@ found down to: faults larger than this are found in every scenario, to a factor 
     on_the_base_link(velocity, acceleration) = "  v_Σ {velocity} m/s, a_Σ {acceleration} m/s² on the base link";
     false_position(link, alpha, at) = "  false position for alpha of link {link} = {alpha} rad/s²: a_Σ {at} m/s²";
     lines_of_positions_meet(at, link, alpha) = "  line of false positions and line of true positions meet at {at} m/s²: alpha of link {link} = {alpha} rad/s²";
-    turned_by_deg_on_paper(sense) = "on paper turned by 90 deg {sense}, against the driving link; x and y are not turned";
+    turned_by_deg_on_paper(sense) = "on paper, the plan is turned by 90 deg {sense}, against the rotation of the driving link; x and y are values before this turn";
     INSTANT_CENTRES_OF_ALL_PAIRS = "\ninstant centres P of all pairs of links (0 is the ground), acceleration centres π";
     NOWHERE = "nowhere: it translates";
     EVERYWHERE = "everywhere: no motion";
@@ -479,8 +479,8 @@ found down to: faults larger than this are found in every scenario, to a factor 
     per_unit(number, unit) = "{number} per {unit}";
     figure_over_all_instants(figure, value) = "{figure} = {value}, over all instants";
     figure_at_instants(figure, value, instants) = "{figure} = {value} at {instants}";
-    another_extreme_is_as_large(instant) = "kink: {instant} has an equal extreme, so the derivatives hold only for changes after which the first instant still has the extreme";
-    THE_FIGURE_HAS_A_KINK = "kink: the figure is an absolute value or a magnitude at zero, so it has no derivatives";
+    another_extreme_is_as_large(instant) = "kink: the figure has the same extreme again at {instant}; the derivatives hold only for changes that leave the extreme at the first instant";
+    THE_FIGURE_HAS_A_KINK = "kink: the figure is the absolute value of zero or the magnitude of a zero vector, so the figure has no derivatives";
     further_keys(count) = "{count} further keys: a table (.csv) contains all";
     INSTANTS_KEEP_THEIR_INPUTS = "derivatives at constant inputs of the instants";
     INSTANTS_KEEP_THEIR_TIMES = "derivatives at constant times of the instants";
@@ -519,7 +519,7 @@ found down to: faults larger than this are found in every scenario, to a factor 
     THE_BEST_OF_A_ROW_IS_MARKED = "* best value of the row";
     // report/cyclogram.rs
     drive_of_an_organ(name, stroke, unrest, late) = "drive {name}, stroke {stroke}, motion in dwells up to {unrest:.2} % of the stroke, extremes within {late:.2} deg";
-    MOMENTS_OF_THE_CYCLE = "Moments: the shaft angles at which every organ is in a phase that belongs to the moment.";
+    MOMENTS_OF_THE_CYCLE = "Moments: at these shaft angles, every organ is in one of the phases listed for the moment.";
     required_of(name) = "{name}, required";
     // report/synthesize.rs
     a_dwell_ends_where_the_output(value) = "A dwell ends when the output is {value} % of the stroke away from the middle of its extremes. A motion ends at its extreme position.";

@@ -71,8 +71,7 @@ const CRATES: &[(&str, &str, &str, &str)] = &[
     ),
 ];
 
-/// Top-level modules of the crates with internal rules, and the modules of the same crate that each top-level module
-/// may use.
+/// For each top-level module of the crates with internal rules: the modules of the same crate that it may use.
 const ROOMS: &[(&str, &str)] = &[
     ("linkage::case", "drive error input math mechanism trajectory"),
     ("linkage::drive", "input math mechanism"),
@@ -136,7 +135,7 @@ const ROOMS: &[(&str, &str)] = &[
     ("linkproof::testing", "plain"),
 ];
 
-/// Modules, and the parts of other crates that each module must not name, although the module's crate may use them.
+/// For each module: the parts of other crates that this module must not name, although its crate may use them.
 const NEVER: &[(&str, &str)] = &[
     // `prover::bounds` only compares trajectories.
     ("prover::bounds", "analytic rapier_twin simbody_twin linkage::case linkage::mechanism linkage::solver"),
@@ -242,7 +241,8 @@ const HOMES: &[(&str, &str)] = &[
 /// side.
 const SIDES: [&[&str]; 2] = [&["assur", "assur_solver.rs"], &["newton"]];
 
-/// A file must have fewer lines than this; a longer file has more than one purpose.
+/// Limit on the number of lines of a file.
+/// A file of this length or more serves more than one purpose.
 const MOST_LINES: usize = 600;
 
 /// Words that no code may contain.
@@ -583,8 +583,9 @@ fn files_are_short_and_free_of_stopgaps() {
             if lines >= MOST_LINES {
                 wrong.push(format!("{}: {lines} lines, fewer than {MOST_LINES} are allowed; split it", file.display()));
             }
-            // This file names the banned words, and the boundary to Simbody has its own test, so banned words are not
-            // searched for in these two files.
+            // Banned words are not searched for in two files.
+            // The first, this file, lists the banned words.
+            // The second, the boundary to Simbody, has a separate test.
             let own = file.ends_with("suite/architecture.rs") || file.ends_with("simbody/src/ffi.rs");
             let told = |line: &str| line.trim_start().starts_with("//");
             let code: String = text.lines().filter(|line| !told(line)).collect::<Vec<_>>().join("\n");

@@ -1,5 +1,7 @@
-//! docs/authors.md: every row has one of three statuses; the formulas, tables, tests and findings that it names exist;
-//! its commands succeed.
+//! Tests of the page docs/authors.md.
+//! Every row has one of three statuses.
+//! The formulas, tables, tests and findings that a row names exist.
+//! The commands of the page succeed.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -37,7 +39,7 @@ fn rows<'a>(page: &'a str, section: &str) -> Vec<Vec<&'a str>> {
 
 /// An item that a row names between back quotes.
 enum Named<'a> {
-    /// A command, and the exit code that stands behind it.
+    /// A command, and the expected exit code, which the row states behind the command.
     Command(&'a str, i32),
     /// Formulas of a scenario.
     Formulas(&'a str, Vec<&'a str>),
@@ -177,7 +179,9 @@ fn placeholder(line: &str) -> Option<String> {
     words.find(|word| is_capital(word)).map(|word| format!("`{word}` is no file: {line}"))
 }
 
-/// The commands to run: those of the short forms, and for each row those that no earlier row has.
+/// The commands to run.
+/// The short forms `check` and `run` give one command for each scenario.
+/// For each row, its written commands follow, except those that an earlier row has.
 fn jobs(page: &str) -> Vec<Vec<(String, i32)>> {
     let (mut seen, mut short, mut jobs) = (BTreeSet::new(), BTreeSet::new(), Vec::new());
     for row in SECTIONS.iter().flat_map(|(section, _)| rows(page, section)) {

@@ -263,7 +263,8 @@ fn an_empty_batch_gives_no_poses() {
     assert!(poses.is_empty());
 }
 
-/// The statistics of a case batch equal, bit by bit, those of `solve`, also after a change of its numbers.
+/// A case batch gives, bit by bit, the numbers of the pose solver.
+/// This also holds after the masses of the case have been changed.
 #[test]
 fn a_case_batch_has_the_bits_of_the_pose_solver() {
     for (name, links) in [("crank_rocker", 3), ("ov7_base", 7)] {

@@ -180,7 +180,7 @@ fn invalid_answers_are_failures_with_a_reason() {
 }
 
 /// An older peer does not know the newest channels.
-/// The channels that it provides are judged, and the missing channels are reported.
+/// The channels that the older peer provides are judged, and the missing channels are reported.
 #[test]
 fn a_peer_with_missing_channels_is_judged_in_the_others() {
     let scenario = few("crank_rocker.toml");

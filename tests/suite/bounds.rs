@@ -29,7 +29,7 @@ type Sample = (&'static str, &'static str, &'static [(&'static str, &'static str
 const SAMPLES: [Sample; 9] = [
     ("four-bar", "scenarios/crank_rocker.toml", &[], 2e-3, 16),
     // This sample is a millionth of a degree from a dead point.
-    // The condition number therefore enters every number with which a claim is compared.
+    // The condition number therefore affects every number with which a claim is compared.
     (
         "dead point",
         "scenarios/crank_rocker.toml",

@@ -275,7 +275,8 @@ fn planted_thin_crossings_are_found() {
             let link = LinkId(1 + random.index(case.mechanism.links().len() - 1));
             let local = case.mechanism.links()[link].points[0].local + random.vector(0.1 * size, 0.2 * size);
             let motion = at(&case, &[crank])[0].motions[link];
-            // The nail overlaps the path so little that the corner crosses it for only about a millionth of a degree.
+            // The nail overlaps the path by so little that the point passes through the nail within about a millionth
+            // of a degree.
             let (place, way) = (motion.point(local), motion.point_velocity(local).normalize());
             let radius = 1e-6 * size;
             let depth = 1e-12 * size;
@@ -323,7 +324,7 @@ fn a_grid_of_several_turns_gives_the_results_of_one() {
     }
 }
 
-/// The computed area is so close to the closed form that missing area at the border would show.
+/// The computed area agrees with the closed form to 1e-4, so an area missing at the border would be noticed.
 /// The proven interval of the area is wider than the error of the computed area, because the work is limited.
 #[test]
 fn a_swept_area_matches_its_closed_form_to_1e_4() {

@@ -1,6 +1,6 @@
 //! Mechanisms in which all values of a quantity vanish.
-//! A proof must not divide by the rounding errors of the vanishing values, and such values must not make it
-//! inconclusive.
+//! A proof must not divide by the rounding errors of the vanishing values.
+//! The vanishing values alone must not make a proof inconclusive.
 
 use crate::common::spec::{Spec, four_bar};
 use crate::common::{from_outside, shipped};
@@ -108,7 +108,8 @@ fn regress_a_link_of_a_single_point_has_a_size() {
         agrees_by(reference.name(), &parsed(&free), &Options::default().reference(reference));
     }
     // Two further cases of the pendulum: the link turned at constant speed, and the link driven from rest by a motor.
-    // With the motor, the mass centre of the link is in the pivot, like that of a flywheel, or 1 mm beside it.
+    // The motor is tried with two positions of the link's mass centre: in the pivot, as in a flywheel, and 1 mm beside
+    // the pivot.
     let driven = without(&without(&free, "motion ="), "zero_deg");
     agrees_by("driven", &parsed(&driven), &Options::default());
     let motor = "motion = \"free\"\ninitial_speed_rad_s = 0\n";

@@ -289,7 +289,9 @@ fn wrong_input_is_refused_with_a_remedy() {
     }
 }
 
-/// A small picture has no letters. Every picture follows a dark viewer, unless it is part of a page or printed.
+/// A small picture has no letters.
+/// Every picture takes the dark colours of a viewer in dark mode.
+/// Pictures inside a page and printed pictures stay light.
 #[test]
 fn small_pictures_have_no_letters_and_pictures_follow_a_dark_viewer() {
     let small = svg(&[&file("crank_rocker"), "--traces", "--small"]);

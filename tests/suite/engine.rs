@@ -1,5 +1,6 @@
 //! Requirements on every engine, and errors that once occurred.
-//! Each error has a symptom and a cause; those with a number are stories in `docs/stories.md`.
+//! Each error has a symptom and a cause.
+//! Errors with a number are listed as stories in `docs/stories.md`.
 
 mod accuracy;
 mod chains;
@@ -52,7 +53,8 @@ fn stepping(dt: f64) -> impl Iterator<Item = Box<dyn Engine>> {
     prover::engines::all(dt).into_iter().filter(|engine| !engine.controls_error())
 }
 
-/// The engines of `stepping` in double precision; in single precision, rounding hides orders of convergence (story 60).
+/// The engines that step as the user chooses, in double precision.
+/// In single precision, rounding hides orders of convergence (story 60).
 fn double(dt: f64) -> impl Iterator<Item = Box<dyn Engine>> {
     stepping(dt).filter(|engine| !single(engine.as_ref()))
 }

@@ -30,10 +30,10 @@ fn large_and_heavy_links_within_precision_are_accepted() {
         super::parse(&GOOD.replacen(from, to, 1), super::TABLE).unwrap_or_else(|error| panic!("{to}: {error}"))
     };
     taken("{ x_mm = 13, y_mm = 0 }", "{ x_m = 300, y_m = 0 }");
-    // A point at the mass centre makes the link as large as the distance of its mass centre, so this distance is
-    // accepted.
+    // A mass centre far from the joints is accepted if the link has a point there, because the point makes the link as
+    // large as this distance.
     let point = "mass_centre = { x_mm = 13, y_mm = 0 }\n[links.crank.points]";
     taken(point, "mass_centre = { x_m = 1300, y_m = 0 }\n[links.crank.points]\nG = { x_m = 1300, y_m = 0 }");
-    // No other link has a mass, so this large inertia makes no other inertia lose digits.
+    // This large inertia is accepted, because no other link has a mass with which it is compared.
     taken("inertia_kg_m2 = 0.0002", "inertia_kg_m2 = 2e14");
 }

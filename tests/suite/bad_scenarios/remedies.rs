@@ -88,7 +88,7 @@ fn names(says: &str, key: &str) -> bool {
 }
 
 /// Calls `look` with the keys of the shipped scenarios: the file, its text, and the key.
-/// Of a key that occurs often in sections with the same first word, only the first two occurrences are tried.
+/// If a key occurs often in sections with the same first word, only its first two occurrences are tried.
 fn for_each_key(mut look: impl FnMut(&Path, &str, &Key) -> Option<String>) {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let all = ["scenarios", "scenarios/formulas"].map(|directory| files_in(root.join(directory)).unwrap());

@@ -18,7 +18,7 @@ fn refused(edits: &[(&str, &str)]) -> (String, Error) {
     (text, error)
 }
 
-/// Asserts that each edit gives one error, of this key and on the line of this text.
+/// Asserts that each case gives exactly one error, and that this error has the key and the line stated in the case.
 fn assert_all_told(cases: &[(&'static str, &'static str, &str, &str)]) {
     let edits: Vec<(&str, &str)> = cases.iter().map(|&(from, to, ..)| (from, to)).collect();
     let (text, error) = refused(&edits);
@@ -45,7 +45,7 @@ fn mistakes_in_different_tables_are_reported_together() {
         ("links = [\"crank\", \"coupler\"]", "links = [\"crank\", \"cuopler\"]", "joints.A.links", "cuopler"),
         ("speed_rpm = 130", "speed_rpm = 0\ncolour = 1", "drive.speed_rpm", "speed_rpm = 0"),
         // The edit of the drive makes two mistakes.
-        // The edit of `[gravity]` only adds an empty line; this edit stands for the second mistake of the drive.
+        // The edit of `[gravity]` only adds an empty line; this row of the list states the second error of the drive.
         ("[gravity]", "\n[gravity]", "drive.colour", "colour"),
         ("x_m_s2 = 0\n", "", "gravity", "[gravity]"),
         ("link = \"rocker\"", "link = \"rockre\"", "loads[1].link", "rockre"),

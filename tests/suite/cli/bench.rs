@@ -31,7 +31,8 @@ fn diagrams_and_numbers_are_written() {
     for end in ["time", "solutions", "inner"] {
         let drawn = fs::read_to_string(place.path(&format!("out/deep/five_bar.{end}.svg"))).unwrap();
         let drawn = roxmltree::Document::parse(&drawn).unwrap();
-        // Both sides, in the first two colours, have a mark in the legend and one in the only panel.
+        // Each of the two sides has a mark in the legend and a mark in the only panel; the sides have the first two
+        // colours.
         for colour in [SERIES[0].light, SERIES[1].light] {
             let marks = drawn.descendants().filter(|node| {
                 !node.has_tag_name("line") && ["fill", "stroke"].iter().any(|key| node.attribute(*key) == Some(colour))
@@ -47,7 +48,7 @@ fn diagrams_and_numbers_are_written() {
     let points = found["scenarios"][0]["points"].as_array().unwrap();
     assert_eq!(rows, points.len() + 1);
     assert_eq!(points[0]["ratio"], 1.0);
-    // The table and the text have the numbers of the JSON.
+    // The CSV table and the text report have the same numbers as the JSON file.
     let lines: String = table.lines().filter(|line| !line.starts_with('#')).map(|line| format!("{line}\n")).collect();
     let mut reader = csv::Reader::from_reader(lines.as_bytes());
     let header = reader.headers().unwrap().clone();

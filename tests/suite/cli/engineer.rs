@@ -66,7 +66,7 @@ fn ten_questions_have_their_lines() {
     assert_eq!(joints, 3, "{text}");
 }
 
-/// The figures are those of the solution: `bearings`, `drive` and `inspect` compute them by other code.
+/// The figures are those of the solution: `bearings`, `drive` and `inspect` compute the same figures by other code.
 #[test]
 fn the_figures_are_those_of_the_solution() {
     let place = Place::new();
@@ -99,7 +99,7 @@ fn a_file_chooses_its_figures() {
     assert_eq!(names, ["max:joint.A.f_N", "at_max:point.D.y_mm", "transmission_angle_deg"], "{text}");
     let markdown = fs::read_to_string(place.path("out.md")).unwrap();
     assert!(markdown.contains("\n| max:joint.A.f_N | "), "{markdown}");
-    // Of the chosen figures, those remain that the requested channels allow.
+    // With `--only`, the report keeps the chosen figures whose channels are requested.
     let only = place.ok("run scenarios/chosen.toml --no-record --only joint.A");
     assert!(only.contains("max:joint.A.f_N  ") && !only.contains("at_max:point.D.y_mm"), "{only}");
 }

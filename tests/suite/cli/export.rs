@@ -52,7 +52,7 @@ fn loads_are_left_out_on_request() {
     let place = Place::new();
     let message = "a load of type \"moment\" cannot be written to SDF";
     place.refused("export scenarios/four_bar_relative.toml -o -.sdf", &[message, "--no-loads"]);
-    // The header says so, but not of a scenario without loads.
+    // The header of the model says that loads are omitted, except for a scenario without loads.
     for ending in ["xml", "sdf", "urdf", "usda"] {
         for (scenario, notes) in [("four_bar_relative", 1), ("quick_return", 0)] {
             let text = place.ok(&format!("export scenarios/{scenario}.toml --no-loads -o -.{ending}"));

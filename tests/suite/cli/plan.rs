@@ -106,8 +106,8 @@ fn diagrams_as_text_json_csv_and_drawing() {
 }
 
 /// The motion of a geared five-bar does not repeat after a turn, and a stroke does not repeat at all.
-/// Symptom: errors of 120 % at the end, and an order below zero.
-/// Cause: the chords were closed from the last point to the first.
+/// Symptom: errors of 120 % at the end of the diagram, and an observed order of convergence below zero.
+/// Cause: the chord method took the last point of the diagram as the neighbour of the first point.
 #[test]
 fn diagrams_of_motions_that_do_not_repeat_have_order_two() {
     let place = Place::new();

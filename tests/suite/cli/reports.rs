@@ -141,7 +141,7 @@ fn reports_have_every_verdict_with_judge_and_reason() {
             let told = said.and_then(|said| said.attribute("message").or(said.text()));
             assert_eq!(told, reason.as_deref(), "{name}");
         }
-        // The reason is that of the engine that failed first.
+        // If several engines fail, the report gives the reason of the first engine that failed.
         let failure = cases.next().map(|case| (case.attribute("name"), case.first_element_child().unwrap()));
         let wanted = proof.engines[0].failure.as_ref().map(|_| (Some("proof"), Some("the first fails")));
         assert_eq!(failure.map(|(name, own)| (name, own.attribute("message"))), wanted);

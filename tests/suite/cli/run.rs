@@ -363,10 +363,10 @@ fn unrequested_channels_are_neither_compared_nor_checked() {
     );
 }
 
-/// One factor scales all bounds.
+/// The option `--tolerance-scale` multiplies every bound by one factor.
 /// With a factor of 1e-9, even correct numbers disagree.
-/// With a factor of zero, the report prints every channel and check with its bound, and the verdicts are those of the
-/// factor 1.
+/// With a factor of zero, the report prints every channel and check with its bound; the verdicts stay those of factor
+/// 1.
 #[test]
 fn the_tolerance_scale_applies_to_every_bound() {
     let place = Place::new();

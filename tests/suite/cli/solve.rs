@@ -10,7 +10,7 @@ const ON_LINKS: &str = "angle_rad omega_rad_s alpha_rad_s2 x_m y_m vx_m_s vy_m_s
 const AT_POINTS: &str = "x_m y_m vx_m_s vy_m_s ax_m_s2 ay_m_s2";
 
 /// Channels of the mechanism as a whole.
-/// They follow the links, points and joints in the documented header.
+/// In the documented header, these channels follow the channels of the links, points and joints.
 const WHOLE: [&str; 4] = ["frame.fx_N", "frame.fy_N", "frame.moment_N_m", "drive.torque_N_m"];
 
 fn header(links: &[&str], points: &[&str], joints: &[&str]) -> Vec<String> {
@@ -98,7 +98,8 @@ fn ranges_may_be_negative_and_reversed() {
 #[test]
 fn the_crank_angle_is_measured_as_in_the_scenario() {
     let place = Place::new();
-    // Crank angles of ov7_base are measured from 181.84 degrees, those of crank_rocker from the x axis.
+    // In ov7_base, crank angles are measured from a direction at 181.84 degrees.
+    // In crank_rocker, crank angles are measured from the x axis.
     let solve =
         |name: &str| Table::of(&place.ok(&format!("solve scenarios/{name}.toml --with assur --crank-deg 0:0:1")));
     let angle = |name: &str| solve(name).column("link.crank.angle_rad")[0].to_degrees().rem_euclid(360.0);
@@ -193,7 +194,8 @@ fn engine_settings_of_the_file_apply_unless_overridden() {
     assert!(solve("set.toml", "--sweeps 9") == solve("ov7_base.toml", "--sweeps 9"));
     place.edited("ov7_base.toml", "set.toml", &[("[grid]\n", "[engine]\nroute = \"guess\"\n[grid]\n")]);
     place.refused("solve scenarios/set.toml --with rapier", &["\"guess\" is not a route", "probe", "set.toml"]);
-    // If an engine lacks the requested route, the message says where the route was requested.
+    // If an engine cannot compute forces by the requested route, the message says which option or key requested this
+    // route.
     if cfg!(feature = "simbody") {
         place.edited("ov7_base.toml", "set.toml", &[("[grid]\n", "[engine]\nroute = \"probe\"\n[grid]\n")]);
         let missing = "engine simbody has no route (method for the reactions) called \"probe\"";

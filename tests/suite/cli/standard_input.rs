@@ -73,7 +73,7 @@ fn settings_are_not_written_to_standard_input() {
 }
 
 /// Settings found for changed parameters, another mode or another start are not valid for the mechanism in the file.
-/// The option `--write` therefore refuses such options.
+/// The option `--write` therefore cannot be combined with options that change parameters, mode or start.
 #[test]
 fn settings_found_for_other_numbers_are_not_written() {
     let place = Place::new();
@@ -95,7 +95,7 @@ fn the_channels_of_a_scenario_are_listed() {
     let place = Place::new();
     let text = place.ok("list --channels scenarios/crank_rocker.toml");
     let solved = place.ok("solve scenarios/crank_rocker.toml --with assur --times 0");
-    // The list contains every column of a solution, and nothing else.
+    // The list of channels contains every channel that a solution has as a column, and no further channel.
     let names = text.lines().take_while(|line| !line.is_empty());
     let names: Vec<&str> = names.filter_map(|line| line.split_whitespace().next()).collect();
     let columns: Vec<&str> = solved.lines().next().unwrap().split(',').skip(2).collect();

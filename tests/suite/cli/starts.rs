@@ -1,5 +1,5 @@
-//! `--times`, `--crank-deg` and `--start-crank-deg` of `run` and `solve`, grids that list their values, and starts that
-//! the file does not determine or states wrongly.
+//! The options `--times`, `--crank-deg` and `--start-crank-deg` of `run` and `solve`.
+//! Also tested: grids that list their values, starts that the file leaves ambiguous, and wrong starts.
 
 use std::fs;
 
@@ -138,7 +138,7 @@ fn published_numbers_apply_only_to_their_branch() {
 }
 
 /// Symptom: the file's approximate position fits two configurations.
-/// The command that lists configurations and the option that chooses one were therefore refused.
+/// For such a file, the command that lists configurations and the option that chooses a configuration were refused.
 /// Cause: the start in the file was evaluated before the request.
 #[test]
 fn regress_an_ambiguous_start_does_not_block_its_resolution() {
@@ -227,7 +227,7 @@ fn regress_a_wrong_mode_is_reported_for_its_own_group() {
     let near = format!("{last}\nnear = {{ point = \"5\", x_mm = 101.4, y_mm = 46 }}");
     place.edited("ov7_base.toml", "near.toml", &[(last, &near)]);
     place.ok("inspect scenarios/near.toml");
-    // If no change of an earlier group helps, the message names the group itself.
+    // If no change of an earlier group helps, the message names the group whose mode was requested.
     let short = place.refused(
         "solve scenarios/crank_rocker.toml --with assur --mode coupler,rocker=3",
         &["`start.groups (coupler, rocker)`: configuration 3"],

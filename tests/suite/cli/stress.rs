@@ -29,7 +29,7 @@ fn a_run_is_independent_of_threads_and_can_be_resumed() {
     assert_eq!(whole.keys().filter(|name| name.starts_with("length_ratio.")).count(), 3, "{:?}", whole.keys());
     assert!(whole == files(&place, "two"), "two threads give other bytes");
 
-    // The table has the numbers of the JSON.
+    // The CSV table has the same numbers as the JSON file.
     let json: Value = serde_json::from_slice(&whole["length_ratio.json"]).unwrap();
     let mut table = csv::Reader::from_reader(&whole["length_ratio.csv"][..]);
     let header = table.headers().unwrap().clone();
@@ -56,7 +56,7 @@ fn a_run_is_independent_of_threads_and_can_be_resumed() {
     }
     assert!(closures > 0);
 
-    // A second call runs no point again.
+    // A second call uses the stored results and solves no point again.
     let told = place.ok("stress length_ratio redundant --quick --out one");
     assert!(run_of(&told).contains("0 of 5 points were run"), "{told}");
     assert!(whole == files(&place, "one"), "stored results give other bytes");

@@ -246,7 +246,8 @@ fn mechanisms_are_compared_at_one_speed() {
             assert_within!((found - expected).abs(), within, "{name}: {csv}");
         }
     }
-    // Class III groups have no transmission angle. Only the drive as built has one, so its value is not marked as best.
+    // Class III groups have no transmission angle.
+    // Only the drive as built has a transmission angle, so this angle is not marked as the best value.
     let transmission = row("smallest transmission angle");
     assert!(transmission[0] > 0.0 && transmission[1].is_nan() && transmission[2].is_nan(), "{csv}");
     let markdown = fs::read_to_string(place.path("sheet.md")).unwrap();

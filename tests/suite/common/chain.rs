@@ -44,7 +44,7 @@ pub fn text(pairs: usize, to: f64, step: f64) -> String {
     )
 }
 
-/// The case of this scenario.
+/// The case of the scenario with `pairs` parallelograms and a grid up to `to` (s) in steps of `step` (s).
 pub fn four_bars(pairs: usize, to: f64, step: f64) -> Case {
     let text = text(pairs, to, step);
     Scenario::parse(&text, Path::new("chain.toml")).unwrap_or_else(|error| panic!("{error}")).case

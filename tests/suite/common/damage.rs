@@ -179,8 +179,8 @@ fn damage(random: &mut RandomSource, text: &mut String) -> String {
             format!("{old} -> {new}")
         }
         12 => {
-            // Either removes a heading, so that its keys belong to the section before, or removes a whole section, or
-            // repeats a section at the end of the file.
+            // One of three damages: a heading is removed, so its keys belong to the section before; a section is
+            // removed; or a section is repeated at the end of the file.
             let heads: Vec<usize> =
                 text.lines().enumerate().filter(|(_, line)| line.starts_with('[')).map(|l| l.0).collect();
             let Some(line) = (!heads.is_empty()).then(|| heads[random.index(heads.len())]) else {

@@ -40,7 +40,8 @@ pub fn accepts(value: f64, bound: f64) -> bool {
 
 /// Implementation of [`assert_within`].
 /// `worst` stores the largest ratio of residual to bound at the calling line, as the bit pattern of a double.
-/// Bit patterns of non-negative doubles are ordered like the numbers, and those of NaN are the largest.
+/// The bit patterns of non-negative doubles have the same order as the doubles, and the bit pattern of NaN is the
+/// largest.
 #[track_caller]
 pub fn judge(worst: &AtomicU64, value: f64, bound: f64, what: impl FnOnce() -> String) {
     if scale() > 0.0 {

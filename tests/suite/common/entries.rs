@@ -17,7 +17,7 @@ use linkage::trajectory::CHANNELS;
 use linkage::{Error, ErrorKind};
 use scenario::Scenario;
 
-/// The text of a scenario file: either it loads, or its error gives the user enough information.
+/// Checks the text of a scenario file: the text loads, or its error gives the user enough information.
 pub fn scenario(text: &str) -> Option<Scenario> {
     let path = Path::new("no_such_directory/scenario.toml");
     match Scenario::parse(text, path) {
@@ -36,7 +36,7 @@ pub fn scenario(text: &str) -> Option<Scenario> {
 }
 
 /// Checks that an error of a scenario file has a message and a location, and is not a numerical error.
-/// Unless the error concerns the whole file, it must also name a key.
+/// The error must also name a key, unless the error concerns the whole file.
 pub fn explains(error: &Error, text: &str) {
     let shown = format!("{error}");
     assert!(!error.message().trim().is_empty(), "an error without a message");

@@ -81,7 +81,7 @@ const CATALOGUE: &str = include_str!("../../../catalogues/motors.toml");
 const MAPPING: &str = "[channels]\n\"point.B.x_mm\" = \"point.B.x_m*1000\"\n\n[tolerance]\nall = { rel = 0.01 }\n\
      \"point.B.y_m\" = { abs = 0.1 }\n";
 
-/// The attack with number `index` of a seed.
+/// The attack with the number `index`, drawn from the random numbers of `seed`.
 pub fn attack(seed: u64, index: u64, good: &Good) -> Attack {
     let door = index as usize % DOORS.len();
     let random = &mut RandomSource::of_sample(seed, index);

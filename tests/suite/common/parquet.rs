@@ -12,7 +12,7 @@ pub struct Announced {
     /// Number of children of the schema root, and depth of nested column groups above the single column.
     pub children: i64,
     pub depth: usize,
-    /// Number of the compression.
+    /// Number that denotes the compression in the Parquet format.
     pub codec: i64,
     /// Sizes of a page as stated in its header: bytes after decompression, bytes in the file, number of values.
     pub held: i64,
@@ -20,7 +20,7 @@ pub struct Announced {
     pub values: i64,
     /// Number of values of a dictionary, which is in a page before the data.
     pub dictionary: Option<i64>,
-    /// Number of the encoding.
+    /// Number that denotes the encoding in the Parquet format.
     pub encoding: i64,
     /// Contents of the page in the file.
     pub body: Vec<u8>,

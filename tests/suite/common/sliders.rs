@@ -122,8 +122,7 @@ const SLIDER_PLACE: Vec2 = Vec2::new(0.02, 0.015);
 /// With the crank at phi from the guide and sin(beta) = (e - a sin(phi)) / l: s = a cos(phi) + l cos(beta).
 /// Both equations are differentiated twice (the formulas of a piston compressor, here with an offset).
 pub fn slider_crank() -> Sample {
-    // The joint points on slider and guide both lie beside the path of the pin, so the guide is displaced by the same
-    // distance.
+    // The joint points on the slider and on the guide have the same distance from the path of the pin.
     let from_pin = rotated(unit(-SLIDER_AXIS), SLIDER_PLACE);
     let guide = rotated(unit(GUIDE), Vec2::new(0.25, OFFSET + from_pin.y));
     let links = vec![
@@ -162,7 +161,7 @@ pub fn slider_crank() -> Sample {
 /// The slider-crank with a rod of 0.11 m.
 /// The rod is too short if the crank's tip is farther than 0.11 m from the slider's line.
 /// From the start onwards, the rod is first too short at 180 deg + asin(0.09 / 0.1) = 244.158 deg from the guide.
-/// The crank angle is then 261.347 deg.
+/// When the rod becomes too short, the crank angle is 261.347 deg.
 pub fn short_rod() -> Case {
     let rod = 0.11;
     let case = slider_crank().case;

@@ -4,7 +4,7 @@
 //! Speeds are from 0.1 to 3000 rpm in either direction.
 //! Motions are prescribed or free.
 //! Loads are of all kinds, each of the same magnitude as the inertia forces and weights.
-//! On its grid, no specimen comes near a singular pose.
+//! Within the range of its grid, no specimen comes near a singular pose.
 
 mod motions;
 mod shapes;

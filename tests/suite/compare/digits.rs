@@ -224,7 +224,7 @@ fn rounded_instants_excuse_only_the_change_within_them() {
                 let row = (37 * (index + 1)) % speed.len();
                 let half = 0.5 * times.0.unit(times.1 * printed.at[row]) / times.1;
                 // The error is three units of the last digit plus twice the change within the rounding of the instant.
-                // The correct number may differ by one such change.
+                // The correct number may differ by one change within the rounding of the instant.
                 printed.columns[index].2[row] += 3e-9 + 2.0 * speed[row].abs() * half + 1e3 * half * half;
                 wrong.push(row);
             }

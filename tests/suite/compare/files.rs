@@ -248,7 +248,8 @@ fn the_crank_angle_is_compared_if_both_files_have_it() {
     }
 }
 
-/// The refusal names an unsupported compression; gzip is supported.
+/// A Parquet file with an unsupported compression is refused, and the message names the compression.
+/// A file compressed with gzip is read.
 #[test]
 fn compressed_parquet_files_are_read_or_refused_by_name() {
     let place = place();

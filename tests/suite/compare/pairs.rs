@@ -58,7 +58,7 @@ fn a_wrong_mapping_is_refused_with_its_position() {
             error.advice()
         );
     }
-    // The scenario has no link of this (misspelt) name.
+    // The mapping names the link `roker`, which the scenario lacks.
     let table = Held::of_table(&raw, &mapping(&["phi3=link.roker.angle_rad"])).unwrap();
     let both = [ComparedParty::from(scenario("crank_rocker")), ComparedParty::from(table)];
     let error = compared(both, &ComparisonRule::default()).err().unwrap();
@@ -159,8 +159,9 @@ fn a_crank_angle_that_is_off_by_a_millionth_is_found() {
     assert_eq!([verdict(0.0), verdict(1e-6)], ["agree", "disagree"]);
 }
 
-/// A quantity with slope 2 may differ by twice the uncertainty of the instants of both tables, at rows and between
-/// rows.
+/// The slope of the quantity over time is 2.
+/// The quantity may therefore differ by twice the sum of the uncertainties of the instants in both tables.
+/// This bound holds at rows and between rows.
 #[test]
 fn uncertain_instants_of_both_tables_widen_the_bound() {
     let uneven: Vec<f64> = (0..20).map(|row| 0.0131 * f64::from(row) + 0.0007 * f64::from(row % 3)).collect();
@@ -206,8 +207,9 @@ fn a_number_is_judged_by_its_own_channel_alone() {
     }
 }
 
-/// If a channel consists of rounding error, the lower limit of its uncertainty follows from the remaining channels of
-/// the solution, even if the table lacks these channels.
+/// The values of the channel consist of rounding error.
+/// The lower limit of their uncertainty follows from the other channels of the solution, even if the table lacks these
+/// other channels.
 #[test]
 fn a_zero_of_rounding_size_agrees_with_and_without_others() {
     let scenario = scenario("compressor");

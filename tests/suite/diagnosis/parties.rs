@@ -11,7 +11,8 @@ fn trajectory(rows: &[(&str, Vec<f64>)]) -> Trajectory {
 
 const FORCE: &str = "joint.A.fx_N";
 
-/// Standing of parties with one value and one bound each.
+/// The standing of parties, computed from one channel at one instant; each party is given by its name, its value and
+/// its bound.
 fn of(parties: &[(&str, f64, f64)]) -> PartyStanding {
     let all: Vec<Trajectory> = parties.iter().map(|(_, value, _)| trajectory(&[(FORCE, vec![*value])])).collect();
     let party = |((name, _, bound), trajectory): (&(&'static str, f64, f64), &'static Trajectory)| DiagnosedParty {

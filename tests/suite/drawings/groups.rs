@@ -39,7 +39,7 @@ fn a_class_iv_group_is_drawn_beside_its_driving_link() {
     );
     // The subscript of an outer joint is the number of the link that is solved earlier.
     assert_has(&document, &["O0", "A1", "K0", "B", "C", "D", "E"]);
-    // One pin of the driving link, and six of the group.
+    // The driving link is drawn with one pin, and the group with six pins.
     assert_eq!(pins(&document).len(), 7);
 }
 

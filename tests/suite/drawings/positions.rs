@@ -56,7 +56,8 @@ fn twelve_positions_of_a_turn_are_drawn_and_numbered() {
     assert!(has(&document, "position 0 drawn fully"));
     let expected: Vec<String> = (1..12).map(|k| format!("position {k}")).collect();
     assert_eq!(thin(&document), expected);
-    // The crank is link 1. Its pin passes twelve places, 30 deg apart, on a circle around O.
+    // The crank is link 1.
+    // The crank pin passes twelve places, 30 deg apart, on a circle around O.
     let all = dots(&document);
     let pin = &all["#0072b2"];
     assert_eq!(pin.len(), 12);
@@ -64,7 +65,8 @@ fn twelve_positions_of_a_turn_are_drawn_and_numbered() {
     for (k, at) in pin.iter().enumerate() {
         let (arm, next) = (at - centre, pin[(k + 1) % 12] - centre);
         let turn = (arm.x * next.y - arm.y * next.x).atan2(arm.dot(&next)).to_degrees();
-        // Two places rounded to 0.01 mm, at a radius of more than 5 mm: 2 * 0.0071 mm / 5 mm = 0.16 deg.
+        // Error of the angle between two places that are rounded to 0.01 mm, at a radius of more than 5 mm: 2 * 0.0071
+        // mm / 5 mm = 0.16 deg.
         assert!(arm.norm() > 5.0);
         assert_within!(turn - 30.0, 0.17, "{k}");
     }
@@ -93,7 +95,7 @@ fn the_position_of_the_requested_crank_angle_is_drawn_fully() {
     let [third, between] = [&third, &between].map(|text| Document::parse(text).unwrap());
     assert!(has(&third, "position 3 drawn fully"));
     assert!(thin(&third).len() == 11 && !thin(&third).contains(&"position 3".to_string()));
-    // The crank angle 100 deg is not among the twelve, so that all twelve are thin.
+    // The crank angle of 100 deg is not one of the twelve positions, so all twelve positions are drawn with thin lines.
     assert!(!texts(&between).iter().any(|text| text.ends_with("drawn fully")));
     assert_eq!(thin(&between).len(), 12);
 }

@@ -70,8 +70,8 @@ fn drawn(case: &Case, states: &[State], extras: Extras) -> Vec<SheetCell> {
     cells(&subject, &shots, motion, extras, Vec2::from(ROOM))
 }
 
-/// A width in pixels scales a picture as a whole, so labels are apart at every width if they are half a pixel apart at
-/// the smallest.
+/// A width in pixels scales the whole picture.
+/// Labels that are half a pixel apart at the smallest width are therefore apart at every width.
 #[test]
 fn no_two_labels_meet_in_any_shipped_mechanism() {
     let mut count = 0;
@@ -110,12 +110,13 @@ fn number(text: &str) -> (f64, f64) {
     (value, 0.5 * ulp)
 }
 
-/// The side on which a third place lies, as the drawing shows it.
+/// Side of the line through the places `a` and `b` on which the place `c` lies: 1 for left, -1 for right.
 fn side(all: &[Vec2], a: usize, b: usize, c: usize) -> f64 {
     cross(all[b] - all[a], all[c] - all[a]).signum()
 }
 
-/// The places of a moving link (mm), from its lengths in their order. Only signs are taken from `shown`.
+/// The places of a moving link (mm), from its lengths in their order.
+/// From `shown`, only the sides and senses are taken, not the distances.
 fn rebuilt(shown: &[Vec2], lengths: &[(usize, usize, f64)]) -> BTreeMap<usize, Vec2> {
     let mut built: BTreeMap<usize, Vec2> = BTreeMap::new();
     let Some(&(first, second, length)) = lengths.first() else { return built };
@@ -133,7 +134,7 @@ fn rebuilt(shown: &[Vec2], lengths: &[(usize, usize, f64)]) -> BTreeMap<usize, V
                 rest = &more[1..];
             }
             None => {
-                // A length without a second one lies on the line of the first two places.
+                // A place with only one length lies on the line through the first two places.
                 let way = (shown[to] - shown[from]).dot(&(shown[second_of(lengths)] - shown[from])).signum();
                 built.insert(to, built[&from] + Vec2::new(way * length, 0.0));
                 rest = more;
@@ -147,8 +148,8 @@ fn second_of(lengths: &[(usize, usize, f64)]) -> usize {
     lengths[0].1
 }
 
-/// The places of the ground (mm): a place without a distance is at the same height, or below the same point, as the
-/// first pivot.
+/// The places of the ground (mm).
+/// If a drawing gives no horizontal or no vertical distance for a place, this distance from the first pivot is zero.
 fn rebuilt_ground(count: usize, shown: &[Vec2], drawn: &[(&Dimension, f64)]) -> BTreeMap<usize, Vec2> {
     let mut built: BTreeMap<usize, Vec2> = (0..count).map(|k| (k, Vec2::zeros())).collect();
     for (own, value) in drawn {
@@ -160,8 +161,9 @@ fn rebuilt_ground(count: usize, shown: &[Vec2], drawn: &[(&Dimension, f64)]) -> 
     built
 }
 
-/// Compares all distances of a link with its file. The bound is the sum of the effects of half a digit of each number,
-/// with a factor for their second order.
+/// Compares all distances of a link with its file.
+/// The bound is the sum of the effects of half a unit in the last digit of each number, multiplied by 1.5 because these
+/// effects are not exactly linear.
 fn compare(name: &str, mechanism: &Mechanism, link: LinkId, all: &[Dimension]) {
     let shown = places(mechanism, link);
     let own: Vec<&Dimension> = all.iter().filter(|own| own.link == link).collect();
@@ -184,7 +186,7 @@ fn compare(name: &str, mechanism: &Mechanism, link: LinkId, all: &[Dimension]) {
     for a in 0..shown.len() {
         for b in 0..a {
             let wanted = (shown[a] - shown[b]).norm();
-            // A place without a length coincides with one that has lengths.
+            // A place for which the drawing gives no length coincides with a place for which the drawing gives lengths.
             let of = |k: usize| plain.keys().copied().find(|own| (shown[*own] - shown[k]).norm() <= 1e-8 * size);
             if wanted <= 1e-8 * size && of(a).is_none() {
                 continue;
@@ -200,7 +202,8 @@ fn compare(name: &str, mechanism: &Mechanism, link: LinkId, all: &[Dimension]) {
     }
 }
 
-/// The angle of every guide to its link: as written, otherwise a multiple of 90 degrees to a line of the link.
+/// Checks the angle of every guide to its link.
+/// If no angle is written, the guide is at a multiple of 90 degrees to a line of the link.
 fn compare_guides(name: &str, mechanism: &Mechanism, all: &[Dimension]) {
     for (id, joint) in mechanism.joints().entries() {
         for side in [joint.first, joint.second] {
@@ -245,7 +248,7 @@ fn every_shipped_mechanism_can_be_rebuilt_from_its_drawing() {
         let state = states(&case).swap_remove(0);
         let extras = Extras { dimensions: true, ..Extras::default() };
         let cell = drawn(&case, &[state], extras).swap_remove(0);
-        // The numbers are those of the figure.
+        // The numbers of the dimensions occur as texts in the drawing.
         let mut texts: Vec<&str> = cell.figure.texts().map(|own| own.1).collect();
         for own in &cell.dimensions {
             let at = texts.iter().position(|text| *text == own.text);
@@ -261,7 +264,8 @@ fn every_shipped_mechanism_can_be_rebuilt_from_its_drawing() {
     assert!(count > 300, "{count}");
 }
 
-/// A rocker whose three points are on one line has two lengths; its drawing without the shorter one is not complete.
+/// The three points of a rocker are on one line.
+/// Its drawing has two lengths, and is incomplete if the shorter length is missing.
 #[test]
 fn a_bar_with_three_points_has_both_of_its_lengths() {
     let case = Scenario::load("scenarios/crank_rocker.toml").unwrap().case;

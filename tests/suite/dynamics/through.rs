@@ -298,8 +298,8 @@ fn a_drive_passes_change_points_only_on_request() {
     }
 }
 
-/// Velocities and accelerations are computed at the change point itself, but reactions that have a pole at the change
-/// point are not.
+/// Velocities and accelerations are computed at the change point itself.
+/// Reactions with a pole at the change point are refused with an error.
 #[test]
 fn a_change_point_itself_has_velocities_and_accelerations() {
     let case = driven([0.3, 0.2, 0.2, 0.3], true, 90.0, true, &[179.0, 180.0, 181.0]);
@@ -317,7 +317,7 @@ fn a_change_point_itself_has_velocities_and_accelerations() {
     }
 }
 
-/// The value of `through` is checked.
+/// An invalid value of the key `through` is refused.
 #[test]
 fn invalid_values_of_through_are_refused() {
     let with = |value: &str| {

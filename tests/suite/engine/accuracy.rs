@@ -88,7 +88,8 @@ fn gap_of_a_step(case: &Case, state: &State, step: f64) -> f64 {
     let joints = case.mechanism.joints();
     let around: linkage::math::Vec2 = (0..joints.len())
         .map(|k| {
-            // Joints O, A, B, C in this order; a link or the ground joins each joint k and the next joint.
+            // The joints have the order O, A, B, C.
+            // Joint k and the next joint are on one link, which may be the ground.
             let (from, to) = (&joints[JointId(k)], &joints[JointId((k + 1) % joints.len())]);
             let link = [from.first.link, from.second.link].into_iter().find(|&link| to.on(link).is_some()).unwrap();
             let motion = &state.motions[link];
@@ -101,7 +102,7 @@ fn gap_of_a_step(case: &Case, state: &State, step: f64) -> f64 {
 /// Story 64.
 /// At a step of 0.08 deg of the crank, loops open by 1.02e-7 of the mechanism's size.
 /// At every crank angle, the opening is the local error of one step, to 3 % of its largest value.
-/// With two substeps the opening is a quarter.
+/// With two substeps, the opening is a quarter of the opening with one substep.
 /// In an extrapolated run, only the rounding error of the combination remains.
 #[test]
 fn regress_64_loops_open_by_the_local_error_of_a_step() {
@@ -161,7 +162,7 @@ fn regress_70_two_substeps_meet_all_accuracy_goals_at_once() {
 }
 
 /// With a crank of half the length, the loop opens by less than 1e-7 of the mechanism's size.
-/// With the whole crank, it opens by more.
+/// With a crank of full length, the loop opens by more than this.
 #[test]
 fn regress_64_half_the_crank_leaves_gaps_below_1e_7() {
     let whole_crank = whole("crank_rocker");

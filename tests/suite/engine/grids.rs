@@ -86,7 +86,7 @@ fn regress_22_instants_before_the_start_are_as_good_as_others() {
         let truth = solve(&analytic::AssurSolver, &whole);
         let run = solve(engine.as_ref(), &whole);
         let half = solve(engine.as_ref(), &at(&case, (0..=300).map(|k| f64::from(k) * DT).collect()));
-        // The two runs reverse at different poses.
+        // The two runs reverse at different poses, so their rounding errors differ.
         // The difference of the runs must be less than the sum of their rounding errors.
         for (channel, values) in half.iter() {
             let (noise, whole_values) = (engine.noise(&whole, channel.kind), run.column(channel).unwrap());

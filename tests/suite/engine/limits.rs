@@ -77,7 +77,8 @@ fn regress_41_a_pose_that_cannot_be_assembled_is_an_error_with_its_crank_angle()
 }
 
 /// Story 42.
-/// Symptom: as in story 41, with a slider.
+/// Symptom: a slider-crank beyond its last pose that can be assembled gave gaps of metres and forces of 1e12 N, as in
+/// story 41.
 /// Cause: the guide has no gap from which the engine could detect that the pose cannot be assembled.
 /// Beyond 261.347 deg the rod is too short.
 #[test]
@@ -98,7 +99,7 @@ fn regress_42_a_slider_out_of_reach_is_an_error_with_its_crank_angle() {
 #[test]
 fn regress_higher_groups_do_not_change_branch_unnoticed() {
     const FROM_THE_END: f64 = 2.0;
-    /// Distance from the exact motion (deg) beyond which a configuration counts as the wrong one.
+    /// Distance from the exact motion (deg) beyond which a configuration counts as the wrong branch.
     /// This distance is twice the largest error found at steps of 4 deg.
     const FAR: f64 = 17.0;
     let (mut stopped, mut through) = (0, 0);

@@ -117,7 +117,7 @@ fn regress_10_a_weight_at_rest_is_reported_in_world_axes_whichever_body_is_first
 fn regress_11_native_force_and_torque_converge_with_first_order() {
     let moving = four_bar([0.4, 0.1, 0.35, 0.3], true).scenario().unwrap().case;
     let rocker = shipped("crank_rocker.toml").case;
-    // The resistance jumps where the rocker reverses, which would hide the order of convergence, so it is removed.
+    // The resistance is removed, because its jumps where the rocker reverses would hide the order of convergence.
     let rocker = rocker.with(|parts| parts.loads.clear()).unwrap();
     for case in [moving, rocker] {
         for build in builds(&case) {
