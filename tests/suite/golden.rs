@@ -1,4 +1,5 @@
-//! `golden`: the set of truths is that of `solve` and `export`, and its tables are read back.
+//! `golden`: the tables of true values equal those of `solve`, the models equal those of `export`, and the tables are
+//! read back.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -26,7 +27,7 @@ fn the_truth_is_that_of_other_commands() {
         let truth = read(&format!("set/{name}/truth.csv"));
         assert_eq!(truth, place.ok(&format!("solve scenarios/{name}.toml -o -")), "{name}");
         assert_eq!(read(&format!("set/{name}/{name}.toml")), read(&format!("scenarios/{name}.toml")));
-        // Parquet is read by `compare`, and has the numbers of the scenario.
+        // `compare` reads the Parquet table and finds the numbers of the scenario in it.
         let compared = place.run(&format!("compare set/{name}/truth.parquet set/{name}/{name}.toml"));
         assert_eq!(compared.code, 0, "{name}: {}{}", compared.stdout, compared.stderr);
         // Every channel has its range, and a bound far below the largest value with the same unit.

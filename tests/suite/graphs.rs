@@ -108,7 +108,8 @@ impl Seen {
             .collect();
         let other = 1 - axis;
         let first = match axis {
-            // The numbers of the horizontal axis are the lowest numbers, those of the vertical axis the leftmost.
+            // The numbers of the horizontal axis are the lowest numbers on the sheet.
+            // The numbers of the vertical axis are the leftmost.
             0 => numbers.iter().map(|(_, at)| at[1]).fold(0.0, f64::larger),
             _ => numbers.iter().map(|(_, at)| at[0]).fold(f64::INFINITY, f64::smaller),
         };
@@ -232,7 +233,7 @@ fn pdf_and_png_hold_the_same_charts() {
     let text = String::from_utf8_lossy(&pdf);
     assert!(pdf.starts_with(b"%PDF-") && text.trim_end().ends_with("%%EOF"));
     assert_eq!((text.matches("/Type /Page\n").count(), text.matches("/Count 1").count()), (1, 1), "{}", &text[..300]);
-    // Four dashed or solid curves of a width that nothing else has, and outlines of letters.
+    // The PDF contains four curves, whose line width no other line has, and the outlines of letters.
     assert!(text.matches("0.45 w").count() >= 8 && text.matches("\nf\n").count() > 20);
     let size = seen(&fs::read_to_string(place.path("r.svg")).unwrap()).size;
     let stated = text.split("/MediaBox [0 0 ").nth(1).unwrap().split(']').next().unwrap();
@@ -329,7 +330,8 @@ fn mistakes_are_placed_and_answered() {
     assert!(error.contains("--show:1:13") || error.contains("--show:1:12"), "{error}");
 }
 
-/// The engine is drawn beside the reference. The difference of both is small, but not zero.
+/// The engine is drawn beside the reference.
+/// The difference between engine and reference is small, but not zero.
 #[test]
 fn an_engine_is_drawn_beside_the_reference_or_as_a_difference() {
     let place = Place::new();

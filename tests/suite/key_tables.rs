@@ -70,7 +70,7 @@ fn the_tables_of_keys_in_the_document_are_current() {
     assert!(text == DOCUMENT, "{differing:#?}\nINSTA_UPDATE=always cargo test --release --test suite key_tables");
 }
 
-/// One table may document several sections with equal keys, such as positions, or corrected numbers.
+/// If several sections have equal keys, such as the sections of positions, one table may document all of them.
 #[test]
 fn every_section_has_a_table_in_the_document() {
     let (_, paths) = renewed(DOCUMENT);

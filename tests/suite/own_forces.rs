@@ -60,7 +60,7 @@ fn exerted_forces_need_a_free_route_and_requested_forces() {
     assert!(proven(&still, &Options::default()).engine().own_forces.is_none());
 }
 
-/// No run for the forces that the engine exerts has a smaller step than half of the given step.
+/// The runs for the forces that the engine exerts use steps of at least half of the given step.
 /// The proof needs a run with half of the given step in any case, to estimate the error of the given step.
 #[test]
 fn a_given_step_is_extrapolated_from_coarser_ones_only() {
@@ -89,8 +89,8 @@ fn every_engine_has_its_own_exerted_forces() {
     }
 }
 
-/// In the run with twice the judged step, the impulses of the first five steps still contain an error that the sweeps
-/// have not yet corrected.
+/// In the run with twice the judged step, the sweeps have not yet corrected an error in the impulses of the first five
+/// steps.
 /// These impulses are left out; all later impulses are judged.
 #[test]
 fn exerted_forces_omit_only_the_start_of_a_free_motion() {

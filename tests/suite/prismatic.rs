@@ -172,7 +172,7 @@ fn drive_and_frame_agree_with_power_and_momentum() {
 
 /// The order in which a joint names its links does not change the joint.
 /// With the reverse order, the force changes its sign.
-/// The moment also changes its sign, and is taken about the joint point on the link that is then second.
+/// The moment also changes its sign, and is then taken about the joint point on the original first link.
 #[test]
 fn order_of_a_joints_links_does_not_matter() {
     each(|sample, solver| {

@@ -57,8 +57,9 @@ fn never_disagree(sorts: &[[bool; 3]], count: usize) {
                 let count = if word == "agree" { &proven } else { &open };
                 count.set(count.get() + 1);
             }
-            // The engine starts a few steps before the grid. These steps lead some mechanisms out of the range in which
-            // they can be assembled, so these errors are allowed.
+            // The engine starts a few steps before the grid.
+            // In these steps, some mechanisms leave the range in which they can be assembled, so the errors listed
+            // below are allowed.
             Err(error) => {
                 let says = |words| error.message().contains(words);
                 proptest::prop_assert!(

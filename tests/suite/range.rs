@@ -43,8 +43,8 @@ fn crank_at(d: f64, a: f64, reach: f64) -> Option<f64> {
 }
 
 /// The interval of crank angles around `start` in which |b - c| <= |AC| <= b + c.
-/// If the interval contains neither 0 nor 180 deg, it lies in the half plane of `start`. Otherwise it is symmetrical
-/// about 0 or 180 deg.
+/// If the interval contains neither 0 nor 180 deg, it lies in the half plane of `start`.
+/// An interval that contains 0 or 180 deg is symmetrical about this angle.
 fn closed_form([d, a, b, c]: [f64; 4], start: f64) -> Option<[f64; 2]> {
     let (stretched, folded) = (crank_at(d, a, b + c), crank_at(d, a, (b - c).abs()));
     match (folded, stretched) {
@@ -224,8 +224,9 @@ fn a_parallelogram_has_change_points_at_0_and_180_degrees() {
     }
 }
 
-/// A rocker slightly too long or too short separates the branches that cross in a parallelogram. The mechanism can then
-/// be followed through a contact, or up to a limit.
+/// A rocker slightly too long or too short separates the branches that cross in a parallelogram.
+/// With the longer rocker, the crank can pass a pose where the branches nearly touch.
+/// With the shorter rocker, the crank reaches a limit.
 #[test]
 fn near_a_parallelogram_branches_touch_or_end() {
     for off in [1e-4, 1e-6, 1e-8] {
@@ -237,7 +238,7 @@ fn near_a_parallelogram_branches_touch_or_end() {
             .filter(|s| s.kind == SingularityKind::BranchContact)
             .map(|s| wrapped(s.crank))
             .collect();
-        // Sine of the transmission angle at a contact.
+        // Sine of the transmission angle at a pose where two branches nearly touch.
         // A is on the line of the pivots, so the law of cosines for the triangle A B C gives the angle.
         let sine = |reach: f64| {
             let (b, c) = (0.4, 0.1 + off);
@@ -342,7 +343,7 @@ fn asked(case: &Case, degrees: f64) -> Case {
 }
 
 /// Both solvers and the list of configurations refuse an unreachable crank angle.
-/// The function `explained` adds the reachable range to the error of each, to 1e-6 deg.
+/// The function `explained` adds the reachable range of crank angles to each error, rounded to 1e-6 deg.
 #[test]
 fn an_unreachable_angle_is_refused_with_the_reachable_range() {
     let lengths = [0.4, 0.35, 0.3, 0.2];
@@ -399,11 +400,11 @@ fn coinciding_configurations_have_no_velocities() {
 /// relative error of the angles.
 /// Accelerations are divided by the same determinant again.
 /// Relative to their size, however, velocities and accelerations both lose a factor of k^2.
-/// Divided by epsilon k for the angle, and by epsilon k^2 for the relative differences of velocity and acceleration,
-/// the largest measured differences are 2.5, 2.1 and 6.4.
-/// These quotients are nearly the same for 30 and for 0.3 degrees between coupler and rocker (0 if stretched).
+/// The angle differs by up to 2.5 epsilon k.
+/// The relative differences of velocity and acceleration are up to 2.1 and 6.4 times epsilon k^2.
+/// These factors are nearly the same for 30 and for 0.3 degrees between coupler and rocker (0 if stretched).
 /// The condition number is therefore the only cause of the loss of digits.
-/// The bound allows twice the largest measured quotient, for other mathematical libraries.
+/// The bound allows twice the largest measured factor, for other mathematical libraries.
 #[test]
 fn loss_of_digits_at_a_dead_point_follows_the_condition_number() {
     let lengths = [0.4, 0.35, 0.3, 0.2];
@@ -438,8 +439,9 @@ fn loss_of_digits_at_a_dead_point_follows_the_condition_number() {
 }
 
 /// If two sums of link lengths differ by only a millionth, the mechanism has no change point.
-/// The shortest link is the frame. The sign of the difference decides whether all other links rotate fully about it, or
-/// none.
+/// The shortest link is the frame.
+/// If the difference is positive, all other links rotate fully about the frame.
+/// If the difference is negative, no link rotates fully.
 #[test]
 fn nearly_equal_sums_of_lengths_are_no_change_point() {
     let of = |more: f64| FourBar::of_lengths([1.0, 2.0, 3.0, 2.0 + more]).of_type;

@@ -85,7 +85,7 @@ fn no_connections_no_environment_variables_no_other_programs() {
             let run = code.split("Command::new(\"").skip(1).map(|rest| rest.split('"').next().unwrap());
             programs.extend(run.map(String::from));
             // A program name that is not a literal could be any program.
-            // Only a peer may have such a name, because the caller names the peer.
+            // Only the code that starts a peer may use such a name, because the caller names the peer.
             let other = code.matches("Command::new(").count() - code.matches("Command::new(\"").count();
             assert!(other == 0 || path.ends_with("cli/bench.rs"), "{}", path.display());
         }

@@ -10,8 +10,9 @@ use crate::common::{assert_within, shipped};
 use design::sensitivity::{SensitivityQuestion, sensitivity};
 use scenario::{Scenario, StartRequest};
 
-/// By expressions, a parameter affects many numbers of the case. The derivative equals that from differences between
-/// solutions of the crate `precise` for files in which the parameter is changed.
+/// The file computes many numbers of the case from one parameter.
+/// The derivative by the parameter equals the difference quotient of two solutions of the crate `precise`, for files
+/// with two values of the parameter.
 #[test]
 fn a_parameter_has_the_derivative_of_differences() {
     let scenario = shipped("boom_lift.toml");
@@ -43,8 +44,8 @@ fn a_parameter_has_the_derivative_of_differences() {
     assert!(seen > 1, "{seen}");
 }
 
-/// The command gives the same numbers as text, table, JSON and drawing. They are those of a sweep's differences,
-/// and the tolerance stack follows from them.
+/// The command gives the same numbers as text, table, JSON and drawing.
+/// The derivatives equal the difference quotients of a sweep, and the tolerance stack follows from the derivatives.
 #[test]
 fn all_results_have_the_same_numbers() {
     let place = Place::empty();
@@ -93,12 +94,14 @@ fn all_results_have_the_same_numbers() {
     let stack = |name: &str| found["stack"][name].as_f64().unwrap();
     assert_within!(stack("worst") - effects.iter().sum::<f64>(), 1e-15, "worst case");
     assert_within!(stack("root_sum_square") - effects[0].hypot(effects[1]), 1e-15, "root of the sum of squares");
-    // Uniform deviations have a third of the squared limit as variance; 300 samples give it to a few per cent.
+    // The variance of a uniform deviation is a third of its squared limit.
+    // A sample of 300 mechanisms gives this variance to a few per cent.
     let uniform = stack("root_sum_square") / 3f64.sqrt();
     assert_within!(stack("linear_deviation") - uniform, 0.15 * uniform, "sample of linear theory");
     assert_within!(stack("sampled_deviation") - stack("linear_deviation"), 1e-3 * uniform, "sampled mechanisms");
 
-    // The keys with tolerances come first, by their effects; the text names the rest by its number.
+    // The keys with tolerances are listed first, in the order of their effects.
+    // The text only counts the remaining keys.
     let places: Vec<usize> = ["coupler_mm", "crank_mm"].map(|key| told.find(key).unwrap()).into();
     assert!(places[0] < places[1] && told.contains("5 further keys"), "{told}");
     let drawing = fs::read_to_string(place.path("all.svg")).unwrap();

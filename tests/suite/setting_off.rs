@@ -53,7 +53,8 @@ fn regress_a_motor_with_a_lossy_reducer_starts_forwards() {
 
 /// A weight on the crankshaft, in closed form: alpha = (M - m g s) / (J + m s^2).
 /// M is the motor's torque times the ratio.
-/// M is multiplied by the efficiency if the motor lifts the weight, and divided by it if the weight drives the motor.
+/// If the motor lifts the weight, M is multiplied by the efficiency.
+/// If the weight drives the motor, M is divided by the efficiency.
 /// Symptom: side 2 took the motor's losses in the forward direction at t = 0, although the crank starts backwards.
 #[test]
 fn regress_a_weight_that_drives_the_motor_meets_its_losses() {

@@ -162,7 +162,7 @@ fn regress_a_long_run_up_is_bounded_by_its_integration_error() {
         text[from..].lines().next().unwrap().to_string()
     });
     let long = parsed(&text.replace(&to, "to_s = 5").replace(&step, "step_s = 0.01"));
-    // The budget is too small for the engine, because its run would be long.
+    // The work limit is too small for the engine, because the run is long.
     let proof = prove(&long, &Options::default().engine(EngineName::Rapier).budget(1e4)).unwrap();
     assert_ne!(proof.verdict.word(), "disagree", "{:?}", proof.verdict);
     let positions = proof.checks.iter().find(|check| check.name() == "assur against newton, positions").unwrap();

@@ -104,8 +104,8 @@ fn a_short_rod_limits_the_crank_when_perpendicular_to_the_guide() {
         let limit = |sine: f64| if sine.abs() <= 1.0 { Some(sine.asin()) } else { None };
         let expected = [limit((offset - rod) / 0.1), limit((offset + rod) / 0.1)];
         for (found, expected) in [from, to].into_iter().zip(expected) {
-            // If no crank angle satisfies the equation for one side of the guide, the limit belongs to the opposite
-            // side of the guide and is not compared.
+            // On one side of the guide, the sine may exceed 1, so that the rod gives no limit there.
+            // Both limits then belong to the opposite side, and this limit is not compared.
             if let Some(expected) = expected {
                 assert_within!((found.crank - expected).abs(), 1e-9, "{rod}, {offset}: {found:?}, {expected}");
             }

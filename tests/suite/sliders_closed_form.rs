@@ -266,8 +266,8 @@ fn by_cramer([a1, a2, a3, a4]: [f64; 4], crank: f64) -> [f64; 4] {
     })
 }
 
-/// The first transfer functions agree with Cramer's rule and with fourth-order central differences of the angles; the
-/// second agree with such differences of the first.
+/// The first transfer functions agree with Cramer's rule, and with fourth-order central differences of the angles.
+/// The second transfer functions agree with fourth-order central differences of the first transfer functions.
 #[test]
 fn val_class3_group_transfer_functions() {
     let (h, speed) = (1e-3, 10.0);

@@ -124,8 +124,8 @@ axis_deg = 0
     }
 }
 
-/// Scotch yoke (RPP), and the mechanism whose slider runs in a slot of the crank (PRP): there is only one
-/// configuration, so no start is needed.
+/// Two mechanisms that need no start, because each has only one configuration: the Scotch yoke (RPP), and a crank with
+/// a slot in which the slider runs (PRP).
 #[test]
 fn dyads_of_two_sliders_need_no_start() {
     let yoke = r#"

@@ -44,7 +44,7 @@ fn the_rounding_of_a_large_crank_angle_is_in_the_bound() {
         let worst = side.deviations.iter().map(|own| own.used).fold(0.0, f64::larger);
         println!("{}: {worst:.2e} of its bound", side.name);
         assert_within!(worst, 1.0, "{}", side.name);
-        // The bound must not become too wide either.
+        // The bound must also stay narrow enough to be useful.
         // Angles are not tested here, because their bound is proportional to the angle including its revolutions.
         for own in side.deviations.iter().filter(|own| own.channel.kind.unit != Unit::Radian) {
             assert_within!(own.bound, 1e-9, "{} {}", side.name, own.channel);
@@ -83,7 +83,7 @@ fn regress_the_condition_of_a_pose_is_in_the_bound_between_the_sides() {
 
 /// The time to solve and judge a long chain grows little faster than its length.
 /// This test only solves the chain and compares the solution with the double-double reference.
-/// No fault report mentions the length of 150 four-bars; it is an additional case.
+/// The chain of 150 four-bars is an additional case that comes from no fault report.
 #[test]
 fn a_long_chain_keeps_its_digits() {
     let case = (named("chain").unwrap().setup)(150.0, 0, 0).unwrap().case;

@@ -49,8 +49,9 @@ fn text<'r>(row: &'r Row, name: &str) -> &'r str {
     }
 }
 
-/// Every figure of every case is computed from the table of `solve` too. Both must be equal, bit by bit; root mean
-/// squares only except for rounding.
+/// The test also computes every figure of every case from the table of `solve`.
+/// The two figures must be equal, bit by bit.
+/// Root mean squares must be equal up to rounding.
 #[test]
 fn figures_have_the_bits_of_solve() {
     let place = Place::empty();
@@ -95,7 +96,8 @@ fn figures_have_the_bits_of_solve() {
     }
 }
 
-/// A moment of resistance reverses with its link; two of them on one link are added.
+/// A moment of resistance changes its sign when its link reverses.
+/// Two resistances on one link are added.
 #[test]
 fn figures_under_resistance_have_the_bits_of_solve() {
     let place = Place::empty();
@@ -184,7 +186,8 @@ fn threads_and_shards_do_not_change_the_bytes() {
     place.ok("merge shard1 shard2 shard3 -o all");
     assert_eq!(bytes("shared"), expected);
     assert_eq!(bytes("all"), expected);
-    // A finished sweep is not solved again; another sweep does not replace it.
+    // A finished sweep is not solved again.
+    // A sweep with a different seed does not replace the finished sweep.
     let told = place.ok(&format!("{sweep} -o one"));
     assert!(told.contains("500 cases"), "{told}");
     place.refused(&format!("{sweep} --seed 2 -o one"), &["another sweep"]);
@@ -215,7 +218,8 @@ fn a_part_without_its_end_is_solved_again() {
 fn ten_kills_do_not_change_the_bytes() {
     let place = Place::empty();
     place.ok(FOUR_BAR);
-    // The range of motion takes more than a millisecond a case: a late kill still comes before the end.
+    // The figure `reach_from` takes more than a millisecond for each case, so even the latest kill comes before the end
+    // of the sweep.
     let slow = "--figure reach_from --part 2";
     let sweep = format!("sweep four_bar.toml --vary crank_mm=20:50 --random 1200 {FIGURES} {slow}");
     place.ok(&format!("{sweep} -o whole"));
@@ -224,7 +228,8 @@ fn ten_kills_do_not_change_the_bytes() {
         let mut child = Command::cargo_bin("linkproof").unwrap();
         child.current_dir(place.path("")).args(sweep.split(' ')).args(["-o", "killed", "--jobs", "2"]);
         let mut child = child.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
-        // Killed when one to four further parts of 600 are stored, at different moments within a part.
+        // The sweep has 600 parts.
+        // It is killed when one to four further parts are stored, at different moments within a part.
         let wanted = parts() + 1 + round % 4;
         while parts() < wanted && child.try_wait().unwrap().is_none() {
             sleep(Duration::from_micros(200));
@@ -283,7 +288,7 @@ fn questions_that_mean_nothing_are_refused() {
     place.refused("merge mine", &["contains no sweep"]);
 }
 
-/// The page names its cases and draws the best ones.
+/// The page of a sweep names the cases with the best figure and draws these cases.
 #[test]
 fn the_page_shows_the_best_cases() {
     let place = Place::empty();

@@ -10,7 +10,7 @@ use tempfile::TempDir;
 /// A block of the page.
 struct Block<'a> {
     language: &'a str,
-    /// The text between the previous block and this one.
+    /// The text of the page between the previous block and the present block.
     before: &'a str,
     body: &'a str,
 }

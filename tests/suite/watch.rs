@@ -1,4 +1,4 @@
-//! `watch`: the messages to the page, and that no draft ends the server.
+//! `watch`: the messages to the page; a faulty draft never ends the server.
 
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
@@ -95,7 +95,8 @@ fn a_draft_is_solved_judged_changed_and_kept() {
     assert_eq!(place["line"], line);
     assert!(wrong["errors"][0]["help"].as_str().unwrap().contains("crank"));
     assert!(wrong["page"].is_string(), "what can be drawn is drawn");
-    // A slider, and a point on two links: the file stays until the draft is kept.
+    // The page changes a parameter and moves a point that two links share.
+    // The file stays unchanged until the draft is kept.
     let slid = watched.post("parameter", &json!({ "text": given, "key": "crank_mm", "value": 38.5 }));
     let slid = slid["text"].as_str().unwrap();
     assert_eq!(slid, given.replace("crank_mm = 40 ", "crank_mm = 38.5 "));
@@ -114,7 +115,7 @@ fn a_draft_is_solved_judged_changed_and_kept() {
     watched.post("keep", &json!({ "text": moved }));
     assert_eq!(std::fs::read_to_string(&file).unwrap(), moved);
     assert_eq!(watched.state(|state| state["isKept"] == true)["isMissing"], false);
-    // What cannot be changed says so.
+    // If a parameter or a point cannot be changed, the answer contains an error.
     for (what, body) in [
         ("parameter", json!({ "text": given, "key": "none_mm", "value": 1.0 })),
         (
@@ -124,7 +125,7 @@ fn a_draft_is_solved_judged_changed_and_kept() {
     ] {
         assert!(watched.post(what, &body)["error"].is_string(), "{what}");
     }
-    // A file that is missing is written again.
+    // If the file was deleted, keeping the draft writes the file again.
     std::fs::remove_file(&file).unwrap();
     watched.state(|state| state["isMissing"] == true);
     watched.post("keep", &json!({ "text": given }));

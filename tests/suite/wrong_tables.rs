@@ -78,7 +78,7 @@ fn text(name: &str) -> (String, std::path::PathBuf) {
     (std::fs::read_to_string(&path).unwrap(), path)
 }
 
-/// All channels of a case at the given instants of another case.
+/// All channels of a case at the instants `times` (s).
 fn solved(case: &Case, times: &[f64]) -> Trajectory {
     let case = case.on(Grid::of_times(case.crank(), times.to_vec())).unwrap();
     let all = case.all_channels();

@@ -44,7 +44,7 @@ fn regress_65_substeps_keep_the_formal_order_by_every_route() {
 }
 
 /// Story 66.
-/// Symptom: as in story 65, the crank of the impulse build lags.
+/// Symptom: with substeps, the crank of the impulse build lagged, as in story 65.
 /// The crank keeps its angle to rounding error, as it does without substeps (story 1).
 #[test]
 fn regress_66_the_motor_holds_its_speed_with_substeps() {
@@ -66,7 +66,7 @@ fn regress_66_the_motor_holds_its_speed_with_substeps() {
 /// Story 67.
 /// Two substeps reduce the errors in angles to a quarter, as a step of half the size does.
 /// Errors of native reactions fall to 0.63 of their value in the multibody build, and to 0.50 in the impulse build.
-/// Reactions by a probe are no worse than without substeps; the tiny steps of a probe are not divided.
+/// Substeps hardly change the errors of reactions by a probe, because the tiny steps of a probe are not divided.
 #[test]
 fn regress_67_two_substeps_are_nearly_as_good_as_half_the_step() {
     let case = case();

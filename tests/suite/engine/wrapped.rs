@@ -1,4 +1,4 @@
-//! A wrapper of an engine behaves like that engine, except for its declared changes.
+//! A wrapper of an engine behaves like the wrapped engine, except for the changes that the wrapper declares.
 
 use std::path::Path;
 

@@ -15,14 +15,16 @@ use crate::common::sketch::RandomSource;
 /// Whether a cause names a mistake.
 type Names = Box<dyn Fn(Option<&MarkCause>) -> bool>;
 
-/// A planted mistake: the answers with it, and whether a cause names it.
+/// A planted mistake: its kind, the answers with the mistake, and a function that tells whether a cause names the
+/// mistake.
 pub(super) struct Mistake {
     pub(super) sort: &'static str,
     pub(super) answers: Vec<Vec<f64>>,
     pub(super) names: Names,
 }
 
-/// All sorts of mistakes. The last two have no cause that `mark` could recognise.
+/// All sorts of mistakes.
+/// For the last two sorts, `mark` cannot recognise a cause.
 pub(super) const SORTS: [&str; 24] = [
     "sign of a cell",
     "sign of a quantity",
@@ -82,7 +84,7 @@ fn states(sheet: &AnswerSheet) -> Vec<State> {
     found.into_iter().map(Option::unwrap).collect()
 }
 
-/// Plants a mistake of this sort; `None` if the sheet has no place for it.
+/// Plants a mistake of the sort `sort`; `None` if the sheet has no answers in which this mistake is possible.
 pub(super) fn plant(
     sort: &'static str,
     scenario: &Scenario,

@@ -120,7 +120,7 @@ fn a_resistance_is_the_friction_of_a_hinge_on_the_ground() {
     assert!(urdf(&case).unwrap().contains(&format!("friction=\"{moment}\"")));
 }
 
-/// Asserts that a format refuses a case by name and with a way out.
+/// Asserts that a format refuses a case, and that the error contains `words` and a remedy.
 fn refused(found: Result<String>, words: &[&str]) {
     let error = found.unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Unsupported, "{error}");

@@ -78,7 +78,8 @@ fn meaningless_claims_are_refused_with_a_reason() {
 }
 
 /// At instants when the crank is at rest, the division by the crank's speed is impossible.
-/// Instants at which the crank is at rest are left out; if the crank is at rest at all instants, nothing is proven.
+/// Instants at which the crank is at rest are left out.
+/// A crank that is at rest at all instants proves nothing.
 #[test]
 fn a_crank_at_rest_has_no_reduced_inertia() {
     let place = Place::new();

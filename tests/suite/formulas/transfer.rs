@@ -77,8 +77,8 @@ fn transfer_functions_are_derivatives_by_the_crank_angle() {
     }
 }
 
-/// By the theorem of three centres, the centre of coupler and ground lies on the lines of crank and rocker, and the
-/// centre of crank and rocker lies on the lines of coupler and ground.
+/// By the theorem of three centres, the centre of coupler and ground lies on the lines of crank and rocker.
+/// By the same theorem, the centre of crank and rocker lies on the line of the coupler and on the line of the ground.
 /// At the acceleration pole of the coupler, the acceleration is zero.
 #[test]
 fn instant_centres_obey_the_theorem_of_three_centres() {

@@ -1,4 +1,4 @@
-//! Undefined values are neither right nor ignored, wherever they occur.
+//! Undefined values of formulas: wherever an undefined value occurs, it does not count as right and is not ignored.
 
 use prover::check::FormulaOutcome;
 use prover::run::Reference;

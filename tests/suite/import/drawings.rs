@@ -5,7 +5,8 @@ use crate::cli::tools::Table;
 use crate::common::assert_within;
 use linkage::math::KeepNan;
 
-/// A file, its length in m, places of moving points at t = 0 in that length, and a channel with its value at t = 0.
+/// A file, its unit of length in m, the positions of moving points at t = 0 in this unit, and a channel with its value
+/// at t = 0.
 type Drawing = (&'static str, f64, &'static [(&'static str, [f64; 2])], (&'static str, f64));
 
 /// Turns per minute.

@@ -64,7 +64,7 @@ fn damaged_sources_never_panic() {
     }
 }
 
-/// Random damage of a link with a right last character.
+/// Random damage of a link whose last character is correct again after the damage.
 #[test]
 fn damaged_links_never_panic() {
     let names = ["four_bar", "slot", "force", "welded", "driven_slide"];
@@ -81,7 +81,8 @@ fn damaged_links_never_panic() {
                 _ => query.insert(at, b"0AZaz_-.,!"[random.index(10)]),
             }
         }
-        // The last character is made right, so that the damage is read.
+        // The last character is a check character.
+        // It is made to fit the damaged text, so the program reads the damaged part.
         let digits = b"0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
         query.push(digits[query.len() % 62]);
         let query = format!("?{}", String::from_utf8(query).unwrap());

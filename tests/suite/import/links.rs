@@ -5,8 +5,8 @@ use crate::cli::tools::{Place, Table};
 use crate::common::assert_within;
 use linkage::math::KeepNan;
 
-/// A link, its length in m, the places of moving points at t = 0 in that length, and the input at the first instant
-/// (deg, or the slide in mm) with its speed (rpm).
+/// A link, its unit of length in m, the positions of moving points at t = 0 in this unit, and the speed of the input
+/// (rpm; 0 if the test does not check the speed).
 struct Link {
     name: &'static str,
     metres: f64,
@@ -120,7 +120,10 @@ fn masses_and_forces_have_the_units_of_the_document() {
         let own = links.iter().find(|own| own.name == link).unwrap();
         (own.mass, own.inertia, scenario.case.gravity, scenario.case.loads.len())
     };
-    // cm: g and kg cm^2. in: lb and lb in^2. m: kg and kg m^2.
+    // Units of mass and moment of inertia for each unit of length.
+    // With cm: g and kg cm^2.
+    // With in: lb and lb in^2.
+    // With m: kg and kg m^2.
     let (own, inertia, gravity, loads) = mass("four_bar.pmks", "BC");
     assert_within!((own - 0.06).abs() + (inertia - 3e-4).abs() + gravity.norm(), 1e-15);
     assert_eq!(loads, 0);
@@ -132,7 +135,8 @@ fn masses_and_forces_have_the_units_of_the_document() {
     let (place, _) = imported("force.pmks");
     let text = std::fs::read_to_string(place.path("own.toml")).unwrap();
     assert!(text.contains("link = \"BC\"\npoint = \"F1\"\nx_N = 0\ny_N = -25"), "{text}");
-    // A force that turns with its link, towards the link: from (2, 0.7) to (1.75, 0.6).
+    // This force turns with its link.
+    // Its arrow goes from (2, 0.7) to the point of the link at (1.75, 0.6).
     let (along, across) = (unit_of(0.5, -1.2), [-0.25, -0.1]);
     let size = 10.0 / 0.25f64.hypot(0.1);
     let x = size * (across[0] * along[0] + across[1] * along[1]);

@@ -11,7 +11,8 @@ use linkage::trajectory::Trajectory;
 use scenario::Scenario;
 use std::path::Path;
 
-/// Models whose transmissions do not say of which kind they are.
+/// Scenarios with transmissions.
+/// Their exported models couple joints, but do not state the kind of the transmission.
 const COUPLED: [&str; 3] = ["cardan_gears", "geared_five_bar", "planetary_train"];
 
 fn solved(case: &Case) -> Trajectory {
@@ -21,7 +22,7 @@ fn solved(case: &Case) -> Trajectory {
 }
 
 /// Every shipped scenario that can be exported.
-/// The zero of a crank angle is not in a model, so inputs are not compared.
+/// A model does not state the direction from which a crank angle is measured, so inputs are not compared.
 #[test]
 fn every_exported_scenario_comes_back() {
     let (mut count, mut coupled) = (0, Vec::new());

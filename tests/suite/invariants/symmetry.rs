@@ -172,8 +172,9 @@ fn swapping_the_links_of_a_joint_flips_only_its_force() {
             for solver in analytic::all() {
                 for (ours, mut theirs) in pairs(solver, sample, &other, 1.0) {
                     theirs.forces[index] = -theirs.forces[index];
-                    // In `theirs` the moment is about the point on the link that is second after the exchange.
-                    // The moment is transferred to the point on the link that was second before.
+                    // In `theirs`, the two links of the joint are exchanged, so the moment is about the joint point on
+                    // the original first link.
+                    // The test transfers the moment to the joint point on the original second link.
                     let [first, second] =
                         [joint.first, joint.second].map(|side| ours.motions[side.link].point(side.local));
                     if joint.slides() {
@@ -187,8 +188,8 @@ fn swapping_the_links_of_a_joint_flips_only_its_force() {
     });
 }
 
-/// Changes the mode of the group in which `joint` is an inner joint, or of an RRP dyad in which `joint` is an outer
-/// joint.
+/// Changes the mode of each group with `joint` as an inner joint.
+/// The mode of an RRP dyad also changes if `joint` is an outer joint of the dyad.
 /// The mode stays unchanged if `matters` does not accept the kind of the group.
 fn turn_modes(case: &Case, spec: &mut Spec, joint: JointId, matters: impl Fn(GroupKind) -> bool) {
     for group in case.structure.groups.iter().filter(|group| matters(group.kind)) {

@@ -72,7 +72,8 @@ fn a_prescribed_acceleration_is_judged_where_a_load_jumps() {
     assert_eq!([accelerations, forces], [0, 2]);
 }
 
-/// A moment on the rocker that jumps at 90 deg, where an instant lies, and at the end of its period.
+/// A moment on the rocker.
+/// It jumps at a crank angle of 90 deg, which is an instant of the grid, and at the end of its period.
 const TABLE: &str = "[[loads]]\ntype = \"moment\"\nlink = \"rocker\"\ntable = [{ crank_deg = 0, moment_N_m = 5 }, \
     { crank_deg = 90, moment_N_m = 10 }, { crank_deg = 90, moment_N_m = -40 }, { crank_deg = 360, moment_N_m = 30 }]\n";
 

@@ -36,7 +36,8 @@ fn with_numbers() -> Vec<PathBuf> {
     all.filter(|path| loaded(path).oracles.iter().any(|own| own.source.starts_with(SOURCE))).collect()
 }
 
-/// Collects the keys at `path`; if the value of a key is a text, the key is collected with this word.
+/// Collects the keys at `path`.
+/// If the value of a key is a text, the pair of key and text is collected.
 fn collect(table: &dyn TableLike, path: &[&str], found: &mut BTreeSet<(String, String)>) {
     let Some((first, rest)) = path.split_first() else {
         for (key, item) in table.iter() {

@@ -110,8 +110,9 @@ impl Row<'_> {
                 Load::TorsionSpring { links, stiffness, free_angle, acts } => {
                     let angle = |link: LinkId| self.link(link).turn[0];
                     let begun = self.case.start.0[links[1]].angle - self.case.start.0[links[0]].angle;
-                    // At t = 0 the twist must be in (-pi, pi]; `turns` is the number of revolutions that reduce the
-                    // difference of the start angles to this interval.
+                    // At t = 0 the twist must be in (-pi, pi].
+                    // The difference of the start angles comes into this interval when `turns` revolutions are
+                    // subtracted.
                     let turns = ((begun - std::f64::consts::PI) / std::f64::consts::TAU).ceil();
                     let twist = angle(links[1]) - angle(links[0]) - turns * std::f64::consts::TAU;
                     let over = twist - free_angle;

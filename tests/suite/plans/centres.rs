@@ -116,7 +116,8 @@ fn centres_of_a_four_bar_lie_on_its_lines() {
     assert_within!((ratio - (a - o).norm() / (p02 - a).norm()).abs(), 1e-12);
 }
 
-/// The singular point of a class IV group is the instant centre of its two base links. All further centres follow.
+/// The singular point of a class IV group is the instant centre of its two base links.
+/// From this centre, the theorem of three centres gives all further centres, without the use of velocities.
 #[test]
 fn the_singular_point_is_the_centre_of_both_base_links() {
     let plans = plans("fourth_class", 70.0);

@@ -17,8 +17,8 @@ fn motion(name: &str, channel: &str, divisions: usize) -> MotionDiagram {
 }
 
 /// The coordinate of a crank pin is a sine of the crank angle.
-/// Tangents parallel to the chord of the neighbouring points give its derivative times sin(h)/h.
-/// Trapezoids give its integral times (h/2)/tan(h/2).
+/// A tangent parallel to the chord of the neighbouring points gives the derivative of this sine times sin(h)/h.
+/// Trapezoids give the integral of the sine times (h/2)/tan(h/2), where h is the angle between neighbouring points.
 #[test]
 fn tangents_and_areas_on_the_crank_pin_have_their_known_factors() {
     for n in [12, 24] {

@@ -106,7 +106,8 @@ fn chord_errors_of_a_piston_match_the_closed_form() {
         let step = h / omega;
         let middle = |k: usize| at((k as f64 + 0.5) * h);
         let chord = |k: usize| (at((k + 1) as f64 * h)[0] - at(k as f64 * h)[0]) / step;
-        // Velocity by the tangent at a row, and area of a trapezoid below the derivative number `of`.
+        // `tangent` is the velocity by the tangent at a row.
+        // `strip` is the area of one trapezoid below the curve of the derivative of order `of`.
         let tangent = |row: f64| (at((row + 1.0) * h)[0] - at((row - 1.0) * h)[0]) / (2.0 * step);
         let strip = |j: usize, of: usize| f64::midpoint(at(j as f64 * h)[of], at((j + 1) as f64 * h)[of]) * step;
         let by_hand = |method: Method, k: usize| match method {

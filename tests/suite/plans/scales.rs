@@ -44,7 +44,7 @@ fn a_vector_has_its_chosen_length_on_paper() {
         let plans = scaled("crank_rocker", 70.0, &[wish], false).unwrap();
         let text = draw::plans(&plans, "crank_rocker", "").svg();
         assert_within!((arrow(&text, vector).norm() - length).abs(), DIGIT, "{wish}");
-        // The other plan keeps its scale.
+        // Only the plan with the chosen vector changes its scale; the scale of the second plan stays the same.
         let [velocity, acceleration] = [plans.velocity.scale == 0.01, plans.acceleration.scale == 0.2];
         assert!(velocity != acceleration, "{wish}");
     }
@@ -104,7 +104,7 @@ fn a_turned_plan_is_parallel_to_the_mechanism() {
             sides += 1;
         }
         assert!(name == "ov7_base" || sides == 2, "{name}: {sides}");
-        // The values themselves are not turned.
+        // Turning the plan on paper does not change the values of its vectors.
         let straight = scaled(name, degrees, &["crank"], false).unwrap();
         let own = plans.velocity.vector(&format!("v_{pin}")).unwrap().value;
         assert_eq!(own, straight.velocity.vector(&format!("v_{pin}")).unwrap().value);

@@ -56,7 +56,8 @@ fn the_singular_point_gives_the_solvers_velocities_and_accelerations() {
     }
 }
 
-/// Two assumed angular accelerations give two false positions. The true position is on the line through both.
+/// Two assumed angular accelerations give two false positions.
+/// The true position is on the line through the two false positions.
 /// The construction gives the angular accelerations of the solver.
 #[test]
 fn two_false_positions_give_the_solvers_accelerations() {
@@ -112,7 +113,7 @@ fn the_singular_point_of_a_class_iii_group_gives_the_solvers_motions() {
 }
 
 /// In the velocity plan, the line of each lead passes through the tips of its ends, and is perpendicular to the lead.
-/// Both lines meet at the tip of the singular point.
+/// The lines of the two leads meet at the tip of the singular point.
 #[test]
 fn the_singular_point_is_drawn_in_the_velocity_plan() {
     for name in ["fourth_class", "class3_group"] {

@@ -16,8 +16,9 @@ use linkage::solver::State;
 use rapier_twin::newton_euler::NewtonEuler;
 use scenario::Scenario;
 
-/// All shipped scenarios and study variants, by name; and a train in which the forces of the first and the last
-/// transmission are computed together, but not that of the transmission between them.
+/// All shipped scenarios and study variants, by name, and a planetary train.
+/// In this train, the forces of the first and the last transmission are computed together, and the force of the
+/// transmission between them separately.
 fn shipped() -> Vec<(String, Case)> {
     let top = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios");
     let toml = |directory: &Path| {

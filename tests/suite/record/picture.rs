@@ -376,8 +376,8 @@ fn both_sides_are_visible_and_the_robot_has_the_same_parts() {
     }
 }
 
-/// If there are enough instants, the recording has about 400 frames, or fifty per second of log time if that is more.
-/// It always has a frame of the last instant.
+/// A recording of enough instants has about 400 frames, or 50 frames per second of log time if these are more than 400.
+/// The recording always has a frame of the last instant.
 #[test]
 fn slow_motion_has_more_frames_and_ends_with_the_last_instant() {
     let times = turn(1_600);

@@ -20,7 +20,7 @@ use scenario::Scenario;
 
 const SLIDERS: [&str; 5] = ["compressor", "six_bar_slider", "quick_return", "scotch_yoke", "tangent"];
 
-/// Machines with friction, transmissions, and drives of slides beside those of cranks.
+/// Machines with friction, with transmissions, or with driven slides in addition to driven cranks.
 const MACHINES: [&str; 5] = ["slider_crank_friction", "cam_follower", "planetary_train", "robot_arm", "platform_3rpr"];
 
 /// A scenario's case, its reference solution on its grid, its recording, and the solution read back.

@@ -126,7 +126,8 @@ fn ending(own: &Attack) -> Result<(i32, f64), String> {
             return Err(format!("{name} is not what it was"));
         }
     }
-    // `times` prints minutes and seconds: first those of the shell, then those of the command.
+    // `times` prints processor times in minutes and seconds: the first line for the shell, the second line for the
+    // command.
     let times = fs::read_to_string(told.path()).unwrap();
     let seconds = |word: &str| {
         let (minutes, seconds) = word.trim_end_matches('s').split_once('m')?;
@@ -186,8 +187,9 @@ const WRITTEN: [&str; 3] = ["--output", "--run-up", "--write-map"];
 /// Options that name a directory. The program chooses the file names in this directory, and therefore inspects existing
 /// files.
 const MADE: [&str; 5] = ["bench --output", "golden --output", "man --output", "run --output", "stress --output"];
-/// Arguments that name no input, only a directory for files that the program writes; and the file of a command that does
-/// not end by itself, which `tests/suite/watch.rs` damages.
+/// Arguments without hostile input.
+/// `new --shipped` names only a directory for files that the program writes.
+/// `watch` does not end by itself, so `tests/suite/watch.rs` tests it with damaged files.
 const NO_INPUT: [&str; 2] = ["new --shipped", "watch FILE"];
 
 /// Collects the arguments of a command from its help: command, option or value, and name of the value.

@@ -84,7 +84,8 @@ fn no_hostile_text_becomes_a_name() {
     }
 }
 
-/// Titles and sources may contain any visible character, but no invisible one.
+/// Titles and sources may contain any visible character.
+/// Invisible characters in titles and sources are refused.
 #[test]
 fn no_text_may_hold_invisible_characters() {
     for text in hostile().iter().filter(|text| text.contains(is_unseen) || text.len() > 10_000) {
@@ -116,8 +117,8 @@ fn messages_show_no_terminal_control_characters() {
     place.refused("run bad.toml --no-record", &["not a regular file"]);
     #[cfg(unix)]
     place.refused("run /dev/zero --no-record", &["/dev/zero", "64 MiB"]);
-    // The limit of the message's length lies inside a character of the formula: a character of two bytes, or an
-    // invisible character of three bytes.
+    // A long formula is cut in the message.
+    // The cut falls inside a character of the formula, which has two bytes or, if it is invisible, three bytes.
     for letter in ["\u{e9}", "\u{202e}"] {
         for start in ["", "p", "ph"] {
             let text = format!("{start}{}", letter.repeat(12_000));

@@ -57,7 +57,7 @@ fn a_file_is_read_no_further_than_its_stated_size() {
     let size = content(&file, mcap::records::op::CHUNK) + 16;
     file[size..size + 8].copy_from_slice(&1000u64.to_le_bytes());
     assert!(refusal(&file).contains("damaged"), "{}", refusal(&file));
-    // Twice the actual size.
+    // The file states twice the actual size of its chunk.
     let mut file = zeros(20);
     file[size..size + 8].copy_from_slice(&(41u64 << 20).to_le_bytes());
     assert!(refusal(&file).contains("damaged"), "{}", refusal(&file));

@@ -8,7 +8,7 @@ use linkage::work::{Count, counted};
 
 use crate::common::{assert_within, shipped};
 
-/// Asserts that `far` repeats `near`, except for the revolutions that the angles of `far` count.
+/// Asserts that the values of `far` repeat the values of `near`, except for the whole revolutions that angles count.
 fn assert_repeats(near: &Trajectory, far: &Trajectory, turns: f64, what: &str) {
     for ((channel, near), (_, far)) in near.iter().zip(far.iter()) {
         let scale = near.iter().fold(1e-3, |most: f64, value| if value.abs() > most { value.abs() } else { most });

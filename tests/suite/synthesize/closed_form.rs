@@ -134,8 +134,8 @@ fn slider_cranks_have_the_requested_stroke() {
     }
 }
 
-/// The rod must be at least as long as crank and offset together. If it is slightly shorter, the crank does not rotate
-/// fully.
+/// The rod must be at least as long as crank and offset together.
+/// If the rod is slightly shorter, the crank does not rotate fully.
 #[test]
 fn below_the_shortest_rod_the_crank_does_not_turn_fully() {
     let found = SliderCrank::of(0.1, 0.03, Given::Rod(0.0675)).unwrap();

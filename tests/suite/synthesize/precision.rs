@@ -81,13 +81,14 @@ struct Known {
     lengths: [f64; 4],
     /// Coupler point in the frame of the coupler from A to B.
     point: Complex,
-    /// +1 if B lies to the left of A to C.
+    /// +1 if B lies to the left of the line from A to C, otherwise -1.
     side: f64,
     cranks: Vec<f64>,
 }
 
 impl Known {
-    /// Coupler poses and rocker angles at the crank angles; `None` if the four-bar cannot be assembled, or hardly.
+    /// Coupler poses and rocker angles at the crank angles.
+    /// `None` if the four-bar cannot be assembled, or is close to a dead point.
     fn poses(&self) -> Option<Vec<(CouplerPose, f64)>> {
         let [frame, crank, coupler, rocker] = self.lengths;
         let pose = |&angle: &f64| {
@@ -116,7 +117,8 @@ fn joints(own: &PrecisionFourBar) -> [Complex; 4] {
     [o, c, a, b]
 }
 
-/// Distance of the nearest four-bar from the known one, relative to its largest length.
+/// Distance of the known four-bar from the nearest four-bar of `all`: the largest distance between corresponding
+/// joints, divided by the size of the known four-bar.
 fn distance(all: &[PrecisionFourBar], known: &[Complex; 4]) -> f64 {
     let size = known.iter().map(|joint| joint.norm()).fold(0.0, f64::larger);
     let apart = |own: &PrecisionFourBar| {
@@ -156,7 +158,7 @@ proptest! {
         assert_guided(&spec, &found.best);
     }
 
-    /// Five points with crank angles: the four-bar is among the results.
+    /// Five points and their crank angles are taken from a random four-bar: this four-bar is among the results.
     #[test]
     fn five_timed_points_give_the_four_bar_back(known in known()) {
         let Some(poses) = known.poses() else { return Err(TestCaseError::reject("not assembled")) };
@@ -281,7 +283,7 @@ fn given_pivots_and_pins_are_kept() {
     assert!(one.best.len() == 10 && one.is_scanned);
 }
 
-/// The first results of a scan do not depend on how many are requested, and are sorted.
+/// The results of a scan are sorted, and the first results do not depend on the number of requested results.
 #[test]
 fn the_best_comes_first() {
     let few = motion(&POSES[..4]).four_bars(3).unwrap();

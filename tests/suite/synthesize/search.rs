@@ -104,8 +104,8 @@ fn derivatives_give_the_closed_form_exactly() {
     let found = search(&task, 2, &mut |_| {}).unwrap();
     assert_within!(found.cost, 1e-7, "{found:?}");
     let known = known();
-    // The crank angle between the extreme positions hardly depends on the lengths, so their error is larger than that of
-    // the motion.
+    // The crank angle between the extreme positions hardly depends on the lengths, so the found lengths have larger
+    // errors than the motion.
     for (value, expected) in found.values.iter().zip([known.crank, known.coupler, known.stretched.crank]) {
         assert_within!((value - expected).abs(), 1e-5, "{found:?} {known:?}");
     }

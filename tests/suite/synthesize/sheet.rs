@@ -124,7 +124,8 @@ fn the_found_needle_drive_beats_the_published_one() {
         assert_within!((own.2 - peak).abs(), 0.06, "{own:?}");
         assert_within!((own.3 - by_speed).abs(), 0.006, "{own:?}");
     }
-    // The task limits the drive found by search: the stroke of the published drive, and 1.2 times its acceleration.
+    // The task of the search requires the stroke of the published redesigned drive, and allows 1.2 times the
+    // acceleration of this drive.
     assert!(found.0 < redesigned.0 / 3.0 && found.1 > redesigned.1 - 0.01 && found.3 < 1.2 * redesigned.3, "{found:?}");
     let scenario = Scenario::load(scenarios(DRIVES[2])).unwrap();
     assert!(scenario.oracles.is_empty() && scenario.formulas.list.is_empty() && scenario.source.is_none());
