@@ -158,7 +158,7 @@ linkage::sentences! {
     at_time_first_in(fixed, at, names) = "t = {fixed} s, {at}, first in {names}";
     cannot_be_told_differ(pairs) = "cannot be decided: {pairs} differ";
     nobody_stand_against(one, other) = "no single party: the parties {one} disagree with {other}";
-    all_others_agree_with_each(name) = "{name}; all others agree with each other";
+    all_others_agree_with_each(name) = "{name}; all other parties agree with each other";
     NOBODY_EACH_IS_WITHIN_THE_BOUNDS = "no party: any two parties agree within their bounds";
     which_explains_as_much(cause) = "{cause}: an equally good explanation";
     no_single_one_a_part_is_explained(cause) = "no single cause found; this cause explains a part of the difference: {cause}";
@@ -322,9 +322,9 @@ linkage::sentences! {
     over_of_the_crank_in_the_sense(over) = "over {over} of the crank in its sense of motion; I* without motor, reducer and flywheel";
     DERIVATIVE_OF_THE_REDUCED_MOMENT = "derivative of the reduced moment of inertia";
     // report/explain.rs
-    NOTHING_ASKED_NEEDS_THEM = "no requested quantity needs them";
+    NOTHING_ASKED_NEEDS_THEM = "not needed for any requested quantity";
     NOTHING_THAT_IS_COUNTED = "no counted work";
-    nothing_asked_depends_on_them(all) = "{all}: no requested quantity depends on them";
+    nothing_asked_depends_on_them(all) = "{all}: not needed for any requested quantity";
     NOTHING_EVERY_PART_OF_THE_MECHANISM = "none: every part of the mechanism is needed";
     at_instants(some, instants) = "{some} at {instants} instants";
     of_everything_at_instants_of_channels(stages, instants, own, all) = "all {stages} at {instants} instants: {own} of {all} channels";
@@ -366,7 +366,7 @@ linkage::sentences! {
     from_the_rough_place(mm) = ", {mm} from the approximate position in the file";
     class_order_mode_2(names, class, order, pairs, mode, transmission, from) = "  {names:28} class {class}, order {order}, {pairs}, mode {mode}{transmission}{from}";
     transmission_angle_deg(sine) = ", transmission angle {sine:.2} deg";
-    groups_at_the_start(word, fixed_in) = "\ngroups at the start ({word} {fixed_in}); a mode belongs to this order of the links";
+    groups_at_the_start(word, fixed_in) = "\ngroups at the start ({word} {fixed_in}); a mode holds for this order of the links";
     kg_kg(mass, inertia, at) = "m = {mass} kg, J = {inertia} kg·m², {at}";
     NO_CONFIGURATION_CLOSES = "no configuration of the structure closes";
     OR_MORE = " or more";
@@ -441,8 +441,8 @@ Computed from channels, for formulas and tables:
     FAULTS_IN_ONE_PARTY = "faults in one party";
     NOTHING_PLANTED_NO_FAULT_OF_THE_KINDS = "NOTHING PLANTED  no fault of the requested kinds changes a result, so detection is not tested";
     LEAST_MARGIN_DIFFERENCE_OVER_ITS_BOUND = "least margin: the smallest ratio of difference to bound over all found faults of a kind in one party or formula; for each fault the channel or check with the largest ratio counts.
-found down to: faults larger than this are found in every scenario, to a factor of two; relative sizes, angles in rad.";
-    no_fault_of_the_kinds_asked(name, instead, formulas) = "{name}: no fault of the requested kinds changes a result; kinds that change one: {instead}{formulas}\n";
+found down to: every fault of this size or larger is found in every scenario; known to a factor of two, relative, angles in rad.";
+    no_fault_of_the_kinds_asked(name, instead, formulas) = "{name}: no fault of the requested kinds changes a result; kinds that change a result: {instead}{formulas}\n";
     NO_FORMULA_OF_IT_CLAIMS_AN_EXACT = "; no formula of the scenario claims an exact value, so formula faults cannot be planted";
     // report/plan.rs
     omega_rad_alpha_rad(link, name, omega, alpha) = "  {link} {name:14} omega {omega:>10} rad/s   alpha {alpha:>10} rad/s²";
@@ -557,7 +557,7 @@ found down to: faults larger than this are found in every scenario, to a factor 
     THE_WORK_THAT_WAS_ALLOWED_IS_DONE = "The work limit was reached: cheaper settings may exist.";
     A_PROOF_AT_THESE_SETTINGS = "A proof at these settings is inconclusive: use finer settings for a proof.";
     A_PROOF_AT_THESE_SETTINGS_AGREES = "A proof at these settings agrees.";
-    of_the_price_but_proves_less(share) = "{share:.2} of the cost, but a proof at its settings is not conclusive.";
+    of_the_price_but_proves_less(share) = "{share:.2} of the cost, but a proof at the cheaper settings is not conclusive.";
     a_proof_at_these_settings_agrees_at_with_sweeps(name, step, sweeps) = "A proof at these settings agrees. {name} at {step} with {sweeps} sweeps meets the error for ";
     error_measured_against_the_reference(engine, error, expected, runs) = "{engine}: error {error} measured against the reference, {expected} expected from its own runs; {runs} runs.";
     costs_more_than_the_cheapest(name) = "{name} costs more than the cheapest engine.";

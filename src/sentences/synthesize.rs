@@ -3,7 +3,7 @@
 linkage::sentences! {
     // report/precision.rs
     four_bars_pass_all(found, branch, order, full) = "  found         {found} through all positions, {branch} of these in one assembly mode,\n                {order} also in the given order, {full} also with a full turn of the crank";
-    FREE_ROTATIONS_WERE_SCANNED = "  scan          free rotations on a grid; the table has no two similar four-bars";
+    FREE_ROTATIONS_WERE_SCANNED = "  scan          free rotations on a grid; similar four-bars are listed once";
     four_bar_of_the_table(number) = "four-bar {number} of the table";
     pivots_and_pins(o, c, a, b) = "  pivots        O {o}, C {c} mm\n  position 1    A {a}, B {b} mm";
     points_of_the_coupler(point, a, b) = "  coupler       P {point},\n                A {a}, B {b} mm in its frame";

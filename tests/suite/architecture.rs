@@ -171,7 +171,8 @@ const HOMES: &[(&str, &str)] = &[
     ("toml_edit", "design::synthesize scenario"),
     ("comfy_table", "linkproof::plain linkproof::report"),
     // Only `lab::outside` starts foreign programs.
-    // In the command line, `Command` is the command type of clap; `testing` uses only the exit code from `process`.
+    // In the command line, `Command` is the command type of clap, and starts no program.
+    // `testing` uses only the exit code from `process`.
     ("Command", "linkproof::cli lab::outside"),
     ("process", "linkproof::cli lab::outside linkproof::testing"),
     ("serde", "lab::stress linkproof::report sweep"),
@@ -584,8 +585,8 @@ fn files_are_short_and_free_of_stopgaps() {
                 wrong.push(format!("{}: {lines} lines, fewer than {MOST_LINES} are allowed; split it", file.display()));
             }
             // Banned words are not searched for in two files.
-            // The first, this file, lists the banned words.
-            // The second, the boundary to Simbody, has a separate test.
+            // The file of these tests lists the banned words.
+            // The boundary to Simbody has a separate test.
             let own = file.ends_with("suite/architecture.rs") || file.ends_with("simbody/src/ffi.rs");
             let told = |line: &str| line.trim_start().starts_with("//");
             let code: String = text.lines().filter(|line| !told(line)).collect::<Vec<_>>().join("\n");

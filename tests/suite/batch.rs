@@ -264,7 +264,7 @@ fn an_empty_batch_gives_no_poses() {
 }
 
 /// A case batch gives, bit by bit, the numbers of the pose solver.
-/// This also holds after the masses of the case have been changed.
+/// The numbers also agree after a change of the masses of the case.
 #[test]
 fn a_case_batch_has_the_bits_of_the_pose_solver() {
     for (name, links) in [("crank_rocker", 3), ("ov7_base", 7)] {

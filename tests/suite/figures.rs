@@ -43,7 +43,7 @@ fn val_ov7_base_every_printed_number_by_both_sides() {
     let scenario = scenario("ov7_base");
     let cells: Vec<usize> =
         scenario.oracles.iter().map(|oracle| oracle.series.iter().map(|series| series.points.len()).sum()).collect();
-    // The first three entries count positions, velocities and accelerations: five points, two directions, 13 crank
+    // The first three entries count positions, velocities and accelerations: five points in two directions at 13 crank
     // angles.
     // The next three entries count seven angles at each crank angle, and their first and second derivatives.
     // The last two entries are not published: a distance at the start, and one pose with its forces.
@@ -338,7 +338,8 @@ fn val_ov7_new_printed_r1_and_moment_come_from_half_a_reaction() {
     let mut visit = |row: usize, state: &State| {
         let mechanism = &case.mechanism;
         let (crank, lead) = (mechanism.link_named("crank").unwrap(), mechanism.link_named("lead_23").unwrap());
-        // Joint 2 goes from the crank to the lead, so the opposite force acts on the crank.
+        // Joint 2 names the crank first and the lead second, so the force on the crank is opposite to the force of the
+        // joint.
         let whole = -state.forces[mechanism.joint_named("2").unwrap()];
         let along = state.motions[lead].direction;
         let half = whole - along * along.dot(&whole);

@@ -63,7 +63,7 @@ fn both_sides_agree_and_balance_powers_and_momentum() {
     }
 }
 
-/// Velocities are the derivatives of positions, and accelerations those of velocities.
+/// Velocities are the derivatives of positions, and accelerations are the derivatives of velocities.
 /// The derivatives are difference quotients of the solutions.
 #[test]
 fn rates_are_derivatives_under_every_law() {

@@ -54,7 +54,7 @@ trait Named {
     /// The vector called `name`.
     fn vector(&self, name: &str) -> Option<&Vector>;
 
-    /// The point of the plan called `letter`, from the pole (SI).
+    /// Position of the plan's point `letter` relative to the pole (SI units).
     fn tip(&self, letter: &str) -> Option<Vec2>;
 }
 

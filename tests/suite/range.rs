@@ -400,8 +400,9 @@ fn coinciding_configurations_have_no_velocities() {
 /// relative error of the angles.
 /// Accelerations are divided by the same determinant again.
 /// Relative to their size, however, velocities and accelerations both lose a factor of k^2.
-/// The angle differs by up to 2.5 epsilon k.
-/// The relative differences of velocity and acceleration are up to 2.1 and 6.4 times epsilon k^2.
+/// The angles of the two sides differ by up to 2.5 epsilon k.
+/// Relative differences between the two sides are up to 2.1 epsilon k^2 for velocities and 6.4 epsilon k^2 for
+/// accelerations.
 /// These factors are nearly the same for 30 and for 0.3 degrees between coupler and rocker (0 if stretched).
 /// The condition number is therefore the only cause of the loss of digits.
 /// The bound allows twice the largest measured factor, for other mathematical libraries.

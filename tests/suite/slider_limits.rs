@@ -104,8 +104,8 @@ fn a_short_rod_limits_the_crank_when_perpendicular_to_the_guide() {
         let limit = |sine: f64| if sine.abs() <= 1.0 { Some(sine.asin()) } else { None };
         let expected = [limit((offset - rod) / 0.1), limit((offset + rod) / 0.1)];
         for (found, expected) in [from, to].into_iter().zip(expected) {
-            // On one side of the guide, the sine may exceed 1, so that the rod gives no limit there.
-            // Both limits then belong to the opposite side, and this limit is not compared.
+            // If the sine for one side of the guide exceeds 1, the rod sets no limit on this side.
+            // Both limits of the crank angle then lie on the opposite side, and the test compares only one of them.
             if let Some(expected) = expected {
                 assert_within!((found.crank - expected).abs(), 1e-9, "{rod}, {offset}: {found:?}, {expected}");
             }

@@ -50,7 +50,7 @@ fn text<'r>(row: &'r Row, name: &str) -> &'r str {
 }
 
 /// The test also computes every figure of every case from the table of `solve`.
-/// The two figures must be equal, bit by bit.
+/// The figure of the sweep and the figure from the table must be equal, bit by bit.
 /// Root mean squares must be equal up to rounding.
 #[test]
 fn figures_have_the_bits_of_solve() {
@@ -229,7 +229,7 @@ fn ten_kills_do_not_change_the_bytes() {
         child.current_dir(place.path("")).args(sweep.split(' ')).args(["-o", "killed", "--jobs", "2"]);
         let mut child = child.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
         // The sweep has 600 parts.
-        // It is killed when one to four further parts are stored, at different moments within a part.
+        // The command is killed when one to four further parts are stored, at different moments within a part.
         let wanted = parts() + 1 + round % 4;
         while parts() < wanted && child.try_wait().unwrap().is_none() {
             sleep(Duration::from_micros(200));

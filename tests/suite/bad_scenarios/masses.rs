@@ -34,6 +34,6 @@ fn large_and_heavy_links_within_precision_are_accepted() {
     // large as this distance.
     let point = "mass_centre = { x_mm = 13, y_mm = 0 }\n[links.crank.points]";
     taken(point, "mass_centre = { x_m = 1300, y_m = 0 }\n[links.crank.points]\nG = { x_m = 1300, y_m = 0 }");
-    // This large inertia is accepted, because no other link has a mass with which it is compared.
+    // This large inertia is accepted, because no other link has a mass with which the inertia could be compared.
     taken("inertia_kg_m2 = 0.0002", "inertia_kg_m2 = 2e14");
 }

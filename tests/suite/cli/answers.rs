@@ -131,7 +131,7 @@ fn in_text(place: &Place, name: &str, asked: &ClearanceQuestion, found: &design:
         let row = rows.iter().find(|row| row.starts_with(&[first.as_str(), names[1]]));
         let row = row.unwrap_or_else(|| panic!("{names:?} in {text}"));
         assert_eq!(row[2], format!("{:.4}", 1e3 * pair.smallest.distance), "{text}");
-        // The last column is the first collision, and is empty without a collision.
+        // The last column contains the first collision; without a collision, the column is empty.
         if let Some(meeting) = pair.collision {
             assert_eq!(row[row.len() - 1], format!("{:.4}", meeting.cranks[1].to_degrees()), "{text}");
         }

@@ -104,8 +104,8 @@ fn invalid_modes_are_refused() {
 #[test]
 fn inspect_reports_how_unambiguous_the_start_is() {
     let place = Place::new();
-    // `inspect` reports the distance of point E from its approximate position, in the selected configuration and in the
-    // next configuration of the list.
+    // `inspect` reports how far point E is from its approximate position in two configurations: the selected one and
+    // the next one of the list.
     // The two reported distances must follow from the positions that `--modes` lists.
     let found: Value = serde_json::from_str(&place.ok("inspect scenarios/fourth_class.toml --modes --json -")).unwrap();
     let at = |mode: usize| {

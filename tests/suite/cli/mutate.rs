@@ -39,7 +39,7 @@ fn regress_without_a_planted_fault_nothing_is_proven() {
         let outcome = place.run(&format!("mutate scenarios/pendulum.toml --kind {kind} --no-sizes"));
         assert_eq!(outcome.code, 3, "{kind}: {}", outcome.stdout);
         assert!(outcome.stdout.starts_with("NOTHING PLANTED"), "{kind}: {}", outcome.stdout);
-        let has = "kinds that change one: drive, mass, position, rate, acceleration, force";
+        let has = "kinds that change a result: drive, mass, position, rate, acceleration, force";
         assert!(outcome.unbroken().contains(has), "{kind}: {}", outcome.stdout);
         let json = place.run(&format!("mutate scenarios/pendulum.toml --kind {kind} --no-sizes --json -")).json();
         assert_eq!(json["scenarios"][0]["kinds_instead"][1], "mass");

@@ -65,7 +65,7 @@ fn worst() -> String {
     WORST.with_borrow(|worst| -> Vec<String> { all(worst) }).join(", ")
 }
 
-/// Fails with a message that states both numbers, unless [`accepts`] accepts `value` within `bound`.
+/// Fails if [`accepts`] does not accept `value` within `bound`; the message states both numbers.
 pub fn within(what: &str, value: f64, bound: f64) -> Result<(), TestCaseError> {
     WORST.with_borrow_mut(|worst| {
         let most = worst.entry(what.into()).or_insert(0.0f64);

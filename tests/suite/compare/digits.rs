@@ -166,7 +166,8 @@ fn correct_tables_are_never_refused_for_any_digits() {
         }
     }
     println!("{tables} tables, {agreed} of {channels} columns agree");
-    // Times in whole milliseconds leave many columns undecided; hardly any column is undecided with finer times.
+    // If times are printed in whole milliseconds, many columns stay undecided.
+    // With finer times, hardly any column stays undecided.
     assert!(agreed * 10 >= channels * 8, "{agreed} of {channels}");
 }
 
@@ -205,7 +206,8 @@ fn an_error_of_three_units_of_the_last_digit_is_found() {
     assert!(planted > 50, "{planted}");
 }
 
-/// If instants are rounded, a number may differ by its change within the rounding interval, but not by more.
+/// If instants are rounded, a number may differ by as much as the quantity changes within the rounding interval, but
+/// not by more.
 #[test]
 fn rounded_instants_excuse_only_the_change_within_them() {
     let mut planted = 0;

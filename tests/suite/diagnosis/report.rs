@@ -21,7 +21,7 @@ fn a_diagnosis_follows_the_verdict_and_is_in_the_json() {
     let (verdict, diagnosis) = (report.find("DISAGREE").unwrap(), report.find("\nDiagnosis of rapier:").unwrap());
     assert!(verdict < diagnosis);
     for line in [
-        "\n  suspect   rapier; all others agree with each other",
+        "\n  suspect   rapier; all other parties agree with each other",
         "\n  since     t = 0.000000 s, crank angle 0.000 deg, first in joint.",
         "\n  cause     gravity: missing; this explains all ",
     ] {

@@ -265,7 +265,7 @@ fn every_shipped_mechanism_can_be_rebuilt_from_its_drawing() {
 }
 
 /// The three points of a rocker are on one line.
-/// Its drawing has two lengths, and is incomplete if the shorter length is missing.
+/// The drawing of such a rocker has two lengths, and is incomplete if the shorter length is missing.
 #[test]
 fn a_bar_with_three_points_has_both_of_its_lengths() {
     let case = Scenario::load("scenarios/crank_rocker.toml").unwrap().case;

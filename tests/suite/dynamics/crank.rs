@@ -155,7 +155,7 @@ fn a_pendulum_swings_in_its_known_time() {
             let side = if half % 2 == 0 { 1.0 } else { -1.0 };
             let expected = (-90.0f64).to_radians() + side * degrees.to_radians();
             // At a reversal the angular velocity is zero, so the angle there hardly depends on the time.
-            // This check therefore proves the amplitude.
+            // The check of the angle at reversals therefore proves the amplitude.
             // The check of the angle at odd multiples of a quarter period proves the period.
             assert_within!((at.crank - expected).abs(), 1e-11, "{degrees} {half}: {at:?}");
         }

@@ -140,10 +140,11 @@ fn a_force_against_a_point_of_a_pendulum_is_a_moment() {
     }
 }
 
-/// Symptom: in a step in which the point reverses, the twin kept the force's direction for the whole step.
+/// Symptom: if the loaded point reversed within a step, the twin kept the direction of the resisting force for the
+/// whole step.
 /// If the reversal came just after the start of a step, all runs had the same error, so the bound from their
 /// differences was too small.
-/// Moments against a link were already right, because each sense of rotation counted for its part of the step.
+/// Moments that resist a rotation were right: in such a step, each sense of rotation counts for its share of the step.
 #[test]
 fn regress_a_point_reversal_in_a_step_counts_by_its_shares() {
     let case = shipped("pendulum.toml").case;

@@ -72,7 +72,7 @@ fn chains_of_four_bars_swing_through_their_change_points() {
             let off = exact.iter().zip(angle).map(|([exact, _], angle)| (exact - angle).abs()).fold(0.0, f64::larger);
             println!("{pairs} {}: energy {:.1e} of its range, angle {off:.1e} rad", side.name(), drift / range);
             assert_within!(drift / range, 1e-9, "{pairs} {}: {drift}", side.name());
-            // The coordinates of ten pairs are ten times as large as those of one pair, and so is their rounding error.
+            // With ten pairs, the coordinates and their rounding errors are ten times as large as with one pair.
             assert_within!(off, 1e-9 * (pairs as f64), "{pairs} {}: {off}", side.name());
         }
         let apart = apart(&found, |_| true);
@@ -82,7 +82,7 @@ fn chains_of_four_bars_swing_through_their_change_points() {
 }
 
 /// Largest difference between the analytic sides in the channels that `of` selects.
-/// The difference is divided by the largest value of the quantity, or by 1 in its unit if 1 is larger.
+/// The difference is divided by the largest value with the same unit, but by at least 1.
 fn apart(found: &[Trajectory; 2], of: impl Fn(&Channel) -> bool) -> f64 {
     let largest = |unit: Unit| {
         let own = found[0].iter().filter(move |(channel, _)| channel.kind.unit == unit);
@@ -185,8 +185,9 @@ fn drift(case: &Case, found: &Trajectory) -> f64 {
     (most - least) / all[0].abs().larger(1.0)
 }
 
-/// Change-point mechanisms beyond those of the fault reports: kites, antiparallelograms, and a four-bar whose longest
-/// and shortest links together are as long as the two remaining links.
+/// Mechanisms with change points that occur in no fault report.
+/// Kites and antiparallelograms are tested, and a four-bar whose longest and shortest links together are as long as the
+/// two remaining links.
 /// The energy is constant, and the sides agree.
 #[test]
 fn other_change_point_mechanisms_pass_by_momentum() {

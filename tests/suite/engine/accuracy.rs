@@ -132,8 +132,9 @@ fn regress_64_loops_open_by_the_local_error_of_a_step() {
 /// Story 70.
 /// With two substeps, a step of 0.08 deg meets all required accuracies at once.
 /// The required accuracies are fractions of the range.
-/// For angles: 1e-6.
-/// For reactions in all joints and the balancing moment: 3e-6 by differences, 1e-7 extrapolated, 1e-6 by probe.
+/// For angles, the required accuracy is 1e-6.
+/// For reactions in all joints and the balancing moment, the required accuracy is 3e-6 by differences, 1e-7 with
+/// extrapolation and 1e-6 by probe.
 /// Loops close to 1e-7 of the mechanism's size.
 #[test]
 fn regress_70_two_substeps_meet_all_accuracy_goals_at_once() {
@@ -162,7 +163,7 @@ fn regress_70_two_substeps_meet_all_accuracy_goals_at_once() {
 }
 
 /// With a crank of half the length, the loop opens by less than 1e-7 of the mechanism's size.
-/// With a crank of full length, the loop opens by more than this.
+/// With a crank of full length, the loop opens by more than 1e-7 of the mechanism's size.
 #[test]
 fn regress_64_half_the_crank_leaves_gaps_below_1e_7() {
     let whole_crank = whole("crank_rocker");

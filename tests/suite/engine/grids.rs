@@ -34,7 +34,7 @@ fn differ(dense: &Trajectory, other: &Trajectory, row: impl Fn(usize) -> usize) 
 }
 
 /// Story 20.
-/// Symptom: values between steps are those of a neighbouring step, or a value at a step changes with the grid.
+/// Symptom: a value between two steps was the value of a neighbouring step, or a value at a step changed with the grid.
 /// Values at the end of a step are not interpolated, so their bits do not depend on the number of instants.
 #[test]
 fn regress_20_samples_on_steps_do_not_depend_on_the_grid() {

@@ -44,7 +44,7 @@ fn planted_mistakes_are_found_and_named() {
         let all: Vec<(usize, usize)> =
             (0..answers.len()).flat_map(|row| (0..sheet.columns.len()).map(move |column| (row, column))).collect();
         let wrong: Vec<_> = all.iter().filter(|(row, column)| is_wrong(*row, *column)).collect();
-        // A mistake that changes no number by more than the criterion allows is not counted.
+        // A mistake counts only if it changes some number by more than the criterion allows.
         if wrong.is_empty() {
             continue;
         }

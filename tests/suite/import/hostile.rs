@@ -82,7 +82,7 @@ fn damaged_links_never_panic() {
             }
         }
         // The last character is a check character.
-        // It is made to fit the damaged text, so the program reads the damaged part.
+        // The check character is made to fit the damaged text, so the program reads the damaged part.
         let digits = b"0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
         query.push(digits[query.len() % 62]);
         let query = format!("?{}", String::from_utf8(query).unwrap());

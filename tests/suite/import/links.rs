@@ -120,10 +120,8 @@ fn masses_and_forces_have_the_units_of_the_document() {
         let own = links.iter().find(|own| own.name == link).unwrap();
         (own.mass, own.inertia, scenario.case.gravity, scenario.case.loads.len())
     };
-    // Units of mass and moment of inertia for each unit of length.
-    // With cm: g and kg cm^2.
-    // With in: lb and lb in^2.
-    // With m: kg and kg m^2.
+    // Units of mass and moment of inertia: g and kg cm^2 in a link in cm, lb and lb in^2 in a link in inches, kg and kg
+    // m^2 in a link in m.
     let (own, inertia, gravity, loads) = mass("four_bar.pmks", "BC");
     assert_within!((own - 0.06).abs() + (inertia - 3e-4).abs() + gravity.norm(), 1e-15);
     assert_eq!(loads, 0);
@@ -136,7 +134,7 @@ fn masses_and_forces_have_the_units_of_the_document() {
     let text = std::fs::read_to_string(place.path("own.toml")).unwrap();
     assert!(text.contains("link = \"BC\"\npoint = \"F1\"\nx_N = 0\ny_N = -25"), "{text}");
     // This force turns with its link.
-    // Its arrow goes from (2, 0.7) to the point of the link at (1.75, 0.6).
+    // The arrow of the force goes from (2, 0.7) to the point of the link at (1.75, 0.6).
     let (along, across) = (unit_of(0.5, -1.2), [-0.25, -0.1]);
     let size = 10.0 / 0.25f64.hypot(0.1);
     let x = size * (across[0] * along[0] + across[1] * along[1]);

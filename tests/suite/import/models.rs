@@ -12,7 +12,7 @@ use scenario::Scenario;
 use std::path::Path;
 
 /// Scenarios with transmissions.
-/// Their exported models couple joints, but do not state the kind of the transmission.
+/// The exported models of these scenarios couple joints, but do not state the kind of the transmission.
 const COUPLED: [&str; 3] = ["cardan_gears", "geared_five_bar", "planetary_train"];
 
 fn solved(case: &Case) -> Trajectory {

@@ -19,7 +19,7 @@ use crate::common::states;
 const ROUNDING: f64 = 1e-12;
 
 /// States of both problems over the grid of the first problem.
-/// The crank angles of the second problem are those of the first problem times `sense`.
+/// The crank angles of the second problem are the crank angles of the first problem times `sense`.
 fn pairs(solver: &dyn Solver, sample: &DyadSpecimen, two: &Case, sense: f64) -> Vec<(State, State)> {
     let one = &sample.scenario.case;
     let times = one.grid.inputs.iter().map(|crank| two.crank().time_of(crank * sense));

@@ -73,7 +73,7 @@ fn a_prescribed_acceleration_is_judged_where_a_load_jumps() {
 }
 
 /// A moment on the rocker.
-/// It jumps at a crank angle of 90 deg, which is an instant of the grid, and at the end of its period.
+/// The moment jumps at a crank angle of 90 deg, which is an instant of the grid, and at the end of its period.
 const TABLE: &str = "[[loads]]\ntype = \"moment\"\nlink = \"rocker\"\ntable = [{ crank_deg = 0, moment_N_m = 5 }, \
     { crank_deg = 90, moment_N_m = 10 }, { crank_deg = 90, moment_N_m = -40 }, { crank_deg = 360, moment_N_m = 30 }]\n";
 

@@ -50,7 +50,7 @@ fn both_links_have_one_velocity_at_every_centre_of_every_scenario() {
             let fastest = fastest.fold(0.0, f64::larger);
             for centre in &centres.instant {
                 let away = position(centre.place).map_or(0.0, |at| at.norm() / case.mechanism.size());
-                // The centre of two lines that meet at a small angle loses digits, and so does a centre far away.
+                // A centre loses digits if its two lines meet at a small angle, or if it is far away.
                 let bound = 1e-9 * fastest * (1.0 + away);
                 assert_within!(centre.slip, bound, "{} P{} {}", scenario.name, centre.numbers(), centre.told());
                 let is_contact = |line: &CentreLine| matches!(line, CentreLine::Contact { .. });

@@ -111,7 +111,8 @@ fn messages_show_no_terminal_control_characters() {
             assert!(told.stdout.is_empty() && told.stderr.len() < 1 << 14, "{} bytes", told.stderr.len());
         }
     }
-    // A scenario names an endless file as its table; the program finds this file but does not read it.
+    // A scenario names an endless file as its table.
+    // The program refuses this file and does not read it.
     fs::write(place.path("bad.toml"), GOOD.replacen("table.csv", "/dev/zero", 1)).unwrap();
     #[cfg(unix)]
     place.refused("run bad.toml --no-record", &["not a regular file"]);

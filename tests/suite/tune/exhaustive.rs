@@ -86,8 +86,8 @@ fn rows(space: &Space) -> Vec<Box<dyn Engine>> {
 }
 
 /// Searches every row of the space from the finest affordable step to larger steps.
-/// The limit of the cost is `below` at first. After a row with sufficient settings, the limit is the cost of these
-/// settings.
+/// At first, the limit of the cost is the argument `below`.
+/// After a row with sufficient settings, the limit is the cost of these settings.
 /// Returns the cheapest settings of each row that stay below the limit and have at most the error `within`.
 /// Each result is therefore cheaper than the previous result, and the last result is the cheapest of all rows.
 /// Also returns the number of runs.

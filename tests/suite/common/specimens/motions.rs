@@ -39,8 +39,8 @@ pub fn constant(random: &mut RandomSource, spec: &mut Spec, safe: Safe) -> &'sta
 }
 
 /// A motion law that starts at rest.
-/// The law moves the crank in the direction with the larger range; if all angles are safe, in the direction of the
-/// given speed.
+/// If the range of the crank is limited, the law moves the crank in the direction with the larger range.
+/// If all angles are safe, the law moves the crank in the direction of the given speed.
 /// The largest speed of the law is about the magnitude of the given speed.
 pub fn law(random: &mut RandomSource, spec: &mut Spec, safe: Safe) -> &'static str {
     let (top, start) = (spec.speed.abs(), spec.start);
