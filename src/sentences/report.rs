@@ -193,9 +193,9 @@ linkage::sentences! {
     KNOWN_TIMES_WORSE_OR_MORE = "with a bound at least 100 times larger than accepted";
     THERE_IS_NO_FIGURE = "there are no figures to compare";
     ITS_INSTANTS_ARE_OTHERS_VALUES = "the instants differ from the accepted ones, so values are not compared";
-    the_proof_was_accepted_as_and(accepted, now) = "the proof was accepted as {accepted} and {now}";
+    the_proof_was_accepted_as_and(accepted, now) = "the verdict was accepted as {accepted} and {now}";
     accepted_in(name, all, file) = "{name}: accepted, {all} in {file}.";
-    not_accepted_the_proof_is(name, item) = "{name}: not accepted, the proof is {item}.";
+    not_accepted_the_proof_is(name, item) = "{name}: not accepted, the verdict is {item}.";
     nothing_has_moved_stays_as_it_is(name, file, all) = "{name}: all figures are unchanged, {file} stays as it is ({all}).";
     accepted_anew_in(name, file, counts) = "{name}: new figures accepted in {file}: {counts}.";
     disagree_is_not_as_accepted(name, file, counts) = "DISAGREE: {name} differs from the figures accepted in {file}: {counts}.";

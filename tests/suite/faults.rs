@@ -139,7 +139,7 @@ fn a_joint_with_its_links_swapped() {
 }
 
 /// The size of the faults that a proof finds at the settings of an ordinary run.
-/// With more draws, each fault is halved until it is missed.
+/// With more draws, each fault is halved until the proof no longer finds the fault.
 #[test]
 fn small_faults_are_found() {
     type Fault = (&'static str, f64, fn(f64) -> String, f64);

@@ -254,7 +254,7 @@ fn a_zero_column_is_exact_if_others_omit_trailing_zeros() {
     };
     assert_eq!(verdicts("link.crank.alpha_rad_s2", Format::General(9)), ["agree"; 6]);
     // All positions are below 0.5 m.
-    // A column of `0` would therefore agree if only the single digit of `0` counted.
+    // If only the single digit of `0` counted, a column of `0` would therefore agree with every position.
     let wrong = ["agree", "agree", "disagree", "agree", "agree", "disagree"];
     assert_eq!(verdicts("point.A.x_m", Format::General(9)), wrong);
 }

@@ -243,7 +243,7 @@ fn regress_loosely_bounded_or_unproven_figures_are_inconclusive() {
         let outcome = check(&place);
         assert_eq!(outcome.code, 3, "{}", outcome.stdout);
         assert!(
-            outcome.unbroken().contains(&format!("the proof was accepted as {word} and is agree")),
+            outcome.unbroken().contains(&format!("the verdict was accepted as {word} and is agree")),
             "{}",
             outcome.stdout
         );
@@ -268,14 +268,15 @@ fn unproven_figures_are_accepted_only_on_request() {
     fs::write(place.path(SCENARIO), format!("{text}{wrong}")).unwrap();
     let outcome = place.run(&format!("accept {SCENARIO}"));
     assert_eq!(outcome.code, 1, "{}", outcome.stdout);
-    assert!(outcome.stdout.starts_with("crank_rocker: not accepted, the proof is disagree.\n"), "{}", outcome.stdout);
+    assert!(outcome.stdout.starts_with("crank_rocker: not accepted, the verdict is disagree.\n"), "{}", outcome.stdout);
     assert_eq!(check(&place).code, 1);
     let told = place.ok(&format!("accept {SCENARIO} --unproven"));
-    assert!(told.contains("the proof was accepted as agree and is disagree"), "{told}");
+    assert!(told.contains("the verdict was accepted as agree and is disagree"), "{told}");
     let outcome = check(&place);
     assert_eq!(outcome.code, 1);
-    assert!(outcome.stdout.contains("the proof was accepted as disagree and still is"), "{}", outcome.stdout);
-    // The original scenario is proven again, but the stored figures come from the scenario with the verdict disagree.
+    assert!(outcome.stdout.contains("the verdict was accepted as disagree and still is"), "{}", outcome.stdout);
+    // The original scenario agrees again, but the stored figures were accepted from the scenario with the verdict
+    // disagree.
     fs::write(place.path(SCENARIO), text).unwrap();
     assert_eq!(check(&place).code, 3);
     place.ok(&format!("accept {SCENARIO}"));

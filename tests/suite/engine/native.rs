@@ -46,7 +46,8 @@ fn read(case: &Case, build: Build, tree: &SpanningTree, dt: f64, end: f64) -> Ve
     readings
 }
 
-/// Every build with a tree; for the multibody, several trees, so that each joint is cut in one of the trees.
+/// Every build with its spanning trees.
+/// The multibody build gets several trees, so that each joint is cut in one of the trees.
 fn builds(case: &Case) -> Vec<(Build, SpanningTree)> {
     let mut builds = vec![(Build::Impulse, SpanningTree::none(&case.mechanism))];
     builds.extend(

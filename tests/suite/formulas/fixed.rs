@@ -113,7 +113,8 @@ fn a_formula_check_gives_the_largest_difference() {
     assert_eq!(own, [("disagree", 1000.0); 2]);
 }
 
-/// A formula with a finding must disagree. A right formula with a finding is a fault.
+/// A formula with a finding must disagree.
+/// A finding states that a formula is wrong, so a right formula with a finding is a fault of the file.
 #[test]
 fn a_formula_with_a_finding_must_disagree() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/formulas/yoke_drive.toml");

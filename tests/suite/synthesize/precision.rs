@@ -231,7 +231,7 @@ fn motion(poses: &[[f64; 3]]) -> MotionSpec {
 const POSES: [[f64; 3]; 5] =
     [[0.0, 0.0, 0.0], [0.1, 0.04, 20.0], [0.2, 0.05, 45.0], [0.28, 0.02, 70.0], [0.33, -0.05, 100.0]];
 
-/// Fewer than five positions: the best results are followed through all positions.
+/// With fewer than five positions, the best four-bars found are followed through all positions.
 #[test]
 fn scanned_four_bars_pass_all_positions() {
     let mut passed = 0;

@@ -133,7 +133,8 @@ fn the_found_needle_drive_beats_the_published_one() {
     assert!(matches!(proof.verdict, Verdict::Agree { .. }), "{:?}", proof.verdict);
 }
 
-/// The moments of the machine follow one another over the main shaft, each within the phases of all organs.
+/// A moment of the machine is a range of angles of the main shaft.
+/// The moments follow one another, and each lies within the required phases of all organs.
 #[test]
 fn the_moments_follow_from_the_phases() {
     let machine = Machine::load(&scenarios("ov7_drives/machine.toml")).unwrap();
