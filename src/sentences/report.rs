@@ -441,7 +441,7 @@ Computed from channels, for formulas and tables:
     FAULTS_IN_ONE_PARTY = "faults in one party";
     NOTHING_PLANTED_NO_FAULT_OF_THE_KINDS = "NOTHING PLANTED  no fault of the requested kinds changes a result, so detection is not tested";
     LEAST_MARGIN_DIFFERENCE_OVER_ITS_BOUND = "least margin: the smallest ratio of difference to bound over all found faults of a kind in one party or formula; for each fault the channel or check with the largest ratio counts.
-found down to: every fault of this size or larger is found in every scenario; known to a factor of two, relative, angles in rad.";
+found down to: every fault larger than this size is found in every scenario. The size is relative (angles in rad), and known to a factor of two.";
     no_fault_of_the_kinds_asked(name, instead, formulas) = "{name}: no fault of the requested kinds changes a result; kinds that change a result: {instead}{formulas}\n";
     NO_FORMULA_OF_IT_CLAIMS_AN_EXACT = "; no formula of the scenario claims an exact value, so formula faults cannot be planted";
     // report/plan.rs
