@@ -42,8 +42,8 @@ fn option(name: &str, to: Option<f64>) -> String {
     }
 }
 
-/// Replaces the file names of documentation pages, for example `docs/scenario.md`, by commands that show the pages.
-/// The user may not have the files.
+/// Replaces the file names of documentation pages, for example `docs/scenario.md`, by commands that show the pages. An
+/// installed program has these commands, but not the files.
 fn as_commands(text: &str) -> String {
     let is_of_path = |sign: char| sign.is_alphanumeric() || matches!(sign, '/' | '.' | '#' | '-' | '_');
     let mut told = String::new();

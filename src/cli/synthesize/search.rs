@@ -88,7 +88,7 @@ pub(super) fn search(args: &Args) -> Result<()> {
     args.outputs.deliver(result, |_| format!("{}\n{verdict}\n", report::text(&story)))
 }
 
-/// The mechanism of a search, as its scenario states it.
+/// The mechanism that a search has found, read back from the written scenario.
 pub(super) struct Found {
     pub(super) task: Task,
     pub(super) achieved: Achieved,
