@@ -56,7 +56,7 @@ pub(super) struct Args {
 }
 
 impl EffortArgs {
-    /// Puts the given options into the effort of a task.
+    /// Replaces numbers in the effort of a task by the given options.
     pub(super) fn apply(&self, effort: &mut SearchEffort) {
         effort.refinement = self.refinement.unwrap_or(effort.refinement);
         effort.seed = self.seed.unwrap_or(effort.seed);

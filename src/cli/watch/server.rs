@@ -69,7 +69,7 @@ fn random_word() -> String {
     format!("{:016x}{:016x}", part(), part())
 }
 
-/// What a request must know.
+/// What the server needs to answer a request.
 struct Door {
     port: u16,
     word: String,
