@@ -1,6 +1,7 @@
 //! Compares a user's solver with both analytic sides. The solver uses Freudenstein's equation of the crank-rocker.
 //!
-//! The solver gets the geometry from the case, and computes angles and angular velocities. Only these are compared.
+//! The solver gets the geometry from the case, and computes angles and angular velocities. The comparison leaves out
+//! all other channels.
 //!
 //! `cargo run --release --example own_solver`.
 //! To use the crates from the registry, name them in your manifest as in this workspace:

@@ -1,6 +1,5 @@
-//! Writes random correct mechanisms as scenario files: four-bars, dyads with and without sliders, higher groups.
-//! Their motions are prescribed or free.
-//! The same seed gives the same files.
+//! Writes random correct mechanisms as scenario files: four-bars, dyads with and without sliders, higher groups. The
+//! motions of these mechanisms are prescribed or free. The same seed gives the same files.
 //!
 //! `cargo run --release --example random_mechanisms -- --seed 1 --count 400 --out DIR [--from 0] [--no-step]`
 //!

@@ -158,6 +158,6 @@ fn processor_time() -> f64 {
     let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
     let fields: Vec<&str> = stat.rsplit(')').next().unwrap_or("").split_whitespace().collect();
     let ticks = |place: usize| fields.get(place).and_then(|text| text.parse::<f64>().ok()).unwrap_or(f64::NAN);
-    // The times are fields 16 and 17 of the file; `fields` begins with field 3, after the closing bracket.
+    // In `/proc/self/stat`, fields 16 and 17 are the times of child processes. `fields` leaves out fields 1 and 2.
     (ticks(13) + ticks(14)) / 100.0
 }

@@ -1,5 +1,5 @@
-//! Errors against the reference, and orders of convergence, of Rapier's builds and routes.
-//! The tables of `docs/rapier.md` come from this example.
+//! Errors of Rapier's builds and routes against the reference, and the orders of convergence of these errors. The
+//! tables of `docs/rapier.md` come from this example.
 //!
 //! `cargo run --release --example rapier_orders -- SCENARIO DEG [ENGINE,..] [ROUTE,..] [plain|extrapolated] [SWEEPS]`
 //!

@@ -40,7 +40,7 @@ impl FormulaQuestion {
         FormulaQuestion { formula: formula.into(), channel: channel.into(), ..FormulaQuestion::default() }
     }
 
-    /// The scenario with this formula as its only claim. The claims of its file are removed.
+    /// The scenario with this formula as its only claim. The claims of the scenario file are removed.
     pub(crate) fn of_scenario(&self, mut scenario: Scenario, words: &Words) -> Result<Scenario> {
         scenario.formulas.list.iter_mut().for_each(|formula| formula.claim = None);
         for (name, text) in &self.steps {

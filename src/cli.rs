@@ -1,4 +1,5 @@
-//! The command line. Only this part and `testing::folder` print, or read arguments, clock or environment.
+//! The command line. All code that prints, or reads arguments, clock or environment, is in this module and in
+//! `testing::folder`.
 
 mod accept;
 mod advice;
@@ -254,7 +255,7 @@ mod tests {
         Cli::command().debug_assert();
     }
 
-    /// Commands without a module or crate of their name besides `src/cli/NAME.rs`.
+    /// Commands whose code is only in `src/cli/NAME.rs`: no other module and no crate has the command's name.
     const ONLY_HERE: [&str; 12] =
         ["merge", "completions", "docs", "golden", "inspect", "list", "man", "new", "schema", "solve", "view", "watch"];
 

@@ -71,7 +71,7 @@ pub(crate) fn picture_and_warning(
     }
 }
 
-/// Pictures as DXF at full size (mm), side by side. The world's origin of the first one is the origin of the file.
+/// Pictures as DXF at full size (mm), side by side. The origin of the file is the world's origin in the first picture.
 fn full_size(cells: &[SheetCell]) -> String {
     let mut file = Dxf::default();
     let mut right = None;

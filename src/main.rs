@@ -1,4 +1,4 @@
-//! The `linkproof` command. All its work is done in [`linkproof::cli`].
+//! The `linkproof` command. The code of the command is in [`linkproof::cli`].
 
 fn main() -> std::process::ExitCode {
     linkproof::cli::main()

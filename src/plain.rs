@@ -13,7 +13,7 @@ macro_rules! say {
     };
 }
 
-/// Appends words to the last line of a text. They are a format string with its values, or a complete sentence.
+/// Appends words to the last line of a text. The words are a format string with its values, or a complete sentence.
 macro_rules! put {
     ($text:expr, $format:literal $($values:tt)*) => {{
         use std::fmt::Write as _;

@@ -42,8 +42,8 @@ fn option(name: &str, to: Option<f64>) -> String {
     }
 }
 
-/// Replaces the file names of documentation pages, for example `docs/scenario.md`, by commands that show the pages.
-/// The user may not have the files.
+/// Replaces the file names of documentation pages, for example `docs/scenario.md`, by commands that show the pages. An
+/// installed program has these commands, but not the files.
 fn as_commands(text: &str) -> String {
     let is_of_path = |sign: char| sign.is_alphanumeric() || matches!(sign, '/' | '.' | '#' | '-' | '_');
     let mut told = String::new();
@@ -76,9 +76,9 @@ mod tests {
             (Advice::LooserAccuracy { to: 1e-9 }, "choose a looser accuracy, such as --accuracy 1e-9"),
             (Advice::MoreSweeps { to: Some(64) }, "raise the number of sweeps, such as --sweeps 64"),
             (Advice::MoreMemory { to: 5.23e9 }, "allow more memory, such as --memory 5.3"),
-            (Advice::OtherEngine, "use another engine: `linkproof list --solvers` lists them"),
+            (Advice::OtherEngine, "use another engine: `linkproof list --solvers` lists the engines"),
             (Advice::OtherReference { solver: "newton" }, "use side \"newton\" as the reference: --reference newton"),
-            (Advice::AllResults, "-o FILE.json lists all of them"),
+            (Advice::AllResults, "-o FILE.json lists all results"),
             (Advice::NoLoads, "leave the loads out with --no-loads, and add them to the model by hand"),
             ("check the lengths".into(), "check the lengths"),
             (Advice::ShortenGrid, "shorten the grid to the inputs that can be reached on this branch"),
@@ -88,7 +88,7 @@ mod tests {
         let routes = Advice::OtherRoute { routes: &["differences", "native"] };
         assert!(told(&routes).ends_with("--route differences or --route native"));
         let modes = Advice::Configuration { give: "a number from 1 to 2".into() };
-        assert_eq!(told(&modes), "give a number from 1 to 2; `linkproof inspect FILE --modes` lists them");
+        assert_eq!(told(&modes), "give a number from 1 to 2; `linkproof inspect FILE --modes` lists configurations");
     }
 
     #[test]

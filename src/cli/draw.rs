@@ -59,7 +59,8 @@ pub(super) struct Args {
     /// Write the lengths and angles that define the links and the ground into the picture
     #[arg(long)]
     dimensions: bool,
-    /// Draw for a place of about 240 pixels: without words, numbers and scale, and with large symbols
+    /// Draw a small picture, to be shown about 240 pixels wide: without words, numbers and scale, and with large
+    /// symbols
     #[arg(long, conflicts_with_all = ["loads", "positions", "enlarge", "groups", "dimensions"])]
     small: bool,
     /// Width of a bitmap in pixels [default: 800]
@@ -83,7 +84,7 @@ fn target(text: &str) -> std::result::Result<PathBuf, String> {
     Ok(path)
 }
 
-/// Refuses options that do not apply to the medium.
+/// Refuses options that do not apply to the picture's format.
 fn fits(args: &Args, medium: Medium) -> Result<()> {
     let still = [("--frames", args.frames.is_some()), ("--seconds", args.seconds.is_some())];
     match still.iter().find(|(_, is_given)| *is_given) {

@@ -19,7 +19,7 @@ pub(super) fn keys(scenario: &Scenario, name: &str, settings: Settings) -> Engin
     let own = &scenario.engine;
     let usual = engine.routes().first().copied();
     let mut keys = EngineSettings::exactly(engine.with(settings).as_ref());
-    // For an engine that chooses its own steps, the scenario's step is kept for the other engines.
+    // An engine that chooses its own steps has no step to store. The step in the scenario is kept, for other engines.
     if engine.controls_error() {
         keys.step = own.step.clone();
     }

@@ -37,8 +37,9 @@ pub(super) struct Args {
     /// Largest change of a number, in per cent
     #[arg(long, value_name = "PERCENT", default_value = "20", value_parser = per_cent)]
     spread: f64,
-    /// Smallest allowed transmission angle, over the whole range and at the requested positions. Its sine is reduced to
-    /// three quarters of the smallest sine of the original mechanism if this is less; at positions, of the largest sine
+    /// Smallest allowed transmission angle, over the whole range and at the requested positions. Over the range, the
+    /// limit of its sine is at most three quarters of the smallest sine of the original mechanism; at the positions, at
+    /// most three quarters of the largest sine
     #[arg(long, value_name = "DEG", default_value = "20", value_parser = angle)]
     transmission_deg: f64,
     /// Requested quantities: a channel, a magnitude (point.B.v_m_s, point.B.a_m_s2, joint.B.f_N), or a stage
@@ -104,8 +105,8 @@ fn angle(text: &str) -> std::result::Result<f64, String> {
     if degrees < 90.0 { Ok(degrees.to_radians()) } else { Err(sentences::EXPECTED_AN_ANGLE_BELOW_90.into()) }
 }
 
-/// A sheet with its scenario and drawing. `start` is the input of the start pose if the sheet asks for another pose
-/// instead.
+/// A sheet with its scenario and drawing. `start` is the input of the given start pose, if the sheet replaces this pose
+/// because it is nearly singular.
 struct Made {
     own: NamedSheet,
     scenario: Scenario,
@@ -121,7 +122,8 @@ pub(super) fn exercise(args: &Args) -> Result<()> {
     for scenario in scenarios(args)? {
         let made = made(args, scenario)?;
         let input = made.scenario.case.crank().input;
-        // The key has positions in printed units, with the digits on the sheet: they are read back unchanged.
+        // The key has the positions in the units and digits of the sheet, so a program reads the positions back
+        // unchanged.
         let positions = made.own.sheet.positions().iter().map(|own| input.shown(*own)).collect();
         key.sheets.push(KeyedSheet { name: made.own.name.clone(), positions });
         all.push(made);

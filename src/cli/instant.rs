@@ -9,7 +9,7 @@ use super::number;
 #[derive(Clone, Copy, Debug, Default, clap::Args)]
 #[group(skip)]
 pub(super) struct InstantArgs {
-    /// Crank angle (deg), or slide (mm), as the scenario states it [default: its value at the start]
+    /// Crank angle (deg), or slide (mm), measured as in the scenario [default: its value at the start]
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = number::finite)]
     #[arg(alias = "at-crank-deg", conflicts_with = "time")]
     crank_deg: Option<f64>,

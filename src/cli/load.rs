@@ -17,12 +17,13 @@ use scenario::{Draft, Scenario, StartRequest, Undecided};
 #[group(skip)]
 pub(super) struct StartArgs {
     /// Start a group in a different assembly mode from that of the file. A number as MODE means the configuration with
-    /// this number in `inspect --modes`. Published numbers are valid only for the modes of the file, so they are then
-    /// omitted. May be given for several groups
+    /// this number in `inspect --modes`. Published numbers are valid only for the modes of the file; with other modes
+    /// they are omitted. May be given for several groups
     #[arg(long, value_name = "LINK,LINK=MODE")]
     pub(super) mode: Vec<String>,
     /// Crank angle (deg), or slide (mm), at t = 0, measured as in the scenario. Replaces the `crank` of the scenario's
-    /// `[start]`, or the start of its first drive; published numbers stay if the start lies on the branch of the file
+    /// `[start]`, or the start of its first drive; published numbers are kept if the new start lies on the same branch
+    /// as the start in the file
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = number::finite)]
     pub(super) start_crank_deg: Option<f64>,
     /// Value of a parameter by its key, or of a number of the file by its path (links.crank.mass_kg); may be given several

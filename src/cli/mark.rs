@@ -37,7 +37,7 @@ pub(super) struct Args {
     /// Leave the right values out of the pages of the students
     #[arg(long)]
     hide_answers: bool,
-    /// Language of the marks: en or uk [default: that of the sheets]
+    /// Language of the marks: en or uk [default: the language of the sheets]
     #[arg(long, value_name = "LANGUAGE", value_parser = language)]
     language: Option<SheetLanguage>,
     #[command(flatten)]
@@ -108,7 +108,7 @@ pub(super) fn mark(args: &Args) -> Result<u8> {
     Ok([written, pages].into_iter().map(End::code).fold(code, graver))
 }
 
-/// Writes the page of the class and those of the students.
+/// Writes the page of the class and the pages of the students.
 fn pages(directory: &Path, all: &[StudentMarks], options: MarkOptions) -> Result<()> {
     let mut files = vec![(directory.join("class.html"), report::class_page(all, options, true))];
     let student = |own| report::student_page(own, options);

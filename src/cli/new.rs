@@ -62,7 +62,8 @@ fn begun(template: &Template, file: &str) -> String {
     sentences::next_linkproof_draw_svg_linkproof(&file, &template.title(), &stem)
 }
 
-/// Refuses to replace an existing file unless `force` is given. The help offers the `other` way out.
+/// Refuses to replace an existing file unless `force` is given. The help of the error offers `other` as an alternative
+/// to `--force`.
 fn free(path: &Path, force: bool, other: &str) -> Result<()> {
     if force || path.symlink_metadata().is_err() {
         return Ok(());

@@ -32,7 +32,7 @@ pub(super) struct Args {
     /// given several times
     #[arg(long, value_name = "SCALE", allow_hyphen_values = true, value_parser = PlanScale::read)]
     scale: Vec<PlanScale>,
-    /// Turn the velocity plan by 90 deg against the driving link
+    /// Turn the velocity plan by 90 deg, against the rotation of the driving link
     #[arg(long)]
     turned: bool,
     /// Show the instant centres of all pairs of links, and the acceleration centres

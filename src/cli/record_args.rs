@@ -26,7 +26,7 @@ const LARGE: u64 = 20_000_000;
 /// Size of the smaller recording that the message suggests (bytes).
 const HANDY: f64 = 5e6;
 
-/// Name of the reference's side.
+/// Name of the side of a recording that has the reference.
 const REFERENCE: &str = "reference";
 
 /// Destination and contents of a recording.

@@ -39,7 +39,8 @@ pub struct PictureOptions {
     pub enlarged: Vec<String>,
     /// Whether to draw the driving links and the groups apart, in the order in which they are solved.
     pub groups: bool,
-    /// Whether to draw for a place of about 240 pixels: without words, numbers and scale, and with large symbols.
+    /// Whether to draw a small picture, to be shown about 240 pixels wide: without words, numbers and scale, and with
+    /// large symbols.
     pub small: bool,
     /// Analytic solver.
     pub solver: Reference,

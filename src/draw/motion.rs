@@ -15,9 +15,9 @@ use linkage::trajectory::Stage;
 /// Number of instants of a revolution at which travels and paths are computed.
 const INSTANTS: usize = 180;
 
-/// The states of a free motion at the instants of the grid, if a picture of one revolution would not show this motion.
-/// This is so if there are several drives, or if the crank does not make a full revolution during the motion.
-/// A pendulum is an example: it swings, although its geometry allows full revolutions.
+/// The states of a free motion at the instants of the grid, if there are several drives, or if the crank does not make
+/// a full revolution during the motion: a picture of one revolution would not show such a motion. A pendulum is an
+/// example: it swings, although its geometry allows full revolutions.
 pub(super) fn swung(case: &Case, solver: &dyn Solver) -> Option<Vec<State>> {
     let states = case.is_free().then(|| visited(&case.wanting(seen()), solver))??;
     (case.drives.len() > 1 || !turns(&states, case.crank().link)).then_some(states)

@@ -20,7 +20,7 @@ pub(super) struct NamedPoint {
 pub(super) struct RequestedPoints {
     /// Points whose paths are drawn into the picture.
     pub(super) traced: Vec<NamedPoint>,
-    /// Joints whose paths are drawn unless they are circles about a pivot.
+    /// Joints whose paths are drawn, except paths that are circles about a pivot.
     pub(super) joints: Vec<NamedPoint>,
     /// Points whose paths are drawn enlarged.
     pub(super) enlarged: Vec<NamedPoint>,

@@ -25,7 +25,8 @@ pub(super) struct DrawnPositions {
 }
 
 impl DrawnPositions {
-    /// The positions of a course. The position `shown` is drawn fully, and may differ from all positions of the course.
+    /// The positions of the motion `course`. The position `shown` is drawn with full lines, and may differ from all
+    /// positions of `course`.
     pub(super) fn of(case: &Case, course: &Course, shown: &State, points: RequestedPoints, is_series: bool) -> Self {
         let mechanism = &case.mechanism;
         let path = |point: NamedPoint| {

@@ -49,7 +49,7 @@ pub(crate) struct Drawn {
     loads: Vec<linkage::drive::Load>,
     gravity: Vec2,
     pub(super) shots: Vec<Shot>,
-    /// Lines of text above each shot.
+    /// Lines of text above each picture in `shots`.
     headings: Vec<Vec<String>>,
     travels: Travels,
     traces: Vec<Trace>,
@@ -198,8 +198,8 @@ impl Drawn {
         let free = scenario.case.clone();
         let scenario = scenario.nominal();
         let case = &scenario.case;
-        // A time within a free motion selects an instant of this motion. The position drawn fully then lies among the
-        // positions of the series.
+        // A time within a free motion selects an instant of this motion. The position with full lines is then one of
+        // the positions of the series.
         let shown = match (&course, when) {
             (Some(Ok(course)), When::Time(_)) if course.is_timed => &free,
             _ => case,
@@ -244,7 +244,7 @@ impl Drawn {
             DrawnPositions::of(case, &course, &first, points, is_series)
         });
         let headings = if positions.heading.is_empty() { Vec::new() } else { vec![positions.heading.clone()] };
-        // The motion is drawn as prescribed, but a link that forces move has no arrow of a drive.
+        // A free motion is drawn as a prescribed motion. But a link that is moved by forces has no arrow of a drive.
         let drives = free.drives.to_vec();
         let mut drawn = Drawn { traces, positions, headings, drives, ..Drawn::new(draft_of(&scenario), when, shots) };
         let own = std::mem::replace(&mut drawn.travels, travels);

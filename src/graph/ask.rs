@@ -14,8 +14,8 @@ use scenario::{Claim, Scenario};
 pub(crate) struct Words {
     /// One text for each chart; empty for the usual charts.
     pub(crate) show: Vec<String>,
-    /// Quantity of the horizontal axis: `time`, `crank` or an expression.
-    /// `None` for the time in a motion under forces, and otherwise for the input.
+    /// Quantity of the horizontal axis: `time`, `crank` or an expression. `None` means the time in a motion under
+    /// forces, and the input in any other motion.
     pub(crate) over: Option<String>,
     /// Names of the options for `show` and `over` in messages.
     pub(crate) keys: [&'static str; 2],

@@ -63,7 +63,7 @@ impl Curve {
         if parts.is_empty() { self.name.full() } else { parts.join(", ") }
     }
 
-    /// The name of its column in a table.
+    /// The name of the curve's column in a table.
     pub(super) fn key(&self) -> String {
         let parts = [self.y_key.as_str(), self.who.as_str()].into_iter().chain(self.file.as_deref());
         let parts: Vec<&str> = parts.filter(|part| !part.is_empty()).collect();

@@ -70,9 +70,9 @@ pub(super) struct CommonName {
     pub(super) axis: String,
     /// Unit of all curves; empty if their units differ.
     pub(super) unit: String,
-    /// Whether all curves show the same quantity. Then the subject alone names a curve.
+    /// Whether all curves show the same quantity. If so, the name of a curve is only its subject.
     is_one_quantity: bool,
-    /// Whether all curves have the same name. Then the axis alone has the name.
+    /// Whether all curves have the same name. If so, only the axis has the name.
     is_one_name: bool,
     is_one_unit: bool,
 }

@@ -101,7 +101,7 @@ fn panel(times: &[f64], speeds: &[f64], averaged: Option<Averaged>, sense: f64, 
     Panel { x: axis, curves: [own].into_iter().chain(closed).collect(), equal: false }
 }
 
-/// The balancing moment from equilibrium minus that from powers, divided by the largest moment.
+/// The balancing moment from equilibrium minus the balancing moment from powers, divided by the largest moment.
 ///
 /// # Errors
 /// [`ErrorKind::Input`] for several drives, or without a balancing moment. The errors of the solver.

@@ -6,9 +6,8 @@ use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, Table, Wi
 use linkage::math::statistics;
 use prover::numbers;
 
-/// An empty table without ruled lines.
-/// Bars separate the column names in its header.
-/// If a name ends in `>`, the column is numeric and aligned right.
+/// An empty table without ruled lines. In `header`, bars separate the names of the columns. If a name ends in `>`, the
+/// column is numeric and aligned right.
 pub fn table(header: &str) -> Table {
     let mut table = Table::new();
     let columns = header.split('|').map(|own| own.trim_matches(' '));

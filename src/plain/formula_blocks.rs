@@ -27,7 +27,7 @@ pub(crate) fn grade(judged: &JudgedFormula) -> Grade {
     }
 }
 
-/// Whether a formula is wrong, as a finding says.
+/// Whether a formula is wrong as expected: a finding says that it is wrong.
 pub(crate) fn is_expected(judged: &JudgedFormula) -> bool {
     matches!(judged.outcome(), FormulaOutcome::Expected { .. })
 }
@@ -83,7 +83,7 @@ pub(crate) fn is_consequence(wrong: &BTreeSet<&str>, of: &Line) -> bool {
 }
 
 /// A block for each wrong or open formula among `lines`; a wrong derivative of a wrong formula has no block.
-/// `with_findings`: whether formulas that are wrong as a finding says have a line too.
+/// `with_findings`: whether formulas that a finding calls wrong have a block too.
 pub(crate) fn blocks(
     lines: &[Line],
     (formulas, judgement): (&Formulas, &Judgement),
@@ -98,7 +98,8 @@ pub(crate) fn blocks(
     lines.iter().filter(is_told).map(|line| block(line, (formulas, judgement), tell, width)).collect()
 }
 
-/// Text of one formula: what it is not, where, by how much, and why.
+/// Text of one formula: the quantity from which it differs, the instant and the amount of the difference, and the
+/// cause.
 fn block(line: &Line, (formulas, judgement): (&Formulas, &Judgement), tell: Tell, width: Option<usize>) -> String {
     let name = &line.judged.name;
     let is_value = line.judged.order == 0 && line.judged.finding.is_none() && line.grade == Grade::Disagree;

@@ -73,7 +73,7 @@ pub struct JudgedNumber<'a> {
     pub sort: Sort,
     /// The engine; `None` for a check of the analytic sides.
     pub engine: Option<&'a EngineProof>,
-    /// The name of the number, without that of the engine.
+    /// The name of the number, without the name of the engine.
     pub name: String,
     pub value: f64,
     pub bound: f64,

@@ -1,5 +1,5 @@
-//! What the file says the mechanism is: links, joints, drives, transmissions and loads.
-//! A proof shows that methods agree on the file; only a reader can see that the file means another mechanism.
+//! What the file says the mechanism is: links, joints, drives, transmissions and loads. A proof shows that methods
+//! agree on the file. Only a reader can see whether the file describes the intended mechanism.
 
 use super::cells::some;
 use crate::sentences;

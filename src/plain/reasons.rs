@@ -35,7 +35,7 @@ pub fn formulas(proof: &Proof, tell: Tell, width: Option<usize>) -> Vec<String> 
     let Some(judgement) = &proof.judgement else { return Vec::new() };
     let mut lines = formula_blocks::lines(&proof.formulas, judgement);
     let told = in_blocks(proof);
-    // A verdict of a check may differ from that of its formula if the bounds are scaled.
+    // If the bounds are scaled, the verdict of a check may differ from the verdict of its formula.
     let is_told = |line: &Line| {
         proof
             .formula_checks()

@@ -42,7 +42,7 @@ pub(crate) fn short(ratio: f64) -> String {
     }
 }
 
-/// The fastest of the points that `of` accepts and whose error in a stage is at most `within`.
+/// The fastest point whose error in a stage is at most `within`, among the points that `of` accepts.
 pub(crate) fn fastest<'a>(
     bench: &'a Bench,
     stage: Stage,

@@ -15,7 +15,7 @@ pub(super) const DASHED: Style = Style { dash: "1.6 1.2", ..solid(GREY, 0.3) };
 pub(super) const SMALL: f64 = 3.0;
 /// Distance between the marks of parties that fail at the same place (mm).
 pub(super) const ASIDE: f64 = 2.6;
-/// Size of the marks of bounds and on crosses, divided by the usual size.
+/// Size of small marks, divided by the usual size. Bounds have small marks, and so have crosses (`Filling::Cross`).
 pub(super) const SMALLER: f64 = 0.55;
 
 /// How a mark is filled.
@@ -140,7 +140,8 @@ const SHAPES: [&[[f64; 2]]; 8] = [
     &[[-1.1, -1.1], [-1.1, 1.1], [1.1, -1.1], [1.1, 1.1]],
 ];
 
-/// Colour of the party with this number. After all marks are used, the colours move on by one.
+/// Colour of the party with this number. After each party that uses the last mark, the order of the colours moves on by
+/// one, so that no pair of mark and colour repeats at once.
 pub(super) fn colour(party: usize) -> &'static str {
     SERIES[(party + party / SHAPES.len()) % SERIES.len()].light
 }

@@ -11,7 +11,7 @@ linkage::words! {
     }
 }
 
-/// Declares sentences: `name(values) = "English" | "Ukrainian";`.
+/// Declares sentences in two languages. A row has the form `name(values) = "English" | "Ukrainian";`.
 macro_rules! in_both {
     ($($name:ident $(($($value:ident),+))? = $english:literal | $ukrainian:literal;)*) => {$(
         pub(super) fn $name(language: SheetLanguage $($(, $value: &dyn std::fmt::Display)+)?) -> String {

@@ -25,8 +25,8 @@ const NOTHING: f64 = 1e-4;
 /// Number of names that are listed; further names are only counted.
 const NAMED: usize = 3;
 
-/// The report in lines of at most `width` columns.
-/// It has the verdict, the most serious channels, and the reasons of disagreements.
+/// The report in lines of at most `width` columns. The report has the verdict, the most serious channels, and the
+/// reasons of disagreements.
 #[must_use]
 pub fn text(paths: [&Path; 2], comparison: &PartyComparison, detail: Detail, tell: Tell, width: usize) -> String {
     let mut text = String::new();

@@ -102,7 +102,7 @@ pub(crate) fn text(cycle: &Cycle, width: Option<usize>) -> String {
 }
 
 /// The displacements as CSV, in steps of one degree of the main shaft. Every organ has a column with the achieved
-/// displacement and, if the task states it, a column with the required one, as fractions of the stroke.
+/// displacement and, if the task states it, a column with the required displacement, as fractions of the stroke.
 ///
 /// # Errors
 /// The errors of [`as_csv`].

@@ -59,7 +59,7 @@ pub(crate) fn graphs(scenario: &Scenario, found: &Found, curves: &Curves) -> Gra
     if let Some(regime) = steady {
         let mut marks = [("slowest", regime.slowest), ("fastest", regime.fastest)]
             .map(|(word, at)| GraphPoint { at: [at.crank, at.omega], word });
-        // The mark that is lower in the drawing comes first.
+        // The marks are sorted by speed, the lower one first.
         marks.sort_by(|a, b| a.at[1].total_cmp(&b.at[1]));
         graphs.push(CrankGraph {
             name: sentences::ANGULAR_VELOCITY_OF_THE_CRANK,

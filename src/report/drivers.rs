@@ -11,7 +11,7 @@ use super::pretty::list;
 /// For each joint of a list, the structure with this joint as driven joint, or the reason why it does not exist.
 pub(crate) struct Drivers(Vec<Driver>);
 
-/// A joint, and the structure if the first drive moves it.
+/// A joint, and the structure of the mechanism if the first drive moves this joint.
 struct Driver {
     joint: JointId,
     structure: Result<Structure>,

@@ -45,7 +45,7 @@ impl Reached {
     }
 
     /// Deviation of the mechanism in percent: the largest motion in a dwell as a fraction of the stroke, or the largest
-    /// distance from a precision point as a fraction of their extent.
+    /// distance from a precision point as a fraction of the extent of all precision points.
     fn deviation(&self) -> f64 {
         let [distance, turned] = largest_deviations(&self.achieved.points);
         let points = distance.map(|own| own / self.task.points.extent()).into_iter().chain(turned);

@@ -51,7 +51,7 @@ pub(crate) struct Golden {
     pub(crate) title: String,
     /// What sort of mechanism it is.
     pub(crate) sort: &'static str,
-    /// Endings of the models, each with the reason why it is missing, if it is.
+    /// Endings of the models. A model that is missing has the reason for this.
     pub(crate) models: Vec<(&'static str, Option<String>)>,
     /// The instants and the channels of the truth.
     pub(crate) size: [usize; 2],

@@ -54,7 +54,7 @@ pub(crate) const PAGE_BYTES: usize = 1_900_000;
 pub(crate) struct Beside<'a> {
     /// The scenario's text.
     pub(crate) given: &'a str,
-    /// Versions, settings, and the requests that the command adds to the scenario, by name.
+    /// Versions, settings, and the options of the command that change the scenario, by name.
     pub(crate) settings: &'a BTreeMap<String, String>,
     /// Graphs over the crank angle, or the reason why they are missing.
     pub(crate) reduced: Result<Graphs, String>,
@@ -67,7 +67,7 @@ pub(crate) fn page(proof: &Proof, beside: &Beside, tell: Tell) -> String {
     filled_page(proof, beside, &Judged::of(proof, tell), tell, &SCRIPT.concat())
 }
 
-/// The page of a proof under `linkproof watch`; of an unjudged motion, with `words` in place of the verdict.
+/// The page of a proof under `linkproof watch`. If the motion is not judged yet, `words` stand in place of the verdict.
 pub(crate) fn watched(proof: &Proof, beside: &Beside, words: Option<&str>, tell: Tell) -> String {
     let judged = match words {
         Some(words) => Judged { sentence: escaped(words), ..Judged::default() },

@@ -277,7 +277,7 @@ pub(super) struct Failure {
 }
 
 impl Failure {
-    /// An entry for each error of a file, and one with the number of errors that are not shown.
+    /// An entry for each error of a file, and a last entry with the number of errors that are not shown.
     pub(super) fn each(scenario: &str, error: &Error, tell: Tell) -> Vec<Failure> {
         let told = |error: &Error| Failure {
             scenario: scenario.into(),

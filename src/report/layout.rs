@@ -11,7 +11,7 @@ use recording::{DrawnLink, Film, Line, Plot, View};
 const SPEEDS: [f64; 8] = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 0.8, 1.0];
 /// Shortest duration of a revolution that the eye can follow (s).
 pub(super) const TURN: f64 = 4.0;
-/// Height of the picture relative to that of the mechanism.
+/// Height of the picture divided by the height of the mechanism.
 const ROOM: f64 = 1.25;
 /// Ratio of width to height of the panel with the picture.
 const WIDE: f64 = 1.1;
@@ -34,9 +34,8 @@ pub(crate) fn text(view: &View) -> String {
     }))
 }
 
-/// Playback speed of a recording with the time scale `slow`.
-/// With `slow` = 1, it is the fastest speed at which people can follow a revolution; `turn` is the log time of a
-/// revolution (s).
+/// Playback speed of a recording with the time scale `slow`. With `slow` = 1, the speed is the largest at which people
+/// can follow a revolution; `turn` is the log time of a revolution (s).
 pub(crate) fn speed(slow: f64, turn: f64) -> f64 {
     if slow != 1.0 {
         return 1.0;

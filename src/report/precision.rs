@@ -13,7 +13,7 @@ use prover::numbers::{fixed, significant};
 /// Decimals of angles in degrees.
 const DECIMALS: usize = 4;
 
-/// The four-bars found for a `task`. The one at index `taken` was written and proven; `proof` is the verdict.
+/// The four-bars found for a `task`. The four-bar at index `taken` was written and proven; `proof` is its verdict.
 pub(crate) fn precision(task: &str, found: &PrecisionSynthesis, taken: usize, proof: &str) -> Told {
     let own = &found.best[taken];
     let mut text = format!("{task}\n");

@@ -90,8 +90,8 @@ pub(crate) fn text(
 const SIZE: [f64; 2] = [1100.0, 420.0];
 const MARGIN: [f64; 2] = [70.0, 60.0];
 
-/// The page: parallel coordinates of a sample, the best cases drawn, and the spread of every figure.
-/// `drawings` are those of the best cases, as SVG.
+/// The page: parallel coordinates of a sample, the best cases drawn, and the spread of every figure. `drawings` are the
+/// drawings of the best cases, as SVG.
 pub(crate) fn page(plan: &SweepPlan, summary: &SweepSummary, goal: Goal, title: &str, drawings: &[String]) -> String {
     let mut best = String::new();
     for (row, drawing) in summary.best.iter().zip(drawings) {

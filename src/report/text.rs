@@ -167,8 +167,8 @@ pub(super) fn sentence(proof: &Proof) -> String {
     }
 }
 
-/// The channels as a table with one row per quantity: its channel that ranks highest, by verdict, then by the ratio of
-/// error to bound.
+/// The channels as a table with one row per quantity. A row shows the channel of the quantity that ranks highest: by
+/// verdict, then by the ratio of error to bound.
 fn channels(channels: &[ChannelProof], width: Option<usize>) -> String {
     let input = channels.first().map(|own| own.residual.input).unwrap_or_default();
     let (word, unit) = (input.word(), input.shown_in().0);
@@ -192,8 +192,8 @@ fn channels(channels: &[ChannelProof], width: Option<usize>) -> String {
     trimmed(fitted(&header, width).add_rows(rows))
 }
 
-/// The checks as a table with one row per family: its check with the largest ratio of residual to bound.
-/// A family is `expected` if all its wrong numbers are known to be wrong.
+/// The checks as a table with one row per family. A row shows the check of the family with the largest ratio of
+/// residual to bound. A family is `expected` if all its wrong numbers are known to be wrong.
 fn checks(proof: &Proof, width: Option<usize>) -> String {
     let families = distinct(proof.all_checks().map(|check| check.family.as_str()));
     let rows = families.into_iter().filter_map(|name| {

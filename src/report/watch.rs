@@ -14,7 +14,7 @@ const FRAME: &str = include_str!("watch/frame.html");
 const STYLE: &str = include_str!("watch/watch.css");
 /// The script of the page.
 pub(crate) const SCRIPT: &str = include_str!("watch/watch.js");
-/// Most mistakes on the page.
+/// Largest number of mistakes on the page.
 const MOST: usize = 50;
 
 /// The page around the frame. It has no data; its script asks for them.
@@ -104,7 +104,7 @@ pub(crate) fn state(shown: &Shown, outcome: &Outcome, tell: Tell) -> String {
     message.to_string()
 }
 
-/// A mistake with its line and column from 1, its position in the text (UTF-16 units), and the way out.
+/// A mistake with its line and column from 1, its position in the text (UTF-16 units), and the remedy.
 fn mistake(error: &Error, tell: Tell) -> Value {
     let units = |text: &str| text.encode_utf16().count();
     let place = error.place().map(|place| {

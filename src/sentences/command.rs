@@ -13,25 +13,25 @@ linkage::sentences! {
         "next       correct the causes above, the first one first;\n           \
          `linkproof run FILE -o PAGE.html` shows the curves of both sides";
     // cli/accept.rs
-    linkproof_accept_writes_it(file) = "`linkproof accept {file}` writes it";
+    linkproof_accept_writes_it(file) = "`linkproof accept {file}` writes this file";
     nothing_was_accepted_of_there(file, place) = "{file} has no accepted figures: {place} does not exist";
     // cli/export.rs
     MIMIC_IS_A_MATTER_OF_URDF = "only a .urdf has the relations of --mimic";
     WRITE_A_URDF = "give -o FILE.urdf as well, or leave --mimic out";
     // cli/inspect.rs
     THE_STRUCTURE_DOES_NOT_MOVE = "the file has no drive, so nothing moves";
-    MODES_LISTS_THEM = "`--modes` lists them, `linkproof draw --each-mode` draws them\n";
+    MODES_LISTS_THEM = "`--modes` lists the configurations, `linkproof draw --each-mode` draws them\n";
     TAKE_IT_OUT_OR_ADD_A_DRIVE = "leave the option out, or add a `[drive]`";
     there_is_no_link_or_joint_called(name) = "there is no link or joint \"{name}\"";
     did_you_mean(near) = "did you mean \"{near}\"? ";
     give_a_driving_link_or_a_joint(links, joints) = "give a link on the ground ({links}), a joint ({joints}), or `all`";
     THE_GROUND_IS_NO_DRIVING_LINK = "the ground stands still, so it cannot be the driving link";
     the_link_has_no_joint_with_the_ground(name) = "\"{name}\" has no joint with the ground, so it cannot be the driving link";
-    give_a_link_on_the_ground_or_a_joint(links, joints) = "give a link on the ground ({links}); or drive it relative to a neighbour, at one of its joints ({joints})";
+    give_a_link_on_the_ground_or_a_joint(links, joints) = "give a link on the ground ({links}); or drive this link relative to a neighbour, at one of its joints ({joints})";
     another_drive_moves_the_joint(joint) = "another drive already moves the joint \"{joint}\"";
     GIVE_A_JOINT_WITHOUT_A_FURTHER_DRIVE = "only the first drive is replaced: give a joint that no further drive moves";
     A_DRAWING_SHOWS_THE_GROUPS = "a drawing shows the groups of one structure";
-    LEAVE_IT_OUT_OR_WRITE_JSON = "leave it out or give one link, or write a .json";
+    LEAVE_IT_OUT_OR_WRITE_JSON = "leave the option out, give one link, or write a .json";
     // cli/watch.rs
     watch_serves(address) = "page       {address}\n           open it in a browser; it follows the file. Ctrl-C ends it\n";
     the_page_cannot_be_served(port, found) = "the page cannot be served at port {port}: {found}";
@@ -40,22 +40,22 @@ linkage::sentences! {
     BUILD_WITH_WATCH = "build with the cargo feature `watch`, or run `linkproof run FILE -o FILE.html` after each change";
     // cli/watch/work.rs
     THE_PROOF_RUNS = "The motion is solved analytically. The proof is running.";
-    IT_IS_SHOWN_WITH_THE_VERDICT = "it is shown with the verdict";
+    IT_IS_SHOWN_WITH_THE_VERDICT = "the reduced quantities are shown with the verdict";
     AN_INTERNAL_ERROR = "internal error: the program has stopped this calculation";
     REPORT_THE_FILE = "report the file to the authors";
     // cli/advice.rs
     such_as(name, to) = ", such as {name} {to}";
     LEAVE_THE_LOADS_OUT_WITH_NO_LOADS = "leave the loads out with --no-loads, and add them to the model by hand";
-    ALL_OF_THEM_WITH_JSON = "-o FILE.json lists all of them";
+    ALL_OF_THEM_WITH_JSON = "-o FILE.json lists all results";
     ASK_FOR_A_LARGER_ERROR_OTHER = "ask for a larger error, other channels (--channel) or more engines (--engine all)";
     name_a_column_of_linkproof(groups) = "name a column of `linkproof solve`, such as joint.A.fx_N, or a group: {groups}";
     READ_THEM_OFF_A_TABLE_OF_LINKPROOF = "take the values from a table of `linkproof solve` instead";
-    linkproof_inspect_file_modes_lists(advice) = "{advice}; `linkproof inspect FILE --modes` lists them";
+    linkproof_inspect_file_modes_lists(advice) = "{advice}; `linkproof inspect FILE --modes` lists configurations";
     LINKPROOF_INSPECT_FILE_RANGE_SHOWS = "`linkproof inspect FILE --range` shows what limits the crank and which links turn fully";
     solve_the_scenario_with_linkproof(solver) = "solve the scenario with one side only: `linkproof solve FILE --with {solver}`";
     take_side_reference(solver) = "use side \"{solver}\" as the reference: --reference {solver}";
     take_another_way_to_the_reactions(options) = "choose another method for the reactions: {options}";
-    linkproof_list_solvers_names_them(advice) = "{advice}: `linkproof list --solvers` lists them";
+    linkproof_list_solvers_names_them(advice) = "{advice}: `linkproof list --solvers` lists the engines";
     allow_more_memory_such_as_memory(rounded_up) = "allow more memory, such as --memory {rounded_up:.1}";
     allow_more_work_such_as_budget(to) = "allow more work, such as --budget {to}";
     LEAVE_OUT_THE_ENGINE_SETTINGS = "leave out the engine settings; the run then chooses them";
@@ -85,13 +85,13 @@ linkage::sentences! {
     comparing_rows(rows) = "comparing {rows} rows";
     the_table(path) = "the table {path}";
     LEAVE_IT_OUT = "leave it out";
-    LEAVE_IT_OUT_OR_ADD_MODES = "leave it out, add --modes, or write a drawing";
+    LEAVE_IT_OUT_OR_ADD_MODES = "leave the option out, add --modes, or write a drawing";
     ONLY_MODES_HAS_AN_INSTANT = "only --modes and drawings show an instant";
     NEITHER_OF_THE_TWO_IS_A_RECORDING = "neither A nor B is a recording";
     BOTH_ARE_SCENARIOS_WHICH_ARE_SOLVED = "A and B are scenarios: each is solved at the requested instants, so interpolation is not needed";
     MAP_IS_FOR = "use --map for B";
     A_IS_NO_TABLE = "A is not a table";
-    SCENARIOS_AND_RECORDINGS_HAVE_CHANNELS = "leave it out: scenarios and recordings already name their channels";
+    SCENARIOS_AND_RECORDINGS_HAVE_CHANNELS = "leave the option out: scenarios and recordings already name their channels";
     NEITHER_OF_THE_TWO_IS_A_TABLE = "neither A nor B is a table";
     EXPECTED_CHANNEL_SIZE_SUCH_AS_POINT = "expected CHANNEL=SIZE, such as point.B.x_mm=0.01; the channel name states the unit";
     THIS_FILE_IS_NO_MAPPING_AND_WOULD = "this file is not a mapping and would be overwritten";
@@ -101,16 +101,16 @@ linkage::sentences! {
     there_is_no_page(name) = "there is no page \"{name}\"";
     // cli/draw.rs
     each_mode_draws_all_configurations(own) = "{own}: --each-mode draws all configurations, with their names";
-    LEAVE_IT_OUT_OR_WRITE_A_PNG = "leave it out, or write a .png, .gif or .webp";
+    LEAVE_IT_OUT_OR_WRITE_A_PNG = "leave the option out, or write a .png, .gif or .webp";
     AN_SVG_HAS_NO_PIXELS = "an SVG, a PDF or a DXF has no pixels";
     WRITE_AN_SVG_OR_A_PNG = "write an SVG or a PNG";
-    AN_ANIMATION_SHOWS_ONE_CONFIGURATION = "an animation shows one configuration, but all of them are requested";
-    LEAVE_IT_OUT_OR_WRITE_A_GIF = "leave it out, or write a .gif or a .webp";
+    AN_ANIMATION_SHOWS_ONE_CONFIGURATION = "an animation shows one configuration, but all configurations are requested";
+    LEAVE_IT_OUT_OR_WRITE_A_GIF = "leave the option out, or write a .gif or a .webp";
     THE_PICTURE_DOES_NOT_MOVE = "the picture is not animated";
     // cli/drive.rs
     NO_GRAPHS_OF_A_CHOICE = "the choice of a motor has no graphs";
-    WRITE_JSON = "write it as .json, or leave out --catalogue";
-    GIVE_OR_OR_LEAVE_IT_OUT = "give 3000 or 1500, or leave it out";
+    WRITE_JSON = "write the choice as .json, or leave out --catalogue";
+    GIVE_OR_OR_LEAVE_IT_OUT = "give 3000 or 1500, or leave the option out";
     the_catalogue_has_no_motor(rpm) = "the catalogue has no motor with a synchronous speed of {rpm} rpm";
     GIVE_A_NUMBER_FROM_TO = "give a number from 1 to 1000000";
     points_is(points) = "--points is {points}";
@@ -141,8 +141,8 @@ linkage::sentences! {
     REPORT_IT_WITH_THE_SCENARIO = "report it with the scenario file; other files are not affected";
     this_is_a_fault_of_the_program(it) = "this is a bug in the program: {it}";
     // cli/list.rs
-    NEW_WRITES_ONE = "`linkproof new` writes one, `linkproof new --shipped` the examples";
-    NAME_THE_DIRECTORY_THAT_HOLDS = "name the directory that holds your scenario files: linkproof list DIR; `linkproof new --shipped` writes some to scenarios/";
+    NEW_WRITES_ONE = "`linkproof new` writes a scenario file, `linkproof new --shipped` writes the examples";
+    NAME_THE_DIRECTORY_THAT_HOLDS = "name the directory that holds your scenario files: linkproof list DIR; `linkproof new --shipped` writes examples to scenarios/";
     // cli/live.rs
     LEAVE_OUT_LIVE_AND_OPEN_THE_RECORDING = "leave out --live, and open the recording: linkproof view FILE.mcap";
     BUILD_WITH_THE_CARGO_FEATURE = "build with the cargo feature \"live\": in the repository, `cargo install --path . --features live`";
@@ -175,7 +175,7 @@ linkage::sentences! {
     CHECK_THAT_THIS_DIRECTORY_MAY = "check that this directory is writable";
     cannot_make_the_directory_of(path, error) = "cannot create the directory of {path}: {error}";
     NAME_ANOTHER_DIRECTORY_AS_IN_SHIPPED = "name another directory, as in --shipped DIR";
-    is_written_nevertheless_to_be_corrected(path, template) = "{path} is written anyway, so that you can correct it: `linkproof draw {path} -o picture.svg` shows where it does not close. The template's own lengths fit together: {template}";
+    is_written_nevertheless_to_be_corrected(path, template) = "{path} is written anyway, so that you can correct it: `linkproof draw {path} -o picture.svg` shows the joints that stay open. The template's own lengths fit together: {template}";
     the_source_cannot_be_read(path, error) = "the source {path} cannot be read: {error}";
     GIVE_AN_ADDRESS_OR_A_FILE = "give the path of a file, or an address in quotes, with its `?` and all that follows";
     the_import_is_to_be_completed(path) = "{path} is written anyway, so that you can complete it; `linkproof draw {path} -o picture.svg` shows what is there";
@@ -184,7 +184,7 @@ linkage::sentences! {
     or_replace_what_is_there(other) = "{other}, or overwrite it with --force";
     is_there_already(path) = "{path} already exists";
     next_linkproof_draw_svg_linkproof(file, template, stem) = "{file}: {template}\n\nnext  linkproof draw {file} -o {stem}.svg\n      linkproof run {file} -o {stem}.html\n";
-    linkproof_new_template_writes_one_its_dimensions(lines) = "{lines}\nlinkproof new TEMPLATE writes one; set its dimensions in the file, or with --set\n";
+    linkproof_new_template_writes_one_its_dimensions(lines) = "{lines}\nlinkproof new TEMPLATE writes a scenario; set its dimensions in the file, or with --set\n";
     // cli/number.rs
     expected_decimals_take_a_point(such, replacen) = "expected {such}; write decimals with a point: {replacen}";
     expected_a_degree_from_to(most) = "expected a whole number from 1 to {most}";
@@ -235,14 +235,14 @@ linkage::sentences! {
     the_manual_cannot_be_written(to, error) = "the manual cannot be written to {to}: {error}";
     // cli/sensitivity.rs
     the_tolerance_is_not_above_zero(key, limit) = "the tolerance of `{key}` must be above zero; found {limit}";
-    is_left_out_because(key, part) = "`{key}` is left out: `{part}` has no known derivative by it";
+    is_left_out_because(key, part) = "`{key}` is left out: `{part}` has no known derivative by this key";
     // cli/solving.rs
     leave_out_or_solve_with_one_of(option, name) = "leave out {option}, or solve --with one of: {name}";
     is_a_setting_of_an_engine(option, solver) = "{option} is an engine setting, but {solver} is an analytic solver";
     // cli/stress.rs
     linkproof_stress_out_dir_page(quick, to) = "linkproof stress{quick} -o DIR -o {to}";
     NAME_A_FILE_IN_A_DIRECTORY = "name a file in a writable directory";
-    seed_of_points_were_run_the_others(text, seed, open, total, args) = "{text}Seed {seed}. {open} of {total} points were run, the others were already in {args}.\n";
+    seed_of_points_were_run_the_others(text, seed, open, total, args) = "{text}Seed {seed}. {open} of {total} points were run, the results of the other points were already in {args}.\n";
     NAME_ANOTHER_DIRECTORY_OR_REMOVE = "name another directory, or remove the file or directory that is there";
     NAME_A_DIRECTORY_OR_A_PLACE = "name a directory that exists or can be created";
     // cli/synthesize/closed_form.rs
@@ -299,7 +299,7 @@ linkage::sentences! {
          Repeat the proof of this case: linkproof run {file}{sets}";
     repeat_a_case(file, sets) = "next  linkproof run {file}{sets}";
     // cli/golden.rs
-    is_no_mechanism_of_the_set(name) = "{name} is no mechanism of the set";
+    is_no_mechanism_of_the_set(name) = "{name} is not a mechanism of the set";
     the_set_has(names) = "the set has {names}";
     has_the_verdict(name, verdict) = "{name} is not proven: the verdict is {verdict}";
     mechanisms_are_in(count, directory) = "{count} mechanisms in {directory}; README.md there has the conventions\n";

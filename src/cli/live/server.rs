@@ -88,8 +88,8 @@ impl Live {
         sentences::live_lichtblick_or_foxglove_open(&address, &pace, &layout)
     }
 
-    /// Serves viewers until the user or the system ends the server.
-    /// `begin` is called when the server reacts to signals.
+    /// Serves viewers until the user or the system ends the server. `begin` is called as soon as the server can react
+    /// to signals.
     ///
     /// # Errors
     /// An error is returned if no handler for the signals can be installed.

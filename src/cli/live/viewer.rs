@@ -195,7 +195,8 @@ impl<'a> Viewer<'a> {
         Ok(())
     }
 
-    /// Sends the latest message of the topic. Otherwise the viewer would miss messages that are sent only once.
+    /// Sends the latest message of the topic, because a viewer that subscribes late would miss messages that are sent
+    /// only once.
     fn tell_latest(&mut self, number: u32, topic: u16, reel: &Reel) -> Spoken {
         match reel.latest(topic, self.player.told) {
             Some(told) => self.send(live::message(number, &told)),

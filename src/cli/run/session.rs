@@ -125,7 +125,7 @@ impl<'a> Session<'a> {
         Ok(())
     }
 
-    /// What to do next, by the verdict. Several files have a table instead.
+    /// What to do next, by the verdict. For several files, the text is empty, because a table of all files follows.
     fn next(&self, proof: &Proof) -> String {
         if self.args.files.len() > 1 {
             return String::new();
@@ -218,7 +218,7 @@ fn write_settings(file: &Path, scenario: &Scenario, proof: &Proof) -> Result<()>
     }
 }
 
-/// Versions, settings, verdict, and the requests that the command adds to the scenario's text.
+/// Versions, settings, verdict, and the options of the command that change the scenario.
 fn metadata(args: &Args, proof: &Proof) -> BTreeMap<String, String> {
     let mut metadata = recorded::metadata(proof);
     if !args.start.mode.is_empty() {

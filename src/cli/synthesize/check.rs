@@ -48,7 +48,8 @@ pub(super) struct CheckArgs {
     /// scenario, the first of these names that exists is used [default: the only rocker of the last group]
     #[arg(long, value_name = "NAME")]
     link: Vec<String>,
-    /// Working point or output point, chosen in the same way [default: the only point of the link without a joint]
+    /// Working point or output point, found like the output link of --link [default: the only point of the link without
+    /// a joint]
     #[arg(long, value_name = "NAME")]
     point: Vec<String>,
     #[command(flatten)]
@@ -72,7 +73,7 @@ pub(super) fn check(args: &CheckArgs) -> Result<()> {
     for path in &args.scenarios {
         let scenario = plain(path)?.nominal();
         let own = in_mechanism(&task, &scenario, &names).map_err(|error| {
-            // The user decides on the output by this option.
+            // With this option, the user chooses the output, so an input error names the option.
             if error.kind() == ErrorKind::Input { error.key(option) } else { error }
         })?;
         let achieved = Achieved::of_either(&own)?;
@@ -107,8 +108,8 @@ pub(super) fn check(args: &CheckArgs) -> Result<()> {
     args.outputs.deliver(result, |_| report::text(&story))
 }
 
-/// A mechanism at the speed `speed` (rad/s), with its largest accelerations, reactions and moments.
-/// The name in a task is that of the scenario that a search writes, so the comparison names the task after its `file`.
+/// A mechanism at the speed `speed` (rad/s), with its largest accelerations, reactions and moments. The name in a task
+/// is the name of the scenario that a search writes, so the comparison names the task after its `file`.
 fn contender((scenario, task, achieved): &(Scenario, Task, Achieved), file: &Path, speed: f64) -> Result<Contender> {
     let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let task = Task { name, case: at_speed(&task.case, speed)?, ..task.clone() };

@@ -35,7 +35,7 @@ impl Target {
     }
 }
 
-/// The name of a scenario: that of its file, or `name` if it is not written to a file.
+/// The name of a scenario: the name of its file, or `name` if the scenario is not written to a file.
 pub(super) fn named(outputs: &Outputs<ClosedForms>, name: &str) -> String {
     let stem = outputs.first(ClosedForms::Scenario).and_then(Path::file_stem);
     stem.map(|stem| stem.to_string_lossy()).filter(|stem| stem != "-").map_or(name.into(), |stem| stem.into())
@@ -126,7 +126,7 @@ pub(super) struct SliderCrankArgs {
     /// Length of the rod
     #[arg(long, value_name = "MM", allow_hyphen_values = true, value_parser = number::positive)]
     rod_mm: Option<f64>,
-    /// Time ratio: duration of the slower stroke divided by that of the faster stroke
+    /// Time ratio: duration of the slower stroke divided by the duration of the faster stroke
     #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = number::finite)]
     time_ratio: Option<f64>,
     #[command(flatten)]

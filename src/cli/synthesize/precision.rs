@@ -16,7 +16,7 @@ use design::synthesize::precision::{
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Complex;
 
-/// Four-bars in the table, if none beyond is taken.
+/// Number of four-bars in the table, unless `--take` has a larger number.
 const SHOWN: usize = 10;
 
 /// Destination of the results, the four-bar to write, and the scenario's data other than dimensions.
@@ -57,7 +57,7 @@ impl Target {
         }
     }
 
-    /// Writes the taken four-bar and reports all.
+    /// Writes the four-bar of `--take`, and reports all four-bars.
     fn deliver(&self, task: &Task, found: &PrecisionSynthesis) -> Result<()> {
         let taken = self.taken(found)?;
         let own: &PrecisionFourBar = &found.best[taken];
@@ -174,7 +174,7 @@ pub(super) struct PathArgs {
     /// Point of the path; three to five times
     #[arg(long, value_name = "X,Y", required = true, value_parser = pair, allow_hyphen_values = true)]
     point_mm: Vec<[f64; 2]>,
-    /// Crank angle at a point, counter-clockwise positive; once for each point. Only the differences matter
+    /// Crank angle at a point, counter-clockwise positive; once for each point. Only differences of crank angles matter
     #[arg(long, value_name = "DEG", required = true, value_parser = number::finite, allow_hyphen_values = true)]
     crank_deg: Vec<f64>,
     #[command(flatten)]

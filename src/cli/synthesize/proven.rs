@@ -8,8 +8,8 @@ use linkage::error::Result;
 use prover::run::{Options, prove};
 use scenario::Scenario;
 
-/// Work allowed for finding settings, a twentieth of that of `linkproof run`.
-/// Usual linkages need less. One that is almost at a dead point would take minutes, and then stays inconclusive.
+/// Work allowed for finding settings: a twentieth of the work that `linkproof run` allows. Usual linkages need less. A
+/// linkage almost at a dead point would take minutes with more work, and its verdict would still be inconclusive.
 const BUDGET: f64 = 1e6;
 
 /// Proves the scenario with this text and returns the verdict in one sentence.

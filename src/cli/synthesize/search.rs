@@ -56,7 +56,7 @@ pub(super) struct Args {
 }
 
 impl EffortArgs {
-    /// Puts the given options into the effort of a task.
+    /// Replaces numbers in the effort of a task by the given options.
     pub(super) fn apply(&self, effort: &mut SearchEffort) {
         effort.refinement = self.refinement.unwrap_or(effort.refinement);
         effort.seed = self.seed.unwrap_or(effort.seed);
@@ -88,7 +88,7 @@ pub(super) fn search(args: &Args) -> Result<()> {
     args.outputs.deliver(result, |_| format!("{}\n{verdict}\n", report::text(&story)))
 }
 
-/// The mechanism of a search, as its scenario states it.
+/// The mechanism that a search has found, read back from the written scenario.
 pub(super) struct Found {
     pub(super) task: Task,
     pub(super) achieved: Achieved,

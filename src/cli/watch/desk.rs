@@ -110,7 +110,7 @@ impl Desk {
         self.wait(|state| (state.draft > after).then(|| (state.draft, Arc::clone(&state.text))))
     }
 
-    /// Leaves a draft for the proof, instead of an older one.
+    /// Leaves a draft for the proof. The draft replaces an older draft whose proof has not begun.
     pub(super) fn leave(&self, draft: u64, scenario: Scenario) {
         self.state().unproven = Some((draft, scenario));
         self.changed.notify_all();
@@ -121,7 +121,7 @@ impl Desk {
         self.wait(|state| state.unproven.take())
     }
 
-    /// Shows results, unless a newer draft or more is known.
+    /// Shows results, unless there is a newer draft, or the page already shows later results of the same draft.
     pub(super) fn publish(&self, outcome: Outcome) {
         let state = self.state();
         let is_news = (outcome.draft, outcome.stage) > (state.outcome.draft, state.outcome.stage);
@@ -183,12 +183,12 @@ mod tests {
         assert_eq!(desk.next_draft(1).1.as_ref(), "two");
         desk.publish(of(2, DraftStage::Moving));
         tells(&["\"shown\":2", "\"isKept\":false", "\"text\":\"one\""]);
-        // A page is sent once.
+        // A page is sent only once: a later answer has no page.
         let version = desk.state().version - 1;
         desk.saw(None);
         assert!(desk.told(version).contains("\"page\":\"2\"") && desk.told(version + 1).contains("\"page\":null"));
         tells(&["\"isMissing\":true"]);
-        // A file that becomes equal to the draft is no new draft.
+        // If the text of the file becomes equal to the draft, there is no new draft.
         desk.saw(Some("two".into()));
         tells(&["\"draft\":2", "\"isKept\":true"]);
         desk.saw(Some("three".into()));

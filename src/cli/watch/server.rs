@@ -50,7 +50,7 @@ impl PageServer {
             let (door, desk) = (Arc::clone(&door), Arc::clone(desk));
             if door.open.fetch_add(1, Ordering::Relaxed) >= MOST {
                 door.open.fetch_sub(1, Ordering::Relaxed);
-                // The client has gone if it cannot be answered.
+                // An answer fails only if the client has gone, so its error is ignored.
                 let _ = request.respond(status(503));
                 continue;
             }
@@ -69,7 +69,7 @@ fn random_word() -> String {
     format!("{:016x}{:016x}", part(), part())
 }
 
-/// What a request must know.
+/// What the server needs to answer a request.
 struct Door {
     port: u16,
     word: String,
@@ -100,8 +100,8 @@ impl Door {
         }
     }
 
-    /// Whether a request comes from the page itself: it names this machine, and no other origin.
-    /// A request that changes something must name its origin.
+    /// Whether a request comes from the page itself: the request names this machine as host, and no other origin. A
+    /// request that changes something must name its origin.
     fn admits(&self, request: &Request) -> bool {
         let header = |name: &'static str| {
             let all = request.headers().iter().filter(move |header| header.field.equiv(name));

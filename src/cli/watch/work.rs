@@ -55,7 +55,7 @@ pub(super) fn move_drafts(desk: &Desk) {
         let publish = |outcome: Outcome| desk.publish(Outcome { draft, ..outcome });
         let moved = || {
             let scenario = Scenario::parse(&text, &desk.file)?;
-            // The positions alone first, because their page is small.
+            // First the page has positions only, because such a page is small.
             let first = moved(&scenario.clone().only(&["positions".into()])?, PICTURE_BYTES)?;
             publish(Outcome { stage: DraftStage::Moving, ..first.clone() });
             desk.leave(draft, scenario.clone());

@@ -22,7 +22,7 @@ pub(in crate::report) fn escaped(text: &str) -> String {
     out
 }
 
-/// JSON for a script element. No part of the JSON can end the element.
+/// JSON for a script element. `<` is escaped, so no text in the JSON can end the element.
 pub(super) fn contained(json: &str) -> String {
     json.replace('<', "\\u003c")
 }

@@ -8,7 +8,7 @@ use linkage::mechanism::{GROUND, LinkId, LinkPose};
 
 /// Margin around the motion for arrows and names, in picture units.
 const MARGIN: f64 = 15.0;
-/// Ratio of an engine's pin radius to that of the reference.
+/// Radius of an engine's pins divided by the radius of the reference's pins.
 const RING: f64 = 1.5;
 
 /// The view of an area (m), in picture units: x, y (downwards), width, height.

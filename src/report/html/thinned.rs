@@ -43,8 +43,8 @@ impl Thinned {
     }
 }
 
-/// Whether a page stores a channel in double precision. Positions need it, so that joined links meet in the picture
-/// even far from the origin.
+/// Whether a page stores a channel in double precision. Positions are stored in double precision, so that joined links
+/// meet in the picture even far from the origin.
 pub(super) fn is_wide(channel: &Channel) -> bool {
     channel.kind.stage == Stage::Positions
 }
@@ -100,7 +100,7 @@ pub(super) fn errors(proof: &Proof) -> Vec<Errors> {
     proof.engines.iter().map(|engine| engine.trajectory.as_ref().map_or_else(nothing, of)).collect()
 }
 
-/// For every instant of a grid the row of another grid at the same instant.
+/// For every instant of a grid, the row of another grid at the same instant.
 fn matching(times: &[f64], others: &[f64]) -> Vec<Option<usize>> {
     let order = ascending(others);
     let at = |time: &f64| {

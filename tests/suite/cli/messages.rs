@@ -144,7 +144,7 @@ fn list_shows_scenarios_and_the_errors_of_bad_ones() {
     fs::create_dir(place.path("empty")).unwrap();
     assert_eq!(
         place.ok("list empty"),
-        "no scenario files (.toml) in empty\n`linkproof new` writes one, `linkproof new --shipped` the examples\n"
+        "no scenario files (.toml) in empty\n`linkproof new` writes a scenario file, `linkproof new --shipped` writes the examples\n"
     );
 }
 
