@@ -2,7 +2,7 @@
 //!
 //! Several crank angles are solved at once, as many as fit into the machine's registers.
 //! [`Batch::is_vectorised`] lists the conditions on the case.
-//! Each pose of such a case can be solved without the other poses.
+//! If a case meets these conditions, each of its poses can be solved without the other poses.
 //! Any other case is solved pose by pose.
 
 mod anchors;
@@ -68,7 +68,8 @@ impl<'a> Batch<'a> {
     pub fn of(case: &'a Case) -> Result<Self> {
         let poses = PoseSolver::new(case)?;
         // A case that passes change points is not vectorised.
-        // Vectorised poses keep the signs of the groups constant, but at a change point a sign changes.
+        // Vectorised poses keep the sign of every group's determinant constant, but this sign changes at a change
+        // point.
         let groups = match case.crank().through {
             true => None,
             false => Groups::of(case, &poses.plan, Layout::of(case, false)),
@@ -131,7 +132,8 @@ impl<'a> Batch<'a> {
         }
         for (row, &crank) in cranks.iter().enumerate() {
             let is_placed = self.is_vectorised() && out.is_placed(row);
-            // If anchors exist, they already contain the intermediate poses. No intermediate pose is then solved.
+            // If the batch has anchors, they already contain the intermediate poses, so no intermediate pose is solved
+            // here.
             if !(is_placed && (self.anchors.is_some() || (crank - self.crank).abs() <= STEP)) {
                 let deepest = if is_placed { Stage::Positions } else { deepest };
                 match self.walk(crank, omega, alpha, deepest) {

@@ -224,7 +224,7 @@ impl<S: Simd> Window<'_, S> {
         S::as_mut_simd_f64s(&mut self.columns[column].0).0[self.part] = lanes.value;
     }
 
-    /// This part of a column elsewhere.
+    /// The same part of a column that is not in the tile.
     #[inline(always)]
     pub(super) fn of(&self, column: &Eight) -> Lanes<S> {
         self.in_array(&column.0)

@@ -31,7 +31,8 @@ const ROUNDING: f64 = 1e-10;
 const MOST: usize = 60;
 /// The iteration continues while each change is below this fraction of the previous change.
 const QUICK: f64 = 0.3;
-/// Number of multiplications of a vector v by 1 + L. Each gives an upper bound of the spectral radius of L.
+/// Number of multiplications of a vector v by 1 + L.
+/// Each multiplication gives an upper bound of the spectral radius of L.
 const POWERS: usize = 8;
 /// Two solutions are different if a normal force differs by more than this fraction of the sum of its two values.
 const DIFFERENT: f64 = 1e-6;
@@ -131,7 +132,8 @@ impl Dry {
             self.solve(case, unit).map_err(|why| stuck(case, state, &why))?;
             std::mem::swap(&mut self.at, &mut self.normals);
         }
-        // In every round, a transmission has changed its line of action.
+        // In every one of the rounds, a transmission has changed its line of action, so no state of the forces is
+        // found.
         Err(stuck(case, state, &Stuck::Locked))
     }
 

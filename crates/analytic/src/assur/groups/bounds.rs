@@ -47,8 +47,7 @@ impl Bound {
         [self.speed + self.turn * arm, self.second + self.centripetal() * arm]
     }
 
-    /// Bound of the acceleration of a point of the link relative to the reference point, divided by the distance
-    /// between the two points.
+    /// Bound of the relative acceleration of a point of the link and the reference point, per unit of their distance.
     pub(super) fn centripetal(&self) -> f64 {
         self.spin + self.turn * self.turn
     }

@@ -24,7 +24,7 @@ pub struct Rpp {
     guide: Guide,
     /// Inner axis in the frames of the pinned link and of the slider.
     axes: [Vec2; 2],
-    /// Position of the inner joint in the frame of the pinned link and in that of the slider.
+    /// Position of the inner joint in the frames of the pinned link and of the slider.
     inner: [Vec2; 2],
     /// Sign of the sine of the angle between the axes on the followed branch; 0 before the first pose.
     side: f64,

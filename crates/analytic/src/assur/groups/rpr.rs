@@ -56,7 +56,7 @@ impl Rpr {
         let squared = d.norm_squared();
         self.gauge = squared;
         let along_squared = squared - self.across * self.across;
-        // Coincident pins have no direction: the second condition refuses them.
+        // The vector between coincident pins has no direction, so the second condition refuses coincident pins.
         if !(along_squared >= 0.0 && squared > 0.0) {
             return Err(Misfit::Swing { distance: squared.sqrt(), shortest: self.across.abs() });
         }

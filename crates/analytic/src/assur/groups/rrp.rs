@@ -16,7 +16,7 @@ use super::pin::Pin;
 use linkage::math::{Motion, Vec2, turned};
 use linkage::mechanism::{AssemblyMode, Group, LinkId, Mechanism};
 
-/// If the guide turns, a bound is valid for this number of crank steps.
+/// If the guide turns, a bound is valid over a crank rotation of this many steps.
 const FAR: f64 = 16.0;
 
 /// RRP dyad, prepared for solving.

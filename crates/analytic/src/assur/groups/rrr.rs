@@ -147,8 +147,9 @@ impl Rrr {
     fn close(&self, [p1, p2]: [Vec2; 2]) -> Result<([Vec2; 2], [f64; 2]), Misfit> {
         let d = p2 - p1;
         let d_squared = d.norm_squared();
-        // `along` is f d^2. 4 D^2 follows from Heron's formula, which loses no digits near a singular pose.
-        // The root does not depend on the division by d^2, so both can run at the same time.
+        // `along` is f d^2, where f is the component of r1 along d, divided by the length of d.
+        // 4 D^2 follows from Heron's formula, which loses no digits near a singular pose.
+        // The square root does not need the division by d^2, so the processor can do both operations at the same time.
         let along = 0.5 * (self.squared[0] - self.squared[1] + d_squared);
         let square = (self.range[1] - d_squared) * (d_squared - self.range[0]);
         // The comparison is negated so that NaN is refused too.
@@ -191,7 +192,7 @@ impl Rrr {
 
     /// Positions, velocities and accelerations in one pass. Shared values stay in registers, and every motion is
     /// written once.
-    /// The arithmetic operations and therefore the bits are those of the three separate functions.
+    /// The arithmetic operations are the same as in the three separate functions, so the bits are the same too.
     #[inline(always)]
     pub(super) fn motions(&mut self, motions: &mut [Motion]) -> Result<(), Misfit> {
         let [[bases0, p1, v1, a1], [bases1, p2, v2, a2]] = [0, 1].map(|k| Self::base(&self.arms[k], motions));
@@ -286,7 +287,7 @@ impl Rrr {
     }
 
     /// [`Rrr::clearance`] of bodies of changing shape: the vectors between outer and inner joint turn in the frames of
-    /// their links. `shape` (rad/s) is the rate of the second vector minus that of the first.
+    /// their links. `shape` (rad/s) is the rate of the second vector minus the rate of the first vector.
     #[inline]
     pub(super) fn clearance_with(&self, shape: f64, motions: &[Motion]) -> SingularityDistance {
         let [r1, r2] = self.spans;

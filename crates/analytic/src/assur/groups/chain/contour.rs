@@ -123,8 +123,8 @@ pub struct ClosingJoint {
     pub nodes: [Option<usize>; 2],
     /// Position of the joint on its second link.
     place: JointSide,
-    /// Indices of the known joints at which the two paths start, with the signs of the paths: +1 for the path to the
-    /// second link, -1 for the path to the first link.
+    /// Indices of the known joints at which the two paths start, and the signs of the paths.
+    /// The sign is +1 for the path to the second link, and -1 for the path to the first link.
     pub(in crate::assur) ends: [(usize, f64); 2],
     /// Arrows along both paths.
     pub(in crate::assur) ways: Vec<Stretch>,
