@@ -17,7 +17,7 @@ use linkage::mechanism::{
 pub(super) struct Gearing {
     /// Indices of the coordinates and their factors.
     pub(super) terms: Vec<(usize, f64)>,
-    /// Sum of the factors times coordinates, minus the law of the transmission.
+    /// Residual: sum of the factors times coordinates, minus the law of the transmission.
     pub(super) sum: f64,
     /// The law of a transmission.
     pub(super) law: Option<FirstMember>,
@@ -33,7 +33,7 @@ pub(super) struct FirstMember {
 }
 
 impl Gearing {
-    /// The sum minus the law, and the first member's terms times minus the derivative of the law.
+    /// Residual, and the derivatives that come from the law: index and value for each coordinate of the first member.
     fn at(&self, mechanism: &Mechanism, q: &ColumnVector) -> (f64, Vec<(usize, f64)>) {
         let sum = |terms: &[(usize, f64)]| terms.iter().map(|&(index, factor)| factor * q[index]).sum::<f64>();
         let Some(FirstMember { transmission, first, unit }) = &self.law else { return (sum(&self.terms), Vec::new()) };
@@ -114,7 +114,7 @@ impl<'a> Constraints<'a> {
         3 * (self.mechanism.links().len() - 1)
     }
 
-    /// Number of coordinates: those of the links, and one for every given joint.
+    /// Number of all coordinates: the coordinates of the links, and one coordinate for every given joint.
     pub(super) fn coordinates(&self) -> usize {
         self.of_links() + self.given.len()
     }
@@ -265,8 +265,8 @@ impl<'a> Constraints<'a> {
         }
     }
 
-    /// Position of a joint on one of its links, and the vector to it from the middle of this link. Unit: the
-    /// mechanism's size.
+    /// Position of a joint on one of its links, and the vector from the middle of this link to the joint.
+    /// The unit is the mechanism's size.
     fn point(&self, side: JointSide, q: &ColumnVector) -> (Vec2, Vec2) {
         if side.link == GROUND {
             return ((side.local - self.origin) / self.size, Vec2::zeros());
@@ -277,7 +277,7 @@ impl<'a> Constraints<'a> {
     }
 
     /// The part of a Jacobian for the joints, transmissions and links of a group. The part is square.
-    /// Its columns are all x and y first, then all angles, then the slides of racks.
+    /// The columns are in the order: all x and y, all angles, the slides of racks.
     pub(super) fn block(&self, jacobian: &Matrix, group: &Group) -> Matrix {
         let joints = || group.inner.iter().chain(&group.outer);
         let is_known = |number: usize| group.given.contains(&self.given[number].0);

@@ -63,7 +63,7 @@ pub struct Gap {
     /// Nearest points at the middle, on the first and the second body (m).
     pub points: [Vec2; 2],
     /// Lower bound of the distance over the part of the range (m). The bound may be negative.
-    /// The bound is proven only if the slice is sound.
+    /// The bound is proven only if the field `sound` of the slice is true.
     pub least: f64,
 }
 

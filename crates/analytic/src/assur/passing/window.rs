@@ -231,8 +231,8 @@ impl Window {
         node.plan.steps().ids().map(|group| node.plan.determinant(group)).collect()
     }
 
-    /// Error of the first and second transfer functions of the links' angles at the change point, divided by the
-    /// largest of them or 1, whichever is larger.
+    /// Relative error of the first and second transfer functions of the links' angles at the change point.
+    /// The error is divided by the largest of these transfer functions, but at least by 1.
     /// The error is the change of the result when the outermost or the innermost pair of nodes is left out, whichever
     /// is larger.
     /// Without the outermost pair, the change shows the error of the polynomials; without the innermost pair, the
