@@ -1,5 +1,5 @@
 //! Rapier's part of the comparison with other engines in `benches/peers`, as CSV.
-//! It gives error and time of single runs, and of combinations of runs at h, h/2, h/4, ...
+//! The table gives error and time of single runs, and of combinations of runs at h, h/2, h/4, ...
 //! `cargo bench --bench peers_rapier -- REPEATS FILE...` times each run REPEATS times; the shortest time counts.
 //! Each FILE is a scenario file.
 

@@ -76,7 +76,7 @@ const INDEPENDENT: i32 = 3;
 
 /// Whether instants at unequal steps are multiples of a chosen step.
 /// A round common divisor is evidence for a chosen step, for example if the numbers of all rows have trailing zeros.
-/// n independent whole degrees have a common divisor d by chance only with the probability 1 / d^n.
+/// By chance, n independent whole degrees have a common divisor d only with the probability 1 / d^n.
 fn are_multiples(values: &[Rounded], unit: f64, sort: Sort) -> bool {
     let (mut divisor, mut count) = (0u64, 0i32);
     for at in values.iter().filter(|at| at.value != 0.0) {

@@ -82,8 +82,9 @@ impl ScaleColumn {
 pub struct JudgedColumns {
     /// Number of rows compared.
     pub judged: usize,
-    /// Number of rows that are not judged: nothing was measured, the reference from an analytic side has no number, or
-    /// neither party has a number.
+    /// Number of rows that are not judged.
+    /// In such a row, nothing was measured, the reference from an analytic side has no number, or no party has a
+    /// number.
     pub missing: usize,
     /// Root mean square of the differences, over all rows in which both values are numbers.
     pub rms: f64,

@@ -33,8 +33,7 @@ use linkage::mechanism::{AssemblyMode, GROUND, Group, GroupId, GroupKind, LinkId
 use linkage::work::{Count, WorkTally};
 
 /// Two configurations of a dyad are compared with an expected pose.
-/// The squared distance of the nearer configuration, divided by the squared distance of the farther configuration, must
-/// be below this value.
+/// The ratio of the squared distances, nearer to farther, must be below this value.
 const NEARER: f64 = 0.04;
 
 /// An Assur group, prepared for solving.
@@ -266,7 +265,7 @@ impl SolutionPlan {
     }
 
     /// Computes the positions, velocities and accelerations of all links in one pass.
-    /// The arguments are those of the separate functions for positions, velocities and accelerations.
+    /// The arguments are the same as for the separate functions of positions, velocities and accelerations.
     ///
     /// # Errors
     /// The errors of [`SolutionPlan::positions`].

@@ -4,7 +4,7 @@
 //! Every driven or geared slide is also an additional coordinate.
 //!
 //! The coordinates of every moving link are x and y of the middle of its joints, and its angle.
-//! x and y are divided by the size of the mechanism, so that they are comparable with angles.
+//! The coordinates x and y are divided by the size of the mechanism, so that they are comparable with angles.
 //! One function per kind of joint writes the rows of the joint.
 
 use linkage::input::Input;
@@ -17,7 +17,7 @@ use linkage::mechanism::{
 pub(super) struct Gearing {
     /// Indices of the coordinates and their factors.
     pub(super) terms: Vec<(usize, f64)>,
-    /// Residual: sum of the factors times coordinates, minus the law of the transmission.
+    /// Constant value of the equation: the sum of the factors times coordinates, minus the law of the transmission.
     pub(super) sum: f64,
     /// The law of a transmission.
     pub(super) law: Option<FirstMember>,
@@ -33,7 +33,8 @@ pub(super) struct FirstMember {
 }
 
 impl Gearing {
-    /// Residual, and the derivatives that come from the law: index and value for each coordinate of the first member.
+    /// Returns the sum of the factors times coordinates, minus the law.
+    /// Also returns the derivatives of minus the law: index and value for each coordinate of the first member.
     fn at(&self, mechanism: &Mechanism, q: &ColumnVector) -> (f64, Vec<(usize, f64)>) {
         let sum = |terms: &[(usize, f64)]| terms.iter().map(|&(index, factor)| factor * q[index]).sum::<f64>();
         let Some(FirstMember { transmission, first, unit }) = &self.law else { return (sum(&self.terms), Vec::new()) };

@@ -17,8 +17,7 @@ linkage::words! {
         /// bound.
         ParallelAxes = "parallel axes",
         /// Another branch is so near the followed branch that the determinant is below 1e-3.
-        /// The determinant keeps its
-        /// sign.
+        /// The determinant keeps its sign.
         BranchContact = "branch contact",
     }
 }

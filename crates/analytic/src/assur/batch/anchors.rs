@@ -106,7 +106,7 @@ impl Way<'_> {
         }
         while self.is_open && self.count <= interval {
             let next = start + self.step * (self.count + 1) as f64;
-            // An error is not reported here: the solution of the pose that needs this interval reports it.
+            // No error is reported here: the solution of the pose that needs this interval reports the error.
             self.is_open = self.poses.solve(next, 1.0, 0.0, Stage::Accelerations).is_ok();
             if self.is_open {
                 self.add();
@@ -121,7 +121,7 @@ impl Way<'_> {
         self.links.iter().map(|&link| (motions[link].direction, [motions[link].omega, motions[link].alpha])).collect()
     }
 
-    /// Stores the interval from the last anchor to the present one.
+    /// Stores the interval from the last anchor to the present anchor.
     fn add(&mut self) {
         let next = self.read();
         for ((from, [omega, alpha]), (to, [omega_to, alpha_to])) in self.last.iter().zip(&next) {

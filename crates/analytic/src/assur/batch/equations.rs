@@ -131,7 +131,7 @@ impl Arm {
 
 impl Dyad {
     /// Computes the motion of both links. Returns r1 x r2 (m^2), or NaN for poses that cannot be assembled.
-    /// The operations and their order are those of [`crate::assur::groups::Rrr`], so that the bits are the same.
+    /// The operations and their order are the same as in [`crate::assur::groups::Rrr`], so that the bits are the same.
     #[inline(always)]
     fn turn<S: Simd>(&self, deepest: Stage, tile: &mut Window<S>, work: &mut Window<S>, column: usize) -> Lanes<S> {
         let [first, second] = &self.arms;
@@ -183,7 +183,7 @@ impl Dyad {
     /// Returns 0 where the pose and the motion to the next pose are clear of dead points, elsewhere NaN.
     /// The sine of the transmission angle is s = (r1 x r2) / (l1 l2).
     /// The rate of s is s' = (r1 . r2) (omega2 - omega1) / (l1 l2), and `pace` (s) is the time between two poses.
-    /// |s| must be larger than `least`, and |s'| times `pace` smaller than `share` times |s|.
+    /// The magnitude |s| must be larger than `least`, and |s'| times `pace` smaller than `share` times |s|.
     #[inline(always)]
     pub(super) fn doubt<S: Simd>(
         &self,
@@ -226,7 +226,7 @@ impl Body {
     }
 
     /// Returns the resultant of all known forces on the link and their moment about the world point `pole`.
-    /// The operations and their order are those of the module `assur::forces`.
+    /// The operations and their order are the same as in the module `assur::forces`.
     #[inline(always)]
     pub(super) fn resultant<S: Simd>(&self, gravity: Vec2, pole: Plane<S>, tile: &Window<S>) -> (Plane<S>, Lanes<S>) {
         let (origin, direction) = (tile.vector(self.link + ORIGIN), tile.vector(self.link + DIRECTION));

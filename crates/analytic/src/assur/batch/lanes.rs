@@ -1,7 +1,7 @@
 //! One number or plane vector for several poses at once, on the widest registers of the machine.
 //!
 //! Every operation is an IEEE 754 operation on each lane separately, without fused multiply-add.
-//! A lane's value therefore depends neither on its neighbours nor on the number of lanes.
+//! A lane's value therefore does not depend on its neighbours or on the number of lanes.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 

@@ -60,7 +60,7 @@ fn product(spans: [Vec2; 2]) -> f64 {
 /// The vectors from outer to inner joint of a dyad, in the frames of its links (m).
 ///
 /// # Panics
-/// If the group is no dyad.
+/// If the group is not a dyad.
 #[must_use]
 pub fn spans(case: &Case, group: GroupId) -> [Vec2; 2] {
     let (group, joints) = (&case.structure.groups[group], case.mechanism.joints());

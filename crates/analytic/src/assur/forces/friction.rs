@@ -22,7 +22,7 @@ type Reaction = (Vec2, f64);
 
 /// Largest number of linearisations. One linearisation is enough unless a transmission changes its line of action.
 const ROUNDS: usize = 20;
-/// The normal forces are settled if they change by less than this fraction of the largest one.
+/// The normal forces are settled if they change by less than this fraction of the largest normal force.
 /// A smaller limit has no use, because the rounding errors of the reactions are larger than this fraction.
 const SETTLED: f64 = 1e-14;
 /// A change below this fraction of the largest normal force is rounding error if the changes no longer decrease.
@@ -46,8 +46,8 @@ enum Stuck {
     Several,
 }
 
-/// Solver for the normal forces of all joints with friction and for the losses of transmissions. Its memory is reused
-/// for every pose.
+/// Solver for the normal forces of all joints with friction and for the losses of transmissions. The solver reuses its
+/// memory for every pose.
 #[derive(Clone, Debug)]
 pub(crate) struct Dry {
     /// Sense of the motion of every joint with friction, then of every transmission with losses: +1, -1, or 0 at
@@ -62,7 +62,8 @@ pub(crate) struct Dry {
     next: Vec<f64>,
     efforts: Vec<f64>,
     base: Vec<Reaction>,
-    /// Derivatives of all reactions with respect to the first normal force, then with respect to each further one.
+    /// Derivatives of all reactions with respect to the first normal force, then with respect to each further normal
+    /// force.
     columns: Vec<Reaction>,
     matrix: Lu,
 }
@@ -241,7 +242,7 @@ impl Dry {
         false
     }
 
-    /// Newton's method for p - |R0 + C p| = 0 from `start`. Returns whether it has converged to a solution.
+    /// Newton's method for p - |R0 + C p| = 0 from `start`. Returns whether the method has converged to a solution.
     fn newton(&mut self, case: &Case, start: &mut [f64]) -> bool {
         let (n, mut last) = (start.len(), f64::INFINITY);
         for _ in 0..MOST {

@@ -29,7 +29,7 @@ pub(super) struct Higher {
 }
 
 /// A node and its parent. A link on a pin transmits only a force to its parent.
-/// A link on a guide turns with its parent and also transmits its moment.
+/// A link on a guide turns with its parent, so it also transmits a moment to its parent.
 #[derive(Clone, Copy, Debug)]
 struct Inwards {
     child: usize,

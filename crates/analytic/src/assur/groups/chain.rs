@@ -39,8 +39,7 @@ use linkage::mechanism::{DrivingLink, GROUND, Group, JointSide, Mechanism};
 use linkage::work::{Count, WorkTally};
 
 /// Largest number of iterations. Newton's method from the last pose needs only a few iterations. More iterations mean
-/// that the
-/// branch is lost.
+/// that the branch is lost.
 const MAX_ITERATIONS: usize = 10;
 /// Largest rotation of a link from the last pose (rad) that is accepted as a continuation of the branch.
 /// The limit for a slide is this value times the mechanism's size.

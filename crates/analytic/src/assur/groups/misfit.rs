@@ -51,7 +51,8 @@ pub struct SingularityDistance {
 /// rounding error.
 pub const SINGULAR: f64 = 1e-7;
 
-/// If the sine of the angle between two axes is below this value, they are parallel within rounding error.
+/// If the sine of the angle between two axes is below this value, the axes count as parallel, because the sine may be
+/// rounding error.
 const PARALLEL: f64 = 1e-14;
 
 /// Returns the sign of the sine of the angle between two axes.

@@ -1,6 +1,7 @@
 //! Dyad with three revolute pairs (class II, order 2): closed form of position, velocity and acceleration.
 //!
-//! The outer joints are P1 and P2, the inner joint is P3. r1 = P3 - P1, r2 = P3 - P2, D = r1 x r2 and d = P2 - P1.
+//! The outer joints are P1 and P2, the inner joint is P3.
+//! The vectors are r1 = P3 - P1, r2 = P3 - P2 and d = P2 - P1; D = r1 x r2.
 //! Position: r1 = d f + (z x d) h with f = (l1^2 - l2^2 + d^2) / 2 d^2 and 4 D^2 = 4 d^4 h^2 = ((l1 + l2)^2 - d^2)
 //! (d^2 - (l1 - l2)^2).
 //! Velocity: v1 + omega1 x r1 = v2 + omega2 x r2 gives omega1 = (v2 - v1) . r2 / D and omega2 = (v2 - v1) . r1 / D.

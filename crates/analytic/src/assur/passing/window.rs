@@ -26,7 +26,7 @@ const CORE: f64 = 0.1;
 /// Half widths that are tried (rad).
 const WIDTHS: [f64; 11] = [0.5, 0.4, 0.3, 0.2, 0.15, 0.1, 0.07, 0.05, 0.03, 0.02, 0.012];
 /// If the mechanism cannot be followed through a window, the next half width is at most this fraction of the failing
-/// one.
+/// half width.
 /// The failing window contains another singular pose, towards which reactions may grow without bound.
 const CLEAR: f64 = 0.5;
 /// A change point is passed only if [`Window::error`] is below this value.
@@ -181,8 +181,8 @@ impl Window {
             if let (Some(a), Some(b)) = (a, b) {
                 return a * b < 0.0 && is_apart(low + (high - low) * a / (a - b));
             }
-            // A dyad counts as having another change point only under one condition: the extrapolations from both sides
-            // must lead to a change point away from the middle of the window.
+            // The change point of a dyad is extrapolated from both sides.
+            // If both extrapolations lead away from the middle of the window, the dyad has another change point.
             let places = inner.map(|index| {
                 let node = &mut self.nodes[index];
                 let own = clearance(&mut node.plan, &mut node.motions.clone(), group);
