@@ -1,6 +1,5 @@
 //! Cost of a chain of four-bars as a function of its length.
-//! Five costs are measured: of building the case, of side 1, of side 2, of the double-double solution, and of solving
-//! with both sides and comparing them.
+//! Five costs are measured: building the case, side 1, side 2, the double-double solution, and a proof with both sides.
 //! The growth of each cost from one chain to the next is printed beside the growth of n and of n log n, where n is the
 //! number of four-bars.
 //!

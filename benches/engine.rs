@@ -1,4 +1,4 @@
-//! Cost of the harness: the time of an engine's run, divided by that of a bare loop of the same Rapier world.
+//! Cost of the harness: the time of an engine's run, divided by the time of a bare loop of the same Rapier world.
 //! The run and the loop have the same settings, and are timed alternately in one process.
 //! `cargo bench --bench engine [-- SCENARIO|BUILD|SWEEPS...]`.
 
@@ -70,7 +70,7 @@ fn main() {
                 let last = STEPS as f64 * step;
                 // The engine also does sixteen steps outside the grid: six backwards from t = 0, six forwards to t = 0
                 // again, and four beyond the end.
-                // `bare` therefore gets sixteen additional steps, so that its work is nearly that of the engine.
+                // `bare` therefore does sixteen additional steps: nearly the same work as the engine.
                 let none = base.on(Grid::of_times(base.crank(), vec![last])).unwrap().wanting(Wanted::of(&[]));
                 let all = |every: usize| {
                     let times = (0..=STEPS / every).map(|k| every as f64 * step * k as f64).collect();

@@ -1,6 +1,7 @@
 //! Cost of judging formulas, by value and with both derivatives, divided by the cost of solving the poses.
 //! Both costs are measured on 3600 poses of a revolution.
-//! Only ratios from one run are printed: `cargo bench --bench formula`.
+//! Only ratios from one run are printed.
+//! `cargo bench --bench formula`.
 
 use std::hint::black_box;
 use std::path::Path;

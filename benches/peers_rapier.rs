@@ -1,5 +1,5 @@
 //! Rapier's part of the comparison with other engines in `benches/peers`, as CSV.
-//! It gives error and time of single runs, and of combinations of runs at h, h/2, h/4, ...
+//! The table gives error and time of single runs, and of combinations of runs at h, h/2, h/4, ...
 //! `cargo bench --bench peers_rapier -- REPEATS FILE...` times each run REPEATS times; the shortest time counts.
 //! Each FILE is a scenario file.
 
@@ -24,7 +24,7 @@ const RUNS: usize = 5;
 /// Finest step (s); with smaller steps, second differences are rounding noise.
 const FINEST: f64 = 1.2e-5;
 /// Sweeps per step.
-/// These numbers suffice: more sweeps change nothing.
+/// More sweeps than these change no result.
 /// With 8 sweeps, the reaction at the first instant is wrong by a few percent.
 const SWEEPS: [usize; 2] = [12, 16];
 

@@ -1,5 +1,5 @@
-//! Cost of one pose: all quantities (positions, velocities, accelerations, all reactions and the balancing moment),
-//! positions alone, and all quantities in a batch of poses.
+//! Cost of one pose: of all quantities, of the positions alone, and of all quantities in a batch of poses.
+//! All quantities are positions, velocities, accelerations, all reactions and the balancing moment.
 //! Each cost is divided by the cost of computing all quantities with a hand-written four-bar solver, which is timed in
 //! the same process.
 //! `cargo bench --bench pose`.
@@ -70,7 +70,7 @@ fn check(scenario: &Scenario, hand: &FourBar) {
     for k in 0..POSES {
         let state = poses.solve(angle(k), omega, 0.0, Stage::BalancingMoment).unwrap();
         let general = state.forces.iter().flat_map(|force| [force.x, force.y]).chain([state.torques[0]]);
-        // Joints in the scenario's order: O, A, B, C.
+        // The scenario lists the joints in the order O, A, B, C.
         for (ours, theirs) in general.zip(hand.solve(angle(k), omega)) {
             assert!((ours - theirs).abs() < 1e-8, "{ours} {theirs} at {k}");
         }

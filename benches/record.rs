@@ -1,7 +1,8 @@
 //! Cost of a proof and its recording together, divided by the cost of the proof alone.
-//! For a long recording, a second ratio is measured: the cost of writing its prepared messages with the plain MCAP
-//! writer, divided by the cost of writing the recording.
-//! Only ratios from one run are printed: `cargo bench --bench record`.
+//! For a long recording, a second ratio is measured: the cost of writing the same messages, already prepared, with the
+//! plain MCAP writer, divided by the cost of writing the recording.
+//! Only ratios from one run are printed.
+//! `cargo bench --bench record`.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File};

@@ -1,5 +1,6 @@
-//! Cost of exact derivatives: the gradient of the largest reaction and of the largest driving moment of `ov7_base` by
-//! all its dimensions, masses and its speed, divided by the cost of the solution.
+//! Cost of exact derivatives, divided by the cost of the solution.
+//! The derivatives are the gradients of the largest reaction and of the largest driving moment of `ov7_base`, with
+//! respect to all its dimensions, masses and its speed.
 //! `cargo bench --bench sensitivity`.
 
 use design::sensitivity::{SensitivityQuestion, sensitivity_by};

@@ -1,6 +1,9 @@
 //! Cost of a sweep: four-bars with a full turn of 361 poses each, and ten figures of forces and motion.
-//! The processor time of the whole sweep, with its table and summary, is divided by that of its poses in a batch: the
-//! cost of a pose of the first case, all quantities, times the number of poses. Then one thread is compared with two.
+//! The processor time of the whole sweep, with its table and summary, is divided by the processor time of its poses in
+//! a batch.
+//! The processor time of the poses is the cost of one pose of the first case, with all quantities, times the number of
+//! poses.
+//! Then one thread is compared with two.
 //! `cargo bench --bench sweep [-- CASES [REPEATS]]`.
 
 use std::hint::black_box;
@@ -16,7 +19,7 @@ use scenario::Scenario;
 use sweep::{DesignKind, Goal, Shard, SweepAxis, SweepDesign, SweepPlan, SweepStore, SweepSummary};
 
 const AXES: [&str; 3] = ["crank_mm=20:40", "coupler_mm=110:135", "rocker_mm=80:100"];
-/// No two figures have the same quantity, so that nothing is computed once for two figures.
+/// Every figure has a different quantity, so that no quantity serves two figures.
 const FIGURES: [&str; 10] = [
     "max:joint.O.f_N",
     "max:joint.A.f_N",
@@ -80,7 +83,7 @@ fn main() {
                 for _ in 0..cases {
                     batch.solve(black_box(&cranks), omega, 0.0, Stage::BalancingMoment, &mut poses).expect("it turns");
                     black_box(&poses);
-                    // Back again: the batch solves no poses between two calls.
+                    // The next call solves the poses in reverse order, so it starts where this call ends.
                     cranks.reverse();
                 }
             }),

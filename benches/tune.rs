@@ -34,7 +34,7 @@ const EVERY: usize = 8;
 const SPACE: Space = Space { sweeps: &[4, 8, 16, 32, 64, 128, 256], factor: 1.15 };
 /// Number of alternating timings; the shortest counts, because other activity of the machine only adds time.
 const REPEATS: usize = 7;
-/// Number of settings from the exhaustive search that are timed again: the cheapest ones.
+/// The cheapest settings of the exhaustive search are timed again; this is their number.
 const FINALISTS: usize = 5;
 
 fn scenario(name: &str) -> Scenario {
@@ -75,7 +75,7 @@ impl Clock<'_> {
             let slope = (b - a) / (1.0 / fine - 1.0 / coarse);
             self.fit = [b - slope / fine, slope];
         }
-        // If a run with steps of one or two degrees fails, the cost is unknown and counts as infinite.
+        // If a run fails, the cost is unknown and counts as infinite.
         let price = self.fit[0] + self.fit[1] / own.resolution;
         if price.is_finite() { price } else { f64::INFINITY }
     }

@@ -14,7 +14,7 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::solver::{Progress, Provision, Solver, Visit};
 use linkage::trajectory::Channel;
 
-/// The solver of side 1. It solves the mechanism group by group.
+/// The solver of side 1. Side 1 solves the mechanism group by group.
 #[derive(Clone, Copy, Debug)]
 pub struct AssurSolver;
 
@@ -93,8 +93,9 @@ fn free_motion(case: &Case, accuracy: f64, visit: Visit, progress: Progress) -> 
         model => model?,
     };
     if model.kinks().meets {
-        // The reduced equation ends at a change point, so the motion is solved with transfer functions instead.
-        // This method follows the motion beyond the change point, where the momentum selects the branch.
+        // The reduced equation ends at a change point, so the motion is solved with transfer functions.
+        // The equations with transfer functions follow the motion beyond the change point, where the momentum selects
+        // the branch.
         return free::sweep(case, &mut TransferSide::new(case, share)?, accuracy, visit, progress);
     }
     let (motion, end) =

@@ -29,9 +29,10 @@ pub struct Mode {
 /// The known real configurations of one group.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Modes {
-    /// Configurations of the group. If not all configurations are known, the list contains only the followed one.
+    /// Configurations of the group. If not all configurations are known, the list contains only the configuration that
+    /// the motion follows.
     pub modes: Vec<Mode>,
-    /// Reason why not all configurations are known, for trains and for groups of more than four links.
+    /// For trains and for groups of more than four links: the reason why the list is incomplete.
     /// `None` if the list is complete.
     pub unknown: Option<String>,
 }

@@ -12,8 +12,8 @@ linkage::sentences! {
     ONE_OF_SEVERAL_DRIVES_CHANGES = "the range of motion is a curve only if all drives have constant speeds, and one of several drives changes its speed";
     GIVE_THE_DRIVES_CONSTANT_SPEEDS = "give all drives constant speeds";
     // assur/passing.rs
-    PASS_IT_WITH_THROUGH_SMOOTH = "pass it with `through = \"smooth\"` in [drive], if two branches meet there";
-    LET_THE_GRID_END_BEFORE_IT = "end the grid before it";
+    PASS_IT_WITH_THROUGH_SMOOTH = "pass this pose with `through = \"smooth\"` in [drive], if two branches meet there";
+    LET_THE_GRID_END_BEFORE_IT = "end the grid before this pose";
     LEAVE_THIS_VERY_INSTANT_OUT = "choose another step or start of the grid so that this instant is left out, or leave out the reactions: want = [\"positions\", \"velocities\", \"accelerations\"] in [channels]";
     this_is_a_change_point_and_towards(at) = "{at}: this is a change point; reactions grow without bound towards it, because the constraints of the links are singular there";
     // assur/pose_solver.rs
@@ -54,7 +54,7 @@ linkage::sentences! {
     LET_THE_GRID_END_BEFORE_WHERE = "end the grid before this instant; where the inertia nearly vanishes at a crank angle, give the crank or the rotor a moment of inertia";
     GIVE_THE_LINKS_MASSES_OR_THE_MOTOR = "give the links masses, or the motor a rotor";
     THE_MOTION_UNDER_FORCES_IS_ASKED = "the motion under forces is requested, but no part of the mechanism has a mass";
-    PRESCRIBE_THE_MOTION_OF_SOME = "prescribe the motion of some of them";
+    PRESCRIBE_THE_MOTION_OF_SOME = "prescribe the motion of some of these links";
     driving_links_are_free_at_most(free, most_freedoms) = "{free} driving links move freely, but at most {most_freedoms} can be solved";
     // motion/march.rs
     IT_RUNS_AWAY_OR_A_LOAD_TURNS = "the speed grows without bound, or a load reverses again and again: check loads and motor, or end the grid earlier";
@@ -109,7 +109,7 @@ linkage::sentences! {
     the_motor_has_no_stable_speed(resistance) = "the motor has no stable speed at which its moment on the crank is {resistance:.6} N·m";
     means_over_a_turn_are_asked(reached) = "means over a turn are requested, but the crank does not turn fully{reached}";
     it_can_be_turned_from_to_deg(to_degrees, to) = ": it can turn only from {to_degrees:.6} to {to:.6} deg";
-    GIVE_THE_TABLES_TURNS_THAT_DIVIDE = "choose `turns` of the tables so that one divides the other";
+    GIVE_THE_TABLES_TURNS_THAT_DIVIDE = "choose `turns` of the tables so that one number divides the other";
     mechanism_and_tables_of_loads(turns, most_turns) = "mechanism and load tables together repeat only after {turns} turns; the limit is {most_turns}";
     GIVE_IT_AS_A_TABLE_OF_FORCES = "give the load as a table of forces over the crank angle";
     reduced_quantities_are_asked_for_but_a_load(load) = "reduced quantities are requested, but the direction of a load of type \"{load}\" follows the motion of a point, which the reduction to the crank cannot represent";

@@ -110,7 +110,8 @@ impl TableCell {
 /// The trailing zeros then count as digits lost in rounding, unless the numbers count as exact: see [`chosen`].
 ///
 /// Numbers in single precision are printed with up to nine digits but have fewer significant digits.
-/// The shortest text of such a number may differ from it by almost half the distance to the neighbouring number.
+/// The shortest text of such a number may differ from the number by almost half the distance to the neighbouring
+/// number.
 /// A number in single precision is therefore converted to single precision again.
 pub fn numbers(cells: &[TableCell]) -> Vec<Rounded> {
     numbers_as(cells, Precision::of(cells))
@@ -145,8 +146,8 @@ pub(crate) fn numbers_as(cells: &[TableCell], precision: Precision) -> Vec<Round
     if are_rounded && !chosen(&found) { with(telling) } else { found }
 }
 
-/// If at least this many whole numbers have more digits than all other cells only because of trailing zeros, the column
-/// counts as rounded to fewer digits.
+/// Some whole numbers may have more digits than all other cells only because of trailing zeros.
+/// If at least this many whole numbers do, the column counts as rounded to fewer digits.
 /// By chance, one whole number in ten ends with zero.
 const FEW: usize = 2;
 
@@ -188,7 +189,8 @@ mod tests {
     fn a_number_has_the_digits_of_its_column() {
         for (cells, halves) in [
             (["1", "1.25"], [0.005, 0.005]),
-            // The expected error of 2 is 0.5: 2 may have only one significant digit, because .5 has only one.
+            // The expected error of 2 is 0.5, because .5 has one significant digit, so 2 may have only one significant
+            // digit too.
             ([".5", "2."], [0.05, 0.5]),
             // `%g` printed these numbers with an exponent, so they have a fixed number of significant digits.
             (["1e3", "1.25e3"], [5.0, 5.0]),
@@ -203,8 +205,8 @@ mod tests {
                 approx::assert_relative_eq!(*error, half, max_relative = 1e-6);
             }
         }
-        // These numbers are rounded to three significant digits. Python prints them with `.0`, other programs without
-        // `.0`.
+        // These numbers are rounded to three significant digits. Python prints such numbers with `.0`, other programs
+        // without `.0`.
         for cells in [["-2450.0", "1260.0", "301.0", "0.354"], ["2450", "1260", "301", "0.354"]] {
             for (error, half) in errors(&cells).iter().zip([5.0, 5.0, 0.5, 0.0005]) {
                 approx::assert_relative_eq!(*error, half, max_relative = 1e-6);

@@ -15,7 +15,7 @@ pub struct CellTable {
 }
 
 impl CellTable {
-    /// Reads the cells of a table. Separators and comments are those of [`read`](crate::read).
+    /// Reads the cells of a table. Separators and comments have the same rules as in [`read`](crate::read).
     ///
     /// # Errors
     /// A fault if the text has only blank lines and comments.

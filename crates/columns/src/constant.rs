@@ -8,14 +8,14 @@ use formula::Rounded;
 const SINGLE: u16 = 7;
 
 /// The numbers of a column of a file, each with the uncertainty caused by the printing of its digits.
-/// The result is that of [`numbers`], except for a column of zeros.
+/// The result equals the result of [`numbers`], except for a column of zeros.
 /// For a column of zeros, the result also depends on `others`, the columns of the file other than this column.
 ///
 /// A constant column does not show its format.
 /// A `0` printed by `%g`, Python and similar formats is an exact zero. A `0` printed by `%.0f` may be any number
 /// whose absolute value is at most a half.
-/// A file usually has one format. If this format omits trailing zeros, both the number of decimals and the number of
-/// significant digits vary from cell to cell in a column that is not constant.
+/// A file usually has one format. If this format omits trailing zeros, decimals and significant digits both vary from
+/// cell to cell of a column that is not constant.
 /// If both numbers vary in every column of `others`, the zeros have at least the decimals and digits of the coarsest of
 /// these columns.
 /// Constant columns, and columns of exact equidistant numbers ([`chosen`]), are not considered.
@@ -74,8 +74,8 @@ fn vouched(others: impl IntoIterator<Item: AsRef<[TableCell]>>) -> Option<Vouche
     coarsest
 }
 
-/// Whether all numbers of a column are zero. Only for a column of zeros do the file's other columns affect the
-/// uncertainty.
+/// Whether all numbers of a column are zero. The file's other columns affect the uncertainty only for a column of
+/// zeros.
 /// In a format with significant digits, a zero is exact even with few digits.
 /// A constant other than zero may have been rounded to fewer digits than the file's other columns have.
 fn is_zero(cells: &[TableCell]) -> bool {

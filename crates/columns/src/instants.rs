@@ -3,8 +3,8 @@
 use formula::Rounded;
 use linkage::math::KeepNan;
 
-/// If the probability that a pattern of printed instants occurs by chance is at most one in this number, the instants
-/// count as exact.
+/// Printed instants count as exact if their pattern is improbable for rounded instants.
+/// The probability of the pattern by chance must be at most 1 / `EVIDENCE`.
 /// Rounded instants look equally spaced over n steps by chance with the probability 1 / n.
 /// The step of rounded instants, in units of the last digit, is divisible by two with the probability 1 / 2 and by five
 /// with the probability 1 / 5.
@@ -20,9 +20,9 @@ pub fn chosen(values: &[Rounded]) -> bool {
 }
 
 /// Whether printed instants in degrees are exact values that someone chose, and not rounded values.
-/// Whole degrees at equal steps count as chosen if the first one is a multiple of the step.
-/// Whole degrees at unequal steps, such as 0, 30, 45, 60 and 90, count as chosen if they have a common divisor that
-/// whole numbers rarely have by chance.
+/// Whole degrees at equal steps count as chosen if the first instant is a multiple of the step.
+/// Whole degrees at unequal steps, such as 0, 30, 45, 60 and 90, count as chosen if they have a common divisor.
+/// This common divisor must be improbable for random whole numbers.
 /// All other instants are judged as by [`chosen`].
 pub fn degrees_chosen(values: &[Rounded]) -> bool {
     let are_whole = values.iter().all(|at| at.value.fract() == 0.0);
@@ -54,8 +54,8 @@ fn is_multiple(value: f64, of: f64) -> bool {
     (value / of - (value / of).round()).abs() <= 1e-6 * (value / of).abs()
 }
 
-/// Evidence that a step was chosen, for a step of `round` units.
-/// The evidence is the number of multiples, multiplied by every factor two or five of the step.
+/// Evidence that a step of `round` units was chosen.
+/// The evidence is the number of multiples, times the factors two and five in `round`.
 fn evidence(multiples: f64, mut round: f64) -> f64 {
     let mut evidence = if multiples < 1.0 { 1.0 } else { multiples };
     // Doubles above 1e15 are not reliable whole numbers, so they give no evidence.
@@ -75,8 +75,8 @@ fn evidence(multiples: f64, mut round: f64) -> f64 {
 const INDEPENDENT: i32 = 3;
 
 /// Whether instants at unequal steps are multiples of a chosen step.
-/// A round common divisor, as with trailing zeros in all rows, is evidence for a chosen step.
-/// n independent whole degrees have a common divisor d by chance only with the probability 1 / d^n.
+/// A round common divisor is evidence for a chosen step, for example if the numbers of all rows have trailing zeros.
+/// By chance, n independent whole degrees have a common divisor d only with the probability 1 / d^n.
 fn are_multiples(values: &[Rounded], unit: f64, sort: Sort) -> bool {
     let (mut divisor, mut count) = (0u64, 0i32);
     for at in values.iter().filter(|at| at.value != 0.0) {

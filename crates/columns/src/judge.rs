@@ -60,8 +60,8 @@ pub struct Beside<'a> {
 }
 
 /// The reference of two columns.
-/// The second column is the reference if only the second column comes from an analytic side. Otherwise the first column
-/// is the reference.
+/// The reference is the second column if the second column, but not the first, comes from an analytic side.
+/// Otherwise the first column is the reference.
 #[derive(Clone, Copy, Debug)]
 pub struct ScaleColumn {
     /// Index of the reference column: 0 or 1.
@@ -71,7 +71,7 @@ pub struct ScaleColumn {
 }
 
 impl ScaleColumn {
-    /// Selects the reference. The flags say for each of the two columns whether it comes from an analytic side.
+    /// Selects the reference. Each flag says whether its column comes from an analytic side.
     pub fn among([one, other]: [bool; 2]) -> Self {
         ScaleColumn { party: usize::from(!one && other), is_analytic: one || other }
     }
@@ -82,8 +82,9 @@ impl ScaleColumn {
 pub struct JudgedColumns {
     /// Number of rows compared.
     pub judged: usize,
-    /// Number of rows that are not judged: nothing was measured, the reference from an analytic side has no number, or
-    /// neither party has a number.
+    /// Number of rows that are not judged.
+    /// In such a row, nothing was measured, the reference from an analytic side has no number, or no party has a
+    /// number.
     pub missing: usize,
     /// Root mean square of the differences, over all rows in which both values are numbers.
     pub rms: f64,

@@ -19,7 +19,7 @@ impl<'a> Records<'a> {
     /// The rows of a text of at most 4 GiB. Blank lines do not count.
     ///
     /// # Errors
-    /// The byte range and the number of cells of the first line whose number of cells differs from that of the header.
+    /// The byte range and the number of cells of the first line that has more or fewer cells than the header.
     pub fn of(text: &'a str) -> Result<Self, (Range<usize>, usize)> {
         let mut records = Records { text, header: Vec::new(), rows: Vec::new() };
         let mut start = 0;

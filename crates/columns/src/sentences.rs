@@ -9,7 +9,7 @@ linkage::sentences! {
     GIVE_A_TABLE_WITH_A_HEADER = "give a table with a header and one row per instant";
     THE_TABLE_IS_EMPTY = "the table is empty";
     the_columns_and_of_the_table(first, second, name) = "the columns {first} and {second} of the table are both called \"{name}\"";
-    GIVE_EVERY_COLUMN_A_NAME = "give every column a unique name, or remove one of the two";
+    GIVE_EVERY_COLUMN_A_NAME = "give every column a unique name, or remove one of the two columns";
     row_of_the_table(row) = "row {row} of the table";
     line_of_the_table(line) = "line {line} of the table";
 }

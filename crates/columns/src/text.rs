@@ -110,7 +110,7 @@ pub fn bytes(text: &str) -> f64 {
 /// Reads a table. The last line shows which character separates the columns.
 ///
 /// # Errors
-/// A line whose number of cells differs from that of the header, or a cell that is not a number.
+/// A line that has more or fewer cells than the header, or a cell that is not a number.
 /// Two columns with the same name, or a text that has only blank lines and comments, are errors too.
 pub fn read(text: &str) -> Result<TextTable, TableFault> {
     let wrong = |start: usize, message: String, help: &str| {

@@ -56,7 +56,7 @@ pub struct Peaks {
 pub struct FrictionLoss {
     /// Name of the joint, or of the transmission with losses.
     pub name: String,
-    /// Whether the losses are those of a transmission.
+    /// Whether this entry describes the losses of a transmission.
     pub is_mesh: bool,
     /// Whether the friction is a force, in a prismatic joint.
     pub is_force: bool,

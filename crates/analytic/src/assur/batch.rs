@@ -2,7 +2,7 @@
 //!
 //! Several crank angles are solved at once, as many as fit into the machine's registers.
 //! [`Batch::is_vectorised`] lists the conditions on the case.
-//! Each pose of such a case can be solved without the other poses.
+//! If a case meets these conditions, each of its poses can be solved without the other poses.
 //! Any other case is solved pose by pose.
 
 mod anchors;
@@ -68,7 +68,8 @@ impl<'a> Batch<'a> {
     pub fn of(case: &'a Case) -> Result<Self> {
         let poses = PoseSolver::new(case)?;
         // A case that passes change points is not vectorised.
-        // Vectorised poses keep the signs of the groups constant, but at a change point a sign changes.
+        // Vectorised poses keep the sign of every group's determinant constant, but this sign changes at a change
+        // point.
         let groups = match case.crank().through {
             true => None,
             false => Groups::of(case, &poses.plan, Layout::of(case, false)),
@@ -100,8 +101,9 @@ impl<'a> Batch<'a> {
         self.groups.is_some()
     }
 
-    /// Number of poses so far that were solved one by one: those for which the vectorised solution failed, or all poses
-    /// of a case that is not vectorised.
+    /// Number of poses so far that were solved one by one.
+    /// In a vectorised case, these are the poses for which the vectorised solution failed; in any other case, all
+    /// poses.
     #[must_use]
     pub fn solved_singly(&self) -> usize {
         self.singly
@@ -109,14 +111,14 @@ impl<'a> Batch<'a> {
 
     /// Solves the poses at the crank angles `cranks` (rad, as the scenario states them), up to the stage `deepest`.
     /// In all poses the crank has the angular velocity `omega` (rad/s) and the angular acceleration `alpha` (rad/s^2).
-    /// Within rounding error, the poses equal those that [`PoseSolver::solve`] gives for the crank angles in this
+    /// Within rounding error, the poses equal the results of [`PoseSolver::solve`] for the crank angles in this
     /// sequence.
     /// The first call starts from the start pose, later calls from the last crank angle reached.
     /// If poses are [vectorised](Batch::is_vectorised), the bits of a pose do not depend on the position of its crank
     /// angle in `cranks`.
     /// Higher groups are followed from the start pose in steps of two degrees.
-    /// Near a dead point, and more than 50 000 steps from the start pose, poses of a case with higher groups are solved
-    /// one by one.
+    /// In a case with higher groups, poses near a dead point are solved one by one, and so are poses more than 50 000
+    /// steps from the start pose.
     /// Between rows more than 15 degrees apart, intermediate poses are solved too.
     ///
     /// # Errors
@@ -131,7 +133,8 @@ impl<'a> Batch<'a> {
         }
         for (row, &crank) in cranks.iter().enumerate() {
             let is_placed = self.is_vectorised() && out.is_placed(row);
-            // If anchors exist, they already contain the intermediate poses. No intermediate pose is then solved.
+            // If the batch has anchors, they already contain the intermediate poses, so no intermediate pose is solved
+            // here.
             if !(is_placed && (self.anchors.is_some() || (crank - self.crank).abs() <= STEP)) {
                 let deepest = if is_placed { Stage::Positions } else { deepest };
                 match self.walk(crank, omega, alpha, deepest) {
@@ -252,7 +255,8 @@ mod tests {
         widths
     }
 
-    /// The vector sine and cosine differ from those of the standard library by at most one unit in the last place of 1.
+    /// The vector sine and cosine differ from the functions of the standard library by at most one unit in the last
+    /// place of 1.
     /// At most half of this unit is the error of the standard library; the rest is the error of the vector functions.
     #[test]
     fn sines_and_cosines_match_the_standard_library() {

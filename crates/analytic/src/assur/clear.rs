@@ -66,7 +66,7 @@ impl PoseSolver<'_> {
         self.plan.positions(&self.inputs, &mut self.state.motions)
     }
 
-    /// Searches the step for the change point of every group that may have passed one.
+    /// For every group that may have passed a change point, searches the step for this change point.
     #[cold]
     fn keep_clear_closely(&mut self, target: f64) -> Result<(), OutOfReach> {
         let sense = target - self.crank;

@@ -52,7 +52,8 @@ pub(super) struct Kinetostatics {
     resistances: Option<Vec<(LinkId, Load)>>,
     /// Whether any drive moves a slide or a joint between moving links.
     drives_joints: bool,
-    /// The joints with friction, if there are any, and the loads before friction is added.
+    /// Solver for the friction of joints and the losses of transmissions, and the loads without friction.
+    /// `None` if no joint has friction and no transmission has losses.
     dry: Option<Box<(Dry, Vec<Wrench>)>>,
     tally: WorkTally,
 }

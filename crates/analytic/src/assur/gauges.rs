@@ -16,7 +16,7 @@
 //!
 //! The bounds of one step are stored and used for later steps.
 //! The gauges may therefore vary within a band that is wider than the present step needs.
-//! The stored bounds hold until a gauge leaves its band, a step is longer than the stored one, or the crank has moved
+//! The stored bounds hold until a gauge leaves its band, a step is longer than the stored step, or the crank has moved
 //! farther than the stored travel.
 //! See docs/numerics/change_points.md.
 
@@ -25,11 +25,11 @@ use linkage::case::Case;
 use linkage::math::{KeepNan, Motion};
 use linkage::mechanism::GroupId;
 
-/// During the present step, a gauge stays in a band at a distance from each end of its range.
-/// The stored band is wider: its distance from each end of the range is only this fraction of the distance in the
-/// present step.
+/// During the present step, a gauge stays in a band within its range.
+/// The stored band is wider: its distance from each end of the range is this fraction of the distance of the narrower
+/// band.
 const SPARE: f64 = 0.25;
-/// Bounds are computed for a step that is longer than the present one by this factor, because the steps of a grid are
+/// Bounds are computed for a step that is longer than the present step by this factor, because the steps of a grid are
 /// equal only within rounding error.
 const LONGER: f64 = 1.0 + 1e-6;
 /// A gauge without an upper limit may grow by this factor while the bounds are valid.
@@ -104,7 +104,7 @@ impl Gauges {
         gauges
     }
 
-    /// Returns an empty set of gauges, which accepts every step.
+    /// Returns an empty set of gauges: every step counts as proven.
     pub(super) fn none() -> Self {
         Gauges { watched: Vec::new(), ratios: Vec::new(), links: Vec::new(), reach: f64::INFINITY, left: f64::INFINITY }
     }
@@ -160,7 +160,7 @@ impl Gauges {
         }
         if self.prove(&ends, plan, step * LONGER, SPARE) {
             if self.is_open() {
-                // Repeat the proof without a reserve for later steps.
+                // Repeat the proof with bounds that hold for this step only.
                 self.prove(&ends, plan, step * LONGER, 1.0);
             }
             if self.is_open() {
@@ -214,7 +214,8 @@ impl Gauges {
         true
     }
 
-    /// Proves the step for direct groups alone. Divides the step where necessary.
+    /// Proves the step for the direct groups, which are attached to driving links and the ground only.
+    /// Divides the step where necessary.
     fn divide(&self, case: &Case, plan: &mut SolutionPlan, ends: [End; 2]) -> Result<(), OutOfReach> {
         let (from, to) = (ends[0].crank, ends[1].crank);
         let step = (to - from).abs();

@@ -33,7 +33,7 @@ use linkage::mechanism::{AssemblyMode, GROUND, Group, GroupId, GroupKind, LinkId
 use linkage::work::{Count, WorkTally};
 
 /// Two configurations of a dyad are compared with an expected pose.
-/// The nearer one is accepted only if its squared distance, divided by that of the farther one, is below this value.
+/// The ratio of the squared distances, nearer to farther, must be below this value.
 const NEARER: f64 = 0.04;
 
 /// An Assur group, prepared for solving.
@@ -265,7 +265,7 @@ impl SolutionPlan {
     }
 
     /// Computes the positions, velocities and accelerations of all links in one pass.
-    /// The arguments are those of the separate functions for positions, velocities and accelerations.
+    /// The arguments are the same as for the separate functions of positions, velocities and accelerations.
     ///
     /// # Errors
     /// The errors of [`SolutionPlan::positions`].
@@ -363,8 +363,8 @@ impl SolutionPlan {
         Ok(())
     }
 
-    /// Writes the bounds of the ground and of the driving links that are cranks. Each of them turns at a constant
-    /// multiple of the first crank's speed, given in `ratios`.
+    /// Writes the bounds of the ground and of the driving links that are cranks. `ratios` contains the constant ratio
+    /// of each crank's speed to the speed of the first crank.
     pub(in crate::assur) fn bound_drivers(&self, ratios: &[f64], links: &mut Bounds) {
         links.fill(None);
         links[GROUND] = Some(Bound::REST);

@@ -271,8 +271,8 @@ impl<'a> PoseSolver<'a> {
         }
     }
 
-    /// Writes the rates of all driving links to the inputs: `rate` for the crank, and its multiples by the speed ratios
-    /// for further driving links.
+    /// Writes the rates of all driving links to the inputs: `rate` for the crank, and `rate` times the speed ratio for
+    /// each further driving link.
     #[inline]
     pub(super) fn drive(&mut self, rate: f64) {
         if self.by_time {
@@ -298,7 +298,7 @@ impl<'a> PoseSolver<'a> {
         }
     }
 
-    /// The state at an instant of the case's grid. The arguments and errors are those of [`PoseSolver::solve`].
+    /// The state at an instant of the case's grid. The arguments and errors are the same as for [`PoseSolver::solve`].
     ///
     /// # Errors
     /// The errors of [`PoseSolver::solve`].

@@ -1,9 +1,9 @@
 //! Side 1 for several degrees of freedom: Jourdain's principle with the transfer functions of every driving link, group
 //! by group.
 //!
-//! v_j and w_j are the first transfer functions of a link's mass centre and angle if only driving link j moves.
+//! Here v_j and w_j are the first transfer functions of a link's mass centre and angle if only driving link j moves.
 //! Then A_ij = sum of m v_i . v_j + J w_i w_j, and A alpha = T + sum of v_i . (F - m a0) + w_i (M - J alpha0).
-//! a0 and alpha0 are the accelerations of the link if no free driving link accelerates.
+//! Here a0 and alpha0 are the accelerations of the link if no free driving link accelerates.
 //! See docs/numerics/forces.md.
 
 use super::forces::{Dry, Kinetostatics};

@@ -58,8 +58,8 @@ impl Turns {
     }
 }
 
-/// +1 if a direction has passed -x counter-clockwise, -1 if clockwise, otherwise 0. It has turned by less than half a
-/// turn.
+/// +1 if a direction has passed -x counter-clockwise, -1 if clockwise, otherwise 0. The direction has turned by less
+/// than half a turn.
 #[inline]
 pub(super) fn crossing(last: Vec2, now: Vec2) -> f64 {
     let (was_up, is_up) = (last.y >= 0.0, now.y >= 0.0);

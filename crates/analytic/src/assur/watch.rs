@@ -1,7 +1,7 @@
 //! Watches the dyads for which [`super::gauges`] has no proof.
 //!
-//! The closed form keeps the sign of a dyad's sine. At a change point its branch therefore has a corner: the dyad's
-//! clearance falls to zero and rises again.
+//! The closed form keeps the sign of a dyad's sine. At a change point, the computed motion therefore has a corner: the
+//! dyad's clearance falls to zero and rises again.
 //! The watch is only an estimate: the speeds of the carrying links between two poses are inferred from these poses.
 //! The estimate misses a clearance that falls to zero, rises and falls again within one step.
 //! For dyads behind a higher group, a step is 2 degrees.
@@ -14,16 +14,17 @@ use linkage::mechanism::{PerGroup, PerLink};
 
 /// If the clearance of a dyad is below this value, a change point may lie within a step.
 /// While the clearance goes from 0.8 to 0 and back, the links of the dyad turn by 106 deg relative to each other.
-/// If this relative rotation is [`FAST`] times as fast as the crank's rotation, the crank turns by 7 deg meanwhile.
+/// If this relative rotation is [`FAST`] times as fast as the crank's rotation, the crank turns by 7 deg in the same
+/// time.
 /// These 7 deg are more than one step for dyads behind a higher group (2 deg), but less than one step for dyads alone
 /// (15 deg).
 const NARROW: f64 = 0.8;
 /// A clearance is assumed to stay above zero if it exceeds this multiple of its expected change over the rest of the
 /// step.
 /// Near a change point the sine is linear in the crank angle.
-/// The change of the sine over the next step then equals that over the last step, and a factor of 1 would suffice.
+/// The sine then changes equally over the last step and the next step, and a factor of 1 would suffice.
 /// Near a dead point the sine is proportional to the root of the distance.
-/// The change of the sine over the next step is then up to (1 + root 2) times that over the last step.
+/// The change of the sine over the next step is then up to (1 + root 2) times its change over the last step.
 /// The difference between the factor `CLEAR` and 1 + root 2 is a reserve, not a proof.
 pub(super) const CLEAR: f64 = 4.0;
 /// Largest expected rotation of a dyad's links relative to each other, divided by the rotation of the crank.
@@ -128,7 +129,7 @@ impl Watch {
     /// Whether the positions alone show that no group passes a change point on this step of the crank.
     /// A step through a change point changes the angle between the dyad's links by at least the sum of the sines at its
     /// two ends.
-    /// A group is therefore safe if this sum exceeds two limits.
+    /// A group is therefore safe if this sum exceeds both of the following limits.
     /// The first limit is the largest expected rotation in this step.
     /// The second limit is `CLEAR` times the change of the clearance over the last step, scaled to this step.
     #[inline]

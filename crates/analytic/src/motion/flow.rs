@@ -25,8 +25,7 @@ const FARTHEST: f64 = std::f64::consts::PI;
 /// A bound of a piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Bound {
-    /// A reversal of the link, point or joint whose sense of motion the load or transmission with this number depends
-    /// on.
+    /// The load or transmission with this number depends on the sense of a motion, and this motion reverses.
     Sense(usize),
     /// The motor leaves its branch towards higher speeds.
     TooFast,
@@ -38,7 +37,8 @@ enum Bound {
     KnotAhead,
 }
 
-/// Bounds that every piece has. In the numbering of all bounds, they follow the bounds of the loads and transmissions.
+/// Bounds that every piece has.
+/// The numbers of these bounds come after the numbers of the loads' and transmissions' bounds.
 const COMMON: [Bound; 4] = [Bound::TooFast, Bound::TooSlow, Bound::KnotBehind, Bound::KnotAhead];
 /// A link, point or joint counts as at rest at the end of a piece if its speed is below this fraction of its largest
 /// speed so far.
@@ -61,8 +61,8 @@ pub(super) fn start<const N: usize>(case: &Case) -> [f64; N] {
     y
 }
 
-/// Number in [`Case::senses`] of a load or transmission that depends on a sense of motion, and the link, point or joint
-/// with this motion.
+/// A load or transmission that depends on a sense of motion: its number in [`Case::senses`], and the link, point or
+/// joint with this motion.
 type Sensed = (usize, Senses);
 
 /// The link, point or joint of [`Case::senses`]; `Senses::Nothing` for a link or joint that never moves.
@@ -261,7 +261,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
         Ok(())
     }
 
-    /// Computes the accelerations at `place`. The links, points and joints in `stood` are at rest there.
+    /// Computes the accelerations at `place`. The links, points and joints in `stood` are at rest at `place`.
     fn go_on(&self, work: &mut Work, place: &Place<N>, stood: &[Sensed]) -> Result<()> {
         self.origin.set(place.y);
         let ends = self.knots.around(self.crank(place.x, &place.y));
@@ -272,8 +272,8 @@ impl<'a, const N: usize> Pieces<'a, N> {
     }
 
     /// Chooses the motor's branch at the crank's speed.
-    /// Where two branches meet, a positive `towards` selects the one towards higher speeds, otherwise the one towards
-    /// lower speeds.
+    /// Where two branches meet, a positive `towards` selects the branch of the higher speeds.
+    /// Any other `towards` selects the branch of the lower speeds.
     fn choose_branch(&self, place: &Place<N>, towards: f64) {
         let motor = self.case.crank().moving_motor();
         self.branch.set(motor.map(|motor| motor.branch(self.crank_speed(&place.y), towards)));
@@ -324,7 +324,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
     }
 
     /// Chooses the senses of the links, points and joints at rest, which are in `stood`.
-    /// Each of them starts in the direction of its acceleration without resistances.
+    /// Each link, point or joint starts in the direction of its acceleration without resistances.
     /// If a resistance prevents this start, returns an error.
     fn set_off(&self, work: &mut Work, place: &Place<N>, stood: &[Sensed]) -> Result<()> {
         let before = work.held.clone();
@@ -337,7 +337,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
         let ahead = self.ahead(work, place, stood);
         // A link, point or joint at its dead centre is idle: it has no acceleration, and its load does no work at
         // first.
-        // Its sense of motion is taken from the velocity after a short time.
+        // The sense of an idle link, point or joint is the sense of its velocity after a short time.
         let idle =
             |second: Vec2, k: usize, (after, rates): &(f64, Vec<Vec2>)| second.norm() * after < 0.5 * rates[k].norm();
         let is_idle = |k: usize| ahead.as_ref().is_some_and(|found| idle(begun[k], k, found));

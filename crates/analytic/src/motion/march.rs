@@ -19,7 +19,7 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::work::{self, Count, WorkTally};
 
 /// Relative and absolute error allowed in each step, including the states inside it.
-/// The run-up of `crank_rocker` is then accurate to 5e-12 rad, and to 1e-14 rad at its end.
+/// With this error, the run-up of `crank_rocker` is accurate to 5e-12 rad, and its last instant to 1e-14 rad.
 pub const ACCURACY: f64 = 1e-11;
 /// Tolerance for the error estimate of a step, divided by the allowed error. The estimate refers to the end of the
 /// step.
@@ -46,13 +46,15 @@ pub(crate) const MOST_EMPTY: usize = 8;
 const MOST_STEPS: usize = 3_000_000;
 /// Each time this number of steps is completed, the total number of steps is predicted. If the predicted total exceeds
 /// `MOST_STEPS`, the march ends.
-/// Too many steps are needed if a motor is much too strong for the machine: the motor's time constant, not the motion,
-/// then limits the length of the steps.
+/// Too many steps are needed if a motor is much too strong for the machine.
+/// In this case, the motor's time constant limits the length of the steps.
 const PREDICTED: usize = 50_000;
-/// A step is short if its length is at most this fraction of the larger of two values: the length of the integration
-/// interval, and the independent variable at the step's beginning.
+/// A step is short if its length, divided by a reference length, is at most this value.
+/// The reference length is the integration interval or the independent variable at the step's beginning, whichever is
+/// larger.
 /// A long sequence of short steps ends the march.
-/// Short steps would never pass a singular pose: near it, accelerations are rounding errors or cannot be computed.
+/// Short steps would never pass a singular pose: near such a pose, accelerations are rounding errors or cannot be
+/// computed.
 const SHORTEST: f64 = 1e-9;
 const MOST_SHORT: usize = 400;
 /// A step may be longer than planned by this factor if the longer step reaches the last target. The factor avoids a
@@ -60,7 +62,7 @@ const MOST_SHORT: usize = 400;
 const STRETCH: f64 = 1.001;
 /// Number of bisections of a step for a first estimate of the position of a bound.
 const BISECTIONS: usize = 40;
-/// Largest number of repetitions of a shortened step. The secant method usually needs one or two.
+/// Largest number of repetitions of a shortened step. The secant method usually needs one or two repetitions.
 const CORRECTIONS: usize = 6;
 
 /// Why a march ended.

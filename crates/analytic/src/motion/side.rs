@@ -11,8 +11,8 @@ use linkage::math::{Motion, Vec2};
 use linkage::mechanism::{GROUND, JointId, JointSide as Place, LinkId};
 use linkage::solver::State;
 
-/// The driven coordinates at one instant, in the order of the drives: angles (rad; of a crank in the world) or slides
-/// (m), with their rates and accelerations.
+/// The driven coordinates at one instant, in the order of the drives, with their rates and accelerations.
+/// A coordinate is an angle (rad; for a crank the world angle) or a slide (m).
 /// A drive that follows its law has the values of the law.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Inputs {
@@ -41,7 +41,7 @@ pub(crate) struct Held {
 impl Held {
     /// For a load against the motion of a point: unit vector of this motion, zero at standstill.
     /// `velocity` is the point's velocity (m/s). The direction turns with the velocity.
-    /// If the point reverses within a step, the direction does not reverse with it.
+    /// If the point reverses within a step, the direction does not reverse.
     fn way(&self, load: usize, velocity: Vec2) -> Vec2 {
         let held = self.ways[load];
         let now = sense_of(velocity);

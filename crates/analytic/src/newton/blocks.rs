@@ -104,14 +104,15 @@ impl Blocks {
         self.entries.iter().flatten().copied()
     }
 
-    /// Factors all blocks. Returns false if one of them is singular to working precision, or not finite.
+    /// Factors all blocks. Returns `false` if a block is singular to working precision, or not finite.
     #[must_use]
     pub(super) fn factor(&mut self) -> bool {
         self.blocks.iter_mut().all(|block| block.matrix.factor())
     }
 
-    /// Smallest ratio of a block's determinant to the largest possible determinant, that of orthogonal columns with the
-    /// lengths of the block's columns.
+    /// For every block, the determinant is divided by the largest possible determinant; returns the smallest of these
+    /// ratios.
+    /// The determinant of a block would be largest if its columns kept their lengths and were orthogonal.
     /// Every column belongs to one coordinate, so the ratio does not depend on the units of the coordinates (m and
     /// rad).
     pub(super) fn smallest_share(&self) -> f64 {

@@ -5,8 +5,8 @@
 //! Then C1 = n . d.
 //! A prismatic joint has the additional equation C2 = theta2 - theta1 - twist.
 //! As n' = -omega1 e, dC1/dtheta1 = -e . (d + r1) with r1 from the mass centre to p1.
-//! C1'' = 0 gives n . d'' = 2 omega1 e . d' + alpha1 e . d. The first term on the right and the centripetal terms of
-//! d'' form gamma.
+//! C1'' = 0 gives n . d'' = 2 omega1 e . d' + alpha1 e . d. gamma consists of the first term on the right and the
+//! centripetal terms of d''.
 //! The multiplier of C1 is therefore a force along n that acts at p2 on both links. The multiplier of C2 is a moment.
 //! The formulas of the derivatives are derived here. The constraints are equations 3.3.10 and 3.3.13 of E. J. Haug,
 //! Computer Aided Kinematics and Dynamics of Mechanical Systems, vol. 1, Allyn and Bacon 1989.

@@ -1,5 +1,5 @@
-//! Free motion of the whole mechanism: J q'' = gamma + E alpha with unknown accelerations alpha of the free driving
-//! links, found by embedding.
+//! Free motion of the whole mechanism: J q'' = gamma + E alpha.
+//! The unknown accelerations alpha of the free driving links are found by embedding.
 //!
 //! V = J^-1 E has one column per drive. Then q'' = a0 + V alpha.
 //! V^T J^T lambda = E^T lambda are the moments of the drives, which motor and rotor determine.

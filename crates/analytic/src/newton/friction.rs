@@ -20,15 +20,16 @@ use linkage::mechanism::{GROUND, LinkId};
 
 /// Largest number of Newton's steps.
 const MOST: usize = 40;
-/// Smallest step, as a fraction of the friction, in which the friction is increased if the method does not converge.
+/// If Newton's method does not converge, the friction is increased in steps from zero to its full value.
+/// This is the smallest step, as a fraction of the full value.
 const LEAST: f64 = 1e-3;
 /// The multipliers are settled if they change by less than this fraction of the largest one.
 const SETTLED: f64 = 1e-14;
 /// A change below this fraction of the largest multiplier is rounding error if the changes no longer decrease.
 const ROUNDING: f64 = 1e-10;
 
-/// The free drives of a motion: the velocities of all links for a unit rate of each drive (the columns V), the indices
-/// of the free drives, and the data of motor, loads and losses.
+/// Data of a free motion: the columns V, the indices of the free drives, and the data of motor, loads and losses.
+/// A column of V contains the velocities of all links for a unit rate of one drive.
 pub(super) struct Freedom<'a> {
     pub(super) columns: &'a [f64],
     pub(super) free: &'a [usize],
@@ -37,10 +38,10 @@ pub(super) struct Freedom<'a> {
 
 /// Sum of the normal forces of a joint as a function of its multipliers, and the derivatives of the sum with respect to
 /// the multipliers.
-/// For a transmission: the lost power of its force, divided by the lever and the speed.
+/// For a transmission: the power lost in the transmission, divided by the lever and the speed.
 fn of_multipliers(friction: &Friction, own: &[f64], slides: bool, sense: f64) -> (f64, [f64; 2]) {
     if let FrictionSeat::Mesh { losses, .. } = friction.seat {
-        // The power to the second member, divided by a positive factor.
+        // Power that flows to the second member, divided by a positive factor.
         let power = own[0] * losses.lever * sense;
         let slope = if power < 0.0 { -losses.lost[1] } else { losses.lost[0] } * (losses.lever * sense).signum();
         return (slope * own[0], [slope, 0.0]);

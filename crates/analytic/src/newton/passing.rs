@@ -27,9 +27,9 @@ use window::Window;
 const LOOK: f64 = 0.8;
 /// Rotation of the crank (rad) from which the slopes of the determinants at the start are computed.
 const PROBE: f64 = 1e-4;
-/// A search is made only if no known change point is nearer than this multiple of the estimated distance.
-/// A nearer known change point is the estimated one or lies before the estimated one.
-/// Change points beyond a known change point are searched for from the window of the known change point.
+/// No search is made if a known change point lies nearer than this multiple of the estimated distance.
+/// The known change point is then the estimated change point or lies before it.
+/// The window of the known change point is the start of the search for later change points.
 const NEXT: f64 = 1.3;
 /// Two change points closer together than this (rad) count as one change point, at which several groups are singular.
 const SAME: f64 = 1e-6;

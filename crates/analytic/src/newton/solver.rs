@@ -18,7 +18,7 @@ use linkage::error::{Error, Result};
 use linkage::solver::{Progress, Provision, Solver, State, Visit};
 use linkage::trajectory::Channel;
 
-/// The solver of side 2. It solves the whole mechanism by Newton's method and Lagrange multipliers.
+/// The solver of side 2. Side 2 solves the whole mechanism by Newton's method and Lagrange multipliers.
 #[derive(Clone, Copy, Debug)]
 pub struct NewtonSolver;
 

@@ -119,7 +119,8 @@ impl System<'_> {
     }
 
     /// Corrects the pose in `q` by Newton's method, to rounding accuracy.
-    /// The factored Jacobian is that of the pose before the last correction. The two poses differ by rounding error.
+    /// The factored Jacobian belongs to the pose before the last correction, which differs from the result by rounding
+    /// error.
     pub(super) fn correct(&mut self) -> Result<()> {
         self.tally.one(Count::Poses);
         let size = self.case.mechanism.size();
@@ -137,8 +138,8 @@ impl System<'_> {
                 self.q[i] -= step;
                 change = change.larger(step.abs() / if i % 3 == 2 { 1.0 } else { size });
             }
-            // Convergence is quadratic: after a change below 1e-9, the next change is rounding error. The method takes
-            // one more step to be sure.
+            // Convergence is quadratic: after a change below 1e-9, the next change is rounding error. One more step is
+            // taken nevertheless.
             if change < 1e-14 || last.larger(change) < self.settled {
                 return Ok(());
             }

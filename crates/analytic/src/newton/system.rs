@@ -118,7 +118,7 @@ impl<'a> System<'a> {
         (motion, self.q[i + 2])
     }
 
-    /// The drives with their rows, which come after those of joints and transmissions.
+    /// The drives with their rows, which come after the rows of joints and transmissions.
     pub(super) fn drives(&self) -> impl Iterator<Item = (usize, &'a Drive)> + use<'a> {
         let first = self.case.mechanism.row_of_drive(0);
         self.case.drives.iter().enumerate().map(move |(index, drive)| (first + index, drive))

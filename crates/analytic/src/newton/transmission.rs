@@ -3,7 +3,7 @@
 //!
 //! C' = w . (v2 - v1) with the line's direction w at the feet.
 //! The residual is c2 (q2 - f(q1)), minus its value in the start pose, plus the gaps of axles and guide along the line.
-//! The gaps are zero in the solution. They are included so that the row C' is the exact derivative of the residual.
+//! The gaps are zero in the solution. The residual includes these gaps so that the row C' is its exact derivative.
 //! For cams, the feet move relative to the carrier with the velocity q1' p, and the line turns relative to the carrier
 //! with the rate k q1'.
 //! With the angular velocities omega_i of the members and omega_0 of the carrier, and the velocity v of the point of
@@ -65,7 +65,7 @@ impl System<'_> {
         self.residual[row] = contact.factor * off + self.gap(transmission, line.feet[1], direction);
     }
 
-    /// Gap of the second axle or guide minus that of the first axle, along the world direction of the line (m).
+    /// Gap of the second axle or guide minus the gap of the first axle, along the world direction of the line (m).
     fn gap(&self, transmission: &Transmission, foot: Vec2, direction: Vec2) -> f64 {
         let carrier = transmission.design.carrier;
         let at = |link: LinkId, local: Vec2| self.centre(link) + self.arm(link, local);

@@ -4,7 +4,7 @@
 //! Every driven or geared slide is also an additional coordinate.
 //!
 //! The coordinates of every moving link are x and y of the middle of its joints, and its angle.
-//! x and y are divided by the size of the mechanism, so that they are comparable with angles.
+//! The coordinates x and y are divided by the size of the mechanism, so that they are comparable with angles.
 //! One function per kind of joint writes the rows of the joint.
 
 use linkage::input::Input;
@@ -17,7 +17,7 @@ use linkage::mechanism::{
 pub(super) struct Gearing {
     /// Indices of the coordinates and their factors.
     pub(super) terms: Vec<(usize, f64)>,
-    /// Sum of the factors times coordinates, minus the law of the transmission.
+    /// Constant value of the equation: the sum of the factors times coordinates, minus the law of the transmission.
     pub(super) sum: f64,
     /// The law of a transmission.
     pub(super) law: Option<FirstMember>,
@@ -33,7 +33,8 @@ pub(super) struct FirstMember {
 }
 
 impl Gearing {
-    /// The sum minus the law, and the first member's terms times minus the derivative of the law.
+    /// Returns the sum of the factors times coordinates, minus the law.
+    /// Also returns the derivatives of minus the law: index and value for each coordinate of the first member.
     fn at(&self, mechanism: &Mechanism, q: &ColumnVector) -> (f64, Vec<(usize, f64)>) {
         let sum = |terms: &[(usize, f64)]| terms.iter().map(|&(index, factor)| factor * q[index]).sum::<f64>();
         let Some(FirstMember { transmission, first, unit }) = &self.law else { return (sum(&self.terms), Vec::new()) };
@@ -114,7 +115,7 @@ impl<'a> Constraints<'a> {
         3 * (self.mechanism.links().len() - 1)
     }
 
-    /// Number of coordinates: those of the links, and one for every given joint.
+    /// Number of all coordinates: the coordinates of the links, and one coordinate for every given joint.
     pub(super) fn coordinates(&self) -> usize {
         self.of_links() + self.given.len()
     }
@@ -265,8 +266,8 @@ impl<'a> Constraints<'a> {
         }
     }
 
-    /// Position of a joint on one of its links, and the vector to it from the middle of this link. Unit: the
-    /// mechanism's size.
+    /// Position of a joint on one of its links, and the vector from the middle of this link to the joint.
+    /// The unit is the mechanism's size.
     fn point(&self, side: JointSide, q: &ColumnVector) -> (Vec2, Vec2) {
         if side.link == GROUND {
             return ((side.local - self.origin) / self.size, Vec2::zeros());
@@ -277,7 +278,7 @@ impl<'a> Constraints<'a> {
     }
 
     /// The part of a Jacobian for the joints, transmissions and links of a group. The part is square.
-    /// Its columns are all x and y first, then all angles, then the slides of racks.
+    /// The columns are in the order: all x and y, all angles, the slides of racks.
     pub(super) fn block(&self, jacobian: &Matrix, group: &Group) -> Matrix {
         let joints = || group.inner.iter().chain(&group.outer);
         let is_known = |number: usize| group.given.contains(&self.given[number].0);

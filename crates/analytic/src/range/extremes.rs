@@ -14,7 +14,7 @@ use super::tracking::{Point, Tracker};
 /// A link counts as at rest if its tangent component, times the square of the smallest singular value, is at most this
 /// value. The component is then rounding error.
 /// The error of a pose is the rounding error divided by the singular value.
-/// The error of its tangent is the error of the pose, divided by the singular value again.
+/// The error of the tangent is the error of the pose, divided by the singular value a second time.
 const STILL: f64 = 50.0 * f64::EPSILON;
 
 /// Extreme position of a link: its angular velocity changes sign.
@@ -33,10 +33,10 @@ pub struct ExtremePosition {
 pub struct LinkRange {
     /// The link.
     pub link: LinkId,
-    /// Smallest and greatest angle (rad, continued from that of the start pose), with their crank angles.
+    /// Smallest and greatest angle with their crank angles (rad); the angles continue the angle of the start pose.
     pub angles: [ValueAtCrank; 2],
     /// Whole turns of the link until the mechanism is back at its first pose.
-    /// The sign is for a crank that turns counter-clockwise: positive if the link then turns counter-clockwise.
+    /// For a crank that turns counter-clockwise, the number is positive if the link also turns counter-clockwise.
     /// The number is 0 for a link that rocks, or if the crank cannot turn fully.
     pub turns: i32,
     /// Extreme positions in ascending order of the crank angle.

@@ -1,6 +1,6 @@
 //! Grashof's type of a four-bar.
 //!
-//! Let s be the length of the shortest link, l that of the longest link, and p and q those of the other two links.
+//! Let s and l be the lengths of the shortest and the longest link, and p and q the lengths of the other two links.
 //! If s + l < p + q, the shortest link turns fully relative to all others. The type depends on which link is shortest.
 //! If s + l > p + q, no link turns fully.
 //! If both sums are equal, all joints can lie on one line. Branches cross in this pose.

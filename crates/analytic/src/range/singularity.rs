@@ -16,8 +16,8 @@ linkage::words! {
         /// The two axes of an RPP or PRP dyad are parallel. Towards this pose the slides of the dyad grow without
         /// bound.
         ParallelAxes = "parallel axes",
-        /// Another branch is so near the followed one that the determinant is below 1e-3. The determinant keeps its
-        /// sign.
+        /// Another branch is so near the followed branch that the determinant is below 1e-3.
+        /// The determinant keeps its sign.
         BranchContact = "branch contact",
     }
 }

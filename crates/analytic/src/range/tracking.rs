@@ -6,7 +6,7 @@
 //! As a function of the crank angle, the pose behaves like a square root at a limit of rotation.
 //! Where branches cross, the rank of the equations drops.
 //! The smallest singular value of the Jacobian is a lower bound on the distance to another branch.
-//! Steps are kept smaller than this value, so that no step jumps to another branch.
+//! Steps are kept smaller than this singular value, so that no step jumps to another branch.
 
 use crate::sentences;
 use std::cell::{OnceCell, RefCell};
@@ -40,7 +40,7 @@ const STRAIGHT: f64 = 0.969;
 /// Two branches count as meeting if their distance is below this value (in units of the mechanism's size and rad).
 /// Lengths rounded to 16 digits separate crossing branches by the square root of the rounding error, 1e-8.
 const MEET: f64 = 1e-6;
-/// Shortest step. If a shorter step were needed, branches count as meeting.
+/// Shortest step. If even this step is too long, two branches count as meeting.
 const SHORTEST: f64 = 1e-9;
 /// Largest number of steps of the search for a zero along the curve; about eight are needed.
 const STEPS_TO_ZERO: usize = 60;
@@ -106,7 +106,9 @@ pub(super) struct Tracker<'a> {
     /// size (m) for a slide.
     crank: usize,
     unit: f64,
-    /// Signs that give a dyad's determinant the sign of its transmission sine; others are positive at the start.
+    /// Factors +1 or -1 of the groups' determinants.
+    /// With its factor, a dyad's determinant has the sign of the transmission sine; other determinants are positive at
+    /// the start.
     signs: Vec<f64>,
     /// Direction of the smallest singular value at the last pose. The inverse iteration at the next pose starts from
     /// this direction.
@@ -261,7 +263,7 @@ impl<'a> Tracker<'a> {
         (point.tangent.dot(&from.tangent) >= STRAIGHT).then_some(point)
     }
 
-    /// The pose near `near` with the coordinate of the first drive at `angle`, in its unit.
+    /// The pose near `near` at which the coordinate of the first drive is `angle`, in units of this coordinate.
     fn at_crank(&self, near: &Point, angle: f64) -> Option<Point> {
         let mut across = ColumnVector::zeros(near.q.len());
         across[self.crank] = 1.0;
@@ -537,7 +539,7 @@ fn factored(matrix: &Matrix) -> Option<Lu> {
     lu.factor().then_some(lu)
 }
 
-/// A start direction for the iteration. It is not orthogonal to any direction that occurs.
+/// A start direction for the iteration, which is not orthogonal to any direction that occurs.
 fn any_direction(n: usize) -> ColumnVector {
     ColumnVector::from_fn(n, |row, _| 1.0 + (row as f64).sin()).normalize()
 }
@@ -550,7 +552,8 @@ fn solved(matrix: &Matrix, mut right: ColumnVector) -> Option<ColumnVector> {
 
 /// Smallest singular value, by inverse iteration, and the number of iterations.
 /// The value is 0 for a matrix that is singular to working precision.
-/// The iteration starts from the direction `x`. Afterwards, `x` is the direction of the singular value.
+/// The iteration starts from the direction `x`. At the end of the iteration, `x` is the direction of the singular
+/// value.
 fn smallest_singular_value(matrix: &Matrix, x: &mut ColumnVector) -> (f64, usize) {
     let Some(lu) = factored(matrix) else { return (0.0, 0) };
     // Adds a small component in every direction, so that the iteration can reach every direction.

@@ -146,7 +146,7 @@ impl Flow<2> for InTime<'_, '_> {
 }
 
 /// Kinetic energy, time, and the derivative of the energy with respect to its initial value.
-/// These three are functions of the crank angle, which is counted in the sense of motion.
+/// All three quantities are functions of the crank angle, which is counted in the sense of motion.
 pub(crate) struct OverAngle<'m, 'a>(pub(crate) Forces<'m, 'a>);
 
 impl OverAngle<'_, '_> {

@@ -78,8 +78,8 @@ pub struct ReducedModel<'a> {
 }
 
 impl<'a> ReducedModel<'a> {
-    /// The model of a case. Its motor drives in the sense of the prescribed speed. The model does not use the value of
-    /// this speed.
+    /// The model of a case. The motor of the model drives in the sense of the prescribed speed.
+    /// The model does not use the value of this speed.
     ///
     /// # Errors
     /// [`ErrorKind::Unsupported`] for mechanisms of several degrees of freedom, and for loads that depend on the size

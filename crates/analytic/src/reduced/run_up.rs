@@ -277,7 +277,7 @@ impl RunUp {
             times: motion.iter().map(|instant| instant.t).collect(),
             inputs: motion.iter().map(|instant| instant.crank).collect(),
         };
-        // Forces determine this motion. The law of the crank must therefore not limit the time of the grid.
+        // Forces determine this motion, so the crank's prescribed law must not limit the times of the grid.
         let case = model.case.at_top_speed().on(grid)?;
         let mut sampler = Sampler::new(&case);
         let (mut natural, size) = (0.0f64, case.mechanism.size());

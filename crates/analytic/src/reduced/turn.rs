@@ -124,7 +124,8 @@ fn between(
         return Ok(());
     }
     // The link may have reversed twice only if two tangents of its angular velocity intersect beyond zero.
-    // The tangents are those at the two ends of the interval. Beyond zero, the angular velocity has the opposite sign.
+    // The tangents touch the curve of the angular velocity at the two ends of the interval.
+    // Beyond zero, the angular velocity has the opposite sign.
     // If the tangents intersect elsewhere, the interval is not halved.
     let at = (b.omega - a.omega + a.slope * a.crank - b.slope * b.crank) / (a.slope - b.slope);
     let is_dip = a.omega * a.slope < 0.0 && b.omega * b.slope > 0.0;

@@ -24,13 +24,14 @@ pub struct Averaged {
 }
 
 impl Averaged {
-    /// The model of a motor with a moment of inertia on the crank (kg m^2, including rotor, reducer and flywheel) and a
-    /// moment of resistance (N m, positive where the motor must work against it).
+    /// The model of a motor that drives a constant moment of inertia against a constant moment of resistance.
+    /// `inertia` is the moment of inertia on the crank, including rotor, reducer and flywheel (kg m^2).
+    /// `resistance` is the moment of resistance on the crank (N m), positive where the motor must work against it.
     ///
     /// `None` where this closed form does not exist: the law is not linear, or the motor does not start against the
     /// resistance.
-    /// Also `None` where the resistance drives the motor beyond its no-load speed through a reducer with losses: the
-    /// motor's line has a bend at the no-load speed.
+    /// Also `None` if the reducer has losses and the resistance drives the motor beyond its no-load speed.
+    /// In this case, the motor's line has a bend at the no-load speed.
     #[must_use]
     pub fn of(motor: &Motor, inertia: f64, resistance: f64) -> Option<Self> {
         let MotorLaw::Linear { .. } = motor.law else { return None };

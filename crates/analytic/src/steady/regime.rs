@@ -12,7 +12,7 @@ use crate::reduced::means::{self, no_turn};
 use crate::reduced::model::{Piece, ReducedModel};
 use linkage::error::{Error, ErrorKind, Result};
 
-/// Largest number of Newton steps of the shooting method. The method usually needs three to six.
+/// Largest number of Newton steps of the shooting method. The method usually needs three to six steps.
 const MOST_SHOTS: usize = 60;
 /// If the relative change of the energy over a period is at most this value, the change counts as zero.
 const CLOSED: f64 = 2e-14;

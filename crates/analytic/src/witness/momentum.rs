@@ -6,7 +6,8 @@ use linkage::solver::State;
 
 /// Shaking force (N) and shaking moment about the origin (N m) from d'Alembert's principle for all moving links
 /// together.
-/// Inner reactions cancel. Loads between two links also cancel, including loads between a link and the frame.
+/// Reactions between moving links cancel.
+/// Loads between two links cancel as well, including loads between a link and the frame.
 /// The frame carries F = sum of m (g - a) + loads and M = sum of r x m (g - a) - J alpha + loads.
 #[must_use]
 pub fn shaking(case: &Case, state: &State) -> (Vec2, f64) {

@@ -104,7 +104,8 @@ impl Triad {
 
     /// Resultant of the known forces on each link: all forces except the group's reactions.
     /// The known forces are gravity and inertia m (g - a) at the mass centre, the moment -J alpha, and loads.
-    /// The known forces include those in the joints with later groups, which are taken from the state.
+    /// The known forces also include the reactions in the joints with later groups; these reactions are taken from the
+    /// state.
     #[must_use]
     pub fn known(&self, case: &Case, state: &State) -> [KnownResultant; 4] {
         let (motions, forces) = (&state.motions, &state.forces);

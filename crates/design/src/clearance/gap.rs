@@ -1,6 +1,7 @@
 //! Distance of two bodies at the middle of a part of the range, with a lower bound over the whole part.
 //!
-//! parry2d computes the nearest points. The bound depends only on the direction between the nearest points.
+//! The library parry2d computes the nearest points.
+//! The bound depends only on the direction between the nearest points.
 //! The distance of two convex parts along a fixed direction is the distance of their extreme corners along this
 //! direction.
 //! Every corner moves uniformly, up to a proven error, so the bound is valid for any direction.
@@ -63,13 +64,13 @@ pub struct Gap {
     /// Nearest points at the middle, on the first and the second body (m).
     pub points: [Vec2; 2],
     /// Lower bound of the distance over the part of the range (m). The bound may be negative.
-    /// The bound is proven only if the slice is sound.
+    /// The bound is proven only if the field `sound` of the slice is true.
     pub least: f64,
 }
 
 impl Solid {
     /// Prepares an outline of a link for distance queries.
-    /// parry2d receives lengths in units of `scale` (m), because its tolerances are absolute.
+    /// The library parry2d receives lengths in units of `scale` (m), because its tolerances are absolute.
     pub fn new(link: LinkId, outline: &Outline, scale: f64) -> Self {
         let pieces = outline.parts().iter().map(|part| Piece::new(part, scale)).collect();
         Solid { link, radius: outline.radius(), pieces, scale }

@@ -18,11 +18,11 @@ use linkage::math::{Vec2, cross};
 use linkage::mechanism::LinkId;
 use linkage::trajectory::Stage;
 
-/// Number of values stored per link and interval: the starting values of the link (see `OF_START`), except the fraction
-/// of the interval, which depends on the pose.
+/// Number of values stored per link and interval: one fewer than `OF_START`.
+/// The fraction of the interval is not stored, because it depends on the pose.
 const KEPT: usize = OF_START - 1;
 /// Distance between two anchors (rad). The distance is slightly smaller than the longest step of [`PoseSolver`], so
-/// that rounding does not make it larger than this step.
+/// that a rounded distance never exceeds this step.
 const STEP: f64 = FOLLOWED_STEP * (1.0 - 1e-9);
 /// Largest number of intervals in one direction, about 278 turns. Poses farther away are solved one by one.
 const MOST: usize = 50_000;
@@ -74,8 +74,8 @@ impl<'a> Anchors<'a> {
         for (row, crank) in cranks.iter().enumerate() {
             let way = &mut self.ways[usize::from(*crank < self.start)];
             let place = (crank - self.start) / way.step;
-            // An infinite `place` lies beyond every interval. A NaN `place` selects the first interval.
-            // The fraction of the interval is then also NaN.
+            // An infinite `place` lies beyond every interval.
+            // A NaN `place` selects the first interval, and the fraction of this interval becomes NaN.
             let interval = place as usize;
             let is_known = way.reach(self.start, interval);
             let kept = way.intervals.chunks_exact(KEPT * way.links.len()).nth(interval).filter(|_| is_known);
@@ -106,7 +106,7 @@ impl Way<'_> {
         }
         while self.is_open && self.count <= interval {
             let next = start + self.step * (self.count + 1) as f64;
-            // An error is not reported here: the solution of the pose that needs this interval reports it.
+            // No error is reported here: the solution of the pose that needs this interval reports the error.
             self.is_open = self.poses.solve(next, 1.0, 0.0, Stage::Accelerations).is_ok();
             if self.is_open {
                 self.add();
@@ -121,15 +121,15 @@ impl Way<'_> {
         self.links.iter().map(|&link| (motions[link].direction, [motions[link].omega, motions[link].alpha])).collect()
     }
 
-    /// Stores the interval from the last anchor to the present one.
+    /// Stores the interval from the last anchor to the present anchor.
     fn add(&mut self) {
         let next = self.read();
         for ((from, [omega, alpha]), (to, [omega_to, alpha_to])) in self.last.iter().zip(&next) {
             let turn = cross(*from, *to).atan2(from.dot(to));
             let (h, h2) = (self.step, self.step * self.step);
             let (first, second) = (h * omega, 0.5 * h2 * alpha);
-            // Remainders of the angle, its rate and its second derivative at the end of the interval, after subtraction
-            // of the polynomial's linear and quadratic terms.
+            // Angle, rate and second derivative at the end of the interval, minus the linear and quadratic terms of the
+            // polynomial.
             let angle = turn - first - second;
             let rate = h * omega_to - first - 2.0 * second;
             let bend = h2 * alpha_to - 2.0 * second;

@@ -3,7 +3,7 @@
 //! The motion is computed with the equations of [`crate::assur::groups::Rrr`], the forces with the equations of the
 //! module `assur::forces`.
 //! The sources of the equations are named in these two modules.
-//! The results equal those of these modules, bit by bit, if the motion of the driving links does.
+//! If the motion of the driving links has the same bits as in these two modules, the results have the same bits too.
 
 use pulp::Simd;
 
@@ -42,8 +42,9 @@ impl Groups {
         tile.put(self.layout.reach(), reach);
     }
 
-    /// Zero in poses in which every link with a moment of resistance turns; NaN in poses in which its angular velocity
-    /// may be a rounding error.
+    /// Returns NaN for poses in which the angular velocity of a link with a moment of resistance may be a rounding
+    /// error.
+    /// Returns 0 for all other poses.
     #[inline(always)]
     pub(super) fn standstill<S: Simd>(&self, tile: &Window<S>) -> Lanes<S> {
         let (zero, doubt) = (Lanes::splat(tile.simd, 0.0), Lanes::splat(tile.simd, f64::NAN));
@@ -106,7 +107,8 @@ impl Driver {
 }
 
 impl Arm {
-    /// Position, velocity and acceleration of the outer joint, in world axes. Those beyond the stage `deepest` are 0.
+    /// Position, velocity and acceleration of the outer joint, in world axes. Quantities beyond the stage `deepest` are
+    /// 0.
     #[inline(always)]
     fn base<S: Simd>(&self, deepest: Stage, tile: &Window<S>) -> [Plane<S>; 3] {
         let zero = Plane::splat(tile.simd, Vec2::zeros());
@@ -129,7 +131,7 @@ impl Arm {
 
 impl Dyad {
     /// Computes the motion of both links. Returns r1 x r2 (m^2), or NaN for poses that cannot be assembled.
-    /// The operations and their order are those of [`crate::assur::groups::Rrr`], so that the bits are the same.
+    /// The operations and their order are the same as in [`crate::assur::groups::Rrr`], so that the bits are the same.
     #[inline(always)]
     fn turn<S: Simd>(&self, deepest: Stage, tile: &mut Window<S>, work: &mut Window<S>, column: usize) -> Lanes<S> {
         let [first, second] = &self.arms;
@@ -180,8 +182,8 @@ impl Dyad {
 
     /// Returns 0 where the pose and the motion to the next pose are clear of dead points, elsewhere NaN.
     /// The sine of the transmission angle is s = (r1 x r2) / (l1 l2).
-    /// Its rate is s' = (r1 . r2) (omega2 - omega1) / (l1 l2), and `pace` (s) is the time between two poses.
-    /// |s| must be larger than `least`, and |s'| times `pace` smaller than `share` times |s|.
+    /// The rate of s is s' = (r1 . r2) (omega2 - omega1) / (l1 l2), and `pace` (s) is the time between two poses.
+    /// The magnitude |s| must be larger than `least`, and |s'| times `pace` smaller than `share` times |s|.
     #[inline(always)]
     pub(super) fn doubt<S: Simd>(
         &self,
@@ -224,7 +226,7 @@ impl Body {
     }
 
     /// Returns the resultant of all known forces on the link and their moment about the world point `pole`.
-    /// The operations and their order are those of the module `assur::forces`.
+    /// The operations and their order are the same as in the module `assur::forces`.
     #[inline(always)]
     pub(super) fn resultant<S: Simd>(&self, gravity: Vec2, pole: Plane<S>, tile: &Window<S>) -> (Plane<S>, Lanes<S>) {
         let (origin, direction) = (tile.vector(self.link + ORIGIN), tile.vector(self.link + DIRECTION));

@@ -126,7 +126,7 @@ impl Groups {
         Some(Groups { layout, gravity: case.gravity, drivers, parts, columns })
     }
 
-    /// The links of driving links and dyads.
+    /// The driving links and the links of the dyads.
     #[inline(always)]
     pub(super) fn bodies(&self) -> impl Iterator<Item = &Body> {
         let of_dyads = self.parts.iter().filter_map(|(part, _)| match part {

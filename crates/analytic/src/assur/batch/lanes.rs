@@ -1,7 +1,7 @@
 //! One number or plane vector for several poses at once, on the widest registers of the machine.
 //!
 //! Every operation is an IEEE 754 operation on each lane separately, without fused multiply-add.
-//! A lane's value therefore depends neither on its neighbours nor on the number of lanes.
+//! A lane's value therefore does not depend on its neighbours or on the number of lanes.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -224,7 +224,7 @@ impl<S: Simd> Window<'_, S> {
         S::as_mut_simd_f64s(&mut self.columns[column].0).0[self.part] = lanes.value;
     }
 
-    /// This part of a column elsewhere.
+    /// The same part of a column that is not in the tile.
     #[inline(always)]
     pub(super) fn of(&self, column: &Eight) -> Lanes<S> {
         self.in_array(&column.0)

@@ -14,7 +14,7 @@ use super::poses::{ALPHA, DIRECTION, Layout, OMEGA};
 use super::tally::PoseTally;
 use crate::assur::groups::SolutionPlan;
 
-/// The magnitude of the sine of every transmission angle must be larger.
+/// Lower limit of the magnitude of the sine of every transmission angle.
 const CLEAR_SINE: f64 = 0.01;
 /// Largest allowed change of the sine of a transmission angle between two instants, as a fraction of the sine.
 /// Near a dead point the square of the sine s is linear in time, so that s is zero after the time t = s / (2 s').
@@ -31,7 +31,7 @@ pub struct CaseBatch {
     plan: SolutionPlan,
     layout: Layout,
     groups: Groups,
-    /// The crank in each tile of the grid, and at the start.
+    /// Angles and directions of the crank in each tile of the grid, and at the start pose.
     cranks: Vec<CrankTile>,
     start: CrankTile,
     /// Whether the rows are in the order of time.
@@ -114,7 +114,8 @@ impl CaseBatch {
         &self.case
     }
 
-    /// Changes numbers of links, and positions of joints on links. Names, kinds and order must remain.
+    /// Changes numbers of links, and positions of joints on links. The names, kinds and order of links and joints must
+    /// stay unchanged.
     pub fn renumber(&mut self, change: impl FnOnce(&mut [Link], &mut [Joint])) {
         self.case.renumber(change);
         self.groups = Groups::of(&self.case, &self.plan, self.layout).expect("the structure is that of the first case");
@@ -141,8 +142,8 @@ struct AllTiles<'a> {
 }
 
 impl CaseBatch {
-    /// Solves the tile `index` of the grid, or the start pose if `index` is `None`. `doubt` becomes NaN where a dead
-    /// point may be near.
+    /// Solves the tile `index` of the grid, or the start pose if `index` is `None`. `doubt` becomes NaN in the lanes of
+    /// poses that may be near a dead point.
     #[inline(always)]
     fn solve_tile<S: Simd>(
         &mut self,

@@ -1,4 +1,5 @@
-//! Storage for the poses of a batch. Its columns are divided into tiles of eight rows that are adjacent in memory.
+//! Storage for the poses of a batch. The columns of the storage are divided into tiles of eight rows that are adjacent
+//! in memory.
 
 use super::lanes::{Eight, TILE};
 use linkage::case::Case;

@@ -27,7 +27,7 @@ pub enum PoseQuantity {
     Alpha(LinkId),
     /// Position (m), velocity (m/s) or acceleration (m/s^2) of a point of a link, by the index of the point.
     Point(LinkId, usize, OfPoint),
-    /// The same for the mass centre of a link.
+    /// Position (m), velocity (m/s) or acceleration (m/s^2) of the mass centre of a link.
     Centre(LinkId, OfPoint),
     /// Force of the first link of a joint on the second along x (N).
     ForceX(JointId),
@@ -43,8 +43,9 @@ pub enum PoseQuantity {
     TransmissionSine(GroupId),
 }
 
-/// Sine of the transmission angle of an RRR dyad, without its sign: from the directions of its links, and the vectors
-/// from outer to inner joint in the frames of the links.
+/// Returns the magnitude of the sine of the transmission angle of an RRR dyad.
+/// `directions` are the world directions of the dyad's links.
+/// `spans` are the vectors from outer to inner joint in the frames of these links (m).
 #[must_use]
 pub fn rrr_sine(directions: [Vec2; 2], spans: [Vec2; 2]) -> f64 {
     let [a, b] = array::from_fn(|k| rotated(directions[k], spans[k]));
@@ -59,7 +60,7 @@ fn product(spans: [Vec2; 2]) -> f64 {
 /// The vectors from outer to inner joint of a dyad, in the frames of its links (m).
 ///
 /// # Panics
-/// If the group is no dyad.
+/// If the group is not a dyad.
 #[must_use]
 pub fn spans(case: &Case, group: GroupId) -> [Vec2; 2] {
     let (group, joints) = (&case.structure.groups[group], case.mechanism.joints());
@@ -91,11 +92,11 @@ enum Reading {
     Square(usize),
     /// Angle of the crank, which is given.
     Given,
-    /// Angle of a link from its first column, its direction in the last row, and its whole turns.
+    /// Angle of a link: first column of the link, direction of the link in the last row, and whole turns.
     Angle(usize, Vec2, f64),
-    /// A point by the first column of its link, and its place on the link.
+    /// A point: first column of its link, and position of the point on the link.
     Point(usize, Vec2, OfPoint),
-    /// Sine of a transmission angle by the first columns of the links, their spans, and the product of their lengths.
+    /// Sine of a transmission angle: first columns of the two links, their spans, and the product of their lengths.
     Sine([usize; 2], [Vec2; 2], f64),
 }
 
@@ -106,7 +107,7 @@ impl PoseTally {
         PoseTally { quantity, unit, tally, reading: Reading::Given, fault: Eight([0.0; TILE]) }
     }
 
-    /// Whether this is the same statistic of the same quantity.
+    /// Whether `other` is the same statistic of the same quantity in the same unit.
     #[must_use]
     pub fn is_like(&self, other: &PoseTally) -> bool {
         self.quantity == other.quantity && self.unit == other.unit && self.tally == other.tally
@@ -149,7 +150,8 @@ impl PoseTally {
         matches!(self.reading, Reading::Angle(..))
     }
 
-    /// Reads the start pose. `false` if the whole turns there are in doubt, because the direction is nearly -x.
+    /// Reads the start pose. Returns `false` if the link's direction in this pose is nearly -x, because the number of
+    /// whole turns is then uncertain.
     pub(super) fn begin(&mut self, tile: &[Eight]) -> bool {
         let Reading::Angle(first, last, _) = &mut self.reading else { return true };
         *last = direction(tile, *first, 0);
@@ -188,7 +190,8 @@ impl PoseTally {
     }
 }
 
-/// [`Tally::add`] for a part of a tile. Closures would not be vectorised.
+/// [`Tally::add`] for a part of a tile.
+/// The arms call functions, because the compiler would not vectorise closures.
 #[inline(always)]
 fn add<S: Simd>(tally: &mut Tally, row: usize, values: Lanes<S>, part: &Window<S>) {
     match tally {

@@ -101,7 +101,8 @@ impl Action {
     }
 
     /// Stores a prismatic joint's reaction, given the force on the link and a moment about `pole`.
-    /// The moment is that of all actions on the link except the joint's reaction. The reaction balances the moment.
+    /// `force` is the force of this joint on the link.
+    /// `moment` is the sum of the moments of all actions on the link except this joint's reaction, which balances it.
     #[inline]
     pub(super) fn put_guided(
         &self,

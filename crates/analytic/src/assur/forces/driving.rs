@@ -25,7 +25,7 @@ pub(super) struct DrivenPivot {
 }
 
 impl Driving {
-    /// The link `link` on the driven joint of the drive with the number `index`.
+    /// The link `link`, which the drive with the number `index` moves by the joint `joint`.
     pub(super) fn of(case: &Case, link: LinkId, joint: JointId, index: usize, settled: &Settled) -> Self {
         Driving { body: Body::of(case, link, settled), joint: DrivenPivot::of(case, link, joint, index) }
     }
@@ -35,7 +35,7 @@ impl Driving {
     pub(super) fn solve(&self, case: &Case, motions: &[Motion], reactions: &mut Reactions) {
         let pole = self.joint.pivot.place(motions);
         let (force, moment) = self.body.resultant(case, motions, reactions, pole);
-        // The usual case, a crank, without the general arms and signs: the pole is the pivot.
+        // A crank is the usual case, and its pivot is the pole: the general lever arms and signs are not needed.
         if self.joint.input == Input::Angle {
             self.joint.pivot.put(-force, reactions);
             reactions.efforts[self.joint.index] = -moment;

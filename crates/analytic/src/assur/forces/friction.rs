@@ -22,7 +22,7 @@ type Reaction = (Vec2, f64);
 
 /// Largest number of linearisations. One linearisation is enough unless a transmission changes its line of action.
 const ROUNDS: usize = 20;
-/// The normal forces are settled if they change by less than this fraction of the largest one.
+/// The normal forces are settled if they change by less than this fraction of the largest normal force.
 /// A smaller limit has no use, because the rounding errors of the reactions are larger than this fraction.
 const SETTLED: f64 = 1e-14;
 /// A change below this fraction of the largest normal force is rounding error if the changes no longer decrease.
@@ -31,7 +31,8 @@ const ROUNDING: f64 = 1e-10;
 const MOST: usize = 60;
 /// The iteration continues while each change is below this fraction of the previous change.
 const QUICK: f64 = 0.3;
-/// Number of multiplications of a vector v by 1 + L. Each gives an upper bound of the spectral radius of L.
+/// Number of multiplications of a vector v by 1 + L.
+/// Each multiplication gives an upper bound of the spectral radius of L.
 const POWERS: usize = 8;
 /// Two solutions are different if a normal force differs by more than this fraction of the sum of its two values.
 const DIFFERENT: f64 = 1e-6;
@@ -45,8 +46,8 @@ enum Stuck {
     Several,
 }
 
-/// Solver for the normal forces of all joints with friction and for the losses of transmissions. Its memory is reused
-/// for every pose.
+/// Solver for the normal forces of all joints with friction and for the losses of transmissions. The solver reuses its
+/// memory for every pose.
 #[derive(Clone, Debug)]
 pub(crate) struct Dry {
     /// Sense of the motion of every joint with friction, then of every transmission with losses: +1, -1, or 0 at
@@ -61,7 +62,8 @@ pub(crate) struct Dry {
     next: Vec<f64>,
     efforts: Vec<f64>,
     base: Vec<Reaction>,
-    /// Derivatives of all reactions with respect to the first normal force, then with respect to each further one.
+    /// Derivatives of all reactions with respect to the first normal force, then with respect to each further normal
+    /// force.
     columns: Vec<Reaction>,
     matrix: Lu,
 }
@@ -131,7 +133,8 @@ impl Dry {
             self.solve(case, unit).map_err(|why| stuck(case, state, &why))?;
             std::mem::swap(&mut self.at, &mut self.normals);
         }
-        // In every round, a transmission has changed its line of action.
+        // In every one of the rounds, a transmission has changed its line of action, so no state of the forces is
+        // found.
         Err(stuck(case, state, &Stuck::Locked))
     }
 
@@ -239,7 +242,7 @@ impl Dry {
         false
     }
 
-    /// Newton's method for p - |R0 + C p| = 0 from `start`. Returns whether it has converged to a solution.
+    /// Newton's method for p - |R0 + C p| = 0 from `start`. Returns whether the method has converged to a solution.
     fn newton(&mut self, case: &Case, start: &mut [f64]) -> bool {
         let (n, mut last) = (start.len(), f64::INFINITY);
         for _ in 0..MOST {

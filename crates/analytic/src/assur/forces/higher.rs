@@ -29,7 +29,7 @@ pub(super) struct Higher {
 }
 
 /// A node and its parent. A link on a pin transmits only a force to its parent.
-/// A link on a guide turns with its parent and also transmits its moment.
+/// A link on a guide turns with its parent, so it also transmits a moment to its parent.
 #[derive(Clone, Copy, Debug)]
 struct Inwards {
     child: usize,
@@ -126,8 +126,8 @@ impl Higher {
     }
 
     /// Finds the forces of the transmissions and adds them to the forces on the nodes' links.
-    /// The multiplier of a transmission gives its force, although the row of the transmission contains only derivatives
-    /// with respect to angles and slides.
+    /// The row of a transmission contains only derivatives with respect to angles and slides.
+    /// Nevertheless, the multiplier of this row gives the force of the transmission.
     /// If the transmissions' forces are then applied to the links as known forces, the remaining multipliers give the
     /// forces in the joints.
     fn transmit<const SLIDING: bool>(

@@ -1,7 +1,7 @@
 //! Joint reactions of the RRR dyad.
 //!
 //! F and M are the known force on a link and its moment about the inner joint.
-//! r1 and r2 are the vectors from the outer joints to the inner joint, R is the force at the first outer joint.
+//! The vectors r1 and r2 go from the outer joints to the inner joint; R is the force at the first outer joint.
 //! Then r1 x R = M_1 and r2 x (R + F_1 + F_2) = -M_2.
 //! These equations are derived here from the equilibrium of moments about the inner joint.
 //! Background: I. I. Artobolevsky, Theory of Mechanisms and Machines, 4th ed., Nauka 1988.

@@ -2,8 +2,9 @@
 //! The links of a body are connected by given joints, whose coordinates are functions of time.
 //!
 //! The two bodies are in equilibrium like the links of an RRR dyad: see [`super::rrr`].
-//! The links of a body then follow one by one, from the link farthest from the root: each is in equilibrium with its
-//! given joint. All moments are about the inner joint, at which the force of the other body acts.
+//! The forces on the links of a body are then computed one by one, beginning with the link farthest from the root.
+//! Each link is in equilibrium under its loads and the reaction of its given joint.
+//! All moments are about the inner joint, at which the force of the other body acts.
 
 use super::body::{Action, Body, Reactions, Settled};
 use super::driving::DrivenPivot;

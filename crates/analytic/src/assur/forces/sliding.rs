@@ -1,8 +1,8 @@
 //! Joint reactions of the four dyads with prismatic joints.
 //!
 //! A revolute joint transmits a force. A prismatic joint transmits a force across its axis and a moment.
-//! F_a and M_a are the known force and moment on link a, F_b and M_b those on link b, F and M those on both links.
-//! u and d are the vectors from the pole to the outer joints of links a and b; e and b are the axes.
+//! F_a and M_a are the known force and moment on link a, F_b and M_b on link b; F = F_a + F_b and M = M_a + M_b.
+//! The vectors u and d go from the pole to the outer joints of links a and b; e and b are the axes.
 //! R is the force on link a at its outer joint.
 //! RRP: u x R = -M_a about the inner joint, e . (R + F) = 0 for the whole dyad.
 //! RPR, with R on the second link of the prismatic joint: e . (R + F_b) = 0 for the second link, and d x R = -M about
@@ -18,7 +18,7 @@ use linkage::case::Case;
 use linkage::math::{Motion, Vec2, cross, turned};
 use linkage::mechanism::{Group, GroupKind, JointId, LinkId};
 
-/// Force analysis of a dyad with prismatic joints. Its links have the same order as in the formulas.
+/// Force analysis of a dyad with prismatic joints. The links of the dyad have the same order as in the formulas.
 #[derive(Clone, Debug)]
 pub(super) struct Sliding {
     kind: GroupKind,

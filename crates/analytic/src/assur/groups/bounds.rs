@@ -1,7 +1,7 @@
 //! Bounds of the links' speeds over a step of the crank, which prove that a dyad passes no singular pose in this step.
 //!
 //! Every dyad that can be singular has a gauge g, a smooth function of the positions of its outer joints.
-//! Inside the gauge's range the dyad can be assembled; at an end of the range it is singular.
+//! Inside the gauge's range the dyad can be assembled; at an end of the range the dyad is singular.
 //! RRR: the squared distance of its outer joints, from (l1 - l2)^2 to (l1 + l2)^2.
 //! RRP: the distance h of its outer pin from the line of its inner joint, from -l to l.
 //! RPR: the squared distance of its outer pins, from the square of the axes' offset upwards.
@@ -47,8 +47,7 @@ impl Bound {
         [self.speed + self.turn * arm, self.second + self.centripetal() * arm]
     }
 
-    /// Bound of the acceleration of a point of the link relative to the reference point, divided by the distance
-    /// between the two points.
+    /// Bound of the relative acceleration of a point of the link and the reference point, per unit of their distance.
     pub(super) fn centripetal(&self) -> f64 {
         self.spin + self.turn * self.turn
     }

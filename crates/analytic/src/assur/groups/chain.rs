@@ -3,19 +3,21 @@
 //! A tree of joints connects the group's links to the known links. The tree contains all prismatic joints, because
 //! prismatic joints cannot form a loop.
 //! The tree also contains all joints with a given coordinate. Every remaining revolute joint closes a contour.
-//! A link with a revolute joint to its parent has its angle as an unknown; a link with a prismatic joint has a slide.
-//! Each contour gives two equations, and each given coordinate one: theta - theta(parent) = q, or slide = q; with -q if
-//! the link is the joint's first link.
+//! The unknown of a link is its angle if the joint to its parent is revolute, and its slide if this joint is prismatic.
+//! Each contour gives two equations.
+//! Each given coordinate q gives one equation: theta - theta(parent) = q, or slide = q.
+//! If the link is the joint's first link, -q replaces q.
 //! Each transmission gives one equation too (`train.rs`).
 //! There are as many unknowns as equations.
 //! The gap of a closing joint is the sum of the link and slide vectors along both paths to this joint.
 //! The derivative of the gap with respect to an angle is the sum of the vectors that turn with this angle, rotated by
 //! 90 degrees. The derivative of the gap with respect to a slide is the axis of this slide.
 //! Velocities and accelerations of the unknowns follow from the same Jacobian.
-//! For a contour, the right-hand side is minus the velocity that its gap would have if all unknowns stood still.
-//! For accelerations, it is minus the acceleration of the gap without second derivatives of the unknowns, that is, with
-//! the centripetal and Coriolis parts.
-//! For a given coordinate, it contains the rate or acceleration of the drive.
+//! For the velocities, the right-hand side of a contour is minus the velocity of its gap at constant unknowns.
+//! For the accelerations, the right-hand side is minus the acceleration of the gap if the second derivatives of the
+//! unknowns are zero.
+//! This acceleration contains the centripetal and Coriolis parts.
+//! For a given coordinate, the right-hand side contains the rate or acceleration of the drive.
 
 mod contour;
 mod given;
@@ -36,8 +38,8 @@ use linkage::math::{KeepNan, Motion, Vec2, cross, rotated, turned, unit};
 use linkage::mechanism::{DrivingLink, GROUND, Group, JointSide, Mechanism};
 use linkage::work::{Count, WorkTally};
 
-/// Largest number of iterations. Newton's method from the last pose needs only a few. More iterations mean that the
-/// branch is lost.
+/// Largest number of iterations. Newton's method from the last pose needs only a few iterations. More iterations mean
+/// that the branch is lost.
 const MAX_ITERATIONS: usize = 10;
 /// Largest rotation of a link from the last pose (rad) that is accepted as a continuation of the branch.
 /// The limit for a slide is this value times the mechanism's size.
@@ -127,9 +129,10 @@ pub struct Chain {
     /// Length by which slides are divided, so that all unknowns are of one order of magnitude (m).
     size: f64,
     is_sliding: bool,
-    /// The joints with a given coordinate. Each has one row of the Jacobian, after the rows of the contours.
+    /// The joints with a given coordinate. Each of these joints has one row of the Jacobian, after the rows of the
+    /// contours.
     given: Vec<Given>,
-    /// The transmissions. Each has one row of the Jacobian, after the rows of the given coordinates.
+    /// The transmissions. Each transmission has one row of the Jacobian, after the rows of the given coordinates.
     trains: Vec<Train>,
     /// For every drive: the factor by which a change of its input is multiplied to give the step (1 or 1/m).
     scales: Vec<f64>,
@@ -212,7 +215,7 @@ impl Chain {
         self.size
     }
 
-    /// World position at the last pose of the joint between a node and its parent, taken on the node's link.
+    /// World position of the joint between a node and its parent at the last pose, as a point of the node's link.
     #[inline]
     pub(in crate::assur) fn pole(&self, node: usize) -> Vec2 {
         self.world.joints[node].place
@@ -429,7 +432,8 @@ impl Chain {
         }
     }
 
-    /// Iterates Newton's method to rounding accuracy. Afterwards the factored Jacobian is that of the final pose.
+    /// Iterates Newton's method to rounding accuracy. After the last iteration, the factored Jacobian belongs to the
+    /// final pose.
     fn follow<const SLIDING: bool>(&mut self, allowed: f64, angles: &[f64], motions: &mut [Motion]) -> bool {
         for _ in 0..MAX_ITERATIONS {
             self.assemble::<SLIDING>(angles, motions);

@@ -4,8 +4,8 @@
 //! the joint's second link, and -1 if it is the first.
 //! A crank has the given world angle. A link with a given angle q has the angle of its base plus g q.
 //! For a given slide q along the axis e, the joint's point on the link is at P = p + g q e.
-//! Its velocity is that of the base at P, plus g q' e.
-//! Its acceleration is that of the base at P, plus g q'' e + 2 w g q' (z x e).
+//! The velocity of this point is the velocity of the base at P, plus g q' e.
+//! The acceleration of this point is the acceleration of the base at P, plus g q'' e + 2 w g q' (z x e).
 
 use linkage::input::Input;
 use linkage::math::{Motion, Vec2, rotated, turned, unit};

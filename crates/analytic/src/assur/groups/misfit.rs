@@ -51,12 +51,13 @@ pub struct SingularityDistance {
 /// rounding error.
 pub const SINGULAR: f64 = 1e-7;
 
-/// If the sine of the angle between two axes is below this value, they are parallel within rounding error.
+/// If the sine of the angle between two axes is below this value, the axes count as parallel, because the sine may be
+/// rounding error.
 const PARALLEL: f64 = 1e-14;
 
 /// Returns the sign of the sine of the angle between two axes.
-/// If the sign `side` of the branch is known, the sign of the sine must agree with it. After a slide has passed through
-/// infinity, the dyad is on another branch.
+/// If the sign `side` of the branch is known, the sign of the sine must agree with it. A changed sign means that a
+/// slide has passed through infinity to another branch.
 /// A dyad whose axes are parallel within rounding error has no pose.
 pub(super) fn kept_side(side: f64, sine: f64) -> Result<f64, Misfit> {
     let now = sine.signum();

@@ -1,9 +1,9 @@
 //! Dyad of a pinned link that slides on a slider: outer revolute, inner and outer prismatic joint (class II, order 2).
 //!
 //! All angles follow from the guide's link, which carries the axis e.
-//! b is the inner axis, and X a point of the slider on the inner axis.
+//! The inner axis is b, and X is a point of the slider on the inner axis.
 //! X slides along e. X also lies on a line along b through the point C of the pinned link.
-//! b x (X - C) = 0 gives the slide s, and b x (v_E - v_A) + s' b x e = 0 gives s'.
+//! The condition b x (X - C) = 0 gives the slide s, and the condition b x (v_E - v_A) + s' b x e = 0 gives s'.
 //! E and A are the points of the guide's link and of the pinned link at X.
 //! The accelerations, with both Coriolis parts, give s''.
 //! These equations are derived here from the closure of the vector contour.
@@ -24,7 +24,7 @@ pub struct Rpp {
     guide: Guide,
     /// Inner axis in the frames of the pinned link and of the slider.
     axes: [Vec2; 2],
-    /// Position of the inner joint in the frame of the pinned link and in that of the slider.
+    /// Position of the inner joint in the frames of the pinned link and of the slider.
     inner: [Vec2; 2],
     /// Sign of the sine of the angle between the axes on the followed branch; 0 before the first pose.
     side: f64,

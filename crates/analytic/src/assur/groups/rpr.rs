@@ -2,8 +2,8 @@
 //!
 //! The outer pins are P1 (on the prismatic joint's first link) and P2. The axis is e, with the normal n.
 //! The vector between the pins is d = P2 - P1 = e s + n h.
-//! h is a constant of the two links, and s = +-sqrt(d^2 - h^2) gives the common direction.
-//! d' = s' e + omega x d gives omega = n . d' / s and s' = e . d' + omega h.
+//! The distance h is a constant of the two links, and s = +-sqrt(d^2 - h^2) gives the common direction.
+//! The derivative d' = s' e + omega x d gives omega = n . d' / s and s' = e . d' + omega h.
 //! The second derivative of d gives alpha = (n . d'' - 2 s' omega + omega^2 h) / s.
 //! These equations are derived here from the closure of the vector contour.
 //! In Artobolevsky's classification this dyad is the class II group of the third kind.
@@ -56,7 +56,7 @@ impl Rpr {
         let squared = d.norm_squared();
         self.gauge = squared;
         let along_squared = squared - self.across * self.across;
-        // Coincident pins have no direction: the second condition refuses them.
+        // The vector between coincident pins has no direction, so the second condition refuses coincident pins.
         if !(along_squared >= 0.0 && squared > 0.0) {
             return Err(Misfit::Swing { distance: squared.sqrt(), shortest: self.across.abs() });
         }

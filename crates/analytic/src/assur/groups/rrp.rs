@@ -2,7 +2,8 @@
 //!
 //! The outer pin is P, the inner joint C, r = C - P; the guide has the axis e and its normal n.
 //! C lies on a line along e, so that h = n . r is known and e . r = +-sqrt(l^2 - h^2).
-//! E is the point of the guide's link at C. v_P + omega x r = v_E + s' e gives omega = n . (v_E - v_P) / (e . r).
+//! E is the point of the guide's link at C.
+//! The condition v_P + omega x r = v_E + s' e gives omega = n . (v_E - v_P) / (e . r).
 //! The accelerations, with the Coriolis part 2 omega_E s' n, give alpha = (n . (a_E - a_P + omega^2 r) + 2 omega_E s')
 //! / (e . r).
 //! These equations are derived here from the closure of the vector contour.
@@ -16,7 +17,7 @@ use super::pin::Pin;
 use linkage::math::{Motion, Vec2, turned};
 use linkage::mechanism::{AssemblyMode, Group, LinkId, Mechanism};
 
-/// If the guide turns, a bound is valid for this number of crank steps.
+/// If the guide turns, a bound is valid over a crank rotation of this many steps.
 const FAR: f64 = 16.0;
 
 /// RRP dyad, prepared for solving.
@@ -97,8 +98,9 @@ impl Rrp {
     }
 
     /// Limit of the gauge during a step of the crank.
-    /// h = n . (Q - P), so that |h''| <= |a| + 2 omega |v| + (alpha + omega^2) |Q - P|.
-    /// v and a are the velocity and acceleration of Q relative to P, omega and alpha the rates of the guide's angle.
+    /// The gauge is h = n . (Q - P), so that |h''| <= |a| + 2 omega |v| + (alpha + omega^2) |Q - P|.
+    /// Here v and a are the velocity and acceleration of Q relative to P; omega and alpha are the rates of the guide's
+    /// angle.
     pub(super) fn limit(&self, links: &Bounds, motions: &[Motion], step: f64) -> Option<Limit> {
         let way = FAR * step;
         let (pin, zero, link, distance) = self.outer_rates(links, motions, way)?;

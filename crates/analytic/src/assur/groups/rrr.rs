@@ -1,6 +1,7 @@
 //! Dyad with three revolute pairs (class II, order 2): closed form of position, velocity and acceleration.
 //!
-//! The outer joints are P1 and P2, the inner joint is P3. r1 = P3 - P1, r2 = P3 - P2, D = r1 x r2 and d = P2 - P1.
+//! The outer joints are P1 and P2, the inner joint is P3.
+//! The vectors are r1 = P3 - P1, r2 = P3 - P2 and d = P2 - P1; D = r1 x r2.
 //! Position: r1 = d f + (z x d) h with f = (l1^2 - l2^2 + d^2) / 2 d^2 and 4 D^2 = 4 d^4 h^2 = ((l1 + l2)^2 - d^2)
 //! (d^2 - (l1 - l2)^2).
 //! Velocity: v1 + omega1 x r1 = v2 + omega2 x r2 gives omega1 = (v2 - v1) . r2 / D and omega2 = (v2 - v1) . r1 / D.
@@ -147,8 +148,9 @@ impl Rrr {
     fn close(&self, [p1, p2]: [Vec2; 2]) -> Result<([Vec2; 2], [f64; 2]), Misfit> {
         let d = p2 - p1;
         let d_squared = d.norm_squared();
-        // `along` is f d^2. 4 D^2 follows from Heron's formula, which loses no digits near a singular pose.
-        // The root does not depend on the division by d^2, so both can run at the same time.
+        // `along` is f d^2, where f is the component of r1 along d, divided by the length of d.
+        // 4 D^2 follows from Heron's formula, which loses no digits near a singular pose.
+        // The square root does not need the division by d^2, so the processor can do both operations at the same time.
         let along = 0.5 * (self.squared[0] - self.squared[1] + d_squared);
         let square = (self.range[1] - d_squared) * (d_squared - self.range[0]);
         // The comparison is negated so that NaN is refused too.
@@ -191,7 +193,7 @@ impl Rrr {
 
     /// Positions, velocities and accelerations in one pass. Shared values stay in registers, and every motion is
     /// written once.
-    /// The arithmetic operations and therefore the bits are those of the three separate functions.
+    /// The arithmetic operations are the same as in the three separate functions, so the bits are the same too.
     #[inline(always)]
     pub(super) fn motions(&mut self, motions: &mut [Motion]) -> Result<(), Misfit> {
         let [[bases0, p1, v1, a1], [bases1, p2, v2, a2]] = [0, 1].map(|k| Self::base(&self.arms[k], motions));
@@ -286,7 +288,7 @@ impl Rrr {
     }
 
     /// [`Rrr::clearance`] of bodies of changing shape: the vectors between outer and inner joint turn in the frames of
-    /// their links. `shape` (rad/s) is the rate of the second vector minus that of the first.
+    /// their links. `shape` (rad/s) is the rate of the second vector minus the rate of the first vector.
     #[inline]
     pub(super) fn clearance_with(&self, shape: f64, motions: &[Motion]) -> SingularityDistance {
         let [r1, r2] = self.spans;

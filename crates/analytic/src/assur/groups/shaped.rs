@@ -79,7 +79,7 @@ impl Shape {
         shape
     }
 
-    /// p and its rates for these coordinates, rates and accelerations of all drives.
+    /// Returns p and its rates from the coordinates, rates and accelerations of all drives.
     #[inline]
     fn all(&mut self, [coordinates, rates, seconds]: [&[f64]; 3], frame: &mut [Motion]) {
         let Some((zero, derivatives)) = &self.linear else {

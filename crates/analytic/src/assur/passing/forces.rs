@@ -1,8 +1,8 @@
 //! Reactions near a change point.
 //!
 //! Near a change point, the motion and the power of the drives are smooth, but reactions need not be smooth.
-//! In the singular pose a group is movable.
-//! The group carries only loads that do no work along the branch that the mechanism does not follow.
+//! In the singular pose a group is movable along a second branch, which the mechanism does not follow.
+//! If a load does no work along the second branch, the reactions to this load stay finite.
 //! The reactions to all other loads grow with the inverse of the distance from the change point.
 //! A reaction is therefore the sum of a first-order pole and a smooth part.
 //! The residue of the pole follows from the products of reaction and distance, which are smooth.

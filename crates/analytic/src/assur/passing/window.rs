@@ -10,7 +10,7 @@
 //! Second transfer functions then have errors of about 5e-13 for r = 2 rad, 1e-12 for 1 rad, 4e-12 for 0.6 rad and
 //! 3e-11 for 0.3 rad.
 //! The half widths in these cases are from 0.5 to 0.15 rad.
-//! Of all half widths tried, the one is chosen for which the result changes least when nodes are left out.
+//! Several half widths are tried; the half width is chosen for which the result changes least when nodes are left out.
 
 use std::f64::consts::PI;
 
@@ -26,20 +26,21 @@ const CORE: f64 = 0.1;
 /// Half widths that are tried (rad).
 const WIDTHS: [f64; 11] = [0.5, 0.4, 0.3, 0.2, 0.15, 0.1, 0.07, 0.05, 0.03, 0.02, 0.012];
 /// If the mechanism cannot be followed through a window, the next half width is at most this fraction of the failing
-/// one.
+/// half width.
 /// The failing window contains another singular pose, towards which reactions may grow without bound.
 const CLEAR: f64 = 0.5;
 /// A change point is passed only if [`Window::error`] is below this value.
 const WORST: f64 = 1e-6;
-/// Largest distance between two change points that counts as an effect of rounding or curvature, divided by the
-/// distance between the innermost nodes.
+/// Two computed change points count as one change point if their distance is at most this fraction of the distance
+/// between the innermost nodes.
+/// Such a distance can result from rounding or curvature.
 const APART: f64 = 0.2;
 /// Number of secant steps that improve the position of the change point.
 const POLISHING: usize = 4;
-/// Cube root of the factor, about four, by which the polynomials amplify the rounding error of the poses.
-/// The factor is the sum of the magnitudes of the weights.
+/// The polynomials amplify the rounding error of the poses by the sum of the magnitudes of the weights, about four.
+/// This constant is the cube root of this sum.
 const WEIGHTS: f64 = 1.6;
-/// Ratio of the rounding error of accelerations to the unit roundoff times the cube of the condition number.
+/// The rounding error of accelerations is the unit roundoff, times the cube of the condition number, times this factor.
 const ULPS: f64 = 16.0;
 
 /// A pose near a change point. The driving link has unit speed and no acceleration.
@@ -103,8 +104,9 @@ impl Window {
                 let sines: Vec<f64> = window.nodes.iter_mut().map(sine).collect();
                 let (least, most) =
                     sines.iter().fold((f64::INFINITY, 0.0f64), |(a, b), &sine| (a.smaller(sine), b.larger(sine)));
-                // The larger of two condition numbers: about the inverse sine of the innermost pose, and the number
-                // that explains the error of the transfer functions.
+                // The larger of two condition numbers is stored.
+                // The first number is about 1 / sine at the innermost pose.
+                // The second number is computed from the error of the transfer functions.
                 window.condition =
                     (WEIGHTS * most / least / window.reach).larger((error / (ULPS * f64::EPSILON)).cbrt());
                 Ok(window)
@@ -150,8 +152,9 @@ impl Window {
             }
             from = at + offset;
             let (node, sine) = put(offset, &mut plan, &motions);
-            // The sine of a dyad is a magnitude. It gets the opposite sign beyond the change point, so that `polish`
-            // finds its zero there; the determinant of a higher group changes its sign itself.
+            // The sine of a dyad is never negative.
+            // Beyond the change point, the sine is stored with a minus sign, so that `polish` finds a zero.
+            // The determinant of a higher group changes its sign without this correction.
             sines.push(if node.plan.determinant(group).is_some() { sine } else { -sine });
             nodes.push(node);
         }
@@ -178,8 +181,8 @@ impl Window {
             if let (Some(a), Some(b)) = (a, b) {
                 return a * b < 0.0 && is_apart(low + (high - low) * a / (a - b));
             }
-            // A dyad counts as having another change point only if extrapolation from both sides leads to a change
-            // point away from the middle of the window.
+            // The change point of a dyad is extrapolated from both sides.
+            // If both extrapolations lead away from the middle of the window, the dyad has another change point.
             let places = inner.map(|index| {
                 let node = &mut self.nodes[index];
                 let own = clearance(&mut node.plan, &mut node.motions.clone(), group);
@@ -228,8 +231,8 @@ impl Window {
         node.plan.steps().ids().map(|group| node.plan.determinant(group)).collect()
     }
 
-    /// Error of the first and second transfer functions of the links' angles at the change point, divided by the
-    /// largest of them or 1, whichever is larger.
+    /// Relative error of the first and second transfer functions of the links' angles at the change point.
+    /// The error is divided by the largest of these transfer functions, but at least by 1.
     /// The error is the change of the result when the outermost or the innermost pair of nodes is left out, whichever
     /// is larger.
     /// Without the outermost pair, the change shows the error of the polynomials; without the innermost pair, the

@@ -2,7 +2,7 @@
 //!
 //! The Jacobian is singular at the change point. Multipliers generally grow with the inverse of the distance from the
 //! change point.
-//! The reason is that no constraint resists a load that does work along the branch that the mechanism does not follow.
+//! The reason is that no constraint resists a load that does work along the second branch.
 //! The product of multiplier and distance is always smooth.
 
 use super::WITHOUT_POLE;
@@ -14,8 +14,9 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{KeepNan, Motion};
 
 /// At the change point, products of multiplier and distance below a threshold count as zero.
-/// The threshold is the sum of `NOISE` times the change of the product if the innermost poses are left out, and `LEAST`
-/// times the largest product.
+/// The threshold is the sum of two terms.
+/// The first term is `NOISE` times the change of the product if the innermost poses are left out.
+/// The second term is `LEAST` times the largest product.
 const NOISE: f64 = 16.0;
 const LEAST: f64 = 1e-12;
 
@@ -32,7 +33,7 @@ impl Window {
     /// acceleration.
     /// `loads` finds the loads on all links.
     /// In free motion, `shaft` contains the moment on the crank and the moment of inertia that turns with it.
-    /// Every pose then has the acceleration that balances its crank at this speed.
+    /// In free motion, every pose has the acceleration that balances its crank at the given angular velocity.
     pub(in crate::newton) fn multipliers(
         &self,
         system: &mut System,
@@ -60,7 +61,8 @@ impl Window {
             };
             let mut lambda = at(system, alpha);
             if let Some([moment, inertia]) = shaft {
-                // Multipliers are linear in the acceleration. `gain` is their increase per unit of acceleration.
+                // Multipliers are linear in the acceleration. `gain` is the increase of the multipliers per unit of
+                // acceleration.
                 // The acceleration that balances the crank follows from `gain`.
                 let unit = 1.0 + alpha.abs() + omega * omega;
                 let gain: Vec<f64> =

@@ -1,6 +1,6 @@
 //! Osculating polynomials through values, first and second derivatives at several positions (Hermite).
 //!
-//! p(x) = sum of l_i(x)^3 (c0 + c1 (x - x_i) + c2 (x - x_i)^2) with Lagrange's l_i.
+//! The polynomial is p(x) = sum of l_i(x)^3 (c0 + c1 (x - x_i) + c2 (x - x_i)^2) with Lagrange's l_i.
 //! The derivatives of l_i^-3 give c0 = f, c1 = f' - 3 s f, 2 c2 = f'' - 6 s f' + (9 s^2 + 3 t) f.
 //! Here s is the sum of 1 / (x_i - x_j), and t the sum of 1 / (x_i - x_j)^2.
 

@@ -15,7 +15,8 @@ pub(in crate::newton) struct Spot {
     pub(in crate::newton) curve: Vec<f64>,
     /// Signs of the blocks' determinants.
     pub(in crate::newton) signs: Vec<f64>,
-    /// Signed ratios of the blocks' determinants to the largest possible ones; empty if they have not been computed.
+    /// For every block: signed ratio of its determinant to the largest possible determinant; empty before the
+    /// computation.
     pub(in crate::newton) shares: Vec<f64>,
 }
 

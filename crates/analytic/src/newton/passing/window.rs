@@ -2,8 +2,8 @@
 //!
 //! Coordinates are polynomials through six poses with their first and second derivatives. Multipliers are polynomials
 //! through sixteen poses.
-//! Among the half widths tried, the chosen one has the smallest difference between two polynomials for the second
-//! derivatives.
+//! The second derivatives are approximated by two polynomials.
+//! Several half widths are tried; the half width with the smallest difference between the two polynomials is chosen.
 //! The first polynomial is the osculating polynomial, differentiated twice.
 //! The second polynomial passes through the second derivatives at all sixteen poses.
 //! The two polynomials have different degrees and different data.
@@ -36,8 +36,9 @@ const CLEAR: f64 = 0.5;
 const WORST: f64 = 1e-6;
 /// Number of secant steps that improve the position of a change point.
 const SECANTS: usize = 4;
-/// Largest distance between two change points that counts as an effect of rounding, divided by the distance of the
-/// innermost pose from the change point.
+/// Two computed change points count as one change point if their distance is at most this fraction of the innermost
+/// pose's distance from the change point.
+/// Such a distance can result from rounding.
 const APART: f64 = 0.01;
 /// Positions at which the two polynomials for the second derivatives are compared, divided by the half width.
 const COMPARED: [f64; 3] = [-0.1, 0.0, 0.1];
@@ -197,8 +198,8 @@ impl Window {
         if angle < self.at { &self.spots[0] } else { &self.spots[self.spots.len() - 1] }
     }
 
-    /// Relative error: largest difference of the two polynomials for the second derivatives, divided by the largest
-    /// first or second derivative or 1, whichever is larger.
+    /// Relative error: largest difference of the two polynomials for the second derivatives, divided by a scale.
+    /// The scale is the largest first or second derivative, but at least 1.
     fn error(&self) -> f64 {
         let (mut most, mut scale) = (0.0f64, 1.0f64);
         for x in COMPARED.map(|share| share * self.reach) {

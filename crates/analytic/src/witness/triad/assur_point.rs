@@ -58,7 +58,7 @@ pub fn reactions(places: &Places, known: &[KnownResultant; 4]) -> Result<Reactio
     });
     let point = best(places);
     let ([i, j, k], pole) = (point.leads, point.place);
-    // The moments are those of all actions on the base link and on the leads i and j together.
+    // The base link and the leads i and j are treated as one body: the moments of all actions on this body are summed.
     // Lead k acts on the base link at its head with the force `third`.
     let third = across[k] + known[k].force;
     let with_two = |pole: Vec2| {

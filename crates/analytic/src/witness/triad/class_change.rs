@@ -62,8 +62,8 @@ pub struct Transfer {
     pub driver: usize,
     /// Factor by which rounding errors of the angles can be amplified, at least 1.
     /// The factor is the inverse of the product of a sine and a cosine.
-    /// The sine is that of the angle between the base link and the ground lead that does not drive.
-    /// The cosine is that of the angle between lead 3 and the path of its head.
+    /// The sine belongs to the angle between the base link and the ground lead that does not drive.
+    /// The cosine belongs to the angle between lead 3 and the path of its head.
     pub condition: f64,
 }
 

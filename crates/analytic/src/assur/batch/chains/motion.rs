@@ -14,13 +14,13 @@ use crate::assur::groups::Hangs;
 use linkage::math::Vec2;
 use linkage::trajectory::Stage;
 
-/// The sum of the corrections of a group's interpolated directions must be smaller (rad).
+/// Upper limit (rad) of the sum of the corrections of a group's interpolated directions.
 /// The square of this sum is below rounding error.
 const LAST_CHANGE: f64 = 1e-8;
 
 impl Chain {
-    /// Computes the motion of all links. Returns 0, or NaN for poses that one Newton correction does not reach on the
-    /// branch.
+    /// Computes the motion of all links. Returns NaN for poses that one Newton correction does not reach on the branch,
+    /// and 0 for all other poses.
     #[inline(always)]
     pub(in crate::assur::batch) fn turn<S: Simd>(
         &self,
@@ -85,7 +85,7 @@ impl Chain {
         is_near.of(is_kept.of(zero, none), none)
     }
 
-    /// Assembles the Jacobian of the contours and their gaps from the link directions, and computes the arrows.
+    /// From the link directions, computes the arrows, the gaps of the contours and the Jacobian of these gaps.
     #[inline(always)]
     fn assembled<S: Simd, const N: usize>(
         &self,

@@ -28,7 +28,7 @@ pub struct Node {
     /// Index of the parent among the nodes; `None` for a link outside the group.
     pub parent_node: Option<usize>,
     /// Index of the node whose unknown angle determines this link's angle.
-    /// If the joint to the parent is revolute, the index is that of this link's node.
+    /// If the joint to the parent is revolute, the index belongs to this link's node.
     /// If the joint to the parent is prismatic, the index is the `spin` of the parent.
     /// `None` if the rotation of a link outside the group determines the angle.
     pub spin: Option<usize>,
@@ -82,7 +82,7 @@ impl Node {
         self.guided.map(|guided| motions[self.parent.link].arm(guided.axis))
     }
 
-    /// World direction of the prismatic joint, for a node that has one.
+    /// World direction of the prismatic joint of a node; the node must have a prismatic joint.
     #[inline]
     pub(super) fn slide_axis(&self, motions: &[Motion]) -> Vec2 {
         self.axis(motions).expect("slides belong to prismatic joints")
@@ -94,7 +94,7 @@ impl Node {
 #[derive(Clone, Copy, Debug)]
 pub(in crate::assur) struct Arrow {
     pub(in crate::assur) node: usize,
-    /// The vector in the frame of the node's link; `None` if it is the node's slide.
+    /// The vector in the frame of the node's link; `None` if the vector is the node's slide.
     pub(in crate::assur) local: Option<Vec2>,
     /// The link with which the vector turns, and the node that has this link's angle as its unknown.
     pub(super) carrier: LinkId,
@@ -123,8 +123,8 @@ pub struct ClosingJoint {
     pub nodes: [Option<usize>; 2],
     /// Position of the joint on its second link.
     place: JointSide,
-    /// Indices of the known joints at which the two paths start, with the signs of the paths: +1 for the path to the
-    /// second link, -1 for the path to the first link.
+    /// Indices of the known joints at which the two paths start, and the signs of the paths.
+    /// The sign is +1 for the path to the second link, and -1 for the path to the first link.
     pub(in crate::assur) ends: [(usize, f64); 2],
     /// Arrows along both paths.
     pub(in crate::assur) ways: Vec<Stretch>,
@@ -169,8 +169,8 @@ impl Contours {
                 }
             };
             let next = || group.outer.iter().chain(&group.inner).filter_map(hung);
-            // Prismatic joints and joints with a given coordinate first, so that all of them are in the tree (Prim's
-            // algorithm for the minimum spanning tree).
+            // Prismatic joints and joints with a given coordinate come first, so that the tree contains all of these
+            // joints (Prim's algorithm for the minimum spanning tree).
             let slider = next().find(|&(joint, _)| joints[joint].slides() || group.given.contains(&joint));
             let (joint, link) = slider.or_else(|| next().next()).expect("the links of a group are connected");
             used[joint] = true;

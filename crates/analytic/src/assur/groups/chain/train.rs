@@ -26,7 +26,7 @@ struct Term {
     /// The unknown on which the coordinate depends, and the derivative of the term with respect to this unknown; `None`
     /// for a known coordinate.
     column: Option<(usize, f64)>,
-    /// The coordinate at the last pose and at the present one.
+    /// The coordinate at the last pose and at the present pose.
     last: f64,
     now: f64,
 }
@@ -127,7 +127,7 @@ impl Train {
         q2 - value
     }
 
-    /// Makes the present pose the last one.
+    /// Stores the coordinates of the present pose as the coordinates of the last pose.
     pub(super) fn keep(&mut self) {
         self.terms.iter_mut().flatten().for_each(|term| term.last = term.now);
     }
