@@ -63,7 +63,7 @@ impl Convergence {
         let (before, after) = (rms(&coarse), rms(&fine));
         let quotient = (before / after).log2();
         // `observed` is NaN if the difference between single and half step is only rounding.
-        // The runs count as not convergent if the quotient is NaN for another reason.
+        // If the quotient of the differences is NaN and rounding is not the reason, the runs count as not convergent.
         let observed = match quotient.is_nan() {
             _ if after <= noise => f64::NAN,
             true => f64::NEG_INFINITY,

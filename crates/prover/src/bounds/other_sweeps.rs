@@ -84,7 +84,7 @@ impl OtherSweeps<&[f64]> {
             // Even small differences of the judged channel are then not rounding. The error is infinite (unknown).
             [Some(_), Some(_)] if self.growth > 1.0 => f64::INFINITY,
             [Some(fewer), Some(_)] => match self.growth(single, noise, periodic) {
-                // If the last difference is only rounding, this difference is the error.
+                // If the last difference is only rounding, this difference counts as the error.
                 0.0 => last(fewer),
                 own => last(fewer) * part_left(own.larger(self.growth), self.factor),
             },
@@ -92,8 +92,8 @@ impl OtherSweeps<&[f64]> {
     }
 }
 
-/// Fraction of the last difference that remains as error, if each difference is `share` times the previous difference.
-/// See the module's text.
+/// Remaining error divided by the last difference, if each difference is `share` times the previous difference. The
+/// documentation of this module gives the formulas.
 fn part_left(share: f64, factor: f64) -> f64 {
     if share < 1.0 {
         share.larger(share / (1.0 - share) / SAFETY)
@@ -123,8 +123,8 @@ mod tests {
                 assert!(bound >= all[0] && bound <= 20.0, "{factor} {q}: {bound} for {}", all[0]);
             }
         }
-        // Differences that grow as fast as the numbers of sweeps show nothing about the remaining error, unless the
-        // differences are rounding.
+        // If the differences grow as fast as the numbers of sweeps, the remaining error is unknown. Differences that
+        // are only rounding are excepted.
         let grown: [&[f64]; 3] = [&[1.0], &[2.0], &[6.0]];
         assert_eq!(left(grown, 4.0, 0.0, 0.0), f64::INFINITY);
         assert_eq!(left(grown, 4.0, 0.0, 5.0), 12.0);
