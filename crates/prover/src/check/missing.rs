@@ -330,13 +330,13 @@ fn needed(trial: &mut Trial, place: usize, operator: Operator) -> Vec<Needed> {
     [vec![afresh], others].concat()
 }
 
-/// Ratio of the missing amount to an entry; `None` if the ratio is not constant.
+/// Constant ratio of the missing amount to the values of an entry; `None` if the ratio varies from instant to instant.
 fn coefficient(entry: &Entry, needed: &Needed) -> Option<f64> {
     let known = || entry.values.iter().zip(needed).filter_map(|(value, own)| Some((*value, (*own)?)));
     // Selects the instant with the smallest relative error.
     let sharpness = |(value, [_, known]): &(f64, [f64; 2])| (value / known).abs();
     let (sharpest, [amount, sharp]) = known().max_by(|one, other| sharpness(one).total_cmp(&sharpness(other)))?;
-    // A constant can be recognised from fewer than `FEWEST` instants, if the trial has fewer.
+    // A constant needs `FEWEST` instants, or all instants of the trial if the trial has fewer than `FEWEST`.
     let fewest = if entry.is_one() { FEWEST.min(needed.len()) } else { FEWEST };
     if known().count() < fewest {
         return None;

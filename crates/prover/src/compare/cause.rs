@@ -22,10 +22,10 @@ use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Trajectory};
 use scenario::Scenario;
 
-/// A cause, and the difference that it leaves.
+/// A cause, and the difference that remains after the cause is corrected.
 #[derive(Clone, Debug)]
 pub struct Explained {
-    /// Names of the channels: the explained ones, or all examined channels if no cause was found.
+    /// Names of the explained channels, or of all examined channels if no cause was found.
     pub of: Vec<String>,
     /// What was found.
     pub diagnosis: Diagnosis,
@@ -39,7 +39,7 @@ pub struct Explained {
 
 /// Fractions of the largest difference that a cause may leave, tried in this order.
 /// With the first fraction, the remaining differences must be within the bounds.
-/// The further fractions allow for errors such as those of a simulation.
+/// The further fractions allow for errors of a method, such as the step error of a simulation.
 const LEFT: [f64; 3] = [0.0, 0.01, 0.05];
 
 /// Largest number of channels with small differences for which missing terms are sought.
@@ -55,11 +55,10 @@ const MOST: usize = 2000;
 pub const GROSS: f64 = 0.02;
 
 /// Finds causes for the channels that disagree between a scenario (the party `which`) and the other party.
-/// First, causes are sought that explain channels to within their bounds: for all channels together, then for the
-/// channels that are still unexplained. A single wrong row may remain besides such a cause.
-/// Next, a cause that explains all remaining channels may leave a small remainder.
-/// Then channels with gross errors are examined, together and one by one. A cause of a gross error may leave a small
-/// remainder.
+/// The search has three steps. First, causes are sought that explain channels to within their bounds: for all channels
+/// together, then for the channels that are still unexplained. Such a cause may leave a single wrong row unexplained.
+/// Second, a cause is sought that explains all remaining channels except a small remainder. Third, channels with gross
+/// errors are examined, together and one by one. A cause of a gross error may leave a small remainder.
 /// A small difference without a common cause counts as the error of a method.
 pub(super) fn explained(
     scenario: &Scenario,
@@ -85,7 +84,8 @@ pub(super) fn explained(
     }
     let (mut open, mut little): (Vec<&Compared>, Vec<&Compared>) = open.into_iter().partition(|own| own.is_gross());
     while !open.is_empty() {
-        // All channels are examined together first. If no cause explains them, they are examined one by one.
+        // All channels are examined together first. If no cause explains all channels together, each channel is
+        // examined alone.
         let together = || LEFT[1..].iter().find_map(|&left| stage.examined(&open, left));
         let alone = || open.iter().find_map(|one| LEFT.iter().find_map(|&left| stage.examined(&[*one], left)));
         let next = together().or_else(|| if open.len() > 1 { alone() } else { None });
