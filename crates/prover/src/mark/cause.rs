@@ -9,8 +9,8 @@ pub struct CellPlace {
     pub column: usize,
 }
 
-/// A term in the velocity or acceleration of a point P, composed from that of a point Q on the same link:
-/// v_P = v_Q + v_PQ and a_P = a_Q + a_PQ^n + a_PQ^t.
+/// A term of the velocity or acceleration of a point P. Q is another point of the same link: v_P = v_Q + v_PQ and a_P =
+/// a_Q + a_PQ^n + a_PQ^t.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PartOfPoint {
     /// The velocity or acceleration of the point Q.
@@ -26,7 +26,7 @@ pub enum PartOfPoint {
 pub enum MarkCause {
     /// The opposite sign.
     Sign,
-    /// The number is right in another unit; the fields are symbols of units.
+    /// The number is right in another unit. The fields are the symbols of both units.
     Unit {
         /// Unit of the student's number.
         written: &'static str,
@@ -41,13 +41,13 @@ pub enum MarkCause {
     Half,
     /// Zero instead of the value.
     Zero,
-    /// The derivative by the crank angle instead of the derivative by time.
+    /// The derivative with respect to the crank angle instead of the derivative with respect to time.
     PerRadian,
     /// The supplement: 180 deg minus the right angle.
     Supplement,
     /// The right angle plus 180 deg: the direction of the link is taken from the wrong end.
     OtherEnd,
-    /// The complement: 90 deg minus the right angle, as with cosine and sine exchanged.
+    /// The complement: 90 deg minus the right angle. The student may have exchanged cosine and sine.
     Complement,
     /// The right angle plus or minus 90 deg: the angle is measured from the vertical.
     FromVertical,
