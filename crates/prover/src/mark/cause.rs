@@ -65,10 +65,10 @@ pub enum MarkCause {
     OneDigit,
     /// One digit is left out, or one digit is added.
     DigitLost,
-    /// A term of a point's velocity or acceleration is missing: the term, the point P, and the point Q.
+    /// A term of a point's velocity or acceleration is missing. The fields are the term, the point P and the point Q.
     WithoutPart(PartOfPoint, String, String),
-    /// The angular velocity is computed from the whole velocity of a point instead of its velocity relative to another
-    /// point of the link. The field is the name of the point.
+    /// The angular velocity is computed from the whole velocity of a point, instead of the point's velocity relative to
+    /// another point of the link. The field is the name of the point.
     FromWholeSpeed(String),
     /// Accelerations without the normal (centripetal) part of one link. The field is the name of the link.
     NoNormal(String),
@@ -85,11 +85,11 @@ pub enum MarkCause {
     },
     /// The crank turns in the opposite direction.
     Reversed,
-    /// The crank's speed is taken in the wrong unit: the unit that the student took, and the right unit.
+    /// The crank's speed is taken in the wrong unit. The fields are the unit that the student took and the right unit.
     SpeedUnit(&'static str, &'static str),
     /// The crank angle is measured in the opposite direction.
     Clockwise,
-    /// The crank angle is this many degrees larger.
+    /// The crank angle is too large. The field is the excess in degrees.
     CrankTurned(i32),
     /// Gravity is missing.
     NoGravity,
@@ -99,7 +99,8 @@ pub enum MarkCause {
     NoInertiaForces,
     /// A load is missing. The field is the number of the load in the file, from 1.
     NoLoad(usize),
-    /// The distance of a point is measured from the wrong end of its link: names of the link and of the point.
+    /// The distance of a point is measured from the wrong end of its link. The fields are the names of the link and of
+    /// the point.
     FromOtherEnd(String, String),
     /// The right answers of another student. The field is the name of that student's sheet.
     OfStudent(String),
