@@ -190,8 +190,8 @@ impl ObservedSides {
         Ok(Judgement { causes, undefined, unsought, work, ..Judgement::of(sides) })
     }
 
-    /// Every claim, compared with the results of each side that has the channels of the claim. Causes of wrong
-    /// formulas are not sought.
+    /// Compares every claim with the results of each side that has the channels of the claim. This function seeks no
+    /// causes of wrong formulas.
     ///
     /// # Errors
     /// The errors of [`check::judge`].
@@ -199,7 +199,7 @@ impl ObservedSides {
         EachSide::tried(|side| self.on_course(case, side, |course| check::judge(formulas, course)))
     }
 
-    /// Calls `then` with the trajectory of one side of a case, and with the errors of this trajectory.
+    /// Calls `then` with the trajectory of the side `side` and the known errors of this trajectory.
     pub fn on_course<T>(
         &self,
         case: &Case,
@@ -208,7 +208,7 @@ impl ObservedSides {
     ) -> Result<T> {
         let trajectory = &self.observed[side].trajectory;
         let error = |column: usize, row: usize| {
-            // The column index is valid for either side, because both sides have the same channels in the same order.
+            // A column index is valid for both sides, because both sides have the same channels in the same order.
             self.known.at(side, trajectory.channels()[column].kind.stage, column, row)
         };
         then(&KnownTrajectory::new(case, trajectory, &error).with_figures(&self.figures[side]))
