@@ -244,8 +244,8 @@ impl<'a> Judge<'a> {
             .collect()
     }
 
-    /// The case without the beginning of a free motion, in which second differences use later steps. `None` if no
-    /// instant is left out. This is so:
+    /// The case without the beginning of a free motion, in which second differences use later steps. In the following
+    /// cases, no instant is left out and the result is `None`:
     /// - in a prescribed motion;
     /// - in a motion that is not longer than its beginning;
     /// - if no impulses are judged, and accelerations and forces are conclusive despite the rounding error of second

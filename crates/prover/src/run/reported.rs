@@ -226,7 +226,7 @@ fn of_points(mechanism: &Mechanism) -> Vec<Usual> {
 }
 
 /// The smallest absolute sine of a transmission angle over all instants and dyads, with the row of the instant and the
-/// links of the dyad. `None` if there is no dyad whose positions were solved.
+/// links of the dyad. `None` if there is no dyad, or if the position of a moving link was not solved.
 fn smallest_sine(case: &Case, run: &Trajectory) -> Option<(f64, usize, String)> {
     let mechanism = &case.mechanism;
     let columns = |name: &str| {
