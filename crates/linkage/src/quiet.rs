@@ -12,11 +12,11 @@ thread_local! {
     static GUARDED: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Whether the current thread is inside a call whose panic is caught and becomes an error.
-/// An example of such a call is a step of the engine.
+/// Whether the current thread is inside a call of [`guarded`], for example a step of the engine. A panic inside such a
+/// call is caught and becomes an error.
 ///
-/// A program may call this function in its panic hook and then print nothing, because the error contains the panic's
-/// message.
+/// The panic hook of a program may call this function, and print nothing if the result is true: the error contains the
+/// panic's message.
 /// The hook runs on the thread that panics, before the panic is caught.
 /// This crate sets no hook.
 #[must_use]
@@ -71,7 +71,8 @@ mod tests {
         assert_eq!(cause.downcast_ref(), Some(&"inside"));
         assert!(!is_guarded());
         assert!(guarded(is_guarded).unwrap());
-        // The hook set by this test is still active. The hook saw one panic and recognised this panic as caught.
+        // The hook set by this test is still active. The hook was called for one panic, and `is_guarded` was true in
+        // this call.
         assert_eq!((HEARD.load(Ordering::SeqCst), CAUGHT.load(Ordering::SeqCst)), (1, 1));
         // The guard applies to one thread only, so the panic of a spawned thread counts as not caught.
         let outside = guarded(|| thread::spawn(|| panic!("outside")).join()).unwrap();

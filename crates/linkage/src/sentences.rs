@@ -18,13 +18,13 @@ crate::sentences! {
     link_has_no_place_in_the_start(link, pose) = "link \"{link}\" has no valid pose in the start pose: {pose}";
     the_ground_is_moved_in_the_start(poses) = "the ground is moved in the start pose: {poses}";
     the_start_pose_has_places(poses, links) = "the start pose has {poses} link poses, but there are {links} links";
-    it_acts_in_joint_but_there(joint, count) = "it acts in joint {joint}, but there are {count} joints";
-    its_links_are_not_those_of_joint(name) = "its links are not those of joint \"{name}\"";
+    it_acts_in_joint_but_there(joint, count) = "the load acts in joint {joint}, but there are {count} joints";
+    its_links_are_not_those_of_joint(name) = "the links of the load are not the links of joint \"{name}\"";
     joint_has_two_frictions(name) = "joint \"{name}\" has friction already";
     friction_grows_without_bound(name) = "at a change point, reactions and the friction of joint \"{name}\" grow without bound: leave out `through = \"smooth\"` or the friction";
     losses_grow_without_bound(name) = "at a change point, the losses of transmission \"{name}\" grow without bound: leave out `through = \"smooth\"` or the efficiency";
     a_number_is_not_finite_or_negative(load) = "a number is not finite, or negative where it must not be: {load}";
-    it_acts_on_link_but_there(link, count) = "it acts on link {link}, but there are {count} links";
+    it_acts_on_link_but_there(link, count) = "the load acts on link {link}, but there are {count} links";
     joint_drives_link_not(name, turned, said) = "joint \"{name}\" drives link \"{turned}\", not \"{said}\"";
     TAKE_STRUCTURE_OF_THE_MECHANISM = "use `Structure::of` with the mechanism and its driven joints";
     the_structure_of_parts_is_not_that_of_mechanism(given, own) = "the structure has {given} parts, but mechanism and drives give a structure of {own} parts";
@@ -36,7 +36,7 @@ crate::sentences! {
     joint_or_link_is_driven_already(names) = "{names}: joint or link is driven already";
     GIVE_THE_CRANK_A_LENGTH = "give the crank a length";
     moves_nothing_all_joints_of_the_link(names) = "{names} moves no point: all joints of the link lie at one point";
-    the_joint_is_but_a_drive(names, joint) = "{names}: the joint is {joint}, which does not have this input";
+    the_joint_is_but_a_drive(names, joint) = "{names}: the joint is {joint}, and such a joint does not have this input";
     the_joint_does_not_carry(names) = "{names}: the joint does not carry a moving link of that name";
     the_drive_of_link_at_joint(link, joint) = "the drive of link \"{link}\" at joint \"{joint}\"";
     but_there_are_links_and_joints(message, links, joints) = "{message}, but there are {links} links and {joints} joints";
@@ -152,10 +152,10 @@ crate::sentences! {
     DRIVE_ANOTHER_JOINT = "drive another joint, or make one of the prismatic joints revolute";
     the_mobility_is_but_the_number(n, p, mobility, drives) = "the mobility is W = 3*{n} - 2*{p} = {mobility}, but the number of drives is {drives}";
     the_mobility_with_transmissions_is(n, p, t, mobility, drives) = "the mobility is W = 3*{n} - 2*{p} - {t} = {mobility}, with {t} transmissions, but the number of drives is {drives}";
-    the_start_joint_of_a_transmission_changes(group) = "with the start joints of the transmissions, the group {group} would change, although the group contains no transmission";
+    the_start_joint_of_a_transmission_changes(group) = "given coordinates of the start joints of the transmissions would change group {group}, although this group contains no transmission";
     the_start_joint_is_driven(name, joint) = "the start joint \"{joint}\" of transmission \"{name}\" is driven";
     GIVE_A_JOINT_OF_THE_TRANSMISSION = "name another joint of a member or of the carrier with `start_joint`";
-    the_start_of_the_transmissions(message) = "with the start joints of the transmissions: {message}";
+    the_start_of_the_transmissions(message) = "with given coordinates of the start joints of the transmissions: {message}";
     THE_MECHANISM_IS_OVER_CONSTRAINED = "the mechanism is over-constrained: remove the surplus joints or drives";
     ADD_THE_MISSING_JOINTS_OR_DRIVES = "add the missing joints or drives, or remove the loose links";
     LINKS_THAT_ARE_JOINED_BY_PRISMATIC = "links that are connected by prismatic joints only cannot turn relative to each other: one joint of the loop must be revolute";

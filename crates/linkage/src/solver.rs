@@ -14,7 +14,7 @@ use crate::trajectory::{Channel, Trajectory};
 /// How a solver obtains a channel.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Provision {
-    /// The channel is computed, or reported by the engine, without conversion.
+    /// The solver computes the channel, or the engine reports the channel without conversion.
     Computed,
     /// The channel is computed from other quantities. The text describes the method.
     Derived(&'static str),
@@ -34,7 +34,8 @@ pub trait Solver: Send + Sync {
     /// How this solver obtains `channel`.
     fn provides(&self, channel: &Channel) -> Provision;
 
-    /// Passes the state at every instant of the case's grid to `visit`, with its row, in any order.
+    /// Calls `visit` once for every instant of the case's grid, with the row of the instant and the state. The order of
+    /// the instants is arbitrary.
     /// Only the parts of the state that the requested channels need are computed; the other parts are undefined.
     ///
     /// # Errors

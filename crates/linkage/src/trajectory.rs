@@ -133,8 +133,8 @@ impl Trajectory {
         self.channels.iter().zip(self.columns.iter().map(Vec::as_slice))
     }
 
-    /// Takes the trajectory apart, so that its numbers need not be copied: times (s), values of the input (SI), then the
-    /// values of each channel in its SI unit, in the order of [`Trajectory::channels`].
+    /// Returns the parts of the trajectory and copies no numbers. The parts are the times (s), the values of the input
+    /// (SI) and the values of each channel in its SI unit, in the order of [`Trajectory::channels`].
     #[must_use]
     pub fn into_columns(mut self) -> Vec<Vec<f64>> {
         self.columns.splice(..0, [self.times, self.inputs]);

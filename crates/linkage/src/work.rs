@@ -74,7 +74,8 @@ thread_local! {
 
 /// Runs `run` and returns its result together with the work counted on this thread during the call.
 /// The returned work includes work of other threads that was passed to [`add`] during the call.
-/// A `WorkTally` is counted only when it is dropped, so every tally created in `run` must be dropped in `run`.
+/// A `WorkTally` adds its counts only when the tally is dropped. Every tally that `run` creates must therefore be
+/// dropped in `run`.
 pub fn counted<T>(run: impl FnOnce() -> T) -> (T, Work) {
     let before = DONE.replace(Work::NONE);
     let answer = run();
@@ -94,7 +95,7 @@ pub fn add(work: &Work) {
 pub const PLACED: f64 = 0.2;
 
 thread_local! {
-    /// Remaining work, and total allowed work, of the [limit](limited) in force on this thread.
+    /// The innermost [limit](limited) of this thread: the remaining work and the total allowed work.
     static ALLOWED: Cell<[f64; 2]> = const { Cell::new([f64::INFINITY; 2]) };
 }
 
@@ -146,7 +147,7 @@ impl WorkTally {
     }
 }
 
-/// A copy starts at zero, so that no work is added to the thread's counts twice.
+/// A cloned tally starts at zero. Otherwise the same work would be added to the thread's counts twice.
 impl Clone for WorkTally {
     fn clone(&self) -> Self {
         WorkTally::default()

@@ -1,7 +1,8 @@
 //! Dual numbers: numbers with their first derivatives in several directions.
 //!
-//! Every operation applies the rules of differentiation, so there is no error of a step width (forward mode of
-//! algorithmic differentiation: Griewank, Walther, Evaluating Derivatives, 2nd ed., SIAM 2008, section 3.1).
+//! Every operation applies the rules of differentiation, so the derivatives have no step size error, unlike finite
+//! differences. The method is the forward mode of algorithmic differentiation: Griewank, Walther, Evaluating
+//! Derivatives, 2nd ed., SIAM 2008, section 3.1.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -24,8 +25,7 @@ impl<B: Scalar, const N: usize> Dual<B, N> {
         Dual { value, slopes: [B::ZERO; N] }
     }
 
-    /// Result of a function of this number, from the value `value` and the derivative `slope` of the function at this
-    /// number.
+    /// A function of this number. `value` is the function's value at this number, and `slope` is its derivative there.
     fn chained(self, value: B, slope: B) -> Self {
         Dual { value, slopes: self.slopes.map(|own| own * slope) }
     }

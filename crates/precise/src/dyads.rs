@@ -1,7 +1,7 @@
 //! Dyads of three revolute pairs in closed form, one dyad after the other. Forces are computed in reverse order.
 //!
-//! The inner joint is an intersection of two circles. The joint lies on the same side of the line between the outer
-//! joints as in the start pose.
+//! The inner joint is an intersection of two circles. In every pose, the inner joint lies on the same side of the line
+//! through the outer joints as in the start pose.
 //! The angular velocities follow from the relative velocity of the outer joints, projected on the two links.
 //! Equations of moments about the inner joint and about the first outer joint give the forces.
 
@@ -22,12 +22,12 @@ use super::vector::Vector as AnyVector;
 
 type Vector = AnyVector<Long>;
 
-/// A dyad: its inner joint, and for each of its two links the outer joint.
+/// A dyad: its two links, the outer joint of each link, and the inner joint.
 struct Dyad {
     links: [LinkId; 2],
     outer: [JointId; 2],
     inner: JointId,
-    /// Positions of the outer joints on the links before the dyad.
+    /// Positions of the outer joints on the earlier links to which the dyad is attached.
     bases: [JointSide; 2],
     /// For each link of the dyad: positions of the outer and the inner joint.
     locals: [[linkage::math::Vec2; 2]; 2],
@@ -35,7 +35,7 @@ struct Dyad {
     is_left: bool,
 }
 
-/// Like [`solve`](super::solve), for a mechanism of dyads with three revolute pairs.
+/// Does the same as [`solve`](super::solve), but only for mechanisms of dyads with three revolute pairs.
 ///
 /// # Errors
 /// The errors of [`solve`](super::solve). [`ErrorKind::Unsupported`] if the mechanism has a group of another kind,
@@ -105,8 +105,8 @@ impl Dyad {
         });
         let alphas = projected(carried[1] - carried[0]);
         for k in 0..2 {
-            // The direction of the rod in the world, rotated back by the direction of the rod in the link's frame, is
-            // the direction of the frame.
+            // The angle of the frame is the angle of the rod in the world minus the angle of the rod in the link's
+            // frame.
             let direction = arms[k].rotated_back(rods[k]);
             let direction = direction * (Long::ONE / direction.norm());
             let to_origin = -Vector::of(self.locals[k][0]).rotated(direction);
@@ -139,8 +139,9 @@ fn forces(case: &Case, numbers: &CaseNumbers<Long>, task: &Task, dyads: &[Dyad],
         let c = instant.frames[dyad.links[0]].point(Vector::of(dyad.locals[0][1]));
         let [one, two] = dyad.links.map(|link| acting[link]);
         let about = |place: Vector, (force, moment): (Vector, Long)| moment - place.cross(force);
-        // The force in the second outer joint follows from two moment equations:
-        // that of the second link about the inner joint, and that of both links about the first outer joint.
+        // The force in the second outer joint follows from two moment equations. The first equation takes moments of
+        // both links about the first outer joint. The second equation takes moments of the second link about the inner
+        // joint.
         let (whole, part) = (-(about(a, one) + about(a, two)), -about(c, two));
         let (p, q) = (b - a, b - c);
         let second = (q * whole - p * part) * (Long::ONE / p.cross(q));

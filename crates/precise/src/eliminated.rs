@@ -1,4 +1,4 @@
-//! Gaussian elimination for several right-hand sides, and the scalars that use it directly.
+//! Gaussian elimination for several right-hand sides, and the implementations of `Scalar` for `f64` and `Long`.
 
 use std::f64::consts::TAU;
 
@@ -9,7 +9,7 @@ use super::scalar::Scalar;
 #[derive(Clone, Debug)]
 pub struct Eliminated<S> {
     rows: Vec<Vec<S>>,
-    /// For every column, the row with which the row of the same number was exchanged.
+    /// Entry k is the number of the row that was exchanged with row k.
     pivots: Vec<usize>,
 }
 
@@ -72,7 +72,7 @@ impl<S: Scalar> Eliminated<S> {
     }
 }
 
-/// Subtracts `factor` times `other`.
+/// Subtracts `factor` times `other` from `from`.
 fn take<S: Scalar, const N: usize>(from: &mut [S; N], factor: S, other: &[S; N]) {
     if factor == S::ZERO {
         return;

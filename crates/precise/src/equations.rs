@@ -2,7 +2,8 @@
 //! All constraint equations are solved at once, and so are all equations of equilibrium.
 //!
 //! The unknowns are the frames of all moving links.
-//! The equations accept any [`Scalar`]: double-double numbers give a reference, dual numbers exact sensitivities.
+//! The equations accept any [`Scalar`]. Double-double numbers give a reference, and dual numbers give exact
+//! sensitivities.
 //! The elimination is dense, which is suitable for some tens of links.
 
 use linkage::case::Case;
@@ -53,7 +54,8 @@ impl<'a, S: Scalar> Whole<'a, S> {
     /// The state at the time `time` (s). The iteration starts from the pose of another solver, given by the motion and
     /// the angle (rad) of every link.
     /// If `keeps_input` is true, all derivatives are taken at a constant input of the first drive. The time at which
-    /// the drive reaches this input then has derivatives with respect to the numbers of its law.
+    /// the drive reaches this input then depends on the numbers of the drive's law, and has derivatives with respect to
+    /// these numbers.
     /// `None` if the pose is singular, or if Newton's method does not converge. `None` also if the time must have
     /// derivatives but the drive stands still.
     #[must_use]
@@ -74,8 +76,8 @@ impl<'a, S: Scalar> Whole<'a, S> {
     }
 
     /// Whether all derivatives at a constant input of the first drive are known.
-    /// They are not known if the law of a drive is a table or formula: this crate does not differentiate the
-    /// acceleration of such a law.
+    /// If the law of a drive is a table or formula, these derivatives are unknown, because this crate does not
+    /// differentiate the acceleration of such a law.
     #[must_use]
     pub fn can_keep_input(&self) -> bool {
         !self.numbers.drives.iter().any(DriveNumbers::is_curve)
@@ -108,7 +110,7 @@ impl<'a, S: Scalar> Whole<'a, S> {
         }
     }
 
-    /// The matrix of all equations in a pose: first those of the joints, then those of the drives.
+    /// The matrix of all equations in a pose: first the equations of the joints, then the equations of the drives.
     fn matrix(&self, frames: &[Frame<S>]) -> Vec<Vec<S>> {
         let count = self.unknowns();
         let mut matrix = vec![vec![S::ZERO; count]; count];
@@ -198,7 +200,7 @@ impl<'a, S: Scalar> Whole<'a, S> {
                 JointKind::Prismatic { .. } => {
                     let axes = self.guides(frames, index);
                     let normal = axes[0].turned();
-                    // The normal rotates with the first link, so its angular velocity is that of the first link.
+                    // The normal rotates with the first link, so normal and first link have the same angular velocity.
                     let omega = sides[0].omega;
                     let speed = |k: usize| sides[k].velocity + arms[k].turned() * sides[k].omega;
                     let turning = two * omega * axes[0].dot(speed(1) - speed(0)) + omega * omega * normal.dot(gap);
@@ -272,7 +274,7 @@ impl<'a, S: Scalar> Whole<'a, S> {
         largest.is_finite().then_some(largest)
     }
 
-    /// Newton's method for the pose with these inputs of the drives.
+    /// Moves `frames` to the pose with these inputs of the drives (Newton's method).
     pub(crate) fn close(&self, frames: &mut [Frame<S>], drives: &[[S; 3]], settled: f64) -> Option<()> {
         let mut before = f64::INFINITY;
         for _ in 0..MOST {

@@ -14,12 +14,12 @@ fn row(link: LinkId) -> usize {
     3 * (link.index() - 1)
 }
 
-/// Action of an unknown of size 1 on the joint's second link: force, moment about the world's origin, and the part of
-/// this moment that is the joint's moment.
+/// Action on the joint's second link if the unknown is 1: the force, the moment about the world's origin, and the
+/// joint's moment. The joint's moment is a part of the moment about the origin.
 type Unit<S> = (Vector<S>, S, S);
 
 impl<S: Scalar> Whole<'_, S> {
-    /// For each of a joint's two unknowns, the action of the unknown on the second link.
+    /// The actions of a joint's two unknowns on the joint's second link.
     fn reactions(&self, joint: JointId, at: &Snapshot<S>) -> [Unit<S>; 2] {
         let (own, numbers) = (&self.case.mechanism.joints()[joint], &self.numbers.joints[joint]);
         let place = at.frames[own.second.link].point(numbers.places[1]);
@@ -33,7 +33,7 @@ impl<S: Scalar> Whole<'_, S> {
         }
     }
 
-    /// The action of a drive with the moment or force 1 on its links.
+    /// The actions on a drive's links if the moment (N m) or force (N) of the drive is 1.
     fn effort(&self, drive: usize, at: &Snapshot<S>) -> Vec<(LinkId, Wrench<S>)> {
         let own = &self.numbers.drives[drive];
         let joint = &self.case.mechanism.joints()[own.joint];
@@ -51,7 +51,8 @@ impl<S: Scalar> Whole<'_, S> {
         }
     }
 
-    /// Equilibrium of all links. Each link has two force equations and a moment equation about the world's origin.
+    /// Solves the equilibrium of all links. Each link has two force equations and a moment equation about the world's
+    /// origin.
     /// `input` is the input of the first drive.
     pub(crate) fn forces(&self, instant: &mut Snapshot<S>, input: S) -> Option<()> {
         let joints = self.case.mechanism.joints();

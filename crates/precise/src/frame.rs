@@ -65,7 +65,7 @@ pub struct Snapshot<S> {
     pub(crate) efforts: Vec<S>,
     /// Resultant of all loads on the ground.
     pub(crate) on_ground: Wrench<S>,
-    /// Coordinate of the first drive: of a crank, its world angle, unwrapped.
+    /// Coordinate of the first drive. The coordinate of a crank is its world angle, unwrapped.
     pub(crate) crank: S,
     /// Time of the instant (s).
     pub time: S,
@@ -86,7 +86,7 @@ impl<S: Scalar> Snapshot<S> {
         }
     }
 
-    /// Weight and inertia of a link.
+    /// Weight and inertia force of a link, with the moment of both about the world's origin.
     pub(crate) fn inertia(&self, numbers: &CaseNumbers<S>, link: LinkId) -> Wrench<S> {
         let own = &numbers.links[link];
         let frame = &self.frames[link];
@@ -106,7 +106,8 @@ pub(crate) fn slide<S: Scalar>(instant: &Snapshot<S>, joint: &Joint, numbers: &J
     let gap_rate = second.point_velocity(other) - first.point_velocity(one);
     let gap_second = second.point_acceleration(other) - first.point_acceleration(one);
     let (omega, alpha, two) = (first.omega, first.alpha, S::of(2.0));
-    // The axis rotates with the first link, so the derivatives of axis . gap also contain the rates of the axis.
+    // The axis rotates with the first link, so the derivatives of the product axis . gap also contain derivatives of
+    // the axis.
     let turned = axis.turned();
     let second_rate =
         axis.dot(gap_second) + two * omega * turned.dot(gap_rate) + (turned * alpha - axis * (omega * omega)).dot(gap);

@@ -23,7 +23,7 @@ pub(crate) struct DriveNumbers<S> {
     law: Law<S>,
 }
 
-/// A law over time, for any scalar.
+/// A motion law over time, whose numbers are of any scalar type.
 #[derive(Clone, Debug)]
 enum Law<S> {
     Constant(S),
@@ -40,12 +40,13 @@ enum Law<S> {
         period: S,
         phase: S,
     },
-    /// A table or formula. It is evaluated in doubles, and the results have no derivatives with respect to its numbers.
+    /// A table or formula. The table or formula is evaluated in doubles. The results have no derivatives with respect
+    /// to the numbers of the table or formula.
     Curve(Arc<Curve>),
 }
 
 impl<S: Scalar> DriveNumbers<S> {
-    /// The drive with this number.
+    /// The drive with the index `number` among the drives of the case.
     ///
     /// # Errors
     /// [`ErrorKind::Unsupported`] for a free motion.
@@ -107,7 +108,7 @@ impl<S: Scalar> DriveNumbers<S> {
             }
             Law::Curve(curve) => {
                 let [gone, rate, acceleration] = curve.at(time.value()).map(S::of);
-                // At a constant input, the time has derivatives; `off` has the value zero and these derivatives.
+                // The time can have derivatives. `off` has the value zero and the derivatives of the time.
                 let off = time - S::of(time.value());
                 [self.start + gone + rate * off, rate + acceleration * off, acceleration]
             }
@@ -119,10 +120,8 @@ impl<S: Scalar> DriveNumbers<S> {
         matches!(self.law, Law::Curve(_))
     }
 
-    /// The time (s) at which the input has the value that it has at `time`.
-    /// The value of the result is `time`. If numbers of the law change, the time changes by its derivatives, and the
-    /// input stays constant.
-    /// `None` if the input has derivatives but stands still.
+    /// The time `time` (s), with the derivatives that keep the input constant if numbers of the law change.
+    /// `None` if the input has derivatives but the rate of the input is zero.
     pub(crate) fn time_of_same_input(&self, time: f64) -> Option<S> {
         let [input, rate, _] = self.at(S::of(time));
         let off = input - S::of(input.value());

@@ -4,9 +4,9 @@
 //! equations of the mechanism at once ([`whole`]).
 //! The second method accepts any [`Scalar`]: with [`Dual`] numbers it gives the exact derivatives of every channel with
 //! respect to the [`CaseNumbers`] of the case.
-//! Neither method shares equations or code with the analytic sides; only the case is common.
-//! The inputs of the drives are computed from the time of the instant in full precision, except those of tables and
-//! formulas.
+//! The methods share the case with the analytic sides, but no equations and no code.
+//! The inputs of the drives are computed from the time of the instant in full precision, except inputs that are given
+//! by tables or formulas.
 
 mod dual;
 pub mod dyads;

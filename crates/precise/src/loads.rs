@@ -26,7 +26,7 @@ pub(crate) fn loads<S: Scalar>(case: &Case, numbers: &CaseNumbers<S>, at: &Snaps
     on
 }
 
-/// The resultants so far, and the state on which loads depend.
+/// The resultants of the loads added so far, and the state on which loads depend.
 struct Sum<'a, S> {
     case: &'a Case,
     numbers: &'a CaseNumbers<S>,
@@ -44,21 +44,22 @@ impl<S: Scalar> Sum<'_, S> {
         self.on[link].1 = self.on[link].1 + moment;
     }
 
-    /// A force along the line through two points: `share` times the vector between them, positive if it pulls them
-    /// together.
+    /// Adds a force along the line through two points: `share` times the vector between the points. A positive `share`
+    /// pulls the points together.
     fn pull(&mut self, links: [LinkId; 2], ends: [Vector<S>; 2], share: S) {
         let force = (ends[1] - ends[0]) * share;
         self.force(links[0], force, ends[0]);
         self.force(links[1], -force, ends[1]);
     }
 
-    /// A moment on the first link and the opposite moment on the second.
+    /// Adds a moment on the first link and the opposite moment on the second link.
     fn twist(&mut self, links: [LinkId; 2], moment: S) {
         self.moment(links[0], moment);
         self.moment(links[1], -moment);
     }
 
-    /// A force along the axis of a sliding joint on its second link, and the opposite force on its first link.
+    /// Adds a force on the second link of a prismatic joint, along the joint's axis, and the opposite force on the
+    /// first link.
     fn along(&mut self, joint: JointId, force: S) {
         let own = &self.case.mechanism.joints()[joint];
         let numbers = &self.numbers.joints[joint];
@@ -135,7 +136,8 @@ impl<S: Scalar> Sum<'_, S> {
             LoadNumbers::TorsionSpring { links, stiffness, free_angle, acts } => {
                 let [first, second] = *links;
                 let begun = self.case.start.0[second].angle - self.case.start.0[first].angle;
-                // By definition, the twist at t = 0 is in (-pi, pi], so its whole turns are subtracted.
+                // By definition, the twist of the spring at t = 0 is in (-pi, pi], so the whole turns of the start pose
+                // are subtracted.
                 let turns = ((wrapped(begun) - begun) / TAU).round();
                 let twist = self.at.angles[second] - self.at.angles[first] + S::TURN * S::of(turns) - *free_angle;
                 if acts.has(twist.value()) {

@@ -20,7 +20,7 @@ pub(crate) struct LinkNumbers<S> {
     pub(crate) inertia: S,
 }
 
-/// A joint: its place and its axis on both links.
+/// A joint: its point and its axis on each of the two links.
 #[derive(Clone, Debug)]
 pub(crate) struct JointNumbers<S> {
     pub(crate) places: [Vector<S>; 2],

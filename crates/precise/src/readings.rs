@@ -17,7 +17,7 @@ use super::frame::{Frame, Snapshot, slide};
 use super::scalar::Scalar;
 use super::vector::Vector;
 
-/// The trajectory of a case from its instants, one for each row of the grid.
+/// The trajectory of a case from its states, one state for each row of the grid.
 pub(crate) fn trajectory<S: Scalar>(whole: &Whole<S>, instants: &[Snapshot<S>]) -> Result<Trajectory> {
     let case = whole.case;
     let readings = Readings::of(*whole);
@@ -48,8 +48,8 @@ fn keep_turns(values: &mut [f64]) {
     }
 }
 
-/// The angle of a link, reduced to within half a turn; [`keep_turns`] continues the angle from this value.
-/// The angle of the crank keeps its turns.
+/// The angle of a link, between -pi and pi; [`keep_turns`] continues the angle from this value. The angle of the crank
+/// is returned unchanged, with its whole turns.
 fn within_half_a_turn(channel: &Channel, case: &Case, angle: f64) -> f64 {
     let crank = case.crank();
     let is_crank = crank.input == Input::Angle && case.mechanism.links()[crank.link].name == channel.of;

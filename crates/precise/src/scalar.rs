@@ -55,18 +55,18 @@ pub trait Scalar:
 /// Converts a number of the case to a scalar, which may have derivatives.
 pub type Lift<'a, S> = &'a dyn Fn(CaseNumber, f64) -> S;
 
-/// Gives the derivatives of a table of a load, for the index of the load and that of the table.
-/// For every direction in which the table has a derivative, the result has a number with the value 0 and the derivative
-/// 1 in this direction, and the derivative of the table as another table.
+/// Gives the derivatives of a table of a load. The arguments are the index of the load and the index of the table. The
+/// result has one pair for each direction in which the table has a derivative. The first part of the pair is a number
+/// with the value 0 and the derivative 1 in this direction. The second part is the derivative of the table, as a table.
 pub type LiftTable<'a, S> = &'a dyn Fn(usize, usize) -> Vec<(S, Course)>;
 
-/// Angle (rad) of a direction, with the whole turns that bring it nearest to `near` (rad).
+/// Angle (rad) of a direction. Whole turns are added so that the angle is as near as possible to `near` (rad).
 /// The angle is the sum of an approximation in doubles and a remainder, which has the missing digits and the
 /// derivatives.
 pub(crate) fn angle_of<S: Scalar>([x, y]: [S; 2], near: f64) -> S {
     let rough = y.value().atan2(x.value());
     let (sin, cos) = S::of(rough).sin_cos();
-    // The remainder is smaller than the rounding error of `rough`, so it equals its sine.
+    // The remainder is smaller than the rounding error of `rough`, so the remainder equals its sine.
     let rest = cos * y - sin * x;
     let turns = ((near - rough) / (2.0 * PI)).round();
     S::of(rough) + rest + S::TURN * S::of(turns)

@@ -134,12 +134,13 @@ fn derivatives_equal_differences_in_double_double() {
             let most = expected.iter().fold(0.0, |most: f64, own| if own.abs() > most { own.abs() } else { most });
             not_zero += usize::from(most > 0.0);
             for ((found, expected), channel) in found.iter().zip(&expected).zip(case.all_channels()) {
-                // Tables are evaluated in doubles, which limits the differences.
+                // Tables are evaluated in doubles, which limits the accuracy of the differences.
                 let off = (found - expected).abs();
                 assert!(off <= 1e-10 * most, "{law:?} {number:?} {channel}: {found} and {expected}, of {most}");
             }
         }
-        // The mass of the ground has no effect; a point without a joint or load affects only its own channels.
+        // The mass of the ground has no effect. A point that carries no joint and no load affects only the channels of
+        // this point.
         assert!(not_zero > 60, "{not_zero}");
     }
 }
@@ -167,7 +168,7 @@ fn an_instant_of_an_input_moves_in_time() {
     }
 }
 
-/// The loads of this crate and those of the other solvers have the same resultants.
+/// The resultants of the loads equal the resultants that the other solvers compute.
 #[test]
 fn loads_equal_those_of_the_sides() {
     use linkage::case::JointReactions;
@@ -196,7 +197,8 @@ fn loads_equal_those_of_the_sides() {
         let joints = case.mechanism.joints().len();
         let (forces, moments) = (vec![Vec2::zeros(); joints], vec![0.0; joints]);
         let reactions = JointReactions { forces: &forces, moments: &moments, transmitted: &[] };
-        // By the principle of virtual work, the load changes the crank's moment by its power divided by the speed.
+        // By the principle of virtual work, the load changes the crank's moment by the power of the load divided by the
+        // crank's speed.
         let power = case.load_power(&motions, &loaded.angles, reactions);
         let off = (loaded.efforts[0] - free.efforts[0]) + power / 10.0;
         assert!(off.abs() < 1e-12 * (1.0 + power.abs()), "{load:?}: {off}, {power}");

@@ -1,5 +1,5 @@
-//! Follows any mechanism of revolute and prismatic pairs from its start pose, by all its equations at once, in
-//! double-double numbers.
+//! Follows any mechanism of revolute and prismatic pairs from its start pose. All equations of the mechanism are solved
+//! at once, in double-double numbers.
 
 use crate::sentences;
 use linkage::case::Case;
@@ -16,10 +16,11 @@ use super::task::{at_start, check_instants, stuck};
 
 /// Largest rotation of a driving link in one step between requested instants (rad).
 const STEP: f64 = std::f64::consts::PI / 180.0;
-/// At steps between requested instants, this larger limit replaces [`Scalar::SETTLED`].
+/// Limit that replaces the smaller limit [`Scalar::SETTLED`] at steps between requested instants.
 const NEAR: f64 = 1e-10;
 
-/// Like [`solve`](super::solve), for mechanisms of revolute and prismatic pairs with up to some tens of links.
+/// Does the same as [`solve`](super::solve), by all equations at once, for mechanisms of revolute and prismatic pairs
+/// with up to some tens of links.
 /// From the start pose, the motion is followed in steps of at most one degree of every driving link.
 /// At each requested instant, Newton's method is repeated until the pose changes only by rounding errors.
 ///

@@ -18,9 +18,8 @@ const INSTANTS: usize = 5;
 /// Each stored bound is enlarged by this fraction of itself, because the stored numbers are rounded.
 const WRITTEN: f64 = 0.05;
 
-/// If one of the two bounds, accepted or found, is more than this multiple of the other bound, agreement proves
-/// nothing.
-/// Such a ratio means that the channel is now known much less accurately, or that its accepted bound was much too wide.
+/// If the ratio of the accepted bound and the found bound exceeds this number in either direction, agreement proves
+/// nothing. The channel is then known much less accurately now, or its accepted bound was much too wide.
 const WIDER: f64 = 100.0;
 
 /// Two times count as the same instant if they differ by at most this fraction of the larger time.
@@ -123,13 +122,14 @@ pub struct FigureComparison {
     /// Channels whose bound is now much wider than the accepted bound.
     pub wider: Vec<Wider>,
     /// Channels whose accepted bound is much wider than the bound found now.
-    /// With so wide an accepted bound, almost any similar value would have been accepted.
+    /// An accepted bound of this width would have allowed almost any similar value.
     pub looser: Vec<Wider>,
     /// Channels without accepted values.
     pub new: Vec<String>,
     /// Accepted channels that are missing in the found values.
     pub gone: Vec<String>,
-    /// Whether the accepted and the found run have grids with different instants. If so, values are not compared.
+    /// Whether the grids of the accepted and the found run have different instants. Values on different grids are not
+    /// compared.
     pub is_other_grid: bool,
     /// Verdict words of the accepted and the found proof; `None` if both are `agree`.
     pub proof: Option<[String; 2]>,
@@ -212,7 +212,7 @@ fn by_name(accepted: &Accepted) -> BTreeMap<&str, &AcceptedChannel> {
 }
 
 /// Returns the accepted values of a channel.
-/// `None` if only the accepted or only the found channel has a root mean square.
+/// `None` if only one of the accepted channel and the found channel has a root mean square.
 fn counterpart<'a>(
     known: &BTreeMap<&str, &'a AcceptedChannel>,
     found: &AcceptedChannel,
@@ -258,7 +258,7 @@ fn pairs(kept: &AcceptedChannel, found: &AcceptedChannel, times: &[f64]) -> Vec<
 
 /// Returns the values to store after a run with the values `found`.
 /// A channel keeps its accepted values unless a value has moved or its bound has become much wider or narrower.
-/// So the file changes only where the comparison reports a change.
+/// The file of accepted values therefore changes only where the comparison reports a change.
 /// If the run and the accepted values have different grids, the found values replace all accepted values.
 #[must_use]
 pub fn renewed(accepted: &Accepted, found: Accepted, comparison: &FigureComparison) -> Accepted {

@@ -2,7 +2,7 @@
 //!
 //! The rounding error of a formula is propagated through its operations ([`formula::Rounded`]).
 //! The error of the side's channels is propagated through the claim.
-//! The bound is the sum of both errors, and of the error that the formula states for itself, if it states one.
+//! The bound is the sum of both errors. If the formula states an error, this error is added to the bound.
 
 mod cause;
 mod course;

@@ -45,15 +45,14 @@ enum Holds {
 }
 
 impl ComparedParty {
-    /// A recording: trajectories by the names of their sides.
-    /// The side `reference` is analytic.
-    /// Messages call the party `name`.
+    /// A recording: trajectories by the names of their sides. The side `reference` is analytic. `name` is the party's
+    /// name in messages.
     pub fn recording(name: impl Into<String>, sides: Vec<(String, Trajectory)>) -> ComparedParty {
         ComparedParty { name: name.into(), holds: Holds::Recording(sides) }
     }
 
     /// A CSV or Parquet file, and the mapping of its columns to channels.
-    /// A column named like a channel, unit included, needs no line in the mapping.
+    /// If a column's name is the name of a channel with its unit, the mapping needs no line for this column.
     ///
     /// # Errors
     /// [`ErrorKind::Io`] if the file cannot be read.
@@ -62,10 +61,10 @@ impl ComparedParty {
         ComparedParty::table_within(path, mapping, &|_, _| Ok(()))
     }
 
-    /// Like [`ComparedParty::table`], but calls `may` before memory is allocated.
+    /// Does the same as [`ComparedParty::table`], but calls `may` before memory is allocated.
     ///
     /// # Errors
-    /// The errors of [`ComparedParty::table`], and those of `may`.
+    /// The errors of [`ComparedParty::table`] and the errors of `may`.
     pub fn table_within(path: impl AsRef<Path>, mapping: &Mapping, may: May) -> Result<ComparedParty> {
         let path = path.as_ref();
         let held = Held::of_table(&load_within(path, may)?, mapping)?;

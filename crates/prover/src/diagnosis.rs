@@ -1,6 +1,6 @@
 //! Diagnosis of a disagreement: which party contradicts the others, since when, in which channels, and the simple
 //! cause.
-//! The functions of this module are pure functions of data. See docs/numerics/diagnosis.md.
+//! The functions of this module have no side effects. See docs/numerics/diagnosis.md.
 
 mod alone;
 mod bench;

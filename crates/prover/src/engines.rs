@@ -76,13 +76,12 @@ fn step(case: &Case, turn: f64, share: f64) -> f64 {
     let last = case.grid.times.iter().fold(0.0f64, |last, t| last.larger(t.abs()));
     let (by_turn, by_time) =
         (turn / case.drives.top_speed(case.mechanism.size()), share * if last > 0.0 { last } else { 1.0 });
-    // For links at rest, the limit from the rotation is infinite. The duration then limits the step.
-    // A motion under forces may become much faster than at its start. So the duration also limits the step of such a
-    // motion.
+    // For links at rest, the limit from the rotation is infinite, so the duration limits the step. A motion under
+    // forces may become much faster than at its start, so the duration also limits the step of such a motion.
     if case.is_free() || !by_turn.is_finite() { by_turn.smaller(by_time) } else { by_turn }
 }
 
-/// Every engine of this build, the default first, as created by [`with_step`].
+/// All engines of this build, created by [`with_step`]. The default engine comes first.
 #[must_use]
 pub fn all(step: f64) -> Vec<Box<dyn Engine>> {
     EngineName::ALL.into_iter().filter_map(|engine| with_step(engine, step).ok()).collect()

@@ -2,7 +2,7 @@
 //!
 //! An [`AnswerSheet`] has the right answers for one student, from both analytic sides.
 //! [`read_answers`] reads the student's table, and [`marked`] judges it by a [`MarkCriterion`].
-//! Every cell is judged alone: no other cell changes the verdict.
+//! The verdict on a cell does not depend on other cells.
 //! The cause of a wrong cell is a [`MarkCause`]: a mistake that turns the right answers into the student's number.
 //! A cause that also explains other wrong cells is preferred to a cause that explains this cell alone.
 

@@ -1,7 +1,7 @@
-//! Formats numbers for people: plain decimals if those are short, no meaningless digits, and zero as `0`.
+//! Formats numbers for readers: short numbers as plain decimals, only meaningful digits, and zero as `0`.
 //!
-//! Whether a value counts as zero depends on a scale.
-//! So every function takes a number of digits or the resolution of the value.
+//! Whether a value counts as zero depends on a scale, so every function takes a number of digits or the resolution of
+//! the value.
 
 use linkage::input::InputValue;
 use linkage::math::KeepNan;
@@ -27,7 +27,7 @@ pub fn error(value: f64) -> String {
     significant(value, DIGITS)
 }
 
-/// An error with its unit, or without one if the unit is empty.
+/// An error with its unit, or the number alone if the unit is empty.
 #[must_use]
 pub fn error_in(value: f64, unit: &str) -> String {
     with_unit(&error(value), unit)
@@ -62,7 +62,7 @@ pub fn resolved(value: f64, resolution: f64) -> String {
     if value.abs() < resolution || value == 0.0 {
         return "0".into();
     }
-    // With a resolution of 0 the ratio is infinite. The cast then saturates, so all digits are shown.
+    // If the resolution is 0, the ratio is infinite and the cast saturates, so all digits are shown.
     let digits = (value.abs() / resolution).log10().ceil() as usize;
     let digits = digits.clamp(1, MOST_DIGITS);
     let decimals = -resolution.log10().floor();
@@ -73,7 +73,7 @@ pub fn resolved(value: f64, resolution: f64) -> String {
     }
 }
 
-/// Two values with enough digits to show their difference, at least four.
+/// Two values with enough digits to show their difference, but with at least four digits.
 /// A value below the `bound` on the difference is written as `0` if the difference exceeds a thousandth of this value.
 /// If the difference is within the bound, the values have at most seven digits.
 #[must_use]
@@ -102,7 +102,7 @@ pub fn fixed(value: f64, decimals: usize) -> String {
     }
 }
 
-/// Like `fixed`, with the unit.
+/// A number with `decimals` decimals, as in `fixed`, and its unit.
 #[must_use]
 pub fn fixed_in(value: f64, decimals: usize, unit: &str) -> String {
     with_unit(&fixed(value, decimals), unit)
@@ -114,7 +114,7 @@ pub fn input_in(at: InputValue, decimals: usize) -> String {
     fixed_in(at.input.shown(at.value), decimals, at.input.shown_in().0)
 }
 
-/// Like `input_in`, with the name of the input: `crank angle 41.000 deg`, `slide 300.000 mm`.
+/// An input's name, value and unit: `crank angle 41.000 deg`, `slide 300.000 mm`.
 #[must_use]
 pub fn input_told(at: InputValue, decimals: usize) -> String {
     format!("{} {}", at.input.noun(), input_in(at, decimals))
@@ -150,7 +150,7 @@ pub fn with_unit(number: &str, unit: &str) -> String {
     if unit.is_empty() { number.into() } else { format!("{number} {}", shown(unit)) }
 }
 
-/// Whether plain decimals are shorter than an exponent, which is so for sizes from a thousandth to a hundred thousand.
+/// Whether a value is written as plain decimals: its size is from a thousandth to a hundred thousand.
 fn is_plain(value: f64) -> bool {
     (1e-3..1e5).contains(&value.abs())
 }

@@ -61,8 +61,8 @@ use linkage::trajectory::Trajectory;
 use linkage::work::limited;
 use scenario::{CaseFigure, Formulas, Scenario};
 
-/// Work that the analytic sides may always do, whatever the budget. This work takes a second or two.
-/// Without the analytic sides there is no result.
+/// Work that the analytic sides may always do, even with a smaller budget, because there is no result without the
+/// analytic sides. This work takes a second or two.
 pub const SIDES: f64 = 1e6;
 /// A diagnosis may use at most this multiple of the proof's budget.
 /// With half of this limit, the diagnosis of a free motion with two degrees of freedom could not confirm its finding.
@@ -94,20 +94,21 @@ pub struct Proof {
     pub reference: &'static str,
     /// Checks on the analytic sides, published numbers among them.
     pub checks: Vec<Check>,
-    /// The engines, in the requested order. Only an [unjudged](Proof::unjudged) motion has none.
+    /// The engines, in the requested order. The list is empty only for an [unjudged](Proof::unjudged) motion.
     pub engines: Vec<EngineProof>,
     /// Channels in which the reference and the engines do not all agree.
-    /// Empty if there is only one engine: the verdicts on its channels then show the disagreement.
+    /// The list is empty if there is only one engine, because the verdicts on its channels then show the disagreement.
     pub disputes: Vec<Dispute>,
     /// Diagnosis if a channel disagrees: which party contradicts the others, since when, and why.
     pub diagnosis: Option<Diagnosis>,
     /// Whether the search for the diagnosis reached its work limit before it had tried all causes.
     pub diagnosis_is_cut: bool,
-    /// Verdict on the whole.
+    /// Verdict of the whole proof.
     pub verdict: Verdict,
     /// The reference's trajectory.
     pub reference_trajectory: Trajectory,
-    /// Bound on the error of each reference channel over the whole run, in the channel's unit. Empty if unjudged.
+    /// Bound on the error of each reference channel over the whole run, in the channel's unit. The list is empty for an
+    /// unjudged motion.
     pub reference_bounds: Vec<f64>,
     /// The part of the scenario's case that was solved, and the parts on which no requested channel depends.
     pub scene: Scene,
@@ -128,7 +129,7 @@ impl Proof {
         &self.engines[0]
     }
 
-    /// The motion by side 1, before any check and without engines.
+    /// The motion as side 1 computes it, without checks and engines.
     /// The verdict is inconclusive, because no residual is known.
     ///
     /// # Errors
@@ -189,13 +190,13 @@ impl Proof {
 /// If the only engine cannot start.
 /// If the run would need more memory than is allowed.
 ///
-/// An engine that fails after its start, or that is one of several engines, stays part of the proof, with its
+/// If an engine fails after its start, or if one of several engines fails, the engine stays part of the proof with its
 /// trajectory up to the failure.
 pub fn prove(scenario: &Scenario, options: &Options) -> Result<Proof> {
     prove_with(scenario, options, &mut |_| {})
 }
 
-/// Like [`prove`], but calls `progress` with the finished fraction of the work, from 0 to 1.
+/// Does the same as [`prove`], and calls `progress` with the finished fraction of the work, from 0 to 1.
 ///
 /// # Errors
 /// The errors of [`prove`].
@@ -203,8 +204,8 @@ pub fn prove_with(scenario: &Scenario, options: &Options, progress: Progress) ->
     joined(scenario, &scenario.case, options, progress).map_err(|error| explained(&scenario.case, error))
 }
 
-/// Like [`prove`], but the engines solve `engine_case` at the scenario's instants.
-/// A fault planted in `engine_case` shows which faults a proof can find.
+/// Does the same as [`prove`], but the engines solve `engine_case` at the scenario's instants. Tests plant a fault in
+/// `engine_case` to show that a proof finds the fault.
 ///
 /// # Errors
 /// The errors of [`prove`].
@@ -212,8 +213,8 @@ pub fn prove_against(scenario: &Scenario, engine_case: &Case, options: &Options)
     joined(scenario, engine_case, options, &mut |_| {}).map_err(|error| explained(&scenario.case, error))
 }
 
-/// Solves a case with side 1: all its requested channels on its grid, accurate to rounding; a free motion,
-/// to its integration error.
+/// Solves a case with side 1: computes all requested channels on the case's grid. The channels of a prescribed motion
+/// are accurate to rounding, the channels of a free motion to the integration error.
 ///
 /// ```
 /// use linkproof::{Scenario, solve};
@@ -232,7 +233,8 @@ pub fn solve(case: &Case) -> Result<Trajectory> {
     Reference::Assur.solver().solve(case).map_err(|error| explained(case, error))
 }
 
-/// Like `prove_with`, but with a separate case for the engines. Errors of the solvers are returned unchanged.
+/// Does the same as `prove_with`, but with a separate case for the engines. Errors of the solvers are returned
+/// unchanged.
 fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: Progress) -> Result<Proof> {
     let scene = scenario.case.scene()?;
     let (whole, case) = (&scenario.case, &scene.case);

@@ -42,8 +42,8 @@ impl Mechanism {
         }
     }
 
-    /// The joints that move with a point, each with the side that lies on the point's link: 0 for the joint's first
-    /// link, 1 for its second link.
+    /// The joints at a point. The number beside each joint tells which link of the joint is the point's link: 0 for the
+    /// joint's first link, 1 for its second link.
     pub fn sides<'a>(&'a self, handle: &'a Handle) -> impl Iterator<Item = (JointId, usize)> + 'a {
         let side = |joint: JointId| usize::from(self.joints[joint].first.link != handle.link);
         handle.joints.iter().map(move |&joint| (joint, side(joint)))

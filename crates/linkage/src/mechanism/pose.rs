@@ -45,7 +45,7 @@ impl LinkPose {
 
 impl Joint {
     /// Pose of the driven `link` for a given coordinate of the drive at this joint.
-    /// `link` is one of the joint's two links. `base` is the pose of the joint's link other than `link`.
+    /// `link` is one of the joint's two links. `base` is the pose of the joint's other link.
     /// `coordinate` is the coordinate of `input`, as in [`Drive::coordinate`](crate::drive::Drive::coordinate).
     pub fn driven(&self, link: LinkId, base: &LinkPose, input: Input, coordinate: f64) -> LinkPose {
         let local = self.on(link).expect("the driven joint is on the driving link");
@@ -64,7 +64,7 @@ impl Joint {
     }
 
     /// Coordinate of `input` in a pose, as in [`Drive::coordinate`](crate::drive::Drive::coordinate).
-    /// `link` is the driven link. A coordinate that is an angle includes the whole turns of the angles in `pose`.
+    /// `link` is the driven link. If the coordinate is an angle, it counts whole turns, as the angles in `pose` do.
     #[must_use]
     pub fn coordinate(&self, link: LinkId, input: Input, pose: &Pose) -> f64 {
         let [first, second] = [self.first, self.second].map(|side| pose.0[side.link]);

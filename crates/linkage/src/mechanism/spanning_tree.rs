@@ -9,7 +9,7 @@
 //! The second number is for a tree that cuts the innermost joint of each loop, whatever the joint's kind.
 //! The errors are 1.4e-4 and 2.0e-4 for a slider-crank, and 8.3e-4 and 1.2e-3 for a swinging guide.
 //! The errors are 7.8e-5 and 6.5e-5 for a Scotch yoke.
-//! A crank with a slot has 1.9e-3 for both trees, and an Oldham coupling has 9.0e-5 for both trees.
+//! With both trees, the error is 1.9e-3 for a crank with a slot and 9.0e-5 for an Oldham coupling.
 
 use super::{GROUND, Joint, LinkPose, Mechanism};
 use crate::math::{rotated, unit};
@@ -43,9 +43,9 @@ impl SpanningTree {
         SpanningTree { branches: Vec::new(), cut: mechanism.joints().ids().collect() }
     }
 
-    /// Several trees. Each of the given joints is cut in at least one of them.
+    /// Several spanning trees. Each joint in `joints` is cut in at least one tree.
     /// The first tree is that of [`SpanningTree::of`].
-    /// Each further tree cuts as many as possible of the joints that no earlier tree cuts.
+    /// Each further tree cuts joints that no earlier tree cuts, as many as possible.
     #[must_use]
     pub fn covering(mechanism: &Mechanism, joints: &[JointId]) -> Vec<Self> {
         let mut trees = vec![SpanningTree::of(mechanism)];
@@ -57,8 +57,8 @@ impl SpanningTree {
                 return trees;
             }
             let mut tree = SpanningTree::along(mechanism, kept.into_iter().chain(wanted.iter().copied()));
-            // If the tree cuts none of the requested joints, each of these joints is the only connection of some links
-            // to the ground.
+            // `wanted` contains the joints that no tree cuts so far. If the new tree cuts none of these joints either,
+            // each joint in `wanted` is the only connection of some links to the ground.
             // An example is a crank on its pin without any second joint. Such joints are then cut, and the links beyond
             // them leave the tree.
             if !tree.cut.iter().any(|joint| wanted.contains(joint)) {
@@ -76,7 +76,7 @@ impl SpanningTree {
         }
     }
 
-    /// The spanning tree that adds joints in the given order unless they close a loop (Kruskal's algorithm).
+    /// The spanning tree of Kruskal's algorithm: joints are added in the given order, except joints that close a loop.
     fn along(mechanism: &Mechanism, order: impl Iterator<Item = JointId>) -> Self {
         let mut part: Vec<LinkId> = mechanism.links().ids().collect();
         let (mut taken, mut cut) = (Vec::new(), Vec::new());
@@ -107,16 +107,17 @@ impl SpanningTree {
     }
 
     /// The spanning tree for runs, built breadth first.
-    /// Together with a link, all links that slide on it are added, so that only revolute joints are cut.
+    /// Each link is added together with all links that slide on this link, so that only revolute joints are cut.
     pub fn of(mechanism: &Mechanism) -> Self {
         SpanningTree::with(mechanism, &[])
     }
 
     /// Returns the tree for runs, changed so that it contains the given joints.
-    /// Usually, each given joint adds one link to the tree. If neither of its links, or both, are in the tree already,
-    /// the tree is built in another order:
-    /// first all given joints, then all prismatic joints, then the remaining joints (Kruskal's algorithm).
-    /// Both links are in the tree already if sliding joints reach them, as in an Oldham coupling with its driven disc.
+    /// Usually, each given joint adds one link to the tree. In two cases the tree is built in another order: both links
+    /// of a given joint are in the tree already, or neither link is. Kruskal's algorithm then takes first all given
+    /// joints, then all prismatic joints, then the remaining joints.
+    /// Both links are in the tree already if prismatic joints connect them, as in an Oldham coupling with its driven
+    /// disc.
     /// In the usual order the driven joint would then be cut, although it must be a coordinate of the tree.
     pub fn with(mechanism: &Mechanism, joints: &[JointId]) -> Self {
         let mut tree = SpanningTree { branches: Vec::new(), cut: Vec::new() };
@@ -211,7 +212,7 @@ mod tests {
     #[test]
     fn every_joint_is_cut_in_one_of_the_covering_trees() {
         let trees = SpanningTree::covering(&four_bar(), &[JointId(0), JointId(1), JointId(2), JointId(3)]);
-        // Each tree cuts one of the four joints.
+        // Each tree of the four-bar cuts one of its four joints.
         assert_eq!(trees.iter().map(|tree| numbers(&tree.cut)).collect::<Vec<_>>(), [[2], [3], [1], [0]]);
         let class_four = class_four(1.0, 1.0);
         let trees = SpanningTree::covering(&class_four, &class_four.joints().ids().collect::<Vec<_>>());
@@ -223,7 +224,7 @@ mod tests {
                 reached.push(branch.link);
             }
         }
-        // There are seven joints. Each tree cuts two of them.
+        // Each tree cuts two of the seven joints.
         assert_eq!(trees.len(), 4);
         assert!(class_four.joints().ids().all(|joint| trees.iter().any(|tree| tree.cut.contains(&joint))));
     }
@@ -251,7 +252,8 @@ mod tests {
     fn a_requested_joint_is_part_of_the_tree() {
         let asked = SpanningTree::with(&four_bar(), &[JointId(3)]);
         assert_eq!((pairs(&asked), numbers(&asked.cut)), (vec![(0, 3), (0, 1), (3, 2)], vec![1]));
-        // If the coupler slides on both cranks, sliding joints alone connect the first crank with the second crank.
+        // If the coupler slides on both cranks, the first crank is connected with the second crank by prismatic joints
+        // only.
         let kind = JointKind::Prismatic { axes: [Vec2::new(1.0, 0.0); 2] };
         let mut joints = four_bar().joints().to_vec();
         for slide in [1, 2] {

@@ -1,17 +1,18 @@
 //! Structural analysis: mobility, and the decomposition into driving links and Assur groups.
 //!
-//! Every link has three degrees of freedom. Every revolute or prismatic pair removes two of them. Every given
-//! coordinate and every transmission removes one.
+//! Every link has three degrees of freedom. Every revolute or prismatic pair removes two degrees of freedom. Every
+//! given coordinate and every transmission removes one degree of freedom.
 //! Each equation concerns two or three links, and one of these links becomes its owner. Each link owns three equations.
 //! This assignment of equations to links is a matching.
 //! For every equation that a link owns, the link depends on the other links of the equation.
-//! These dependences form a graph. Its strongly connected components are the driving links and the Assur groups.
+//! These dependences form a graph. The strongly connected components of this graph are the driving links and the Assur
+//! groups.
 //! The components are listed in the order in which they can be solved.
 //! The components do not depend on the choice of matching (Dulmage and Mendelsohn 1958).
 //!
 //! A driving link stands on the ground or on an earlier driving link. Any other given joint belongs to a group.
-//! Two links connected by a given joint form one rigid body at every instant, so a group is classified by its bodies
-//! instead of its links.
+//! Links connected by a joint with given coordinate form one body, which is rigid at every instant. A group is
+//! therefore classified by its bodies instead of its links.
 
 mod driven;
 mod formula;
@@ -40,11 +41,11 @@ pub struct Structure {
     pub drivers: Vec<DrivingLink>,
     /// Assur groups in the order in which they can be solved.
     pub groups: PerGroup<Group>,
-    /// With transmissions: the structure in which each transmission is replaced by its start joint with a given
-    /// coordinate. See [`Structure::at_start`].
+    /// For a mechanism with transmissions: the structure in which the start joint of each transmission replaces the
+    /// transmission and has a given coordinate. See [`Structure::at_start`].
     start: Option<Box<Structure>>,
-    /// Only in the structure at the start: the transmissions, in the order in which their start joints follow the
-    /// drives.
+    /// The transmissions, in the order of their start joints. The list is empty except in the structure of the start
+    /// pose.
     phases: Vec<TransmissionId>,
 }
 
@@ -66,9 +67,9 @@ impl Structure {
     }
 
     /// The structure in which the start pose is assembled.
-    /// In place of each transmission, the joint that fixes its phase has a given coordinate. These joints follow the
-    /// drives.
-    /// Without transmissions, the result is the structure itself.
+    /// Each transmission is replaced by its start joint, which has a given coordinate. In the list of driving links,
+    /// the start joints come after the drives.
+    /// For a mechanism without transmissions, the result is this structure.
     #[must_use]
     pub fn at_start(&self) -> &Structure {
         self.start.as_deref().unwrap_or(self)
@@ -83,7 +84,7 @@ impl Structure {
         drives.iter().copied().chain(starts).take(at_start.drivers.len()).collect()
     }
 
-    /// The structure with these groups only.
+    /// This structure with the groups in `groups` only.
     #[must_use]
     pub fn of_groups(&self, groups: impl Iterator<Item = GroupId>) -> Structure {
         Structure { groups: groups.map(|group| self.groups[group].clone()).collect(), ..self.clone() }
@@ -204,7 +205,7 @@ impl Structure {
         self.drivers.iter().enumerate().filter(|(_, driver)| !driver.in_group)
     }
 
-    /// A pose in which the driving links are placed at these coordinates, one for each drive, as in
+    /// A pose in which each driving link is placed at the coordinate of its drive, as in
     /// [`Drive::coordinate`](crate::drive::Drive::coordinate).
     /// In a body with given joints, the body's first link (its lead) has the pose of the ground. The other links of the
     /// body have their poses relative to the lead.
@@ -244,7 +245,7 @@ impl Structure {
     }
 
     /// Places the link of a [driven](GroupKind::Driven) group. The arguments are those of [`Structure::driving_pose`].
-    /// In `pose`, the other link of the driven joint must already be placed.
+    /// The driven joint's other link must already have its pose in `pose`.
     pub fn place_driven(&self, mechanism: &Mechanism, group: &Group, coordinates: &[f64], pose: &mut Pose) {
         let index = self.drivers.iter().position(|driver| driver.joint == group.given[0]).expect("the joint is driven");
         let (driver, joint) = (&self.drivers[index], &mechanism.joints()[group.given[0]]);
@@ -253,7 +254,7 @@ impl Structure {
     }
 
     /// For every link: the groups on which the link's motion depends if all drives are prescribed.
-    /// These are the group of the link and all earlier groups on which this group depends, as indices in ascending
+    /// The list contains the link's group and all earlier groups on which this group depends, as indices in ascending
     /// order.
     /// The list is empty for the ground and for driving links.
     #[must_use]
@@ -281,7 +282,8 @@ fn carries(mechanism: &Mechanism, drivers: &[DrivingLink], joint: JointId, link:
     base == GROUND || drivers.iter().any(|driver| driver.link == base && !driver.in_group)
 }
 
-/// Modes of the groups of `to`. Groups that also exist in `from` keep their mode in `modes`.
+/// Assembly modes of the groups of the structure `to`. A group that also exists in the structure `from` keeps its mode,
+/// which is its entry of `modes`.
 fn carried(from: &Structure, modes: &[AssemblyMode], to: &Structure) -> Vec<AssemblyMode> {
     let mode = |group: &Group| match from.groups.find(|own| own == group) {
         Some(own) => modes[own],
@@ -291,8 +293,8 @@ fn carried(from: &Structure, modes: &[AssemblyMode], to: &Structure) -> Vec<Asse
     to.groups.iter().map(mode).collect()
 }
 
-/// The transmissions in an order in which each start joint touches, if possible, the ground, a link on a driven joint,
-/// or a link on an earlier start joint.
+/// The transmissions in an order in which each start joint touches a reached link, if possible. Reached links are the
+/// ground, the links on driven joints, and the links on earlier start joints.
 fn phases(mechanism: &Mechanism, drives: &[DrivenJoint]) -> Vec<TransmissionId> {
     let ends = |joint: JointId| {
         let joint = &mechanism.joints()[joint];
@@ -425,7 +427,7 @@ fn kind(mechanism: &Mechanism, group: &Group) -> GroupKind {
         (0, 1) => GroupKind::Rrp,
         (0, _) => GroupKind::Prp,
         (_, 0) => GroupKind::Rpr,
-        // Only RPP remains, because a dyad with three prismatic pairs was rejected earlier.
+        // The remaining kind is RPP, because a dyad with three prismatic pairs was rejected earlier.
         (_, _) => GroupKind::Rpp,
     }
 }

@@ -3,12 +3,12 @@
 //! A member turns about an axle of the carrier, or slides in a guide of the carrier.
 //! The force between the members acts along a line of action. This line is fixed in the carrier, except for cams.
 //! The line has the unit vector w. The force acts on each member at a point of the line, the member's foot.
-//! Along the line both members have the same speed: w . (v2 - v1) = 0 at the feet.
+//! The feet of the two members have the same speed along the line: w . (v2 - v1) = 0.
 //! With the coordinates q1 and q2 of the members relative to the carrier, q2' = f'(q1) q1', so q2 - f(q1) is constant.
 //! The law f is linear, except for cams.
-//! The force on the second member is F w at its foot, the force on the first member -F w at its foot.
-//! There are two lines, one for each sense of the transmitted moment: the two flanks of a tooth, or the two strands of
-//! a belt. Teeth push and strands pull, so F >= 0 along the line that acts.
+//! The force F w acts on the second member at its foot, and the force -F w on the first member at its foot.
+//! There are two lines of action, one for each sense of the transmitted moment: the two flanks of a tooth, or the two
+//! strands of a belt. Teeth push and strands pull, so F >= 0 along the line that acts.
 //! A gear pair with the pressure angle alpha acts like a crossed belt that pushes, on base circles of the radii
 //! r cos(alpha): Niemann and Winter, Maschinenelemente, vol. 2, 2nd ed., Springer 2003, chapter 21.1.
 
@@ -88,7 +88,7 @@ impl TransmissionKind {
 pub struct TransmissionDesign {
     /// Name, unique among the transmissions.
     pub name: String,
-    /// Kind, with its numbers.
+    /// Kind of transmission, with its dimensions.
     pub kind: TransmissionKind,
     /// First and second member.
     pub links: [LinkId; 2],
@@ -96,7 +96,8 @@ pub struct TransmissionDesign {
     pub carrier: LinkId,
     /// The joint whose coordinate at t = 0 fixes the phase.
     pub joint: JointId,
-    /// Coordinate of `joint` at t = 0: the angle of its second link minus that of its first (rad), or the slide (m).
+    /// Coordinate of `joint` at t = 0: the angle of its second link minus the angle of its first link (rad), or the
+    /// slide (m).
     pub start: f64,
     /// Two efficiencies: for power that flows from the first member to the second (1e-6 to 1), then for the opposite
     /// direction (-1e6 to 1).
@@ -106,7 +107,7 @@ pub struct TransmissionDesign {
 }
 
 /// Largest ratio of supplied power to useful power, and largest magnitude of a negative second efficiency.
-/// With a larger ratio, rounding errors of the reactions exceed all bounds.
+/// With a larger value, rounding errors of the reactions exceed all bounds.
 const LARGEST_LOSS: f64 = 1e6;
 
 /// A transmission between two members of a carrier.
@@ -118,7 +119,8 @@ pub struct Transmission {
     pub members: [Member; 2],
     /// The coordinates of the members relative to the carrier, each as a sum of angles or slides with signs.
     pub coordinates: [Vec<(Coordinate, f64)>; 2],
-    /// The contact. It is unused for a cam, whose contact depends on the pose.
+    /// The contact between the members. A cam does not use this field, because the contact of a cam depends on the
+    /// pose.
     fixed: Contact,
     /// A cam and its follower; `None` for other transmissions.
     pub cam: Option<Cam>,
@@ -135,11 +137,13 @@ pub struct Losses {
     pub joint: JointId,
     /// Rate of the first member relative to the carrier, divided by the rate of this joint's coordinate (1, or 1/m).
     pub per: f64,
-    /// Moment of the losses for a force of 1 N in the first line of action, divided by the lost fraction (m).
-    /// It is positive if this force takes power from the first member while the joint's coordinate increases.
+    /// Moment of the losses for a force of 1 N in the first line of action, divided by the lost fraction of the power
+    /// (m). The lever is positive if this force takes power from the first member while the joint's coordinate
+    /// increases.
     pub lever: f64,
     /// Lost power divided by the power at the second member.
-    /// The first number applies if power flows to the second member, the second number if power comes from it.
+    /// The first number applies if power flows to the second member, the second number if power comes from the second
+    /// member.
     pub lost: [f64; 2],
 }
 
@@ -334,8 +338,8 @@ impl Transmission {
         [against(self.members[0].link), q2]
     }
 
-    /// Time (s) that a cam at its present speed needs for the angle between the pose and the nearest end of a piece of
-    /// its law, before or after the pose.
+    /// Time (s) in which the cam, at its present speed, turns to the nearest knot of its law. A knot is an end of a
+    /// piece of the law; the nearest knot can lie before or after the pose.
     /// The time is infinite for a transmission without a cam, and if the cam stands still.
     #[must_use]
     pub fn time_to_knot(&self, joints: &PerJoint<Joint>, motions: &[Motion]) -> f64 {
@@ -344,8 +348,8 @@ impl Transmission {
         if spin == 0.0 { f64::INFINITY } else { cam.to_knot(self.coordinates_in(joints, motions)[0]) / spin.abs() }
     }
 
-    /// For a force of 1 N in the first line of action, in a pose: the two members' links, the force on each link, and
-    /// the point at which the force acts (m).
+    /// The actions of a force of 1 N in the first line of action on the two members, in a pose. Each action consists of
+    /// the member's link, the force on this link, and the point at which the force acts (m).
     #[must_use]
     pub fn unit_actions(&self, joints: &PerJoint<Joint>, motions: &[Motion]) -> [(LinkId, Vec2, Vec2); 2] {
         let (carrier, line) = (&motions[self.design.carrier], self.contact_in(joints, motions).lines[0]);
@@ -370,8 +374,8 @@ impl Transmission {
         [push + slack, pull + slack]
     }
 
-    /// Calls `put` for every action of a transmission that exerts `force` (N), with the link, the force (N) and the
-    /// place (m).
+    /// Calls `put` once for each action of a transmission that exerts `force` (N). The arguments of `put` are the link,
+    /// the force on the link (N) and the point at which the force acts (m).
     pub fn each_action(
         &self,
         joints: &PerJoint<Joint>,

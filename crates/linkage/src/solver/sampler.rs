@@ -30,7 +30,7 @@ pub struct Sampler {
     frictions: Vec<(JointId, ChannelSubject, Mask)>,
     transmissions: Vec<(TransmissionId, Mask)>,
     frame: Mask,
-    /// The drives that exert a moment. If the crank's drive is one of them, it comes first.
+    /// The drives with requested channels, in the order of the case's drives.
     drives: Vec<(usize, ChannelSubject, Mask)>,
     channels: Vec<Channel>,
     columns: Vec<Vec<f64>>,
@@ -45,7 +45,7 @@ pub struct Sampler {
 /// The requested channels of one subject, given by their rows in the table of channels.
 #[derive(Clone, Copy, Debug, Default)]
 struct Mask {
-    /// One bit per row.
+    /// One bit for each row of the table of channels: 1 if the row is requested.
     rows: u16,
     /// Whether the rows include rates or accelerations.
     beyond_positions: bool,
@@ -114,7 +114,7 @@ impl Sampler {
         Sampler { channels, ..sampler }
     }
 
-    /// Stores a state in a row. The order of values is that of [`Case::channels`].
+    /// Stores a state in a row. The values have the order of [`Case::channels`].
     pub fn put(&mut self, case: &Case, row: usize, state: &State) {
         if self.rows.len() == self.kept + BLOCK {
             self.keep();
@@ -226,7 +226,7 @@ impl Sampler {
         Ok(trajectory.of_input(case.crank().input))
     }
 
-    /// The trajectory so far: the stored rows in the order in which they were stored.
+    /// The trajectory of the rows stored so far, in the order of storing.
     /// `None` if there are no rows, or if a number is not finite.
     #[must_use]
     pub fn so_far(mut self, case: &Case) -> Option<Trajectory> {
@@ -248,7 +248,7 @@ struct Row<'a> {
 }
 
 impl Row<'_> {
-    /// Stores the requested quantities of a subject. `read` gives their values.
+    /// Stores the requested quantities of a subject. `read` returns the value of each quantity.
     #[inline(always)]
     fn put<Of: Copy, const N: usize>(&mut self, rows: &[(Of, Stage); N], mask: Mask, read: impl Fn(Of) -> f64) {
         let mut put = 0;

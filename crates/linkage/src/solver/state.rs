@@ -45,7 +45,7 @@ impl State {
         }
     }
 
-    /// [`Joint::slide`] in this state.
+    /// Slide of a joint in this state and its first two derivatives, as in [`Joint::slide`].
     #[inline]
     #[must_use]
     pub fn slide(&self, joint: &Joint) -> Option<[f64; 3]> {
@@ -123,7 +123,7 @@ impl State {
     /// Largest moment (N m): the moment of a drive, or the force of a joint or drive times the lever arm `arm` (m).
     #[must_use]
     pub fn largest_moment(&self, case: &Case, arm: f64) -> f64 {
-        // A force is multiplied by the lever arm, a moment is used unchanged.
+        // Only forces are multiplied by the lever arm.
         let efforts = case.drives.iter().zip(&self.torques);
         let torques = efforts.map(|(drive, effort)| effort.abs() * drive.input.span(arm));
         self.forces.iter().map(|force| force.norm() * arm).chain(torques).fold(0.0, f64::larger)

@@ -68,8 +68,8 @@ const fn row(reading: Reading, suffix: &'static str, quantity: &'static str, uni
 /// A negative force acts along its second line.
 /// The force on the frame is the sum of all forces on it: of joints, drives, transmissions and loads. The moment on the
 /// frame is about the origin.
-/// The torque of a drive acts on the driving link. At a joint between moving links it acts from the joint's first link
-/// on its second link.
+/// The torque of a drive acts on the driving link. At a joint between moving links, the torque acts from the joint's
+/// first link on its second link.
 /// The force of a drive acts along the axis of its prismatic joint from the first link on the second link.
 /// The force is positive if it increases the slide. The reaction of the joint does not include this force.
 pub static CHANNELS: [ChannelKind; 31] = TABLE;
@@ -149,7 +149,7 @@ const fn count(subject: ChannelSubject) -> usize {
 }
 
 /// The readings of one subject with their stages, in the order of columns.
-/// `$any` is an arbitrary reading. It only initialises the array and is then overwritten.
+/// `$any` is an arbitrary reading that initialises the array. All entries are then overwritten.
 macro_rules! rows_of {
     ($subject:ident, $of:ty, $any:expr) => {{
         let mut rows: [($of, Stage); count(ChannelSubject::$subject)] =
@@ -166,8 +166,8 @@ macro_rules! rows_of {
     }};
 }
 
-/// The table of channels again, sorted by subjects. Its rows are constants.
-/// Code that handles all rows of a subject therefore needs no look-up at run time.
+/// The rows of the table of channels, sorted by subjects. The rows are constants, so code that handles all rows of a
+/// subject needs no look-up at run time.
 pub(crate) mod rows {
     use super::{
         ChannelSubject, OfDrive, OfFrame, OfFriction, OfJoint, OfLink, OfPoint, OfSlider, OfTransmission, Reading,

@@ -3,13 +3,13 @@
 /// Subject of a channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum ChannelSubject {
-    /// A link; positions are those of its mass centre.
+    /// A link. The position of a link is the position of its mass centre.
     Link,
     /// A named point.
     Point,
     /// A joint.
     Joint,
-    /// A prismatic joint. The rows of this subject are additional: a prismatic joint also has the rows of every joint.
+    /// A prismatic joint. A prismatic joint has these rows in addition to the rows that every joint has.
     Slider,
     /// A revolute joint with friction.
     Journal,
@@ -17,7 +17,7 @@ pub enum ChannelSubject {
     Guide,
     /// A transmission.
     Transmission,
-    /// The frame. Joints on the ground, drives, transmissions and loads act on it.
+    /// The frame. Joints on the ground, drives, transmissions and loads act on the frame.
     Frame,
     /// The first drive, unless it moves a prismatic joint.
     Drive,
@@ -104,11 +104,11 @@ pub enum Reading {
     Frame(OfFrame),
     /// A quantity of the first drive, unless it moves a prismatic joint.
     Drive(OfDrive),
-    /// A quantity of a drive of a revolute joint other than the first drive.
+    /// A quantity of a further drive, after the first drive, at a revolute joint.
     Motor(OfDrive),
     /// A quantity of the first drive, if it moves a prismatic joint.
     Thrust(OfDrive),
-    /// A quantity of a drive of a prismatic joint other than the first drive.
+    /// A quantity of a further drive, after the first drive, at a prismatic joint.
     FurtherThrust(OfDrive),
 }
 
@@ -229,8 +229,8 @@ pub enum OfSlider {
 /// Quantity of a joint with friction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum OfFriction {
-    /// Friction on the second link: a moment in a revolute joint, a force along the axis in a prismatic joint. It is
-    /// positive if it increases the joint's coordinate.
+    /// Friction on the second link: a moment in a revolute joint, a force along the axis in a prismatic joint. The
+    /// friction is positive if it increases the joint's coordinate.
     Effort,
 }
 

@@ -32,7 +32,7 @@ const BEARS_OUT: f64 = 0.1;
 pub struct Ladder<'a> {
     /// Runs at double, single and half the step (or accuracy).
     pub resolutions: [&'a Trajectory; 3],
-    /// Runs at the step of the middle run, with numbers of sweeps that differ from that of the middle run.
+    /// Runs with the step of the middle run and with other numbers of sweeps than the middle run.
     pub other_sweeps: OtherSweeps<&'a Trajectory>,
 }
 
@@ -63,8 +63,7 @@ impl Convergence {
         let (before, after) = (rms(&coarse), rms(&fine));
         let quotient = (before / after).log2();
         // `observed` is NaN if the difference between single and half step is only rounding.
-        // If the quotient is NaN although the difference between single and half step exceeds rounding, the runs count
-        // as not convergent.
+        // If the quotient of the differences is NaN and rounding is not the reason, the runs count as not convergent.
         let observed = match quotient.is_nan() {
             _ if after <= noise => f64::NAN,
             true => f64::NEG_INFINITY,
@@ -78,11 +77,9 @@ impl Convergence {
             (observed.clamp(0.5, formal), 3.0)
         };
         // If the observed order is below half of the formal order, the error may be as large as the coarser difference.
-        // If only the finer difference is rounding, the coarser difference gives the estimate.
-        // If the observed order exceeds the formal order by more than one, the estimate is at least the one from the
-        // coarser difference.
-        // Errors of several orders then cancel in the finer difference. Such a cancellation may occur if there are few
-        // instants.
+        // If only the finer difference is rounding, the coarser difference gives the estimate. If the observed order
+        // exceeds the formal order by more than one, the coarser difference gives a lower limit of the estimate: errors
+        // of several orders then cancel in the finer difference, which may occur if there are few instants.
         let before = largest_size(&coarse);
         let largest = match observed {
             _ if observed.is_nan() => largest.larger(before * 0.5f64.powf(order)),
@@ -94,9 +91,9 @@ impl Convergence {
         Convergence { observed, formal, error, safety, iteration: 0.0 }
     }
 
-    /// Adapts the safety factor of this estimate to runs that are extrapolated `times` times.
+    /// This estimate with the safety factor for runs that were extrapolated `times` times.
     /// Extrapolation cancels only errors that are a power series in the step.
-    /// Errors near a jump of a load, or near a knot of the load's table, are not such a series.
+    /// Errors near a jump of a load, or near a knot of the load's table, are not a power series in the step.
     /// Errors near such a jump or knot were up to ten times the difference of neighbouring runs (measured in
     /// `benches/peers`).
     pub fn extrapolated(self, times: usize) -> Self {
@@ -150,8 +147,8 @@ impl Convergence {
         Parts { discretisation, iteration, rounding: noise, reference: 0.0 }
     }
 
-    /// Bound on the error of the middle run at `resolution`: the sum of `parts`. `noise` is the origin of the rounding
-    /// part.
+    /// Bound on the error of the middle run: the sum of `parts`. `resolution` is the step or accuracy of the middle
+    /// run, and `noise` is the origin of the rounding part.
     #[must_use]
     pub fn tolerance(&self, resolution: f64, parts: Parts, noise: BoundOrigin) -> Tolerance {
         let Convergence { observed, formal, safety, .. } = *self;
@@ -245,7 +242,7 @@ mod tests {
 
     #[test]
     fn an_accidentally_small_difference_is_not_the_error() {
-        // The errors are 3 h^2 - 2.3 h^4. At the single and the half step they are 0.70 and 0.61, nearly alike.
+        // The errors are 3 h^2 - 2.3 h^4. The errors at the single and the half step, 0.70 and 0.61, are nearly equal.
         let [double, single, half] = [2.0f64, 1.0, 0.5].map(|h| [3.0 * h.powi(2) - 2.3 * h.powi(4)]);
         let found = Convergence::of(&double, &single, &half, false, 2.0, 0.0);
         assert!(found.observed > 6.0, "{found:?}");

@@ -1,18 +1,20 @@
 //! Iteration error of an engine, estimated from runs with fewer sweeps.
 //!
 //! Sweeps converge geometrically.
-//! If half of the sweeps leave a fraction q of the initial error, all of them leave q^2.
-//! The two runs differ by q - q^2, so the remaining error is q / (1 - q) of their difference.
+//! If half of the sweeps leave a fraction q of the initial error, all sweeps leave the fraction q^2.
+//! The results with half and with all sweeps differ by q - q^2, so the remaining error is q / (1 - q) times this
+//! difference.
 //! The safety factor 3 covers q up to 3/4 (ASME V&V 20 also counts the iteration error separately).
 //! If a run with a quarter of the sweeps leaves q, all sweeps leave q^4. The safety factor then covers q^3 up to 3/4.
 //!
 //! A third run shows how the differences develop.
 //! Let each number of sweeps be r times the previous one, and each difference s times the previous one.
 //!
-//! - If the differences continue to shrink by the factor s, s / (1 - s) of the last difference remains (Aitken). This
-//!   is the worst case: differences of a geometric convergence shrink faster and faster.
+//! - If the differences continue to shrink by the factor s, the remaining error is s / (1 - s) times the last
+//!   difference (Aitken). This case is the worst case: differences of a geometric convergence shrink faster and faster.
 //! - Differences may grow at first: an iteration that has hardly begun changes little from run to run, and s is close
-//!   to r. If one mode dominates the iteration, at most (r - 1) s / (r - s) of the last difference then remains.
+//!   to r. If one mode dominates the iteration, the remaining error is then at most (r - 1) s / (r - s) times the last
+//!   difference.
 //! - The position channel with the slowest convergence decides for all channels. If the differences of this channel
 //!   grow, the error is unknown.
 //!
@@ -22,21 +24,20 @@ use linkage::math::KeepNan;
 use linkage::math::statistics::{largest_difference, share};
 use linkage::trajectory::{Channel, Trajectory};
 
-/// Safety factor on the iteration error: see the module's text.
+/// Safety factor on the iteration error, explained in the documentation of this module.
 pub(super) const SAFETY: f64 = 3.0;
 
 /// Runs with the step of the middle run, but with other numbers of sweeps. `T` is the data stored for a run.
 #[derive(Clone, Copy, Debug)]
 pub struct OtherSweeps<T> {
-    /// Two runs. The first has the sweeps of the middle run divided by `factor`, or two sweeps if the middle run has
-    /// one.
-    /// The second has the sweeps of the first divided by `factor`.
+    /// Two runs. The first run has the sweeps of the middle run divided by `factor`, or two sweeps if the middle run
+    /// has one sweep. The second run has the sweeps of the first run divided by `factor`.
     /// `None` for an engine that does not iterate, and for a missing run.
     pub runs: [Option<T>; 2],
     /// Ratio of the numbers of sweeps of successive runs.
     pub factor: f64,
     /// Largest [growth](OtherSweeps::growth) over the position channels; 0 if no growth is known.
-    /// If the engine's own forces are judged, the largest growth over these forces.
+    /// For a judgement of the engine's own forces: the largest growth over these forces.
     pub growth: f64,
 }
 
@@ -59,9 +60,9 @@ impl<'a> OtherSweeps<&'a Trajectory> {
 }
 
 impl OtherSweeps<&[f64]> {
-    /// Growth of the differences between runs: the difference between the middle run `single` and the first run,
-    /// divided by the difference between the first and the second run. Each difference is the largest over all
-    /// instants.
+    /// Growth of the differences between runs: the last difference divided by the difference before. The last
+    /// difference is between the first run and the middle run `single`, the difference before is between the second and
+    /// the first run. Each difference is the largest over all instants.
     /// The result is 0 if a run is missing, or if the difference from the middle run is at most `negligible`.
     #[must_use]
     pub fn growth(&self, single: &[f64], negligible: f64, periodic: bool) -> f64 {
@@ -83,7 +84,7 @@ impl OtherSweeps<&[f64]> {
             // Even small differences of the judged channel are then not rounding. The error is infinite (unknown).
             [Some(_), Some(_)] if self.growth > 1.0 => f64::INFINITY,
             [Some(fewer), Some(_)] => match self.growth(single, noise, periodic) {
-                // If the last difference is only rounding, this difference is the error.
+                // If the last difference is only rounding, this difference counts as the error.
                 0.0 => last(fewer),
                 own => last(fewer) * part_left(own.larger(self.growth), self.factor),
             },
@@ -91,8 +92,8 @@ impl OtherSweeps<&[f64]> {
     }
 }
 
-/// Fraction of the last difference that remains as error, if each difference is `share` times the previous difference.
-/// See the module's text.
+/// Remaining error divided by the last difference, if each difference is `share` times the previous difference. The
+/// documentation of this module gives the formulas.
 fn part_left(share: f64, factor: f64) -> f64 {
     if share < 1.0 {
         share.larger(share / (1.0 - share) / SAFETY)
@@ -122,8 +123,8 @@ mod tests {
                 assert!(bound >= all[0] && bound <= 20.0, "{factor} {q}: {bound} for {}", all[0]);
             }
         }
-        // Differences that grow as fast as the numbers of sweeps show nothing about the remaining error, unless the
-        // differences are rounding.
+        // If the differences grow as fast as the numbers of sweeps, the remaining error is unknown. Differences that
+        // are only rounding are excepted.
         let grown: [&[f64]; 3] = [&[1.0], &[2.0], &[6.0]];
         assert_eq!(left(grown, 4.0, 0.0, 0.0), f64::INFINITY);
         assert_eq!(left(grown, 4.0, 0.0, 5.0), 12.0);

@@ -12,8 +12,8 @@ use linkage::math::statistics::{differences, half_range, quantile, rms, share, s
 use linkage::trajectory::{Channel, Trajectory, Unit};
 
 /// A channel's scale is at least this fraction of the natural size of its quantity.
-/// The errors of a nearly constant coordinate come from neighbouring coordinates.
-/// The small motion of a nearly constant coordinate is therefore no measure of its errors.
+/// A nearly constant coordinate inherits errors from neighbouring coordinates, so its small motion is no measure of its
+/// errors.
 const SMALLEST_SHARE: f64 = 1e-3;
 
 /// The scale of a rate, a force or a moment is at least this fraction of its largest value.
@@ -52,19 +52,19 @@ impl Residual {
 
 /// A force counts as rounding if it is at most this fraction of the largest force.
 /// Forces of the analytic sides are accurate to a tenth of this limit.
-/// A value of any quantity counts as rounding if it is at most this fraction of the quantity's size in `Built`.
+/// Any value counts as rounding if it is at most this fraction of the size of its quantity in `Built`.
 const VANISHING: f64 = 1e-9;
 
 /// Scale of every channel: half the range of its values over the run.
 /// The scale is at least a thousandth of the natural size of the quantity.
 /// For a rate, a force or a moment the scale is also at least a tenth of the largest value.
-/// So the scale of a constant rate, force or moment depends on its value.
+/// The scale of a constant rate, force or moment therefore depends on its value.
 /// The largest value does not limit the scale of a coordinate, because the origin of a coordinate is arbitrary.
 ///
 /// The natural size of coordinates is the largest half range among the quantity's channels.
 /// The natural size of a quantity that is not a coordinate is the largest value of its channels.
 /// The natural size is at least the value that follows from the crank's motion and the sizes of coordinates and forces.
-/// So a quantity that vanishes in the whole mechanism has a scale too.
+/// A quantity that is zero in the whole mechanism therefore has a scale too.
 ///
 /// On a grid of one instant the range of every channel is zero.
 /// On such a grid the scale is the natural size: one radian for angles, half the extent of all coordinates for lengths.
@@ -73,13 +73,13 @@ pub fn scales(trajectory: &Trajectory) -> Vec<f64> {
     scales_beyond(&vec![0.0; trajectory.channels().len()], trajectory, &Built::default())
 }
 
-/// Like `scales`, but for a trajectory with known `errors` (in the units of its channels).
-/// A rate, a force or a moment that is zero throughout, within its error, has no size: its values are rounding.
-/// The cause may be a constant speed, a link that only translates, a joint that guides nothing, or a parallelogram.
-/// The scale of such a channel is a tenth of the natural size of its quantity.
-/// This scale corresponds to the scale of a constant channel: a tenth of the channel's value.
+/// Scales as in `scales`, for a trajectory with known `errors` (in the units of its channels). The values of a rate, a
+/// force or a moment are rounding if they are zero within the error at every instant. Reasons for such values are a
+/// constant speed, a link that only translates, a joint that guides nothing, or a parallelogram. The scale of such a
+/// channel is a tenth of the natural size of its quantity, just as the scale of a constant channel is a tenth of the
+/// channel's value.
 ///
-/// If a natural size is only the rounding error of the size in `built`, the size in `built` replaces it.
+/// A natural size that is no larger than the rounding error of the size in `built` is replaced by the size in `built`.
 /// Examples are a balanced rotor without gravity and a mechanism in equilibrium.
 #[must_use]
 pub(crate) fn scales_beyond(errors: &[f64], trajectory: &Trajectory, built: &Built) -> Vec<f64> {
@@ -123,7 +123,7 @@ pub(crate) struct Built {
 
 impl Built {
     /// Size of a quantity with this unit, from the sizes in `self`.
-    /// For angles and their rates, the rotation `turn` (rad) is used too.
+    /// The size of angles and of their derivatives is proportional to the rotation `turn` (rad).
     fn of(&self, unit: Unit, turn: f64) -> f64 {
         let Built { length, speed, force } = *self;
         match unit {
@@ -145,12 +145,12 @@ impl Built {
     }
 }
 
-/// Whether a channel's values have an arbitrary origin, so that their size has no meaning.
+/// Whether a channel is a position or an angle: the origin is then arbitrary, so the size of the values has no meaning.
 fn is_coordinate(channel: &Channel) -> bool {
     matches!(channel.kind.unit, Unit::Radian | Unit::Metre)
 }
 
-/// Size of the numbers in every channel, to which the rounding error is proportional.
+/// For every channel, the size to which its rounding error is proportional.
 /// The size is the largest absolute value among the channels of the quantity.
 /// The size is at least the value that follows from a rotation of one radian and the largest coordinates and forces.
 #[must_use]
@@ -160,7 +160,7 @@ pub fn magnitudes(trajectory: &Trajectory) -> Vec<f64> {
     trajectory.channels().iter().map(|channel| all.rounded_with(channel)).collect()
 }
 
-/// Like `magnitudes`, but each set of channels has its own sizes.
+/// Sizes as in `magnitudes`, but separate for each set of channels.
 /// `sets[channel]` is the set of a channel. `feeds(from, to)` tells whether numbers of the set `to` are computed from
 /// channels of the set `from`.
 pub(crate) fn magnitudes_by(trajectory: &Trajectory, sets: &[usize], feeds: &dyn Fn(usize, usize) -> bool) -> Vec<f64> {
@@ -186,7 +186,7 @@ fn largest_sizes(trajectory: &Trajectory) -> Vec<f64> {
     trajectory.iter().map(|(_, values)| largest_size(values)).collect()
 }
 
-/// Largest sizes among a selection of channels.
+/// Sizes of the values in a selection of channels.
 struct Sizes {
     of_quantity: BTreeMap<&'static str, f64>,
     /// Largest sizes of coordinates and forces, and the mean speed of the crank.
@@ -231,8 +231,8 @@ impl Sizes {
     }
 
     /// The largest size of the channel's quantity.
-    /// This size is at least the value that follows from the crank's speed, its rotation `turn` (rad) and the sizes of
-    /// coordinates and forces.
+    /// This size is at least the size that follows from the crank's speed, the crank's rotation `turn` (rad) and the
+    /// sizes of coordinates and forces.
     fn natural(&self, channel: &Channel, turn: f64) -> f64 {
         let own = self.of_quantity.get(channel.kind.quantity).copied().unwrap_or(0.0);
         // The size of a force is its largest value. If this value is only rounding error, `largest` gives the size.
@@ -246,7 +246,7 @@ impl Sizes {
 
 /// `other` minus `reference`, channel by channel, for the channels that both trajectories have.
 /// Angles that differ by a constant number of whole revolutions describe the same motion.
-/// So the whole revolutions between the first samples are subtracted.
+/// The whole revolutions between the first samples are therefore subtracted.
 ///
 /// # Errors
 /// If the grids differ.
@@ -339,7 +339,7 @@ mod tests {
         let all = trajectory(&[("joint.A.fx_N", vec![2e9, -1e9]), ("frame.fx_N", vec![3.0, 4.0])]);
         assert_eq!(magnitudes(&all), [2e9, 2e9]);
         assert_eq!(magnitudes_by(&all, &[0, 0], &|_, _| true), [2e9, 2e9]);
-        // Numbers of another set count only if that set feeds the channel's set.
+        // The sizes in a second set of channels count only if the channel's set is computed from the second set.
         assert_eq!(magnitudes_by(&all, &[0, 1], &|from, to| from == to), [2e9, 4.0]);
         assert_eq!(magnitudes_by(&all, &[0, 1], &|from, to| from <= to), [2e9, 2e9]);
         // The scale of the channel, however, is half the channel's own range.
@@ -390,7 +390,7 @@ mod tests {
         let built = Built { length: 0.5, speed: 4.0, force: 30.0 };
         let found = scales_beyond(&[1e-10; 5], &still, &built);
         assert_eq!(found, [1e-3, 0.1 * 4.0, 0.1 * 16.0 * 0.5, 0.1 * 30.0, 0.1 * 15.0]);
-        // A size remains unchanged, however small, unless it is only rounding of the case's size.
+        // Even a very small size remains unchanged if it is larger than the rounding error of the case's size.
         assert_eq!([3e-9, 4e-8, 1.0].map(|own| built.unless(own, Unit::Newton)), [30.0, 4e-8, 1.0]);
     }
 
@@ -442,7 +442,8 @@ mod tests {
         };
         let found = &residuals(&own([0.0; 5]), &own([1.0, -7.0, 2.0, 3.0, 5.0])).unwrap()[0];
         assert_eq!((found.max, found.worst_time, found.worst_crank), (7.0, 0.1, 6.0));
-        // The values are 1, 2, 3, 5 and 7. `q75` is the fourth of them; the mean square is (1 + 49 + 4 + 9 + 25) / 5.
+        // The values are 1, 2, 3, 5 and 7. `q75` is the fourth of these values; the mean square is (1 + 49 + 4 + 9 +
+        // 25) / 5.
         assert_eq!((found.q75, found.rms), (5.0, 17.6f64.sqrt()));
         assert!((found.q99 - 6.92).abs() < 1e-12, "{}", found.q99);
     }

@@ -28,7 +28,7 @@ pub enum Verdict {
     /// A published number disagrees with the solution as an entry of `docs/findings.md` predicts, and the corrected
     /// number agrees.
     Expected {
-        /// Anchor of this entry in `docs/findings.md`.
+        /// Anchor of the entry in `docs/findings.md` that calls the published number wrong.
         finding: String,
         /// Difference between the published number and the solution, in the unit of the check.
         off: f64,
@@ -42,7 +42,7 @@ pub enum Verdict {
     },
 }
 
-/// The section of `docs/findings.md` with the anchor `finding`, as a place to read.
+/// Refers the reader to the section of `docs/findings.md` with the anchor `finding`.
 #[must_use]
 pub fn place_of_finding(finding: &str) -> Advice {
     Advice::Text(format!("docs/findings.md#{finding}"))
@@ -97,7 +97,7 @@ impl Verdict {
         self
     }
 
-    /// Compares a residual with its bound. The comparison is written so that NaN disagrees.
+    /// Compares a residual with its bound. The verdict is disagree if the residual or the bound is NaN.
     pub fn of(residual: f64, bound: f64, place: impl FnOnce() -> String) -> Self {
         if residual <= bound {
             Verdict::Agree { margin: if residual == 0.0 { f64::INFINITY } else { bound / residual } }
@@ -108,8 +108,8 @@ impl Verdict {
 
     /// Verdict on an engine's channel.
     /// A small residual proves nothing if the engine does not converge.
-    /// A small residual also proves nothing if the engine's error may exceed the fraction `wanted` of the channel's
-    /// scale.
+    /// A small residual also proves nothing if the bound on the engine's error exceeds the fraction `wanted` of the
+    /// channel's scale.
     pub fn of_engine(residual: &Residual, convergence: &Convergence, parts: Parts, wanted: f64) -> Self {
         let place = || {
             let unit = residual.channel.kind.unit.symbol();
@@ -122,8 +122,9 @@ impl Verdict {
 
     /// Verdict on a number whose bound comes from an engine's own runs. The bound is the sum of `parts`; `scale` is the
     /// channel's scale.
-    /// The verdict is inconclusive in three cases: the runs do not confirm the bound; the bound exceeds the fraction
-    /// `wanted` of the scale, and `value` is at most three times the bound; the scale is zero, and `value` is not.
+    /// The verdict is inconclusive in three cases. First, the runs do not confirm the bound. Second, the bound exceeds
+    /// the fraction `wanted` of the scale, and `value` is at most three times the bound. Third, the scale is zero and
+    /// `value` is positive.
     pub fn of_estimate(
         value: f64,
         scale: f64,
@@ -146,7 +147,7 @@ impl Verdict {
         if parts.iteration.is_infinite() {
             return open(sentences::THE_SWEEPS_HAVE_HARDLY_BEGUN.into());
         }
-        // A bound this small needs no order of convergence: see `NEGLIGIBLE`.
+        // A negligible bound needs no order of convergence: see `NEGLIGIBLE`.
         if !convergence.is_trusted() && !(bound <= NEGLIGIBLE * wanted * scale) {
             return open(sentences::the_engine_converges_with_order(&convergence.observed, &convergence.formal));
         }
@@ -160,15 +161,16 @@ impl Verdict {
 }
 
 /// If a bound is below this fraction of the widest conclusive bound, no order of convergence is required.
-/// Runs at three steps then differ so little that rounding or the last iterations determine the order.
-/// The discretisation part of the bound is then six to ten times the larger difference between two of these runs.
+/// Below this limit, runs at three steps differ so little that rounding or the last iterations determine the order.
+/// Below this limit, the discretisation part of the bound is six to ten times the larger difference between two of the
+/// three runs.
 const NEGLIGIBLE: f64 = 0.1;
-/// If a bound is too wide to prove agreement, a number disagrees only if it exceeds this multiple of the bound.
-/// The factor is the larger safety factor of the estimate, applied once more.
+/// A number disagrees with a bound that is too wide to prove agreement only if the number exceeds this multiple of the
+/// bound. The factor equals the larger safety factor of the estimate, which is applied a second time.
 const DISPROVEN: f64 = 3.0;
 
-/// Names the largest part of an engine's error, as text to be added to a reason.
-/// Also returns advice on how to reduce this part.
+/// Text about the largest part of an engine's error, which is appended to a reason, and advice on how to reduce this
+/// part.
 fn way_out(parts: Parts) -> (&'static str, Vec<Advice>) {
     match parts.largest() {
         BoundPart::Rounding => {
@@ -240,8 +242,8 @@ impl Check {
         self
     }
 
-    /// Combines this check against the correct number with the check against the published number, `printed`, which the
-    /// entry `finding` of `docs/findings.md` calls wrong.
+    /// Combines this check, which is against the correct number, with `printed`, the check against the published
+    /// number. The entry `finding` of `docs/findings.md` calls the published number wrong.
     /// The check against the published number must disagree, and the check against the correct number must agree.
     /// The verdict is disagree for NaN and for a number that differs from both the published and the correct number.
     pub fn expected(mut self, finding: &str, printed: &Check) -> Self {
@@ -279,7 +281,8 @@ fn beyond(value: f64, bound: f64, unit: &str) -> String {
     sentences::is_beyond_the_bound(&error_in(value, unit), &error_in(bound, unit))
 }
 
-/// Overall verdict: disagree if one verdict is disagree. Otherwise inconclusive if one verdict is inconclusive.
+/// Overall verdict: disagree if any verdict is disagree, otherwise inconclusive if any verdict is inconclusive,
+/// otherwise agree.
 pub fn overall<'a>(verdicts: impl IntoIterator<Item = &'a Verdict>) -> Verdict {
     let mut margin = f64::INFINITY;
     let mut open = None;

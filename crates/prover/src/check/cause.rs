@@ -19,7 +19,7 @@ use linkage::math::statistics::distinct;
 use scenario::{Claim, Formulas};
 
 /// The simplest explanation of a wrong formula.
-/// Unless the variant says otherwise, correcting this cause removes the whole difference.
+/// If the variant says nothing else, correcting this cause removes the whole difference.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FormulaCause {
     /// One slip in writing.
@@ -154,14 +154,15 @@ impl FormulaCause {
         }
     }
 
-    /// The cause in words for a text that marks its place: only the marked parts are repeated.
+    /// The cause in words, for display below a formula text in which the cause is marked. The words repeat only the
+    /// marked parts.
     /// `text` is the text of the formula that [`FormulaCause::place`] names.
     #[must_use]
     pub fn at_marks(&self, text: &str) -> String {
         match self {
             FormulaCause::Slip(FormulaSlip { kind, marks, .. }) if !marks.is_empty() => {
                 let change = |mark: &FormulaMark| match mark.right.as_str() {
-                    // The formula stands above.
+                    // The whole formula is marked and displayed above, so its text is not repeated.
                     right if mark.at == (0..text.len()) => sentences::it_should_be(&right),
                     "" => sentences::nothing_in_place_of(&&text[mark.at.clone()]),
                     right => sentences::in_place_of(&right, &&text[mark.at.clone()]),
@@ -244,12 +245,12 @@ fn sought(trial: &mut Trial, claim: &Claim, course: &KnownTrajectory) -> Option<
     let is_sound = |own: &&Mended| !own.rank.0;
     let is_simple = |own: &&Mended| own.slip.kind != SlipKind::Value || !own.rank.1;
     let mut sound: Vec<&Mended> = tried.right.iter().filter(is_sound).filter(is_simple).collect();
-    // If the mechanism's value is constant, a slip has to match only one number, so a match is weak evidence.
-    // If the formula is wrong by a factor or an offset, a matching number is weak evidence too.
+    // If the mechanism's value is constant, or if the formula is wrong by a factor or an offset, a correction has to
+    // match only one number. The match is then weak evidence.
     let is_weak = trial.is_constant() || trial.is_number;
     if let Some(first) = sound.first().copied() {
-        // Some evidence is stronger than a matching number: a sign, a unit, or units that only the correction makes
-        // consistent.
+        // Stronger evidence than a matching number is a wrong sign, a wrong unit, or units that only the correction
+        // makes consistent.
         let own = formulas.list[trial.index].tree.clone();
         let is_natural = match first.slip.kind {
             SlipKind::Sign | SlipKind::Branch | SlipKind::PerRadian | SlipKind::PerSecond => true,
@@ -306,15 +307,15 @@ fn sought(trial: &mut Trial, claim: &Claim, course: &KnownTrajectory) -> Option<
     if trial.gives_one_number() && !trial.is_constant() {
         return Some(FormulaCause::Constant);
     }
-    // An approximation crosses the exact curve at some instants and is right there by chance.
-    // An approximation is therefore not examined for a change of branch.
+    // An approximation crosses the exact curve at some instants and is right by chance at these instants.
+    // Approximations are therefore not examined for a change of branch.
     let is_exact = trial.formula.error.is_none();
     if let Some(found) = leaves(&rows, course.trajectory.input()).filter(|_| is_exact) {
         return Some(found);
     }
     // Largest remainder that counts as evidence for a slip.
-    // If `among` slips are tried, the probability that one of them leaves so small a remainder at two instants by
-    // chance is at most `CHANCE`.
+    // If `among` slips are tried, the probability is at most `CHANCE` that by chance one of these slips leaves a
+    // remainder below this limit at two instants.
     let by_chance = |own: &Mended| (CHANCE / own.among as f64).sqrt().smaller(MOST_LEFT);
     let nearest = tried.nearest.filter(|own| !own.rank.0 && !is_weak && own.left <= by_chance(own));
     let mostly = |own: Mended| FormulaCause::Mostly { cause: Box::new(FormulaCause::Slip(own.slip)), left: own.left };
@@ -344,8 +345,8 @@ fn near(rows: &[Row]) -> Option<FormulaCause> {
 /// Smallest number of instants from which an approximation is recognised.
 const FEWEST: usize = 8;
 
-/// Values at an instant: time, crank angle, value of the formula (for angles, shifted by whole revolutions to the
-/// one nearest to the mechanism's value), value of the mechanism, bound.
+/// Values at an instant: time, crank angle, value of the formula, value of the mechanism, bound. If the formula gives
+/// an angle, whole revolutions are added so that its value is as near as possible to the mechanism's value.
 pub(super) type Row = [f64; 5];
 
 impl Trial<'_> {
@@ -366,7 +367,8 @@ fn of_numbers(rows: &[Row]) -> Option<FormulaCause> {
     }
     let left = |row: &Row| row[2] - row[3];
     let largest = |column: usize| rows.iter().map(|row| row[column].abs()).fold(0.0, f64::larger);
-    // The bound is widened by the rounding of the numbers, because a fitted coefficient is not known more accurately.
+    // The bound is widened by the rounding error of the values, because this error limits the accuracy of a fitted
+    // coefficient.
     let slack = 8.0 * f64::EPSILON * (largest(2) + largest(3));
     let by = |basis: &dyn Fn(&Row) -> f64| {
         let [above, below] = rows.iter().fold([0.0, 0.0], |[above, below], row| {
@@ -381,7 +383,7 @@ fn of_numbers(rows: &[Row]) -> Option<FormulaCause> {
     offset.or_else(|| by(&|row| row[3]).map(|more| FormulaCause::Factor(1.0 + more)))
 }
 
-/// Recognises a formula that is right up to a value of the input and wrong beyond it.
+/// Recognises a formula that is right up to a value of the input and wrong beyond this value.
 fn leaves(rows: &[Row], input: Input) -> Option<FormulaCause> {
     let mut order: Vec<&Row> = rows.iter().collect();
     order.sort_by(|a, b| a[0].total_cmp(&b[0]));
@@ -395,8 +397,8 @@ fn leaves(rows: &[Row], input: Input) -> Option<FormulaCause> {
 mod tests {
     use super::*;
 
-    /// Ten numbers known to 1e-12. After an offset or a factor is removed, the remainder of each number must be at most
-    /// about 1e-12.
+    /// Ten values with a bound of 1e-12. After an offset or a factor is removed, each remainder must be at most about
+    /// 1e-12.
     #[test]
     fn an_offset_or_factor_must_explain_every_row() {
         let found = |of: &dyn Fn(f64) -> f64, off: f64| {

@@ -8,7 +8,7 @@ use linkage::math::KeepNan;
 use linkage::trajectory::{Channel, OfJoint, OfLink, OfPoint, Reading, Trajectory};
 use scenario::{Claim, Formula, MechanismFigure, PrintedChannel};
 
-/// Columns with their signs.
+/// Columns of a trajectory, each with the sign of its summand in the input.
 type InputColumns = Vec<(usize, f64)>;
 
 /// A side's trajectory with the error of every value, by column and row (SI units).
@@ -20,8 +20,8 @@ pub struct KnownTrajectory<'a> {
     crank_name: &'a str,
     /// Columns whose signed sums are the rate and the acceleration of the input. `None` if a column is missing.
     crank: [Option<InputColumns>; 2],
-    /// Columns of the input of a motion under forces. `None` in a prescribed motion, and if a column is missing.
-    /// The error of the input is its integration error.
+    /// Columns of the input in a motion that forces determine. The input then has an integration error. `None` in a
+    /// prescribed motion, and if a column is missing.
     angle: Option<InputColumns>,
     /// Values of the whole mechanism, in SI units.
     figures: &'a [(MechanismFigure, Rounded)],
@@ -35,7 +35,7 @@ pub(super) struct Column<'a> {
     error: Box<dyn Fn(usize) -> f64 + 'a>,
     /// The other component of the vector, if the claim is a magnitude.
     across: Option<Box<Column<'a>>>,
-    /// The claim's unit in SI units.
+    /// Size of the claim's unit in the SI unit.
     factor: f64,
 }
 
@@ -246,7 +246,7 @@ mod tests {
     use linkage::solver::Solver;
     use scenario::of_repository;
 
-    /// The error is the larger of two: the error at the instant, and the channel's smallest error in the unit of the
+    /// The error of a value is the error at the instant, but at least the channel's smallest error in the unit of the
     /// claim.
     #[test]
     fn the_error_of_a_channel_is_at_least_its_limit() {

@@ -13,11 +13,12 @@ pub(super) type Dimension = [f64; 3];
 /// A dimension; `None` if unknown.
 pub(super) type Known = Option<Dimension>;
 
-/// Error: inconsistent dimensions. The parts cannot be added, or cannot be arguments of a function.
+/// Error: inconsistent dimensions. Two parts have different dimensions but are added or compared, or the argument of a
+/// function has a dimension.
 struct Unsound;
 
 const NONE: Dimension = [0.0; 3];
-/// Cost of inspecting a formula or looking up a name. The unit is one evaluation of a part.
+/// Cost of inspecting a formula or looking up a name, as a multiple of the cost of evaluating one part of a formula.
 const LOOK: u64 = 4;
 
 /// Dimensions of the formulas of a derivation.
@@ -74,8 +75,8 @@ impl<'a> Dimensions<'a> {
     /// Judges by units whether the author may have meant the trees in `changed`.
     /// `replaced` holds the old and the new part in the formula `index`.
     /// `Some(true)` if the units are consistent.
-    /// `Some(false)` if the units are inconsistent, but the old and the new part have the same known dimension, so that
-    /// the replacement is not the cause.
+    /// `Some(false)` if the units are inconsistent although the old and the new part have the same known dimension. The
+    /// replacement is then not the cause of the inconsistency.
     /// `None` otherwise.
     pub(super) fn standing(
         &self,
@@ -162,7 +163,7 @@ fn of_unit(unit: &str) -> Known {
     })
 }
 
-/// Common dimension of two parts that are added, compared, or are the arguments of `atan2`.
+/// Common dimension of two parts that are added, subtracted, compared, or passed to `atan2`.
 fn same(one: Known, other: Known) -> Result<Known, Unsound> {
     match (one, other) {
         (Some(one), Some(other)) if one != other => Err(Unsound),
@@ -187,7 +188,7 @@ fn of_tree(tree: &FormulaTree, named: &dyn Fn(&str) -> Known) -> Result<Known, U
         Some([0, 1, 2].map(|axis: usize| one[axis] + sign * other[axis]))
     };
     Ok(match &tree.shape {
-        // Zero fits every dimension. A number such as 9.81, which is not a multiple of 1/24, may have a unit.
+        // The number 0 has any dimension. A number that is not a multiple of 1/24, such as 9.81, may have a unit.
         NodeShape::Number(value) => (*value != 0.0 && (24.0 * value).fract() == 0.0).then_some(NONE),
         NodeShape::Name(name) => named(name),
         NodeShape::Negative(part) => of_tree(part, named)?,
@@ -225,7 +226,8 @@ fn of_tree(tree: &FormulaTree, named: &dyn Fn(&str) -> Known) -> Result<Known, U
 mod tests {
     use super::*;
 
-    /// Mass m, length l, time t, angle a, and an unknown x.
+    /// Dimension of a formula of a mass m, a length l, a time t and an angle a. All other names have unknown
+    /// dimensions.
     fn of(text: &str) -> Result<Known, ()> {
         let named = |name: &str| match name {
             "m" => Some([1.0, 0.0, 0.0]),

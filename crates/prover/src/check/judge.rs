@@ -14,7 +14,7 @@ use scenario::{Claim, Formula, Formulas};
 pub(super) struct Claimed<'a> {
     program: Program,
     columns: Vec<Column<'a>>,
-    /// Values of the whole mechanism, then the values of the columns at the row evaluated last.
+    /// First the values of the whole mechanism, then the values of the columns at the row that was evaluated last.
     inputs: Vec<Rounded>,
 }
 
@@ -92,8 +92,8 @@ struct One<'a> {
 
 /// Number of derivatives by which a formula is judged.
 fn orders(formula: &Formula, claim: &Claim, course: &KnownTrajectory) -> Result<usize> {
-    // A formula is judged by value only in three cases: it is an approximation, it is known to be wrong, or it is
-    // claimed at a single crank angle.
+    // Three kinds of formulas are judged only by value, not by derivatives: approximations, formulas that are known to
+    // be wrong, and formulas that are claimed at a single crank angle.
     let is_instant = formula.valid[0].is_some() && formula.valid[0] == formula.valid[1];
     let known = course.orders(claim)?;
     let is_value_only = formula.error.is_some() || formula.finding.is_some() || is_instant;
@@ -102,11 +102,11 @@ fn orders(formula: &Formula, claim: &Claim, course: &KnownTrajectory) -> Result<
 
 /// Judges all claims of a scenario's formulas for which the trajectory has the channels.
 /// Each claim is judged by value, then by every derivative.
-/// At every instant, a part that several formulas share is evaluated once, and so is a claim that several formulas
-/// make.
+/// A part that several formulas share is evaluated once at every instant. A claim that several formulas make is also
+/// evaluated once.
 ///
 /// # Errors
-/// In practice none, because claims whose channels or figures are missing are left out.
+/// No error occurs in practice, because claims whose channels or figures are missing are left out.
 pub fn judge(formulas: &Formulas, course: &KnownTrajectory) -> Result<Vec<Vec<JudgedFormula>>> {
     let mut derived = formulas.clone();
     let (mut nodes, mut all) = (Vec::new(), Vec::new());
@@ -166,7 +166,7 @@ pub fn judge(formulas: &Formulas, course: &KnownTrajectory) -> Result<Vec<Vec<Ju
 }
 
 impl KnownTrajectory<'_> {
-    /// Returns the values of all formulas with a claim, each at the instants at which it is claimed to hold.
+    /// Returns the values of every formula with a claim, at the instants at which the formula is claimed to hold.
     #[must_use]
     pub fn given(&self, formulas: &Formulas) -> Vec<Vec<Rounded>> {
         let nodes: Vec<NodeId> = formulas.claims().map(|(formula, _)| formula.id).collect();

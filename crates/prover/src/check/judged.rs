@@ -1,4 +1,4 @@
-//! Judgement of a formula's values against those of the mechanism.
+//! Compares a formula's values with the mechanism's values.
 
 use crate::sentences;
 use formula::Rounded;
@@ -96,7 +96,7 @@ pub struct JudgedFormula {
     pub finding: Option<String>,
 }
 
-/// If the formula's error exceeds this fraction of the scale, digits may count as lost: see `NO_WORSE`.
+/// Digits of a formula can count as lost only if its error exceeds this fraction of the scale: see `NO_WORSE`.
 const TELLING: f64 = 1e-6;
 /// If a formula's error is at most this multiple of the mechanism's error, no digits count as lost.
 /// The limit allows for a few products of numbers that are known as accurately as the mechanism's numbers.
@@ -110,7 +110,8 @@ fn has_number(mechanism: Rounded) -> bool {
 }
 
 impl JudgedFormula {
-    /// Starts the judgement of a formula with its claim, or of a derivative of both.
+    /// Starts the judgement of a formula against its claim. `order` is the number of time derivatives that are taken of
+    /// both.
     pub(super) fn new((formula, claim): (&Formula, &Claim), order: usize) -> Self {
         JudgedFormula {
             name: formula.name.clone(),
@@ -155,12 +156,11 @@ impl JudgedFormula {
         let bound = formula.error.unwrap_or(0.0) + rounding + mechanism.error;
         let (value, right) = (found.value, mechanism.value);
         let at = FormulaAtInstant { time, crank, input, formula: value, mechanism: right, difference, bound };
-        // If the mechanism's value is hardly more accurate than the formula's value, the formula is not the cause of
-        // the lost digits, and the digits do not count as lost.
+        // Digits count as lost only if the mechanism's value is much more accurate than the formula's value. Otherwise
+        // the formula is not the cause of the inaccuracy.
         let has_lost = !(found.error <= TELLING * self.scale) && !(found.error <= NO_WORSE * mechanism.error);
         // At the end of a function's domain, such as acos at 1, the derivative is not finite although the value is
-        // right.
-        // The digits of a derivative that is not finite therefore count as lost.
+        // right. A derivative that is not finite therefore counts as an instant with lost digits.
         let is_end = self.order > 0 && !found.value.is_finite();
         if is_end || has_lost && at.used() <= 1.0 {
             self.lost += 1;
@@ -208,9 +208,8 @@ mod tests {
     use super::*;
     use scenario::{Formulas, of_repository};
 
-    /// Errors of a formula and of the mechanism as fractions of the scale.
-    /// A formula's value decides nothing if it is known to less than six digits and much less accurately than the
-    /// mechanism's value.
+    /// A formula's value decides nothing if its error exceeds 1e-6 of the scale and a thousand times the mechanism's
+    /// error.
     #[test]
     fn lost_digits_count_only_if_the_mechanism_has_them() {
         let case = of_repository("scenarios/crank_rocker.toml").case;

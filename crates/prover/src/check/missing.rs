@@ -1,7 +1,7 @@
 //! Finds a term or factor that is missing in a formula.
 //!
 //! At every position of the formula, the summand or factor that makes the formula right is calculated for each instant.
-//! If it is proportional to an expression of the derivation, this expression is missing there.
+//! If these amounts are proportional to an expression of the derivation, the expression is missing at this position.
 
 mod dictionary;
 mod monomials;
@@ -26,7 +26,7 @@ pub struct Missing {
     pub beside: Option<String>,
     /// The missing expression with its sign: `+ m*g*s*cos(phi)`, `/ cos(beta)^3`.
     pub what: String,
-    /// Byte range of the part in the formula's text; of the whole text if `beside` is `None`.
+    /// Byte range of the part `beside` in the formula's text; the range of the whole text if `beside` is `None`.
     pub at: Range<usize>,
     /// Whether the missing expression is a factor rather than a term.
     pub is_factor: bool,
@@ -37,12 +37,12 @@ const FEWEST: usize = 4;
 /// Relative accuracy to which a constant amount is recognised as a product of known quantities.
 const ACCURACY: f64 = 1e-9;
 
-/// The missing amount at one position of the formula and its error, for each instant; `None` if it cannot be
-/// determined.
+/// For each instant, the missing amount at one position of the formula, and the error of this amount; `None` if the
+/// amount cannot be determined.
 type Needed = Vec<Option<[f64; 2]>>;
 
-/// A number that is the only evidence is accepted if at most this many products of parameters are expected to match it
-/// by chance.
+/// A matching number is accepted as the only evidence if the expected number of products of parameters that match by
+/// chance is at most this limit.
 const CHANCE: f64 = 0.5;
 /// Assumed number of positions at which a product of several quantities may be missing, if the formula is wrong by a
 /// constant factor or offset, or if the mechanism's value is constant.
@@ -54,7 +54,7 @@ pub(super) fn missing(trial: &mut Trial, dimensions: &Dimensions) -> Vec<Missing
     let dictionary = Dictionary::of(trial);
     let monomials = Monomials::of(&trial.formulas, trial.index, &dictionary.constants, dimensions);
     trial.sheet.operations += (30 * dictionary.entries.len() * trial.few.len() + monomials.len()) as u64;
-    // Units that only the missing expression makes consistent are further evidence.
+    // If the units are inconsistent without the missing expression, this inconsistency is further evidence.
     let own = trial.formulas.list[trial.index].tree.clone();
     let units = if dimensions.are_sound(&[(trial.index, own)]) { 1.0 } else { 0.05 };
     let is_weak = trial.is_number || trial.is_constant();
@@ -98,8 +98,8 @@ pub(super) fn missing(trial: &mut Trial, dimensions: &Dimensions) -> Vec<Missing
                             {
                                 continue;
                             }
-                            // An earlier formula, a deeper position and each name that is new in the formula make an
-                            // explanation less simple.
+                            // An explanation counts as less simple if it changes an earlier formula or a deeper
+                            // position, and for each name that is new in the formula.
                             let outside = usize::from(index != trial.index) + depth + own.strangers;
                             found.push((weight + 2 * outside, own));
                         }
@@ -112,7 +112,7 @@ pub(super) fn missing(trial: &mut Trial, dimensions: &Dimensions) -> Vec<Missing
     found.dedup_by(|one, other| one.1.changed == other.1.changed);
     let mut right: Vec<(usize, Candidate)> = Vec::new();
     for (weight, own) in found {
-        // Keeps only explanations about as simple as the simplest one, and at the same position.
+        // Keeps only explanations at the position of the simplest explanation, and nearly as simple.
         let is_equal = right.first().is_none_or(|(least, first)| weight <= least + 1 && own.is_beside(first));
         if is_equal && right.len() < MOST && trial.fits(&own.changed, 0.0) {
             right.push((weight, own));
@@ -198,8 +198,8 @@ impl Candidate {
 
 /// Whether a number alone proves that a product is missing.
 /// Few products with the same unit may match the number by chance.
-/// If the formula is wrong by a constant factor or offset, or if the mechanism's value is constant, the product fits at
-/// several positions, and `places` is their number; otherwise `places` is `None`.
+/// The product fits at several positions if the formula is wrong by a constant factor or offset, or if the mechanism's
+/// value is constant. `places` is then the number of these positions, otherwise `None`.
 fn is_believed(
     monomials: &Monomials,
     dimensions: &Dimensions,
@@ -227,7 +227,8 @@ fn before(places: &[(usize, usize)], depth: usize) -> usize {
     places.partition_point(|(own, _)| *own <= depth)
 }
 
-/// Depth and number of every position of a tree at which an expression may be missing; the whole tree comes first.
+/// Depth and number of every position of a tree at which an expression may be missing. The first entry is the whole
+/// tree.
 fn places(tree: &FormulaTree) -> Vec<(usize, usize)> {
     let (mut places, mut number) = (Vec::new(), 0);
     at_every_place(tree, &mut |place, part| {
@@ -263,7 +264,7 @@ fn signed(operator: Operator, what: &FormulaTree) -> String {
 }
 
 /// Written forms of a number times an entry, each with its complexity.
-/// The number is written as a product of known quantities. A constant factor may also be one plus or minus such a
+/// The number is written as a product of known quantities. A constant factor may also be 1 plus or minus such a
 /// product.
 fn written(monomials: &Monomials, coefficient: f64, entry: &Entry, operator: Operator) -> Vec<(FormulaTree, usize)> {
     let one = || FormulaTree::number(1.0);
@@ -318,7 +319,7 @@ fn needed(trial: &mut Trial, place: usize, operator: Operator) -> Vec<Needed> {
     let forwards = followed(&mut (0..count));
     let mut backwards = followed(&mut (0..count).rev());
     backwards.reverse();
-    // If the result does not depend on the starting value, it is unique.
+    // A result that does not depend on the starting value is unique.
     let is_same = |other: &Needed| {
         afresh.iter().zip(other).all(|pair| match pair {
             (Some([one, known]), Some([other, well])) => (one - other).abs() <= known + well,
@@ -329,13 +330,13 @@ fn needed(trial: &mut Trial, place: usize, operator: Operator) -> Vec<Needed> {
     [vec![afresh], others].concat()
 }
 
-/// Ratio of the missing amount to an entry; `None` if the ratio is not constant.
+/// Constant ratio of the missing amount to the values of an entry; `None` if the ratio varies from instant to instant.
 fn coefficient(entry: &Entry, needed: &Needed) -> Option<f64> {
     let known = || entry.values.iter().zip(needed).filter_map(|(value, own)| Some((*value, (*own)?)));
     // Selects the instant with the smallest relative error.
     let sharpness = |(value, [_, known]): &(f64, [f64; 2])| (value / known).abs();
     let (sharpest, [amount, sharp]) = known().max_by(|one, other| sharpness(one).total_cmp(&sharpness(other)))?;
-    // A constant can be recognised from fewer than `FEWEST` instants, if the trial has fewer.
+    // A constant needs `FEWEST` instants, or all instants of the trial if the trial has fewer than `FEWEST`.
     let fewest = if entry.is_one() { FEWEST.min(needed.len()) } else { FEWEST };
     if known().count() < fewest {
         return None;

@@ -2,7 +2,6 @@
 //!
 //! Every slip is tried at every position of the formula and of the steps that the formula uses.
 //! A correction that makes the formula right at every instant explains the error.
-//! The curve of the error over the instants is not used to guess a slip.
 
 mod edits;
 mod everywhere;
@@ -79,7 +78,7 @@ pub(super) fn tried(trial: &mut Trial, dimensions: &Dimensions) -> Tried {
     tried
 }
 
-/// Copies a part down to `levels` levels. Placeholders replace the deeper parts.
+/// Copies the upper `levels` levels of a part. Placeholders replace the deeper parts.
 fn hollow(part: &FormulaTree, place: usize, sheet: &DerivationSheet, levels: usize) -> FormulaTree {
     if part.parts().is_empty() {
         return part.clone();
@@ -127,7 +126,7 @@ fn filled(tree: &FormulaTree, formula: &FormulaTree, places: &[usize]) -> Formul
 /// Returns a formula with one slip of a kind. The possible slips are the replacements that the search uses as
 /// corrections.
 /// `number`, modulo the number of possible slips, selects the position and the replacement.
-/// `None` if the slip cannot be made.
+/// `None` if the formula offers no slip of this kind.
 #[must_use]
 pub fn planted(formulas: &Formulas, formula: usize, kind: SlipKind, number: usize) -> Option<FormulaTree> {
     let tree = &formulas.list[formula].tree;

@@ -31,14 +31,14 @@ pub struct Term {
 const ACCURACY: f64 = 1e-8;
 /// Complexity of a coefficient that is not a product of parameters.
 const UNKNOWN_NUMBER: usize = 20;
-/// If a term exceeds this multiple of the largest difference, it does not explain the difference.
+/// A term that exceeds this multiple of the largest difference is not an explanation.
 const LARGER: f64 = 3.0;
 /// The values of a channel are assumed to have an error of this fraction of their largest value.
 const KNOWN: f64 = 1e-10;
 
 /// One or two terms that explain the whole difference.
-/// Their coefficients are products of parameters with the missing unit. Only a constant, and the coefficient of a sine,
-/// of a cosine or of the crank angle, may be a mere number.
+/// The coefficients of the terms are products of parameters with the missing unit. A coefficient may be a mere number
+/// only if the term is a constant, or if the term is a sine, a cosine or the crank angle times the number.
 pub(super) fn of(trial: &mut Trial, course: &KnownTrajectory, dimensions: &Dimensions) -> Option<Vec<Term>> {
     let rows = course.rows(trial.formula);
     if rows.len() != trial.pairs.len() {
@@ -54,7 +54,7 @@ pub(super) fn of(trial: &mut Trial, course: &KnownTrajectory, dimensions: &Dimen
     };
     let bases = bases(course, &wrong);
     let largest = wrong.differences.iter().fold(0.0, |largest: f64, own| largest.larger(own.abs()));
-    // If the formula is constant, a term that only cancels this constant is not an explanation and is rejected.
+    // If the formula is constant, an explanation whose constant term cancels the formula is rejected.
     let formula = trial.pairs.first()?.formula.value;
     let is_constant = trial.gives_one_number();
     let monomials = Monomials::of(&trial.formulas, trial.index, &[], dimensions);
@@ -100,7 +100,7 @@ pub(super) fn is_other(trial: &Trial, claim: &Claim, course: &KnownTrajectory) -
     let turn = claim.turn();
     let is_right = |(channel, values): &(&Channel, &[f64])| {
         let largest = rows.iter().fold(0.0, |largest: f64, &row| largest.larger(values[row].abs()));
-        // A channel with a unit of another kind is compared in the channel's SI unit.
+        // If channel and claim have units of different kinds, the channel is compared in its SI unit.
         let is_alike = channel.kind.unit == claimed.channel.kind.unit;
         let (unit, turn) = if is_alike { (claimed.to_si(1.0), turn) } else { (1.0, None) };
         let fits = |(&row, pair): (&usize, &Pair)| {
@@ -123,7 +123,7 @@ impl Term {
     }
 }
 
-/// Explains the differences of numbers that have no formula: by one term, or by two terms if these leave no difference.
+/// Explains the differences of numbers that have no formula, by one term, or by two terms that leave no difference.
 /// Returns the terms, and the remaining difference as a fraction of the largest difference.
 #[must_use]
 pub fn missing_in_numbers(course: &KnownTrajectory, wrong: &Wrong) -> Option<(Vec<Term>, f64)> {

@@ -11,16 +11,16 @@ use scenario::{Claim, Formula, Formulas, INPUTS, Parameter};
 
 /// Number of instants at which every change is tried first, besides the instant with the largest error.
 const FIRST: usize = 9;
-/// Up to this number of preceding steps, and of parameters, are kept although the formula does not use them.
-/// The author may have omitted these steps or parameters by mistake.
+/// Largest number of preceding steps that are kept although the formula does not use them, and the same limit for
+/// parameters. The author may have omitted these steps or parameters by mistake.
 const BESIDE: usize = 20;
-/// Cost of making a change as a tree and judging it, without its evaluations, in operations.
+/// Cost, in operations, of changing a tree and judging the change. The cost of evaluations comes in addition.
 const TREE: u64 = 2000;
 /// Cost of adding a formula or a part of a formula to a graph, in operations.
 const ADDED: usize = 16;
-/// Cost of changing one part, without its evaluations, in operations.
+/// Cost, in operations, of changing one part. The cost of evaluations comes in addition.
 const EDIT: u64 = 40;
-/// If a change leaves more than this fraction of the difference at any instant, it is not examined more closely.
+/// A change is rejected if it leaves more than this fraction of the difference at any instant.
 pub(super) const MOST_LEFT: f64 = 0.1;
 
 /// A formula that contradicts the mechanism's values, prepared for trying changes.
@@ -34,8 +34,8 @@ pub(super) struct Trial<'a> {
     /// Input values of the formulas at every instant. `pairs` holds the values of formula and mechanism.
     inputs: Vec<[Rounded; 4]>,
     pub(super) pairs: Vec<Pair>,
-    /// Some of the instants. The first and the last instant alone do not suffice, because many values are zero at these
-    /// two instants.
+    /// Selected instants. The selection has more instants than the first and the last, because many values are zero at
+    /// these two instants.
     pub(super) few: Vec<usize>,
     /// The derivation, evaluated at the instants of `few`.
     pub(super) sheet: DerivationSheet,
@@ -98,8 +98,8 @@ impl<'a> Trial<'a> {
         few.dedup();
         let mut order: Vec<usize> = (0..few.len()).collect();
         order.sort_by(|one, other| size(few[*other]).total_cmp(&size(few[*one])));
-        // The largest difference is limited to the mechanism's largest value. Otherwise almost any change would leave
-        // only a small fraction of a large difference.
+        // The largest difference is limited to the mechanism's largest value. If the difference were very large, almost
+        // any change would leave only a small fraction of it.
         let largest = |of: &dyn Fn(usize) -> f64| few.iter().map(|&place| of(place)).fold(0.0, f64::larger);
         let numbers = largest(&|place| own.pairs[place].mechanism.value.abs());
         own.before = largest(&size).smaller(numbers);
@@ -118,7 +118,7 @@ impl<'a> Trial<'a> {
         for step in &own.formulas.list {
             own.sheet.add(&step.name, &step.tree).expect("a formula knows what stands before it");
         }
-        // The preparation counts as work too: judging, and searching the file.
+        // The work includes the preparation: judging the formula and searching the file.
         let made = (16 * own.pairs.len() + 8 * index_of_file) as u64 + 8 * own.sheet.operations;
         own.sheet.operations += made;
         Ok(own)
@@ -171,16 +171,15 @@ impl<'a> Trial<'a> {
         })
     }
 
-    /// Whether the formula is right at every instant if the trees `changed` replace those of the file.
-    /// `slack` is added to the bound.
+    /// Whether the formula is right at every instant if the trees in `changed` replace the trees of the file. `slack`
+    /// is added to the bound.
     pub(super) fn fits(&mut self, changed: &[(usize, FormulaTree)], slack: f64) -> bool {
         self.left(changed, slack) == Some(0.0)
     }
 
-    /// Fraction of the difference that remains if the trees `changed` replace those of the file.
+    /// Fraction of the difference that remains if the trees in `changed` replace the trees of the file.
     /// The fraction is zero if the formula is right at every instant.
-    /// Otherwise it is the largest remaining difference at the instants of `few`, divided by the largest difference
-    /// before.
+    /// Otherwise, the fraction is the largest remaining difference divided by the largest difference before the change.
     /// `None` if the changed formula has no value.
     pub(super) fn left(&mut self, changed: &[(usize, FormulaTree)], slack: f64) -> Option<f64> {
         let Trial { formulas, index, formula, claim, inputs, pairs, few, .. } = self;

@@ -1,4 +1,4 @@
-//! Finds the instants at which a formula has no value, and the operation that causes it.
+//! Finds the first instant at which a formula has no value, and the undefined operation.
 
 use crate::sentences;
 use std::fmt;
@@ -16,7 +16,7 @@ use scenario::Formulas;
 pub struct Undefined {
     /// Name of the formula that contains the operation: the requested formula, or a formula that it uses.
     pub formula: String,
-    /// The operation with its arguments, its position in the formula's text (bytes), and the domain that it requires.
+    /// The operation with its arguments, its position in the formula's text (bytes), and the required domain.
     pub fault: FormulaFault,
     /// The operation as it is written.
     pub written: String,
@@ -24,8 +24,8 @@ pub struct Undefined {
     pub crank: f64,
     /// What `crank` measures.
     pub input: Input,
-    /// Whether the formula is right wherever it has a value, and has a value somewhere.
-    /// The undefined operation is then the only fault.
+    /// Whether the undefined operation is the only fault: the formula has a value at some instants and is right at all
+    /// of these.
     pub is_all: bool,
 }
 
@@ -37,8 +37,10 @@ impl fmt::Display for Undefined {
     }
 }
 
-/// Finds where the formula called `name` has no value on a course. Also returns the operations used.
-/// `None` if the formula has a value everywhere, does not exist, claims nothing, or if no operation at fault is found.
+/// Finds the first instant of a course at which the formula called `name` has no value. Also returns the number of
+/// operations used.
+/// `None` if the formula has a value at every instant, does not exist or claims nothing, or if no undefined operation
+/// is found.
 ///
 /// # Errors
 /// If the course lacks a channel of the claim.

@@ -1,5 +1,5 @@
-//! Brings two tables or recordings to the same instants: selects common rows, or interpolates the first at the instants
-//! of the second.
+//! Brings two tables or recordings to the same instants: selects common rows, or interpolates the first party at the
+//! instants of the second party.
 //!
 //! Values that are interpolated between the rows of a table carry the interpolation error.
 
@@ -47,8 +47,8 @@ pub(super) fn beside(one: &Side, other: &Side, how: &ComparisonRule) -> Result<S
     let places = places(&from, &to, how);
     let unshared = places.iter().filter(|place| matches!(place, Place::Nowhere)).count();
     let shared = to.values.len() - unshared;
-    // If the parties share only one of several instants, the comparison is refused: the instant 0 is the same in every
-    // unit of time.
+    // One common instant of several is not enough, because the instant 0 is the same in every unit of time. The
+    // comparison is then refused.
     if shared == 0 || shared == 1 && unshared > 0 {
         let what = if from.is_crank { one.at.input.noun() } else { "time" };
         let which = if shared == 0 { "no" } else { "only one" };
@@ -100,13 +100,13 @@ fn drift(from: &RowKey, to: &RowKey, places: &[Place]) -> impl Fn(&[Rounded], Op
     move |values, turn| columns::drift(values, &at, &slack, &order, turn)
 }
 
-/// Location of an instant of the second party among the rows of the first.
+/// Location of an instant of the second party among the rows of the first party.
 enum Place {
     /// At a row.
     At(usize),
     /// Between two rows, to be interpolated.
     Between(f64),
-    /// Between two rows if interpolation is not allowed, or outside all rows.
+    /// Outside all rows, or between two rows although interpolation is not allowed.
     Nowhere,
 }
 
@@ -135,7 +135,7 @@ fn places(from: &RowKey, to: &RowKey, how: &ComparisonRule) -> Vec<Place> {
     to.values.iter().map(of).collect()
 }
 
-/// The numbers of a claim at some locations among the rows `from`.
+/// The values of a claim at the locations `places` among the rows `from`.
 fn at_places(values: &[Rounded], from: &RowKey, places: &[Place], turn: Option<f64>) -> Vec<Rounded> {
     let order = from.ascending();
     let at: Vec<f64> = order.iter().map(|&row| from.values[row].value).collect();
@@ -186,7 +186,7 @@ impl Course {
 
     /// The value at an instant, interpolated by the cubic through the four rows around the instant.
     /// The value's error is the error of the rows plus the first neglected term.
-    /// The value is NaN outside the rows, or if the rows are too few.
+    /// The value is NaN for an instant outside the rows, and if there are too few rows.
     pub(super) fn value(&self, wanted: f64) -> Rounded {
         let next = self.at.partition_point(|&at| at < wanted);
         if next == 0 || next == self.at.len() || self.at.len() < FEWEST {
@@ -246,7 +246,7 @@ mod tests {
         let at: Vec<f64> = (0..20).map(f64::from).collect();
         let values: Vec<Rounded> = at.iter().map(|&at| Rounded { value: at, error: 1e-6 }).collect();
         // Midway between two rows the weights are -1/16, 9/16, 9/16 and -1/16.
-        // The absolute weights add up to 5/4. So equal errors of the four rows are multiplied by up to 5/4.
+        // The absolute weights add up to 5/4. Equal errors of the four rows are therefore multiplied by up to 5/4.
         let found = Course::new(&at, &values, None).value(9.5);
         assert!((found.error - 1.25e-6).abs() < 1e-12, "{found:?}");
     }

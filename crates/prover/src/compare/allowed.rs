@@ -1,4 +1,5 @@
-//! Selects what is compared, and the differences that are allowed besides the known errors.
+//! The rules of a comparison: which channels are compared, and which differences are allowed in addition to the known
+//! errors.
 
 use crate::sentences;
 use std::collections::{BTreeMap, BTreeSet};
@@ -47,8 +48,8 @@ impl ComparisonRule {
     }
 
     /// Allowed difference of the input (SI), such as the crank angle. `scale` is the scale of the input.
-    /// The difference follows from allowances for all channels and for the word `crank`. Absolute sizes are in the unit
-    /// in which people read the input.
+    /// The difference follows from allowances for all channels and for the word `crank`. Absolute sizes are in the
+    /// displayed unit of the input, such as degrees for a crank angle.
     #[must_use]
     pub fn allows_crank(&self, scale: f64, input: Input) -> Option<Allowance> {
         let own = self.allowed.iter().filter(|own| own.of.as_deref().is_none_or(|word| word == CRANK));
@@ -91,7 +92,8 @@ impl ComparisonRule {
 /// The word that selects the crank angle of the compared rows.
 const CRANK: &str = "crank";
 
-/// Words for claims, with their indices. A map keeps the search fast if there are many words and many claims.
+/// Words that select claims, with the indices of the words. A map keeps the search fast if there are many words and
+/// many claims.
 struct Words(BTreeMap<String, Vec<usize>>);
 
 impl Words {
@@ -104,8 +106,8 @@ impl Words {
     }
 
     /// Indices of the words that match a claim.
-    /// A word matches the text of a claim, the name of its channel in any unit, the channel's subject, its stage, or
-    /// subject and stage.
+    /// A word matches a claim if it is the claim's text, the name of the claim's channel in any unit, the subject or
+    /// the stage of this channel, or subject and stage together.
     /// A word matches an expression of channels if it matches all these channels.
     fn meaning(&self, claim: &Claim) -> impl Iterator<Item = usize> + use<'_> {
         let mut channels = claim.channels.iter().map(|(_, own)| called(own));
@@ -116,7 +118,8 @@ impl Words {
     }
 }
 
-/// Returns the channel's name in SI units if the word names a channel. Otherwise returns the word unchanged.
+/// If the word is the name of a channel in any unit, returns the name in SI units. Otherwise returns the word
+/// unchanged.
 fn in_si(word: &str) -> String {
     PrintedChannel::named(word).map_or_else(|| word.into(), |own| own.channel.to_string())
 }
@@ -137,7 +140,7 @@ pub struct Allowances<'a> {
 }
 
 impl Allowances<'_> {
-    /// Allowed difference of a channel with this scale, in the channel's unit; `None` if it has no allowance.
+    /// Allowed difference of a channel with this scale, in the channel's unit; `None` if the channel has no allowance.
     #[must_use]
     pub fn of(&self, claim: &Claim, scale: f64) -> Option<Allowance> {
         let own: BTreeSet<usize> = self.words.meaning(claim).chain(self.all.into_iter().flatten()).collect();
@@ -199,8 +202,8 @@ mod tests {
         assert_eq!(crank(&[(Some("point.B"), absolute(1.0))]), None);
     }
 
-    /// A word matches an expression of channels if it is the expression's text or matches all its channels.
-    /// A word without a match is reported by name.
+    /// A word matches an expression of channels if the word is the expression's text or matches all its channels. The
+    /// error for a word without a match contains the word.
     #[test]
     fn a_word_selects_claims_whose_channels_all_match() {
         let channels = ["point.B.x_m", "point.B.y_m"].map(|name| Channel::named(name).unwrap());

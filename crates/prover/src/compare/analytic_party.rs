@@ -1,4 +1,4 @@
-//! A scenario compared with another party: it is solved at the instants of that party.
+//! Compares a scenario with another party: the scenario is solved at the instants of the other party.
 //! The scenario can be solved at shifted instants, which gives the uncertainty due to rounded instants.
 
 use crate::sentences;
@@ -84,7 +84,7 @@ pub(super) fn beside(scenario: &Scenario, which: Which, other: Side, how: &Compa
     Ok(pair)
 }
 
-/// The requested claims that a party makes for channels of the scenario, and the names of the party's other channels.
+/// The requested claims of a party that concern channels of the scenario, and the names of the party's other channels.
 fn claims(scenario: &Scenario, held: &Held, how: &ComparisonRule) -> Result<(Vec<Claim>, Vec<String>)> {
     let (mut claims, mut alone) = (Vec::new(), Vec::new());
     let asked = how.asked();
@@ -134,7 +134,7 @@ fn grid(scenario: &Scenario, at: &RowKey) -> Result<(Grid, Vec<usize>)> {
 }
 
 /// Adds errors to the recorded values of an analytic side.
-/// The errors are those of `own`, in which this run has solved the same channels again.
+/// The errors come from `own`, the result of solving the same channels again in this run.
 fn as_well_known(mut held: Held, own: &Held) -> Held {
     for column in &mut held.columns {
         let Some(found) = own.values_of(&column.claim) else { continue };

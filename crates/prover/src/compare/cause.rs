@@ -22,10 +22,10 @@ use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Trajectory};
 use scenario::Scenario;
 
-/// A cause, and the difference that it leaves.
+/// A cause, and the difference that remains after the cause is corrected.
 #[derive(Clone, Debug)]
 pub struct Explained {
-    /// Names of the channels: the explained ones, or all examined channels if no cause was found.
+    /// Names of the explained channels, or of all examined channels if no cause was found.
     pub of: Vec<String>,
     /// What was found.
     pub diagnosis: Diagnosis,
@@ -39,7 +39,7 @@ pub struct Explained {
 
 /// Fractions of the largest difference that a cause may leave, tried in this order.
 /// With the first fraction, the remaining differences must be within the bounds.
-/// The further fractions allow for errors such as those of a simulation.
+/// The further fractions allow for errors of a method, such as the step error of a simulation.
 const LEFT: [f64; 3] = [0.0, 0.01, 0.05];
 
 /// Largest number of channels with small differences for which missing terms are sought.
@@ -55,11 +55,10 @@ const MOST: usize = 2000;
 pub const GROSS: f64 = 0.02;
 
 /// Finds causes for the channels that disagree between a scenario (the party `which`) and the other party.
-/// First, causes are sought that explain channels to within their bounds: for all channels together, then for the
-/// channels that are still unexplained. A single wrong row may remain besides such a cause.
-/// Next, a cause that explains all remaining channels may leave a small remainder.
-/// Then channels with gross errors are examined, together and one by one. A cause of a gross error may leave a small
-/// remainder.
+/// The search has three steps. First, causes are sought that explain channels to within their bounds: for all channels
+/// together, then for the channels that are still unexplained. Such a cause may leave a single wrong row unexplained.
+/// Second, a cause is sought that explains all remaining channels except a small remainder. Third, channels with gross
+/// errors are examined, together and one by one. A cause of a gross error may leave a small remainder.
 /// A small difference without a common cause counts as the error of a method.
 pub(super) fn explained(
     scenario: &Scenario,
@@ -85,7 +84,8 @@ pub(super) fn explained(
     }
     let (mut open, mut little): (Vec<&Compared>, Vec<&Compared>) = open.into_iter().partition(|own| own.is_gross());
     while !open.is_empty() {
-        // All channels are examined together first. If no cause explains them, they are examined one by one.
+        // All channels are examined together first. If no cause explains all channels together, each channel is
+        // examined alone.
         let together = || LEFT[1..].iter().find_map(|&left| stage.examined(&open, left));
         let alone = || open.iter().find_map(|one| LEFT.iter().find_map(|&left| stage.examined(&[*one], left)));
         let next = together().or_else(|| if open.len() > 1 { alone() } else { None });
@@ -95,7 +95,7 @@ pub(super) fn explained(
     if !open.is_empty() {
         found.extend(stage.unexplained(&open));
     }
-    // A small difference may be a method's error, unless a term explains all of it.
+    // A small difference counts as a method's error, unless missing terms explain the whole difference.
     for one in little.clone().into_iter().take(TRIED) {
         if let Some(explained) = stage.lacking(one) {
             little.retain(|own| !explained.of.contains(&own.claim.text));
@@ -121,8 +121,8 @@ impl Compared {
 }
 
 /// Whether a cause may be named although a difference remains.
-/// A fitted number of the case may not be named, because its meaning is then unclear. The start angle of a drive is an
-/// exception: at constant speed, a rotated drive resembles late rows.
+/// A fitted number of the case may not be named, because the meaning of the number is unclear if a difference remains.
+/// The start angle of a drive is an exception: at constant speed, a rotated drive resembles late rows.
 /// Numerical derivatives may not be named, because they resemble values that are late by half a row.
 /// A single wrong row may not be named.
 fn may_leave(cause: &DisagreementCause) -> bool {
@@ -130,15 +130,15 @@ fn may_leave(cause: &DisagreementCause) -> bool {
         DisagreementCause::Case(Change { part, how: PartChange::Instead { .. } }) => {
             matches!(part, CasePart::StartAngle(_))
         }
-        // Numerical derivatives and a single wrong row may not leave a remainder. A diverging simulation ends in rows
-        // with huge errors, beside which all other errors look small.
+        // A single wrong row may not leave a remainder: a diverging simulation ends in rows with huge errors, and all
+        // other errors look small beside these.
         DisagreementCause::Values { slip: DataSlip::Differences { .. } | DataSlip::Outlier(_), .. } => false,
         DisagreementCause::Case(_) | DisagreementCause::Values { .. } => true,
     }
 }
 
-/// Adds whole revolutions to angles, because many programs print angles without them.
-/// An angle that is right then lies near the reference. A wrapped angle that is wrong continues without jumps.
+/// Adds whole revolutions to angles, because many programs print angles without whole revolutions. Afterwards a right
+/// angle lies near the reference, and a wrong wrapped angle continues without jumps.
 fn unwrap(values: &mut [f64], right: &[f64], is_right: bool) {
     let is_wrapped = |own: &[f64]| half_range(own) <= PI * (1.0 + 1e-9);
     if !is_right && !is_wrapped(values) {
@@ -161,16 +161,16 @@ fn unwrap(values: &mut [f64], right: &[f64], is_right: bool) {
 /// Smallest number of rows among which a single wrong row is sought.
 const FEWEST: usize = 8;
 
-/// From this number of rows, a single wrong row is not sought. The search would take several times as long as the rest
-/// of the examination.
+/// A single wrong row is not sought in so many rows, because the search would take several times as long as the rest of
+/// the examination.
 const MOST_ROWS: usize = 20_000;
 
-/// Data for the examination: the rows at which all channels have numbers.
+/// Data for the search for causes. Only rows at which all channels have numbers are included.
 struct Stage {
     case: linkage::case::Case,
     right: Trajectory,
     found: Trajectory,
-    /// For each channel of `found`: text of its claim, its bound in SI units, and whether it agrees.
+    /// For each channel of `found`: the text of the claim, the bound in SI units, and whether the channel agrees.
     bounds: Vec<(String, f64, bool)>,
 }
 
@@ -212,7 +212,7 @@ impl Stage {
         }
         let all: Vec<Channel> = scenario.case.all_channels();
         let case = scenario.case.on(Grid { times: times.clone(), inputs: cranks.clone() })?.wanting_only(&all);
-        // If the scenario cannot be solved for all channels at these instants, no cause is sought.
+        // No cause is sought if the scenario cannot be solved for all channels at the instants of the rows.
         let Ok(right) = AssurSolver.solve(&case) else { return Ok(None) };
         for ((channel, column), (.., agrees)) in names.iter().zip(&mut columns).zip(&bounds) {
             if let Some(right) = right.column(channel).filter(|_| channel.kind.periodic) {
@@ -223,7 +223,7 @@ impl Stage {
         Ok(Some(Stage { case, right, found, bounds }))
     }
 
-    /// A cause for some of the channels. At most the fraction `left` of their difference remains.
+    /// A cause for some of the channels `of`. At most the fraction `left` of the difference in these channels remains.
     fn examined(&self, of: &[&Compared], left: f64) -> Option<Explained> {
         let mut diagnosis = self.diagnosis(of, left)?;
         let causes = diagnosis.cause.take().into_iter().chain(std::mem::take(&mut diagnosis.also));
@@ -235,7 +235,7 @@ impl Stage {
         (!explained.is_empty()).then_some(Explained { of: explained, diagnosis, terms: Vec::new(), left, but: None })
     }
 
-    /// A cause that explains all of the channels except in a single row.
+    /// A cause that explains all channels in `of`, except in a single row.
     /// This row is the first row, the last row, or the row whose difference is farthest from the differences of the
     /// neighbouring rows.
     fn examined_but_one(&self, of: &[&Compared], left: f64) -> Option<Explained> {
@@ -279,7 +279,7 @@ impl Stage {
         Some(Stage { case, right, found, bounds })
     }
 
-    /// Start and kind of the error, if no simple cause is known.
+    /// First instant and kind of an error without a known simple cause.
     fn unexplained(&self, of: &[&Compared]) -> Option<Explained> {
         let mut diagnosis = self.diagnosis(of, 0.0)?;
         diagnosis.cause = None;
@@ -288,7 +288,7 @@ impl Stage {
         Some(Explained { of, diagnosis, terms: Vec::new(), left: 0.0, but: None })
     }
 
-    /// Terms of the mechanism that a channel lacks, in its printed unit.
+    /// Terms of the mechanism that are missing in a channel, in the channel's printed unit.
     fn lacking(&self, own: &Compared) -> Option<Explained> {
         let place = self.bounds.iter().position(|(text, ..)| *text == own.claim.text)?;
         let channel = &self.found.channels()[place];
@@ -362,7 +362,7 @@ impl Stage {
 mod tests {
     use super::*;
 
-    /// Angles within half a revolution of zero, as many programs print them.
+    /// The angles, each reduced to the range from -pi to pi, as many programs print angles.
     fn wrapped(values: &[f64]) -> Vec<f64> {
         values.iter().map(|value| value - TAU * (value / TAU).round()).collect()
     }
@@ -376,8 +376,8 @@ mod tests {
             unwrap(&mut values, &right, is_right);
             assert!(values.iter().zip(meant).all(|(a, b)| (a - b).abs() < 1e-12), "{is_right}: {values:?}");
         }
-        // Unwrapping changes angles that are right except for whole revolutions. It does not change other angles
-        // without jumps.
+        // Unwrapping changes angles that are right except for whole revolutions. Wrong angles without jumps stay
+        // unchanged.
         for (is_right, turns) in [(false, 2.0), (true, 0.0)] {
             let mut values: Vec<f64> = right.iter().map(|angle| angle + 2.0 * TAU).collect();
             unwrap(&mut values, &right, is_right);

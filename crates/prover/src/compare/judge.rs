@@ -24,7 +24,7 @@ pub struct Compared {
     /// The channel or expression, in its unit.
     pub claim: Claim,
     /// Scale over the whole run of a scenario or recording, in the claim's unit: see [`scales`](crate::bounds::scales).
-    /// For tables and expressions of channels the scale comes from the compared numbers.
+    /// For tables and for expressions of channels, the scale comes from the compared numbers.
     /// The scale does not depend on the selection of compared channels.
     pub scale: f64,
     /// Result of comparing the numbers of both parties, in the claim's unit.
@@ -44,7 +44,7 @@ impl Deref for Compared {
 }
 
 impl Compared {
-    /// Whether the channel disagrees because an expected number is missing.
+    /// Whether the channel disagrees because one party lacks a number at some instant.
     #[must_use]
     pub fn has_no_number(&self) -> bool {
         has_no_number(&self.found)
@@ -55,7 +55,7 @@ fn has_no_number(own: &JudgedColumns) -> bool {
     own.since.is_some_and(|at| at.difference.is_nan())
 }
 
-/// One of two parties, by the order in which they were named.
+/// One of two parties: the party that was named first or second.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Which {
     First,
@@ -109,9 +109,8 @@ impl Both<'_> {
 
     /// The scale of a channel. The scale does not depend on the selection of compared channels.
     /// If a party has a complete trajectory, the scale comes from this trajectory.
-    /// For tables and expressions of channels the scale comes from the numbers alone.
-    /// A scale from the numbers alone is half their range, and at least a tenth of the largest value (a thousandth for
-    /// a coordinate).
+    /// For tables and for expressions of channels, the scale comes from the numbers alone: half the range of the
+    /// numbers, but at least a tenth of the largest value (a thousandth for a coordinate).
     fn scale(&self, claim: &Claim, values: &[Rounded]) -> f64 {
         let measure = self.measure().party;
         let complete = [measure, 1 - measure].into_iter().find_map(|party| self.parties[party].scale_of(claim));
@@ -160,8 +159,8 @@ impl Both<'_> {
                 sentences::SAY_WHAT_DIFFERENCE_IS_ALLOWED,
             ),
             Some(since) => Verdict::Disagree { place: place(&since, self.input) },
-            // If the difference is at most the fraction `TELLING` of the scale, the numbers agree, however large the
-            // uncertainty due to their digits.
+            // Numbers with few digits agree in spite of their large uncertainty if the difference is at most the
+            // fraction `TELLING` of the scale.
             None if is_derived && own.widest > TELLING * scale && largest > TELLING * scale => open(
                 sentences::the_numbers_are_known_to_of_their(&format_args!("{:.1e}", own.widest / scale)),
                 sentences::GIVE_MORE_DIGITS_OR_CLOSER,
@@ -171,7 +170,7 @@ impl Both<'_> {
     }
 }
 
-/// The instant, and the numbers at this instant.
+/// Text with an instant and the numbers of both parties at this instant.
 pub(super) fn place(at: &RowPair, input: Input) -> String {
     let RowPair { time, crank, values: [one, other], .. } = at;
     let when = match (time.is_nan(), crank.is_nan()) {

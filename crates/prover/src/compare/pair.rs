@@ -27,8 +27,8 @@ pub struct SidePair {
     pub names: [String; 2],
     /// Channel by channel, in the order of the party that sets the instants.
     pub channels: Vec<Compared>,
-    /// Checks of the analytic sides against each other if a scenario was solved, and of the crank angle if both parties
-    /// have it.
+    /// If a scenario was solved: checks of the analytic sides against each other. If both parties have values of the
+    /// input: a check of these values.
     pub checks: Vec<Check>,
     /// Number of instants at which the comparison takes place.
     pub instants: usize,
@@ -39,8 +39,8 @@ pub struct SidePair {
     /// The first row at which time or crank angle reverses: the number of the row, the previous instant, and the
     /// instant of the row. See [`RowKey::turns_back`](crate::tables::RowKey::turns_back).
     pub turns_back: Option<(usize, [f64; 2])>,
-    /// Two rows of one instant that contradict each other, in the party that sets the instants.
-    /// If such rows exist, no cause is sought.
+    /// Two contradictory rows for one instant in the party that sets the instants. No cause is sought if such rows
+    /// exist.
     pub contradiction: Option<Contradiction>,
     /// Whether the instants are values of the input: crank angles, for example.
     pub by_crank: bool,
@@ -64,7 +64,7 @@ impl SidePair {
         }
     }
 
-    /// Number of values compared, and the number that would have been compared if no value were missing.
+    /// Number of compared values, and the number that would result if no value were missing.
     #[must_use]
     pub fn values(&self) -> [usize; 2] {
         let judged = self.channels.iter().map(|own| own.judged).sum();
@@ -79,7 +79,7 @@ impl SidePair {
         self.checks.iter().any(is_off)
     }
 
-    /// The first row at which one of the channels with these texts is beyond its bound.
+    /// The first row at which the difference in one of the named channels exceeds its bound.
     #[must_use]
     pub fn since(&self, channels: &[String]) -> Option<RowPair> {
         let own = self.channels.iter().filter(|own| channels.contains(&own.claim.text));
@@ -94,7 +94,7 @@ impl SidePair {
 }
 
 /// Two rows of a table for the same instant that contradict each other.
-/// The cause may be two runs in one table, or a time that does not advance.
+/// Such rows occur if a table contains two runs, or if the time does not advance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contradiction {
     /// Indices of the two rows, from 0.
@@ -107,8 +107,8 @@ pub struct Contradiction {
     pub values: [f64; 2],
 }
 
-/// The first two rows of a party for the same instant whose difference exceeds the rounding of their digits and of the
-/// instant.
+/// The first two rows of a party for the same instant whose values contradict each other: the rounding of values and
+/// instant does not explain the difference.
 fn contradiction(both: &Both, party: Which, claims: &[Claim]) -> Option<Contradiction> {
     let at = both.at;
     let order = at.ascending();
@@ -132,7 +132,7 @@ fn contradiction(both: &Both, party: Which, claims: &[Claim]) -> Option<Contradi
 }
 
 /// Compares the values of the input (SI unit, as the scenario states them) of both parties at the same rows.
-/// The rows have been matched by times, so these values are an additional check.
+/// The rows were matched by their times, so comparing the inputs is an additional check.
 /// `None` if the check is not requested, or if the parties have no row with both values.
 /// `drift` is the uncertainty due to the digits of the times.
 pub(super) fn crank_check(both: &Both, cranks: [&[Rounded]; 2], drift: &[f64]) -> Option<Check> {

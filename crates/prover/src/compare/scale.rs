@@ -21,7 +21,7 @@ pub(super) struct Scales(BTreeMap<String, (f64, f64)>);
 
 impl Scales {
     /// Scales of a scenario over its run.
-    /// If the scenario has no run or cannot be solved over its run, returns the scales over `grid`, the instants of the
+    /// If the scenario has no run or cannot be solved over its run, the scales come from `grid`, the instants of the
     /// other party.
     pub(super) fn of(scenario: &Scenario, grid: &Grid) -> Self {
         let all = scenario.case.all_channels();
@@ -47,8 +47,8 @@ impl Scales {
         Scales(all.map(|((channel, scale), known)| (channel.to_string(), (scale, known))).collect())
     }
 
-    /// Lower limit of the error of an analytic side's values of a channel (SI unit): the rounding error in a
-    /// well-conditioned pose. 0 for a channel without a scale.
+    /// Smallest error assumed for an analytic side's values of a channel (SI unit): the rounding error in a
+    /// well-conditioned pose. The result is 0 for a channel without a scale.
     pub(super) fn known(&self, channel: &Channel) -> f64 {
         self.0.get(&channel.to_string()).map_or(0.0, |(_, known)| *known)
     }

@@ -10,8 +10,7 @@ pub struct DiagnosedParty<'a> {
     pub name: &'a str,
     /// Results of the party.
     pub trajectory: &'a Trajectory,
-    /// Bound on the party's error in every channel in which it is judged, in the channel's unit.
-    /// Channels without such a bound do not count.
+    /// Bound on the party's error in every judged channel, in the channel's unit. Channels without a bound are ignored.
     pub bounds: Vec<(Channel, f64)>,
 }
 
@@ -41,9 +40,9 @@ pub enum PartyStanding {
     /// The parties form two camps. Parties of the same camp agree, and parties of different camps contradict each
     /// other.
     Camps([Vec<String>; 2]),
-    /// Some parties contradict each other but do not form two camps, or there are only two parties.
-    /// The variant contains the contradicting pairs.
-    /// At most one party of each pair is right, and the data do not show which.
+    /// Some parties contradict each other but do not form two camps, or there are only two parties. The variant
+    /// contains the contradicting pairs. At most one party of each pair is right; the data do not show which party is
+    /// right.
     Open(Vec<[String; 2]>),
 }
 

@@ -1,4 +1,4 @@
-//! The suspect's values at some instants, and the deviation of a changed case from them.
+//! The suspect's values at some instants, and the differences of a changed case from these values.
 
 use std::cell::Cell;
 use std::rc::Rc;
@@ -33,8 +33,7 @@ pub(super) struct Bench<'a> {
     left: Rc<Cell<usize>>,
 }
 
-/// Differences of the suspect that remain under a hypothesis, each divided by its bound: column by column, instant by
-/// instant.
+/// Differences between the suspect and a hypothesis, each divided by its bound: column by column, instant by instant.
 #[derive(Clone, Debug)]
 pub(super) struct Misfit(pub(super) Vec<f64>);
 
@@ -62,9 +61,8 @@ impl Misfit {
         Misfit(self.0.iter().zip(&other.0).map(|(a, b)| a + factor * b).collect())
     }
 
-    /// Range of factors on `effect` for which the sum of this misfit and the scaled effect stays within all bounds.
-    /// `None` if no such factor exists.
-    /// Least squares cannot find this range, because errors of a suspect are not random.
+    /// Range of factors f for which this misfit plus f times `effect` stays within all bounds. `None` if no factor
+    /// keeps all bounds. Least squares cannot find this range, because errors of a suspect are not random.
     pub(super) fn kept_by(&self, effect: &Misfit) -> Option<[f64; 2]> {
         let mut range = [f64::NEG_INFINITY, f64::INFINITY];
         for (own, change) in self.0.iter().zip(&effect.0) {
@@ -119,14 +117,14 @@ impl<'a> Bench<'a> {
         self.misfit(|column| Some(column.right.clone())).expect("the reference has its own columns")
     }
 
-    /// The suspect's differences from a changed case.
-    /// `None` if the case cannot be solved, or if no more cases may be solved.
+    /// The differences between the suspect and a changed case. `None` if the case cannot be solved, or if the limit of
+    /// solved cases is reached.
     pub(super) fn tried(&self, case: &Case) -> Option<Misfit> {
         self.tried_in(case, None)
     }
 
-    /// Like `tried`, but the values of the changed case replace those of the reference in the channels of one stage
-    /// only, or in all channels.
+    /// The differences between the suspect and a changed case, in which only the channels of `stage` are changed. The
+    /// other channels keep the values of the reference. Without a stage, all channels are changed.
     pub(super) fn tried_in(&self, case: &Case, stage: Option<Stage>) -> Option<Misfit> {
         self.left.set(self.left.get().checked_sub(1)?);
         let found = self.solver.solve(case).ok()?;
@@ -145,15 +143,14 @@ impl<'a> Bench<'a> {
         Some(Misfit(all))
     }
 
-    /// For every column, the largest ratio of a difference in a misfit to its bound.
+    /// For every column of a misfit, the largest ratio of a difference to its bound.
     pub(super) fn by_column(&self, misfit: &Misfit) -> Vec<f64> {
         misfit.0.chunks(self.case.grid.len()).map(largest_size).collect()
     }
 
-    /// Disagreeing channels that a hypothesis with this remaining `misfit` explains.
-    /// Empty if an agreeing channel disagrees under the hypothesis.
-    /// A channel slightly beyond its bound is no evidence, unless the hypothesis also explains all other disagreeing
-    /// channels.
+    /// Disagreeing channels that a hypothesis with this remaining `misfit` explains. The list is empty if an agreeing
+    /// channel disagrees under the hypothesis. A channel that exceeds its bound only slightly counts only if the
+    /// hypothesis explains all disagreeing channels.
     pub(super) fn explained(&self, start: &Misfit, misfit: &Misfit) -> Vec<Channel> {
         let all = misfit.fits();
         let [before, after] = [start, misfit].map(|misfit| self.by_column(misfit));
@@ -167,23 +164,25 @@ impl<'a> Bench<'a> {
     }
 
     /// Sum of the changes that a hypothesis makes to agreeing channels, each divided by its bound.
-    /// If several hypotheses explain equally much, the one with the smallest sum is the simplest.
+    /// Of several hypotheses that explain the same number of channels, the hypothesis with the smallest sum is the
+    /// simplest.
     pub(super) fn claim(&self, start: &Misfit, misfit: &Misfit) -> f64 {
         let changes = self.by_column(&misfit.plus(-1.0, start));
         self.columns.iter().zip(changes).filter(|(column, _)| !column.disagrees).map(|(_, change)| change).sum()
     }
 }
 
-/// If a cause does not explain all channels, only differences above this multiple of their bound count as explained.
+/// A cause that explains only some of the channels must explain differences above this multiple of their bound. Smaller
+/// differences do not count.
 const EVIDENT: f64 = 3.0;
 
 /// Number of instants of a bench, besides the worst instant of each channel.
 const INSTANTS: usize = 32;
-/// At first a free motion is followed only until a difference exceeds this multiple of its bound.
-/// After that time the difference may not depend on the cause in a simple way.
+/// At first a free motion is followed only until a difference exceeds this multiple of its bound. Larger differences
+/// may depend on the cause in a complicated way.
 const EARLY: f64 = 100.0;
 
-/// A selection of rows of the whole grid. It includes the worst instants of the disagreeing channels.
+/// A selection of rows of the whole grid, which includes the worst instants of the disagreeing channels.
 pub(super) fn thinned(question: &DiagnosisInput) -> Vec<usize> {
     let ascending = ascending(question.reference.times());
     let mut rows = spread(&ascending);
@@ -199,7 +198,8 @@ pub(super) fn thinned(question: &DiagnosisInput) -> Vec<usize> {
     in_order(rows)
 }
 
-/// Like `thinned`, but the rows are from the early time in which the differences are still small.
+/// A selection of rows as in `thinned`, but only from the early part of the run in which the differences are still
+/// small.
 pub(super) fn early(question: &DiagnosisInput) -> Vec<usize> {
     let ascending = ascending(question.reference.times());
     let mut end = ascending.len();

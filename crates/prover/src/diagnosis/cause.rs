@@ -16,10 +16,10 @@ pub enum DisagreementCause {
     Case(Change),
 }
 
-/// Declares the slips without a number, and a list of all these slips. Every slip of the list is tried.
+/// Declares the slips that need no number, and a list of these slips. Every slip of the list is tried.
 macro_rules! plain {
     ($($(#[$doc:meta])+ $name:ident,)+) => {
-        /// Slips in right values that need no number, the simplest first.
+        /// Wrong rules without a number, by which right values become wrong, the simplest rule first.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum Plain {
             $($(#[$doc])+ $name,)+
@@ -37,7 +37,7 @@ plain! {
     Sign,
     /// Whole revolutions added during the motion.
     Turns,
-    /// Half revolutions added during the motion, as by an arc tangent of a quotient.
+    /// Half revolutions added during the motion. An arc tangent of a quotient gives such angles.
     HalfTurns,
     /// Twice the values.
     Twice,
@@ -68,14 +68,14 @@ pub enum DataSlip {
     },
     /// The same amount added at every instant, in the channel's unit.
     Offset(f64),
-    /// The opposite sign, and the same amount added at every instant: an angle measured in the opposite direction, from
-    /// another axis.
+    /// The opposite sign, and the same amount added at every instant. Example: an angle that is measured in the
+    /// opposite direction from another axis.
     Mirrored(f64),
     /// The values of another channel.
     Instead(Channel),
     /// The values of another channel with the opposite sign.
     Opposite(Channel),
-    /// The magnitude of the vector with these components, instead of one component.
+    /// The magnitude of a vector instead of one of its components. The variant contains both components.
     Magnitude([Channel; 2]),
     /// Differences of another channel's values between rows, in place of the channel's first or second derivative.
     Differences {
@@ -83,7 +83,7 @@ pub enum DataSlip {
         of: Channel,
         /// Order of the rate: 1 or 2.
         order: usize,
-        /// Rows between which the differences are taken.
+        /// The rows whose values are subtracted.
         over: Over,
     },
     /// The acceleration without the Coriolis term of a block on a moving guide. The text names the joint.
@@ -94,7 +94,7 @@ pub enum DataSlip {
     Outlier(f64),
     /// Values of other instants: the time of each row is multiplied by a factor.
     Clock {
-        /// Factor on the time of a row. The product is the time at which the values are right.
+        /// The values of a row are right at the time of the row multiplied by this factor.
         factor: f64,
         /// Meaning of the factor, if it is a unit conversion.
         told: Option<&'static str>,
@@ -114,15 +114,15 @@ pub enum DataSlip {
     Late {
         /// Delay of the values (s); negative for values that are early.
         by: f64,
-        /// The delay in steps or rows of the suspect and the word for them, if the delay is a simple fraction or
-        /// multiple of one step or row.
+        /// The delay as a number of steps or rows of the suspect, with the word for step or row; `None` if this number
+        /// is not simple.
         steps: Option<(f64, &'static str)>,
         /// The stage whose channels are late; `None` if all channels are late.
         stage: Option<Stage>,
     },
 }
 
-/// Rows between which differences are taken.
+/// The rows whose values are subtracted to obtain a numerical derivative.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Over {
     /// The rows at this distance before and after the row.
@@ -138,8 +138,8 @@ pub enum Over {
 pub enum Arm {
     /// A constant vector (m), in world axes.
     Constant([f64; 2]),
-    /// From the first of two points to the second, or from the origin if the first is `None`. Points are named as in
-    /// channels.
+    /// The vector from the first point to the second point. The first point is the origin if its name is `None`. Points
+    /// have the names that channels use.
     Between(Option<String>, String),
 }
 
@@ -166,7 +166,7 @@ pub struct Change {
 pub enum CasePart {
     /// Gravity.
     Gravity,
-    /// Masses and moments of inertia of all links, as far as they resist acceleration. The weights are not affected.
+    /// Inertia forces and inertia moments of all links. The weights of the links stay unchanged.
     InertiaForces,
     /// Moments of inertia of all links.
     Inertias,
@@ -178,9 +178,9 @@ pub enum CasePart {
     Mass(String),
     /// Mass and moment of inertia of a link together.
     Body(String),
-    /// Weight of a link. Its resistance to acceleration is not affected.
+    /// Weight of a link. The inertia forces of the link stay unchanged.
     Weight(String),
-    /// Mass and moment of inertia of a link, as far as they resist acceleration. Its weight is not affected.
+    /// Inertia forces and inertia moment of a link. The weight of the link stays unchanged.
     Inert(String),
     /// Mass centre of a link.
     MassCentre(String),
@@ -188,7 +188,7 @@ pub enum CasePart {
     MassCentreAlong(String, FrameAxis),
     /// A load: its number in the file, from 1, and its kind.
     Load(usize, &'static str),
-    /// Free length of a spring, or its free angle: the load's number in the file, from 1.
+    /// Free length or free angle of a spring. The field is the load's number in the file, from 1.
     Free(usize),
     /// Configuration of a group of links.
     Configuration(String),
@@ -196,7 +196,7 @@ pub enum CasePart {
     Speed(String),
     /// Angle of the drive at a joint at t = 0.
     StartAngle(String),
-    /// Speed of a free driving link at t = 0, by joint.
+    /// Speed at t = 0 of a driving link whose motion is free. The field is the name of the drive's joint.
     InitialSpeed(String),
     /// Ratio of a transmission.
     Ratio(String),
@@ -208,9 +208,11 @@ pub enum CasePart {
     MotorMoment,
     /// Moments of inertia of rotor and reducer.
     RotorInertia,
-    /// Distance of two joints on a link: the moved joint, the other joint, the link.
+    /// Distance of two joints on a link. The fields are the names of the moved joint, of the other joint and of the
+    /// link.
     Length(String, String, String),
-    /// One coordinate of a joint's position on a link: joint, link, axis of the link's frame.
+    /// One coordinate of a joint's position on a link. The fields are the joint, the link and the axis of the link's
+    /// frame.
     Place(String, String, FrameAxis),
 }
 
@@ -231,8 +233,8 @@ pub enum PartChange {
     AtJoint(String),
     /// The part is at another point of the same link.
     AtPoint(String),
-    /// The part is measured from the second of two joints towards the first, instead of from the first towards the
-    /// second.
+    /// The part is measured from the wrong end: from the second joint towards the first joint, instead of from the
+    /// first joint towards the second joint.
     FromJoint([String; 2]),
     /// The part is on the other side of the line through two joints.
     Across([String; 2]),
@@ -244,7 +246,7 @@ pub enum PartChange {
     AboutJoint(String),
     /// The components of the part, or its axes, are exchanged.
     Swapped,
-    /// Another assembly mode (by name) or configuration (by number).
+    /// The group has another assembly mode (by name) or another configuration (by number).
     Other(String),
     /// The part has another value.
     Instead {

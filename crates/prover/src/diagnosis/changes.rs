@@ -12,23 +12,23 @@ use super::question::{DiagnosisInput, Found, Rank};
 use super::tries::{Candidate, Tries};
 use super::whole::whole_changes;
 
-/// Largest number of changed cases that are solved on thinned grids to find changes without a number.
-/// A second limit of the same size applies to the cases solved to find changed numbers and shifted instants.
-/// For a prescribed motion of at most `LINKS` links, which costs little, both limits are `CHEAP` times as high.
+/// Largest number of changed cases that are solved on thinned grids to find changes without a number. The search for
+/// changed numbers and shifted instants has a separate limit of the same size. A prescribed motion of at most `LINKS`
+/// links costs little, so both limits are then `CHEAP` times as high.
 const MOST: usize = 120;
 const CHEAP: usize = 3;
-/// Up to this number of links, solving a case costs as little as for the smallest mechanisms.
+/// Up to this number of links, solving a case costs hardly more than for the smallest mechanisms.
 const LINKS: usize = 16;
 /// Largest number of causes that are confirmed on the whole grid.
 const CONFIRMED: usize = 6;
 /// Claims (sums of changes divided by bounds) are rounded to multiples of 1 / this number before they are compared.
 /// Smaller differences of claims are rounding.
 const CLAIMED: f64 = 1e3;
-/// Limit of cases solved on the whole grid to confirm causes. It allows several cases per cause, because a value may
-/// need correction.
+/// Limit of cases solved on the whole grid to confirm causes. The limit allows several cases per cause, because a value
+/// may need correction.
 const WHOLE: usize = 4 * CONFIRMED;
 
-/// Every change that explains disagreeing channels, and the number of cases that were solved.
+/// All found changes that explain disagreeing channels, and the number of cases that were solved.
 pub(super) fn found(question: &DiagnosisInput) -> (Vec<Found>, usize) {
     let links = question.case.mechanism.links().len();
     let most = if question.case.is_free() || links > LINKS { MOST } else { CHEAP * MOST };
@@ -40,7 +40,7 @@ pub(super) fn found(question: &DiagnosisInput) -> (Vec<Found>, usize) {
     let first = Bench::new(question, &[0], Rc::new(Cell::new(2 * most)));
     let (Some(thin), Some(soon), Some(first)) = (thin, soon, first) else { return (Vec::new(), 0) };
     let tries = Tries { first, starts: [soon.start(), thin.start()], soon, thin, is_free };
-    // No cause is sought if all differences are within their bounds, or if one of them is not finite.
+    // No cause is sought if all differences are within their bounds, or if a difference is not finite.
     if tries.starts[1].fits() || !tries.starts[1].worst().is_finite() {
         return (Vec::new(), 0);
     }
@@ -83,7 +83,8 @@ pub(super) fn found(question: &DiagnosisInput) -> (Vec<Found>, usize) {
     (all, solved)
 }
 
-/// A rotated drive as an alternative to late values: at constant speed, rotation and delay have the same effect.
+/// A drive with a changed start angle, as an alternative to late values. At constant speed, the changed angle and the
+/// delay have the same effect.
 fn turned(tries: &Tries, known: &[Candidate], late: &[Candidate]) -> Option<Candidate> {
     let case = &tries.thin.case;
     let by = late.iter().find_map(|one| match one.found.cause {

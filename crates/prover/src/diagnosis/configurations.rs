@@ -1,4 +1,4 @@
-//! First poses of changed cases, and the other configurations of a case's groups.
+//! First poses of changed cases, and cases in which a group has another configuration.
 
 use super::cause::{CasePart, Change, PartChange};
 use linkage::case::{Case, CaseParts};
@@ -7,7 +7,7 @@ use linkage::mechanism::pose::SidePoint;
 use linkage::mechanism::{AssemblyMode, JointSide, LinkId, LinkPose};
 
 /// Reassembles the mechanism after a change of its lengths or of its drives' start angles.
-/// Dyads keep their modes. Higher groups stay as close as possible to their previous pose.
+/// Dyads keep their modes. Groups of a higher class stay as close as possible to their previous pose.
 pub fn reassembled(parts: &mut CaseParts) -> Option<()> {
     let wanted = wanted(parts);
     assembled(parts, &wanted)
@@ -42,7 +42,7 @@ fn assembled(parts: &mut CaseParts, wanted: &[StartGroup]) -> Option<()> {
     Some(())
 }
 
-/// Cases in which one group has another of its known configurations, for all groups and configurations.
+/// All cases in which one group has another of its known configurations.
 pub fn others(case: &Case) -> Vec<(Change, Case)> {
     let mut found = Vec::new();
     for (index, group) in case.structure.at_start().groups.entries() {

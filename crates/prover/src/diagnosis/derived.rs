@@ -1,4 +1,4 @@
-//! Values that result from right values by a wrong rule: differences for rates, accelerations without the Coriolis
+//! Values that result from right values by a wrong rule: numerical derivatives, accelerations without the Coriolis
 //! term, moments about another point.
 
 use super::cause::{Arm, DataSlip, Over};
@@ -9,10 +9,11 @@ use linkage::trajectory::{Channel, OfFrame, OfSlider, Reading, Trajectory, Unit}
 
 /// Relative rounding error of a number. Differences magnify it.
 const ROUNDED: f64 = 1e-12;
-/// Largest number of rows before and after a row between which differences are taken.
+/// A central difference uses two rows at equal distances before and after a row. This number is the largest distance
+/// (rows).
 const WIDEST: usize = 3;
 
-/// Every rule with the channels that it explains.
+/// All wrong rules that explain channels, each with the explained channels.
 pub(super) fn found(question: &DiagnosisInput, wrong: &[Wrong]) -> Vec<Found> {
     let mut causes = Vec::new();
     let mut put =
@@ -43,8 +44,8 @@ pub(super) fn found(question: &DiagnosisInput, wrong: &[Wrong]) -> Vec<Found> {
 }
 
 /// Finds the channel from which the values of `one` were obtained as differences between rows, and the order of the
-/// derivative.
-/// Rows at the ends are left out: these rows lack neighbours, and every program treats them differently.
+/// derivative. Rows at the ends are left out: these rows have no neighbours on one side, and programs treat such rows
+/// in different ways.
 fn differences(question: &DiagnosisInput, one: &Wrong, over: Over) -> Option<(Channel, usize)> {
     let step = even(one.times)?;
     let (count, margin) = (one.times.len(), if let Over::Either(rows) = over { rows } else { 1 });
@@ -69,9 +70,9 @@ fn differences(question: &DiagnosisInput, one: &Wrong, over: Over) -> Option<(Ch
         for (channel, values) in question.reference.iter() {
             let rate = channel.rate();
             let rate = if order == 1 { rate } else { rate.and_then(|rate| rate.rate()) };
-            // Takes differences of the reference's values, and also of the suspect's own values if these agree within
-            // their bounds.
-            // Differences of wrong positions are not tried: rates that match wrong positions are not a separate slip.
+            // Takes differences of the reference's values, and also of the suspect's values if the suspect's channel
+            // agrees. Differences of wrong positions are not tried, because rates that match wrong positions are not a
+            // separate slip.
             let is_right = question.judged.iter().any(|judged| judged.channel == *channel && !judged.disagrees);
             let own = question.suspicious.column(channel).filter(|_| is_right);
             if rate.as_ref() == Some(one.channel) && own.into_iter().chain([values]).any(|own| of_column(own, order)) {
@@ -90,8 +91,8 @@ pub(crate) fn even(times: &[f64]) -> Option<f64> {
     (step > 0.0 && is_even).then_some(step)
 }
 
-/// Whether the Coriolis term is missing in an acceleration. This term is twice the guide's angular velocity times the
-/// block's speed on the guide.
+/// Whether the Coriolis term is missing in an acceleration: twice the guide's angular velocity times the block's speed
+/// on the guide.
 fn lacks_coriolis(question: &DiagnosisInput, one: &Wrong, joint: &str) -> Option<bool> {
     let mechanism = &question.case.mechanism;
     let joint = mechanism.joints().iter().find(|own| own.name == joint)?;

@@ -15,18 +15,17 @@ use linkage::trajectory::{Channel, Trajectory};
 pub struct Diagnosis {
     /// The party that was examined.
     pub suspect: String,
-    /// Which parties contradict each other, and whether one stands alone.
+    /// Which parties contradict each other.
     pub alone: PartyStanding,
-    /// The channels beyond their bounds, the earliest first.
+    /// The channels that exceed their bounds, the earliest channel first.
     pub since: Vec<Since>,
     /// Number of instants of the grid.
     pub instants: usize,
-    /// The simplest cause that explains all channels or, failing that, the largest part of them. `None` if there is no
-    /// simple cause.
+    /// The simplest of the causes that explain the largest number of channels. `None` if there is no simple cause.
     pub cause: Option<DisagreementCause>,
-    /// Less simple causes that explain equally much.
+    /// Less simple causes that explain the same channels.
     pub also: Vec<DisagreementCause>,
-    /// Disagreeing channels that the cause leaves unexplained; all of them if there is no cause.
+    /// Disagreeing channels that the cause does not explain; all disagreeing channels if there is no cause.
     pub left_over: Vec<Channel>,
     /// The kind of the differences, if no cause explains all of them.
     pub nature: Option<ErrorNature>,
@@ -53,8 +52,8 @@ impl Diagnosis {
 /// Examines a disagreement. `None` if no channel exceeds its bound.
 ///
 /// Causes are tried from the simplest to the most complicated.
-/// The named cause is the one that explains the largest number of disagreeing channels. A channel is explained if the
-/// cause brings the channel within its bound. The named cause must not make an agreeing channel disagree.
+/// The named cause explains the largest number of disagreeing channels. A channel is explained if the cause brings its
+/// difference within its bound. The named cause must not make an agreeing channel disagree.
 /// Further causes that explain the same channels are mentioned.
 #[must_use]
 pub fn diagnose(question: &DiagnosisInput, parties: &[DiagnosedParty]) -> Option<Diagnosis> {
@@ -70,18 +69,18 @@ pub fn diagnose(question: &DiagnosisInput, parties: &[DiagnosedParty]) -> Option
     found.extend(others::found(question, &off));
     found.extend(derived::found(question, &off));
     found.extend(of_case);
-    // A cause with a fitted number is dropped if it explains only a part of the channels. Such a number is easily
-    // found, so it is no evidence.
+    // A cause with a fitted number is dropped if it explains only a part of the channels. A number that fits some
+    // channels is easily found, so it is no evidence.
     found.retain(|one| one.explained.len() == wrong.len() || !has_number(&one.cause));
-    // The sort is stable: among equally simple causes the one tried first comes first.
+    // The sort is stable: equally simple causes stay in the order in which they were tried.
     found.sort_by_key(|one| (wrong.len() - one.explained.len(), one.rank));
     let best = found.first().map_or(0, |one| one.explained.len());
     let mut named = found.into_iter().filter(|one| one.explained.len() == best);
     let first = named.next();
     let explained = first.as_ref().map_or(&[][..], |one| &one.explained[..]);
     let left_over: Vec<Channel> = wrong.iter().filter(|channel| !explained.contains(channel)).cloned().collect();
-    // If the first cause is a slip, a fitted number adds nothing and is not mentioned.
-    // Of several partial explanations, only those that explain the same channels as the first cause are mentioned.
+    // Further causes are mentioned if they explain the same channels as the first cause. If the first cause is a slip,
+    // a fitted number adds nothing and is not mentioned.
     let says_more = |one: &Found| one.rank != Rank::Fitted || first.as_ref().is_some_and(|own| own.rank != Rank::Slip);
     let also = named.filter(|one| one.explained == explained && says_more(one)).map(|one| one.cause);
     let also = also.take(MENTIONED).collect();
@@ -104,7 +103,7 @@ fn has_number(cause: &DisagreementCause) -> bool {
     matches!(cause, DisagreementCause::Case(Change { how: PartChange::Instead { .. }, .. }))
 }
 
-/// Number of causes mentioned besides the named one.
+/// Largest number of causes that are mentioned besides the named cause.
 const MENTIONED: usize = 3;
 
 /// The first instant at which a channel exceeds its bound.
@@ -114,11 +113,11 @@ pub struct Since {
     pub channel: Channel,
     /// Time of the first instant beyond the bound (s).
     pub time: f64,
-    /// Input of the reference at that instant (SI).
+    /// Input of the reference at the first instant beyond the bound (SI).
     pub crank: f64,
     /// What `crank` measures.
     pub input: Input,
-    /// Suspect minus reference at that instant, in the channel's unit.
+    /// Suspect minus reference at the first instant beyond the bound, in the channel's unit.
     pub difference: f64,
     /// The bound, in the channel's unit.
     pub bound: f64,
@@ -126,7 +125,7 @@ pub struct Since {
     pub beyond: usize,
 }
 
-/// For every channel that exceeds its bound, the first such instant; the earliest channel first.
+/// For every channel that exceeds its bound, the first instant beyond the bound; the earliest channel first.
 /// If several channels exceed their bounds at the same instant, they are in the order of their stages: positions,
 /// velocities, accelerations, reactions, balancing moment.
 /// Within a stage, the channel with the larger ratio of difference to bound comes first.

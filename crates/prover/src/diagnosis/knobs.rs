@@ -1,4 +1,5 @@
-//! Parts of a case that a single number changes ("knobs"): a list of them, and how to change each.
+//! "Knobs": parts of a case that a single number changes. This module lists the knobs of a case and changes their
+//! values.
 //! See docs/numerics/diagnosis.md.
 
 use crate::sentences;
@@ -13,10 +14,10 @@ use linkage::mechanism::{
     Joint, JointId, Link, LinkId, Mechanism, Transmission, TransmissionDesign, TransmissionId, TransmissionKind,
 };
 
-/// Sets a new value in the parts of a case; `None` if no case has this value.
+/// Sets a new value in the parts of a case; `None` if the value is impossible.
 type Turn = Box<dyn Fn(&mut CaseParts, f64) -> Option<()>>;
 
-/// Channels that a part influences if the motion is prescribed.
+/// The channels on which a part has an effect if the motion is prescribed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Shows {
     /// Only reactions and moments.
@@ -33,18 +34,18 @@ pub(super) struct Knob {
     /// Value of the part in the case, and the unit of this value.
     pub(super) given: f64,
     pub(super) unit: &'static str,
-    /// Values with a meaning (such as twice the value), the simplest first.
+    /// Values with a simple meaning, such as twice the given value, the simplest first.
     pub(super) plain: Vec<(f64, PartChange)>,
     /// Change of the value that is large enough to show its effect.
     pub(super) nudge: f64,
     pub(super) shows: Shows,
-    /// Whether a first approximation is useless for distant values.
+    /// Whether a linear approximation is useless for values far from the given value.
     pub(super) is_far: bool,
     turn: Turn,
 }
 
 impl Knob {
-    /// The case in which this part has the value `value`.
+    /// The case with the value `value` of this part.
     pub(super) fn at(&self, case: &Case, value: f64) -> Option<Case> {
         remade(case, |parts| (self.turn)(parts, value))
     }
@@ -59,7 +60,7 @@ impl Knob {
         significant_in(self.unit == "rad", value, digits)
     }
 
-    /// A knob for an amount that has the value `given` in the case and may be multiplied.
+    /// A knob for a quantity with the value `given`, of which multiples are tried.
     fn amount(
         part: CasePart,
         given: f64,
@@ -77,7 +78,8 @@ impl Knob {
         knob.times([(1e3, sentences::AS_FOR_KG_OR_FOR_MM), (1e-3, sentences::AS_KG_FOR_OR_MM_FOR)])
     }
 
-    /// A knob for a coordinate or an angle, whose size has no meaning. Changes are relative to `natural`.
+    /// A knob for a coordinate or an angle, of which multiples have no meaning. `natural` is the size to which changes
+    /// are relative.
     fn place(
         part: CasePart,
         given: f64,
@@ -95,7 +97,7 @@ impl Knob {
         self
     }
 
-    /// Adds multiples of the value by factors with a meaning.
+    /// Adds values: the given value times each factor, with the meaning of the factor.
     fn times(self, factors: impl IntoIterator<Item = (f64, &'static str)>) -> Knob {
         let given = self.given;
         self.also(factors.into_iter().map(|(factor, told)| (factor * given, PartChange::Times(factor, told))))
@@ -184,7 +186,7 @@ pub fn recoupled(parts: &mut CaseParts, index: TransmissionId, other: Option<Tra
     Some(())
 }
 
-/// The case with changed parts; `None` if they do not form a case.
+/// The case with changed parts; `None` if the changed parts do not form a valid case.
 pub fn remade(case: &Case, change: impl FnOnce(&mut CaseParts) -> Option<()>) -> Option<Case> {
     let mut parts = case.clone().into_parts();
     change(&mut parts)?;
@@ -196,7 +198,8 @@ pub fn changed(parts: &mut CaseParts, change: impl FnOnce(&mut [Link], &mut [Joi
     let (mut links, mut joints) = (parts.mechanism.links().to_vec(), parts.mechanism.joints().to_vec());
     change(&mut links, &mut joints);
     for link in &mut links {
-        // A rotating link with inertia must have a mass. So a mass is added that is too small to have an effect.
+        // A rotating link with inertia must have a mass. If the mass is zero, a mass that is too small to have an
+        // effect is added.
         if link.mass == 0.0 && link.inertia > 0.0 {
             link.mass = 1e-12;
         }
@@ -295,7 +298,7 @@ fn moved(parts: &mut CaseParts, link: LinkId, old: Vec2, new: Vec2) -> Option<()
 }
 
 /// Distances between two joints on a link.
-/// A pair is left out if the line through its joints is parallel to an axis of the link's frame: the knob for the
+/// A pair is left out if the line through the joints is parallel to an axis of the link's frame. The knob for the
 /// coordinate along this axis then changes the same distance.
 fn lengths(case: &Case) -> Vec<Knob> {
     let places = places(case);
@@ -352,7 +355,8 @@ fn of_drive(case: &Case, index: usize, drive: &Drive) -> Vec<Knob> {
         // A speed of zero is not tried, because a prescribed motion needs a speed.
         speed.plain.remove(0);
     }
-    // The whole motion depends on speed and angle, so a first approximation is useless for distant values.
+    // The whole motion depends on speed and angle, so a linear approximation is useless for values far from the given
+    // value.
     vec![Knob { is_far: true, ..speed }, Knob { is_far: true, ..angle }]
 }
 
@@ -420,7 +424,7 @@ pub(super) fn significant(value: f64, digits: usize) -> f64 {
     format!("{value:.*e}", digits - 1).parse().unwrap_or(value)
 }
 
-/// Like `significant`, but angles are rounded in degrees.
+/// A number rounded to `digits` significant digits, as in `significant`; an angle is rounded in degrees.
 pub(super) fn significant_in(is_angle: bool, value: f64, digits: usize) -> f64 {
     if is_angle { significant(value.to_degrees(), digits).to_radians() } else { significant(value, digits) }
 }

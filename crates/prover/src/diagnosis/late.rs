@@ -41,7 +41,7 @@ pub(super) fn late(question: &DiagnosisInput, bench: &Bench, start: &Misfit) -> 
     let search = Search { question, bench, start };
     let mut found: Vec<Candidate> = stages.into_iter().filter_map(|stage| search.late_in(stage)).collect();
     if found.iter().all(|one| one.stage().is_some()) {
-        // Jumps of forces can mislead the search. So the delay found for one stage is also tried for all channels.
+        // Jumps of forces can mislead the search, so the delay found for one stage is also tried for all channels.
         let all = found.iter().find_map(|one| search.late_by(&one.found.cause));
         found.extend(all);
     }
@@ -90,15 +90,15 @@ impl Search<'_, '_> {
         named.or_else(|| found.and_then(|(by, misfit)| self.late_candidate(&misfit, by, None, stage)))
     }
 
-    /// All channels, late by the delay found for one stage.
+    /// The hypothesis that all channels are late by the delay found for one stage.
     fn late_by(&self, cause: &DisagreementCause) -> Option<Candidate> {
         let &DisagreementCause::Values { slip: DataSlip::Late { by, steps, .. }, .. } = cause else { return None };
         let misfit = self.bench.tried(&shifted(&self.bench.case, by)?)?;
         self.late_candidate(&misfit, by, steps, None)
     }
 
-    /// A number with few digits near the found number, if its misfit satisfies `is_enough`.
-    /// Without this step the number would have many digits, because the search itself stops only at rounding.
+    /// A number with few digits near the found number, if its misfit satisfies `is_enough`. The found number has many
+    /// digits, because the search stops only at rounding.
     fn short(
         &self,
         value: f64,
@@ -116,7 +116,7 @@ impl Search<'_, '_> {
         })
     }
 
-    /// A clock that is fast or slow, or that counts in another unit.
+    /// The hypothesis that the suspect's clock is fast or slow, or counts in another unit.
     fn clock(&self) -> Option<Candidate> {
         let bench = self.bench;
         let of = |factor: f64| bench.tried(&on_clock(&bench.case, factor)?);
@@ -131,7 +131,7 @@ impl Search<'_, '_> {
         }
         let mut named = None;
         let found = self.secant(1.0, 1e-6, &of, &mut |factor, misfit| {
-            // Numbers with few digits are tried for a fast clock, and their inverses for a slow one.
+            // Numbers with few digits are tried for a fast clock, and inverses of such numbers for a slow clock.
             let slow = |value: f64| of(1.0 / value);
             named = self.short(factor, misfit, 2..=6, &of, &Misfit::fits).or_else(|| {
                 let (inverse, misfit) = self.short(1.0 / factor, misfit, 2..=6, &slow, &Misfit::fits)?;
@@ -143,7 +143,8 @@ impl Search<'_, '_> {
         self.clock_candidate(&misfit, factor, None)
     }
 
-    /// A number for which `is_found` is true. The secant method begins at `origin`, where nothing changes.
+    /// A number for which `is_found` is true, by the secant method. The search begins at `origin`, the number that
+    /// changes nothing.
     fn secant(
         &self,
         origin: f64,

@@ -19,15 +19,15 @@ pub enum ErrorNature {
 
 /// Number of parts of the run whose errors are compared.
 const PARTS: usize = 6;
-/// An error grows if it is at least this many times as large in the last part as in the first.
+/// An error counts as growing if it is at least this many times as large in the last part as in the first part.
 const GROWS: f64 = 4.0;
-/// If an error exceeds this fraction of a scale, it does not come from a method.
+/// An error above this fraction of the channel's scale is not the error of a method.
 const SMALL: f64 = 0.02;
 /// Limits of the ratio that `disorder` returns.
-/// If the ratio is below the first limit, the error is smooth. If it is above the second limit, the error is noise.
+/// The error is smooth if the ratio is below the first limit, and noise if the ratio is above the second limit.
 const ORDER: [f64; 2] = [0.15, 0.5];
 
-/// The kind of the differences, if it is the same for all disagreeing channels.
+/// The kind of the differences, if all disagreeing channels have the same kind.
 pub(super) fn nature(question: &DiagnosisInput, wrong: &[Wrong]) -> Option<ErrorNature> {
     let rows = ascending(question.reference.times());
     if rows.len() < 2 * PARTS {
@@ -63,7 +63,8 @@ pub(super) fn nature(question: &DiagnosisInput, wrong: &[Wrong]) -> Option<Error
     }
 }
 
-/// Power of time with which an error grows; `None` if it does not grow, `Some(None)` if it grows with no clear power.
+/// Power of time with which an error grows; `None` if the error does not grow, `Some(None)` if the error grows without
+/// a clear power.
 fn growth(times: &[f64], gaps: &[f64]) -> Option<Option<u32>> {
     let size = gaps.len() / PARTS;
     let parts: Vec<f64> = (0..PARTS).map(|part| rms(&gaps[part * size..(part + 1) * size])).collect();
@@ -71,15 +72,15 @@ fn growth(times: &[f64], gaps: &[f64]) -> Option<Option<u32>> {
     if !grows {
         return None;
     }
-    // Only the second half of the run is used. The middle of a part represents the time since the start more
-    // accurately for a late part than for an early part.
+    // Only the second half of the run is used, because the times within a late part differ little from the time at the
+    // middle of the part.
     let middle = |part: usize| times[part * size + size / 2] - times[0];
     let power = (parts[PARTS - 1] / parts[PARTS / 2]).ln() / (middle(PARTS - 1) / middle(PARTS / 2)).ln();
     let whole = power.round();
     Some(((power - whole).abs() <= 0.2 && (1.0..=4.0).contains(&whole)).then_some(whole as u32))
 }
 
-/// Mean second difference, divided by the mean second difference of irregular numbers.
+/// Root mean square of the second differences, divided by the value that irregular numbers of the same size would give.
 fn disorder(gaps: &[f64]) -> f64 {
     let second: Vec<f64> = gaps.windows(3).map(|three| three[2] - 2.0 * three[1] + three[0]).collect();
     rms(&second) / (6f64.sqrt() * rms(gaps))

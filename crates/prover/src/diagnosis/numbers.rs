@@ -9,9 +9,9 @@ use super::question::Rank;
 use super::tries::{Candidate, Tries};
 use linkage::math::KeepNan;
 
-/// Number of knobs whose guessed value is tried once: those that explain most in a first approximation.
+/// Number of knobs whose guessed value is tried once. The knobs that explain most in a linear approximation are chosen.
 const GUESSED: usize = 12;
-/// Number of knobs whose value is then searched: those that explain most after their guessed value is tried.
+/// Number of knobs whose value is searched. The knobs that explain most with their guessed value are chosen.
 const SEARCHED: usize = 5;
 /// Largest number of steps of the search for a value.
 const STEPS: usize = 6;
@@ -20,9 +20,10 @@ const STEPS: usize = 6;
 struct Guess {
     knob: Rc<Knob>,
     value: f64,
-    /// Remaining sum of squares with the guess, in a first approximation.
+    /// Remaining sum of squares with the guessed value: first the value of a linear approximation, later the value from
+    /// a solved case.
     rest: f64,
-    /// Index among all knobs, which begin with the simplest.
+    /// Index in the list of all knobs. The list begins with the simplest knob.
     place: usize,
 }
 
@@ -56,8 +57,8 @@ fn guesses(tries: &Tries) -> Vec<Guess> {
     found
 }
 
-/// Whether the guess for a coordinate is close enough to the given value.
-/// With a value far from the given one, the mechanism hardly moves, and much work is needed to detect this.
+/// Whether the guess for a coordinate is close enough to the given value. With a distant value, the mechanism hardly
+/// moves, and much work is needed to detect this.
 fn is_likely(guess: &Guess) -> bool {
     guess.knob.shows == Shows::Forces
         || guess.knob.is_far
@@ -109,10 +110,10 @@ pub(super) fn numbers(tries: &Tries) -> Vec<Candidate> {
     candidates
 }
 
-/// Tries the values with a meaning near `value`. Also returns whether each value explains everything.
-/// `found` means that `value` comes from a search and is more accurate than a first approximation.
-/// If `found` is false, distant values are tried too: all values of a knob that `is_far`, and missing and reversed
-/// parts in a free motion.
+/// Tries the knob's values with a simple meaning near `value`. The result tells for each candidate whether it explains
+/// all differences. `found` is true if `value` comes from a search and is more accurate than a linear approximation.
+/// Otherwise distant values are tried too: all values of a knob that `is_far`, and missing and reversed parts in a free
+/// motion.
 fn meant(tries: &Tries, knob: &Rc<Knob>, value: f64, found: bool) -> Vec<(Candidate, bool)> {
     let near = |plain: f64| match found {
         true => (plain - value).abs() <= 1e-2 * plain.abs().larger(1e-2 * natural(knob)),
@@ -128,7 +129,7 @@ fn meant(tries: &Tries, knob: &Rc<Knob>, value: f64, found: bool) -> Vec<(Candid
     tried.collect()
 }
 
-/// Whether a change is so common that it is tried in every free motion, whatever it costs.
+/// Whether a change is so common that it is tried in every free motion in spite of the cost.
 fn is_plain(how: &PartChange) -> bool {
     match how {
         PartChange::Missing | PartChange::Reversed => true,
@@ -160,8 +161,8 @@ fn of_knob(
 
 /// A value of a knob that keeps all differences within their bounds, with as few digits as possible.
 /// Also returns the middle of all such values.
-/// The secant method begins at a first guess.
-/// `start` is the misfit of the given value, if this value may serve as the first point.
+/// The secant method begins at `guess`. `start` is the misfit of the given value; `None` if the given value must not be
+/// the first point.
 fn search(knob: &Knob, guess: f64, bench: &Bench, start: Option<&Misfit>) -> Option<[f64; 2]> {
     let on = |value: f64| bench.tried(&knob.at(&bench.case, value)?);
     let (mut old, mut before) = match start {
@@ -210,11 +211,10 @@ fn within(knob: &Knob, [low, high]: [f64; 2]) -> Vec<f64> {
     fewest.into_iter().chain([middle]).collect()
 }
 
-/// Whether a found number may have been meant. Any smooth error resembles a tiny change of some number.
-/// So the found number must satisfy one of three criteria.
-/// The number differs noticeably from the given number, has few digits, or is known to a small fraction of its change.
-/// The number is known to a small fraction of its change if `excess`, the ratio of the differences to their bounds, is
-/// large.
+/// Whether the found number is a credible cause. Any smooth error resembles a tiny change of some number, so the found
+/// number must satisfy one of three criteria: it differs noticeably from the given number, it has few digits, or its
+/// change is known accurately. The change is known accurately if `excess`, the ratio of the differences to their
+/// bounds, is large.
 pub(super) fn is_sure(change: &Change, excess: f64) -> bool {
     let PartChange::Instead { found, given, unit } = change.how else { return true };
     let told = if unit == "rad" { found.to_degrees() } else { found };
@@ -225,10 +225,10 @@ pub(super) fn is_sure(change: &Change, excess: f64) -> bool {
 
 /// A number has few digits if it has at most this many.
 const FEW_DIGITS: usize = 4;
-/// A relative change below this limit counts as a mistake in the number only with further evidence: see [`is_sure`].
+/// A smaller relative change counts as a mistake in the number only with further evidence: see [`is_sure`].
 const TRIFLE: f64 = 1e-3;
-/// A tiny change with many digits counts if the difference is at least this many times its bound.
-/// With such a difference, the change is known to a hundredth.
+/// A tiny change with many digits counts if the difference is at least this many times its bound. The change is then
+/// known to a hundredth.
 const TELLING: f64 = 100.0;
 
 /// A value near the value found on the thinned grid, if it also explains everything on the whole grid.

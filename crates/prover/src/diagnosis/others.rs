@@ -13,9 +13,9 @@ const TELLING: f64 = 5.0;
 /// Number of rows that are compared first.
 const FEW: usize = 16;
 
-/// Every disagreeing channel whose values come from other channels. Four origins are possible:
-/// an exchange with a second channel, the values of one channel (also with the opposite sign), a magnitude, or the
-/// difference of two channels.
+/// Finds the disagreeing channels whose values come from other channels. Four origins are tried: an exchange with a
+/// second channel, the values of one channel (also with the opposite sign), a magnitude, and the difference of two
+/// channels.
 pub(super) fn found(question: &DiagnosisInput, wrong: &[Wrong]) -> Vec<Found> {
     let mut causes = Vec::new();
     let mut put =
@@ -43,7 +43,8 @@ pub(super) fn found(question: &DiagnosisInput, wrong: &[Wrong]) -> Vec<Found> {
             continue;
         }
         let pairs = question.reference.iter().filter(|(channel, _)| channel.kind.suffix == one.channel.kind.suffix);
-        // Constant channels are left out: they cannot show that values are relative to another link or point.
+        // Constant channels are left out, because a constant difference does not show that values are relative to
+        // another link or point.
         let all: Vec<(&Channel, &[f64])> = pairs.filter(|(_, values)| one.varies(values)).collect();
         if let Some(slip) = between(one, &all) {
             let is_plain = matches!(slip, DataSlip::Between { offset: 0.0, .. });
@@ -53,15 +54,15 @@ pub(super) fn found(question: &DiagnosisInput, wrong: &[Wrong]) -> Vec<Found> {
     causes
 }
 
-/// Whether the values of one channel may be mistaken for those of the other.
-/// This is possible if both have the same unit, or if one is the rate of the other.
+/// Whether the values of two channels may be confused: the channels have the same unit and the same stage, or one
+/// channel is the rate of the other channel.
 fn alike(one: &Channel, other: &Channel) -> bool {
     let is_rate = |of: &Channel, rate: &Channel| of.rate().is_some_and(|own| own == *rate);
     let is_neighbour = is_rate(one, other) || is_rate(other, one);
     one != other && (one.kind.unit == other.kind.unit && one.kind.stage == other.kind.stage || is_neighbour)
 }
 
-/// The two components of a vector, if its magnitude replaces one of them.
+/// The two components of a vector, if the channel has the vector's magnitude instead of one component.
 fn magnitude(question: &DiagnosisInput, one: &Wrong) -> Option<[Channel; 2]> {
     let suffix = one.channel.kind.suffix;
     let other = if suffix.contains('y') { suffix.replacen('y', "x", 1) } else { suffix.replacen('x', "y", 1) };

@@ -24,13 +24,15 @@ pub struct DiagnosisInput<'a> {
     pub reference: &'a Trajectory,
     /// Trajectory that contradicts the reference, on the same grid.
     pub suspicious: &'a Trajectory,
-    /// All channels with reliable bounds. Agreeing channels are included, because a cause must not make them disagree.
+    /// All channels with reliable bounds. Agreeing channels are included, because a cause must not make an agreeing
+    /// channel disagree.
     pub judged: &'a [SuspectChannel],
     /// The reference's case, on the grid of both trajectories.
     pub case: &'a Case,
-    /// Solver for changed cases. Its errors are far below the bounds.
+    /// Solver for changed cases, with errors far below the bounds.
     pub solver: &'a dyn Solver,
-    /// Time step of the suspect or time between its rows (s), and the word for it; `None` if there is no such time.
+    /// Time step of the suspect, or time between the suspect's rows (s), with the word for step or row; `None` if this
+    /// time is not constant or not known.
     pub step: Option<(f64, &'static str)>,
 }
 
@@ -60,7 +62,7 @@ pub(super) enum Rank {
     Change,
     /// A part of the case multiplied by a factor with a known meaning, such as a factor between units.
     Scale,
-    /// A number of the case, or the instant, changed by a fitted amount.
+    /// A number of the case, or all instants, changed by a fitted amount.
     Number,
     /// Values changed by a fitted number.
     Fitted,

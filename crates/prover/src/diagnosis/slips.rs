@@ -11,8 +11,8 @@ use linkage::math::angle::wrapped;
 use linkage::math::{KeepNan, largest_size};
 use linkage::trajectory::{Channel, Stage, Unit};
 
-/// Smallest bound, as a fraction of the size of the reference's numbers.
-/// The reference itself may have relative errors of this size.
+/// Smallest bound, as a fraction of the size of the reference's numbers. The reference may have relative errors of this
+/// size.
 pub(super) const KNOWN: f64 = 1e-10;
 
 /// A factor on the values of a channel, and the confusion of units that causes it.
@@ -144,7 +144,7 @@ fn lonely(wrong: &[Wrong]) -> Option<f64> {
     off.next().is_none().then_some(times[row])
 }
 
-/// Smallest number of instants among which a single wrong one is sought.
+/// Smallest number of instants among which a single wrong instant is sought.
 const MANY: usize = 8;
 
 /// A slip with a number. If the number is an angle, its digits are counted in degrees.
@@ -164,8 +164,8 @@ fn fitted(wrong: &[Wrong]) -> Vec<Fitted> {
     let same_unit = wrong.iter().all(|one| one.channel.kind.unit == worst.channel.kind.unit);
     let is_angle = same_unit && worst.channel.kind.unit == Unit::Radian;
     let mut slips = Vec::new();
-    // With one or two instants, any values can be explained by an offset and a factor.
-    // So numbers are fitted only from `FEWEST` instants on.
+    // An offset and a factor explain any values at one or two instants. Numbers are therefore fitted only if there are
+    // at least `FEWEST` instants.
     if gaps.len() >= FEWEST {
         if same_unit {
             let mean = |gaps: &[f64]| gaps.iter().sum::<f64>() / gaps.len() as f64;
@@ -181,7 +181,7 @@ fn fitted(wrong: &[Wrong]) -> Vec<Fitted> {
     slips
 }
 
-/// Rounds a fitted number to as few digits as `is_it` still accepts.
+/// Rounds a fitted number to the smallest number of digits that `is_it` accepts.
 pub(super) fn settled(by: f64, angle: bool, is_it: &dyn Fn(f64) -> bool) -> f64 {
     (2..=9).map(|digits| significant_in(angle, by, digits)).find(|by| is_it(*by)).unwrap_or(by)
 }
@@ -204,8 +204,8 @@ impl Wrong<'_> {
             DataSlip::Outlier(time) => {
                 (0..self.times.len()).all(|row| self.times[row] == time || self.gap(row).abs() <= self.bound)
             }
-            // `late`, `others` and `derived` examine these slips, because the slips need the solution at instants or in
-            // channels that are not compared.
+            // The modules `late`, `others` and `derived` examine the following slips, which need the solution at
+            // further instants or in further channels.
             DataSlip::Late { .. } | DataSlip::Clock { .. } | DataSlip::Instead(_) | DataSlip::Opposite(_) => false,
             DataSlip::Exchanged(_) | DataSlip::Between { .. } | DataSlip::Magnitude(_) => false,
             DataSlip::Differences { .. } | DataSlip::NoCoriolis(_) | DataSlip::About(_) => false,
@@ -232,7 +232,7 @@ impl Wrong<'_> {
                 (_, Stage::Reactions | Stage::BalancingMoment) => false,
             },
             Plain::Turns => is_angle && parts_of(TAU).iter().all(|(_, over)| *over <= self.bound),
-            // If the same half revolution is added at all instants, the slip is an offset.
+            // A half revolution that is added at all instants is an offset and not this slip.
             Plain::HalfTurns => {
                 let parts = parts_of(PI);
                 let is_odd = |(halves, _): &(f64, f64)| halves.rem_euclid(2.0) == 1.0;
@@ -242,7 +242,7 @@ impl Wrong<'_> {
         }
     }
 
-    /// Difference of the channel from its right value at a row.
+    /// The suspect's value minus the right value at a row.
     fn gap(&self, row: usize) -> f64 {
         differences(&self.right[row..=row], &self.found[row..=row], self.channel.kind.periodic)[0]
     }

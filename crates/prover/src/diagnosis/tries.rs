@@ -11,14 +11,14 @@ use linkage::trajectory::{Channel, Stage};
 
 pub(super) type Make = Box<dyn Fn(&Case) -> Option<Case>>;
 
-/// A change that explains something at the instants of a bench.
+/// A change that explains disagreeing channels at the instants of a bench.
 pub(super) struct Candidate {
     pub(super) found: Found,
     /// Makes the changed case on any grid.
     pub(super) make: Make,
     /// Sum of the changes in agreeing channels, each divided by its bound.
     pub(super) claim: f64,
-    /// If a value was found: its knob, the value, and the middle of all possible values.
+    /// If the change is a found value of a knob: the knob, the value, and the middle of all possible values.
     pub(super) number: Option<(Rc<Knob>, [f64; 2])>,
 }
 
@@ -46,9 +46,8 @@ impl Candidate {
     }
 }
 
-/// The benches at which changes are tried.
-/// A free motion is first followed for a short time. Later the motion may not depend on the cause in a simple way, and
-/// its solution costs more.
+/// The benches at which changes are tried. A free motion is first followed for a short time only: at later times, the
+/// motion may depend on the cause in a complicated way, and the solution costs more.
 pub(super) struct Tries<'a> {
     /// The first instant, whose solution costs almost nothing. A changed configuration is already visible at this
     /// instant.
@@ -61,8 +60,8 @@ pub(super) struct Tries<'a> {
 }
 
 impl Tries<'_> {
-    /// Misfit that a change leaves.
-    /// If a change does not explain the first part of a free motion, the motion is not followed further.
+    /// Misfit that remains after a change. A free motion is not followed further if the change does not explain the
+    /// first part of the motion.
     pub(super) fn of(&self, make: &dyn Fn(&Case) -> Option<Case>) -> Option<Misfit> {
         for bench in [&self.first, &self.soon].into_iter().filter(|_| self.is_free) {
             if !bench.tried(&make(&bench.case)?)?.fits() {

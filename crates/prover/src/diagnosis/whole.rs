@@ -12,8 +12,8 @@ use linkage::drive::{Course, Load};
 use linkage::math::Vec2;
 use linkage::mechanism::{JointSide, Link, LinkId};
 
-/// Changes without a number: another configuration, gravity along another axis, mass centres elsewhere, no weights or
-/// inertia forces, loads at other points.
+/// Changes without a number: another configuration, gravity along another axis, mass centres at other places, missing
+/// weights or inertia forces, loads at other points.
 pub(super) fn whole_changes(tries: &Tries) -> Vec<Candidate> {
     let case = &tries.thin.case;
     let mut all: Vec<(Change, Make)> = Vec::new();
@@ -59,8 +59,8 @@ fn change(part: CasePart, how: PartChange, make: impl Fn(&Case) -> Option<Case> 
     (Change { part, how }, Box::new(make))
 }
 
-/// Moves the mass centre of every link to four kinds of places: to each joint of the link, to the middle between two
-/// joints, to its reflection in this middle, and to its reflection in the line through two joints.
+/// Moves the mass centre of every link to four kinds of places: each joint of the link, the middle between two joints,
+/// and the reflections of the mass centre in this middle and in the line through two joints.
 fn mass_centres(case: &Case) -> Vec<(Change, Make)> {
     let mut found: Vec<(Change, Make)> = Vec::new();
     for (index, link) in case.mechanism.links().entries().skip(1).filter(|(_, link)| link.mass > 0.0) {
@@ -103,7 +103,8 @@ fn masses(case: &Case) -> Vec<(Change, Make)> {
     let mut found = Vec::new();
     let heavy = |(_, link): &(LinkId, &Link)| link.mass > 0.0;
     let all: Vec<(LinkId, &Link)> = case.mechanism.links().entries().skip(1).filter(heavy).collect();
-    // If there is only one link with mass, the change of all links is the same as the change of this link.
+    // A mechanism with only one heavy link is left out, because the change of all links then equals the change of this
+    // link.
     for &(index, link) in all.iter().filter(|_| all.len() > 1) {
         let mut put = |part: fn(String) -> CasePart, make: Make| {
             found.push((Change { part: part(link.name.clone()), how: PartChange::Missing }, make));
@@ -154,7 +155,7 @@ pub fn without_inertia_forces(case: &Case, of: &[LinkId]) -> Option<Case> {
     without_masses(&heavy, of)
 }
 
-/// The case without some links' masses and moments of inertia.
+/// The case in which the links in `of` have no mass and no moment of inertia.
 fn without_masses(case: &Case, of: &[LinkId]) -> Option<Case> {
     let gone = |links: &mut [Link]| of.iter().for_each(|&link| (links[link].mass, links[link].inertia) = (0.0, 0.0));
     remade(case, |parts| changed(parts, |links, _| gone(links)))

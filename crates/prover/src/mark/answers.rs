@@ -15,7 +15,8 @@ pub struct StudentCell {
     pub text: String,
     /// The number.
     pub value: f64,
-    /// Number of written decimals minus the power of ten: 3 for `1.25e-1`.
+    /// Number of the last decimal place: the number of written decimals minus the power of ten, for example 3 for
+    /// `1.25e-1`.
     pub decimals: i32,
 }
 
@@ -45,10 +46,10 @@ pub(crate) fn is_of(table: &CellTable) -> Option<&str> {
 /// Columns and rows may be in any order. An empty cell has no answer. A decimal comma is accepted.
 ///
 /// # Errors
-/// [`ErrorKind::Input`], with file, line and column, in these cases: the text is not a table; the table belongs to
-/// another sheet; the first column is not that of the positions; a column is missing, unknown or repeated; a row has
-/// too many cells; the sheet does not ask for the position of a row; two rows have the same position; a cell is not a
-/// number.
+/// [`ErrorKind::Input`], with file, line and column, if the text is not a table, or if the table belongs to another
+/// sheet. [`ErrorKind::Input`] also if the first column does not contain the positions, or if a column is missing,
+/// unknown or repeated. [`ErrorKind::Input`] also if a row has too many cells, if the sheet does not ask for the
+/// position of a row, or if two rows have the same position. [`ErrorKind::Input`] also if a cell is not a number.
 pub fn read_answers(text: &str, path: &Path, name: &str, sheet: &AnswerSheet) -> Result<StudentAnswers> {
     let file = path.display();
     let wrong = |message: String, help: &str| Error::new(ErrorKind::Input, message).help(help);

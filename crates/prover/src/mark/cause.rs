@@ -9,8 +9,8 @@ pub struct CellPlace {
     pub column: usize,
 }
 
-/// A term in the velocity or acceleration of a point P, composed from that of a point Q on the same link:
-/// v_P = v_Q + v_PQ and a_P = a_Q + a_PQ^n + a_PQ^t.
+/// A term of the velocity or acceleration of a point P. Q is another point of the same link: v_P = v_Q + v_PQ and a_P =
+/// a_Q + a_PQ^n + a_PQ^t.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PartOfPoint {
     /// The velocity or acceleration of the point Q.
@@ -26,7 +26,7 @@ pub enum PartOfPoint {
 pub enum MarkCause {
     /// The opposite sign.
     Sign,
-    /// The number is right in another unit; the fields are symbols of units.
+    /// The number is right in another unit. The fields are the symbols of both units.
     Unit {
         /// Unit of the student's number.
         written: &'static str,
@@ -41,13 +41,13 @@ pub enum MarkCause {
     Half,
     /// Zero instead of the value.
     Zero,
-    /// The derivative by the crank angle instead of the derivative by time.
+    /// The derivative with respect to the crank angle instead of the derivative with respect to time.
     PerRadian,
     /// The supplement: 180 deg minus the right angle.
     Supplement,
     /// The right angle plus 180 deg: the direction of the link is taken from the wrong end.
     OtherEnd,
-    /// The complement: 90 deg minus the right angle, as with cosine and sine exchanged.
+    /// The complement: 90 deg minus the right angle. The student may have exchanged cosine and sine.
     Complement,
     /// The right angle plus or minus 90 deg: the angle is measured from the vertical.
     FromVertical,
@@ -65,10 +65,10 @@ pub enum MarkCause {
     OneDigit,
     /// One digit is left out, or one digit is added.
     DigitLost,
-    /// A term of a point's velocity or acceleration is missing: the term, the point P, and the point Q.
+    /// A term of a point's velocity or acceleration is missing. The fields are the term, the point P and the point Q.
     WithoutPart(PartOfPoint, String, String),
-    /// The angular velocity is computed from the whole velocity of a point instead of its velocity relative to another
-    /// point of the link. The field is the name of the point.
+    /// The angular velocity is computed from the whole velocity of a point, instead of the point's velocity relative to
+    /// another point of the link. The field is the name of the point.
     FromWholeSpeed(String),
     /// Accelerations without the normal (centripetal) part of one link. The field is the name of the link.
     NoNormal(String),
@@ -85,11 +85,11 @@ pub enum MarkCause {
     },
     /// The crank turns in the opposite direction.
     Reversed,
-    /// The crank's speed is taken in the wrong unit: the unit that the student took, and the right unit.
+    /// The crank's speed is taken in the wrong unit. The fields are the unit that the student took and the right unit.
     SpeedUnit(&'static str, &'static str),
     /// The crank angle is measured in the opposite direction.
     Clockwise,
-    /// The crank angle is this many degrees larger.
+    /// The crank angle is too large. The field is the excess in degrees.
     CrankTurned(i32),
     /// Gravity is missing.
     NoGravity,
@@ -99,7 +99,8 @@ pub enum MarkCause {
     NoInertiaForces,
     /// A load is missing. The field is the number of the load in the file, from 1.
     NoLoad(usize),
-    /// The distance of a point is measured from the wrong end of its link: names of the link and of the point.
+    /// The distance of a point is measured from the wrong end of its link. The fields are the names of the link and of
+    /// the point.
     FromOtherEnd(String, String),
     /// The right answers of another student. The field is the name of that student's sheet.
     OfStudent(String),

@@ -4,17 +4,19 @@ use super::answers::StudentCell;
 use super::sheet::AnswerSheet;
 use linkage::math::KeepNan;
 
-/// Largest amount by which an answer that counts as right may differ from the right value. Every cell is judged alone.
+/// Largest allowed difference between an answer and the right value. The verdict on a cell does not depend on other
+/// cells.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum MarkCriterion {
-    /// This fraction of the right value, but at least half a unit of the last requested decimal.
-    /// The lower limit is for values near zero, which a student cannot know to a fraction of the value.
-    /// An angle may differ by this fraction of a radian: such an error moves the end of a link by the same fraction of
-    /// the link's length.
+    /// The allowed difference is this fraction of the right value, but at least half a unit of the last requested
+    /// decimal. The lower limit is for values near zero, for which a fraction of the value would be too strict. For an
+    /// angle, the allowed difference is this fraction of a radian: such an error moves the end of a link by the same
+    /// fraction of the link's length.
     Within(f64),
-    /// Half a unit of the last requested decimal.
+    /// The allowed difference is half a unit of the last requested decimal.
     Digits,
-    /// Half a unit of the last decimal that the student wrote, but at most half a unit of the last requested decimal.
+    /// The allowed difference is half a unit of the last decimal that the student wrote, but at most half a unit of the
+    /// last requested decimal.
     Written,
 }
 

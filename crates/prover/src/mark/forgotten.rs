@@ -30,8 +30,8 @@ enum LeftOut {
     Coriolis(JointId),
 }
 
-/// The hypotheses of this file. There are none if the sheet asks for no acceleration, if the mechanism has
-/// transmissions, or if the input is not an angle.
+/// The hypotheses that a normal or Coriolis part was forgotten. The list is empty if the sheet asks for no
+/// acceleration, if the mechanism has transmissions, or if the input is not an angle.
 pub(super) fn all(sheet: &AnswerSheet) -> Vec<Hypothesis> {
     let (case, mechanism) = (&sheet.case, &sheet.case.mechanism);
     let asks = sheet.columns.iter().any(|column| column.stage() == Stage::Accelerations);
@@ -73,14 +73,14 @@ pub(super) fn all(sheet: &AnswerSheet) -> Vec<Hypothesis> {
     causes.into_iter().map(of).collect()
 }
 
-/// The motions of all links, with accelerations that lack a part; `None` in a singular pose.
+/// The motions of all links, with the accelerations that result without the part `left_out`; `None` in a singular pose.
 fn accelerated(sheet: &AnswerSheet, state: &State, left_out: LeftOut) -> Option<PerLink<Motion>> {
     let (case, mechanism) = (&sheet.case, &sheet.case.mechanism);
     let count = 3 * (mechanism.links().len() - 1);
     let (mut system, mut right, mut row) = (Lu::new(count), vec![0.0; count], 0);
     let motions = &state.motions;
     let column = |link: LinkId| 3 * (link.index() - 1);
-    // -omega^2 r of a point, or zero if this term is left out.
+    // The normal acceleration -omega^2 r of a point, or zero if this part is left out.
     let normal = |side: JointSide| {
         let is_left_out = left_out == LeftOut::Normals || left_out == LeftOut::Normal(side.link);
         let own = &motions[side.link];
@@ -118,7 +118,7 @@ fn accelerated(sheet: &AnswerSheet, state: &State, left_out: LeftOut) -> Option<
                 if joint.first.link != GROUND {
                     system.add(row, column(joint.first.link) + 2, -slide);
                 }
-                // The velocity of the block relative to the guide, from which the guide's rotation is removed.
+                // The block's velocity relative to the rotating guide.
                 if left_out != LeftOut::Coriolis(index) {
                     let relative = fast - slow - turned(to - from) * first.omega;
                     right[row] += 2.0 * first.omega * axis.dot(&relative);
@@ -148,7 +148,7 @@ fn accelerated(sheet: &AnswerSheet, state: &State, left_out: LeftOut) -> Option<
         found[link].acceleration = Vec2::new(right[at], right[at + 1]);
         found[link].alpha = right[at + 2];
         if left_out == LeftOut::Normals || left_out == LeftOut::Normal(link) {
-            // Without omega, the accelerations of the link's points lack the normal part too.
+            // With omega set to zero, the accelerations of the link's points also have no normal part.
             found[link].omega = 0.0;
         }
     }

@@ -1,4 +1,4 @@
-//! Tables that a student would have written with one mistake.
+//! Hypotheses: each is the table that a student would have written with one mistake.
 
 use super::cause::{CellPlace, MarkCause};
 use super::sheet::{AnswerSheet, AnswerTable};
@@ -21,9 +21,9 @@ pub(super) struct Hypothesis {
     pub(super) origin: Origin,
     /// The values in the printed units; `None` where the mistake has no effect or gives no number.
     pub(super) values: Vec<Vec<Option<f64>>>,
-    /// Factor by which the mistake multiplies a number, and with the number the unit of its last digit.
+    /// Factor by which the mistake multiplies a number. The rounding of the number is multiplied by the same factor.
     pub(super) factor: f64,
-    /// Logarithm of the frequency of the mistake, up to a constant.
+    /// Logarithm of the frequency of the mistake, plus a constant that is the same for all mistakes.
     pub(super) prior: f64,
     /// Whether the mistake changes all quantities of a position, so that a single wrong quantity does not prove it.
     pub(super) is_whole: bool,
@@ -43,7 +43,8 @@ impl Hypothesis {
         Hypothesis { origin, values: values.collect(), factor: 1.0, prior, is_whole: false }
     }
 
-    /// The hypothesis of a mistake after which the whole sheet is right for another case.
+    /// The hypothesis of a mistake by which the student solved another case. `table` has the right answers for that
+    /// case.
     pub(super) fn of_table(cause: MarkCause, prior: f64, table: Vec<Option<AnswerTable>>) -> Hypothesis {
         let mut values = Vec::new();
         for row in table {
@@ -67,7 +68,8 @@ impl Hypothesis {
         }
     }
 
-    /// The cell whose right value this hypothesis has in the cell `at`; `None` if there is no such cell.
+    /// The other cell whose right value the hypothesis predicts for the cell `at`; `None` if the value does not come
+    /// from another cell.
     pub(super) fn other_cell(&self, at: CellPlace) -> Option<CellPlace> {
         match self.origin {
             Origin::OfColumn(column) => Some(CellPlace { column, ..at }),

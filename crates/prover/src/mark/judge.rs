@@ -49,7 +49,8 @@ impl MarkedSheet {
     }
 }
 
-/// Judges answers. `others` are the sheets of other students, by name: their answers may have been copied.
+/// Judges answers. `others` are the sheets of other students, by name. The student may have copied answers of these
+/// students.
 ///
 /// # Panics
 /// If the answers have other rows or columns than the sheet.
@@ -67,7 +68,7 @@ pub fn marked(
             return MarkedCell { verdict, answer: None, right, allowed: 0.0, cause: None };
         };
         let allowed = criterion.allowed(sheet, row, column, &answer);
-        // The comparison is written so that NaN is wrong.
+        // An answer counts as wrong if it is NaN.
         let is_right = sheet.columns[column].gap(answer.value, right).abs() <= allowed;
         let verdict = if is_right { CellVerdict::Right } else { CellVerdict::Wrong };
         MarkedCell { verdict, answer: Some(answer), right, allowed, cause: None }
@@ -105,7 +106,8 @@ fn places(sheet: &AnswerSheet) -> impl Iterator<Item = CellPlace> + use<> {
     (0..rows).flat_map(move |row| (0..columns).map(move |column| CellPlace { row, column }))
 }
 
-/// Prior of copied answers. It is low, because with many sheets a number of another sheet fits by chance.
+/// Logarithm of the frequency of copied answers. The value is low, because a number of one of many other sheets may fit
+/// by chance.
 const COPIED: f64 = -4.0;
 
 fn copied(sheet: &AnswerSheet, others: &[(&str, &AnswerSheet)]) -> Vec<Hypothesis> {
@@ -123,7 +125,8 @@ fn copied(sheet: &AnswerSheet, others: &[(&str, &AnswerSheet)]) -> Vec<Hypothesi
 /// How a hypothesis fits a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Match {
-    /// The hypothesis predicts the right value or no value, or the cell has no answer.
+    /// The cell says nothing about the hypothesis: the cell has no answer, or the hypothesis predicts the right value
+    /// or no value.
     Silent,
     /// The answer differs from the predicted number.
     Against,
@@ -139,9 +142,9 @@ struct Search<'a> {
     found: &'a MarkedSheet,
 }
 
-/// Error of a number by rounded intermediate results, as a fraction of the number.
+/// Error of a number that is due to rounded intermediate results, as a fraction of the number.
 const ROUNDED: f64 = 1e-3;
-/// A cause must explain the difference from the right value, except for this fraction of the difference.
+/// A cause may leave at most this fraction of the difference between answer and right value.
 const LEFT: f64 = 0.3;
 /// A cause is named only if its score is above this value.
 const LEAST: f64 = -5.0;
@@ -149,9 +152,10 @@ const LEAST: f64 = -5.0;
 const NEARLY: f64 = -2.0;
 /// Penalty on a cause if the number has so few digits that many causes lead to this number.
 const COARSE: f64 = -1.0;
-/// Largest penalty on a cause that other cells contradict. It is doubled for a mistake that changes whole positions.
+/// Largest penalty on a cause that other cells contradict. The penalty is doubled for a mistake that changes whole
+/// positions.
 const ALONE: f64 = -1.5;
-/// Score of each further cell with the same cause, and largest number of further cells that count.
+/// Score for each further cell with the same cause, and the largest number of further cells that are counted.
 const SUPPORT: (f64, usize) = (1.0, 6);
 
 impl Search<'_> {
@@ -246,7 +250,7 @@ impl Search<'_> {
 
 /// The score of a cause from other cells: the largest of the scores from its row, its column and the whole sheet.
 /// The column does not count for a mistake that changes whole positions.
-/// The score is limited below, because a mistake may be made in a single cell.
+/// The score has a lower limit, because a student may make a mistake in a single cell only.
 fn support(at: CellPlace, is_whole: bool, matches: &[Vec<Match>]) -> f64 {
     let score = |cells: &mut dyn Iterator<Item = Match>| {
         let (mut fits, mut against) = (0usize, 0usize);

@@ -8,7 +8,7 @@ use linkage::math::{Vec2, turned};
 use linkage::mechanism::{GROUND, LinkId};
 use linkage::trajectory::{ChannelSubject, Stage};
 
-/// The hypotheses of this file.
+/// The hypotheses of these mistakes, for all pairs of points of all links.
 pub(super) fn all(sheet: &AnswerSheet) -> Vec<Hypothesis> {
     let mut found = Vec::new();
     for (index, link) in sheet.case.mechanism.links().entries().filter(|(index, _)| *index != GROUND) {
@@ -85,7 +85,7 @@ impl Ends<'_> {
     }
 }
 
-/// The component or the magnitude of a vector, whichever a column requests.
+/// The value that a column requests of a vector: one component, or the magnitude.
 fn component(column: &AskedColumn, vector: Vec2) -> f64 {
     match (column.is_size(), column.channels[0].kind.suffix.as_bytes().get(1)) {
         (true, _) => vector.norm(),

@@ -12,7 +12,7 @@ use scenario::words::suggestion;
 /// A requested quantity: a channel in its printed unit, or the magnitude of a vector.
 #[derive(Clone, Debug)]
 pub struct AskedColumn {
-    /// Name of the column: that of the channel, or of the magnitude, such as `point.B.v_m_s`.
+    /// Name of the column: the name of the channel, or of a magnitude such as `point.B.v_m_s`.
     pub name: String,
     /// Symbol of the printed unit.
     pub unit: &'static str,
@@ -29,7 +29,7 @@ const SIZES: [(&str, [&str; 2]); 3] =
     [("v_m_s", ["vx_m_s", "vy_m_s"]), ("a_m_s2", ["ax_m_s2", "ay_m_s2"]), ("f_N", ["fx_N", "fy_N"])];
 
 impl AskedColumn {
-    /// The quantity with this name. Whether a case has the quantity is not checked.
+    /// The quantity with this name. The function does not check whether a case has the quantity.
     fn named(name: &str) -> Option<AskedColumn> {
         let size = SIZES.iter().find_map(|(ending, parts)| {
             let subject = name.strip_suffix(ending)?.strip_suffix('.')?;
@@ -93,8 +93,8 @@ pub const ANSWER_WORDS: [Stage; 5] =
 
 /// The quantities of a case that the words select, in the order of the words.
 /// A word is the name of a channel, of a magnitude or of a stage.
-/// Without words, all stages except the reactions are selected; the balancing moment is then left out if the case has
-/// neither masses nor loads.
+/// If there are no words, the stages of positions, velocities and accelerations are selected, and the balancing moment
+/// if the case has masses or loads.
 ///
 /// The stages of positions, velocities and accelerations select the angles, angular velocities and angular
 /// accelerations of all links that can turn, except the driving link.
@@ -148,7 +148,7 @@ fn of_stage(stage: Stage, case: &Case) -> Vec<String> {
         .map(|(_, link)| link.name.as_str())
         .collect();
     let of_links = |ending: &str| links.iter().map(|link| format!("link.{link}.{ending}")).collect::<Vec<_>>();
-    // Points in which moving links are joined.
+    // Whether a joint between moving links has the name of the point.
     let is_joined = |name: &str| {
         let at_pin = |joint: &linkage::mechanism::Joint| joint.name == name && joint.on(GROUND).is_none();
         mechanism.joints().iter().any(at_pin)

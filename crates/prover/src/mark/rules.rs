@@ -22,7 +22,7 @@ fn units(of: Unit) -> &'static [(&'static str, f64)] {
     }
 }
 
-/// The hypotheses of this file.
+/// The hypotheses of mistakes that follow from the right values alone.
 pub(super) fn all(sheet: &AnswerSheet) -> Vec<Hypothesis> {
     let mut found = Vec::new();
     let mut rule = |cause: MarkCause, prior: f64, factor: f64, rule: &dyn Fn(usize, usize, f64) -> Option<f64>| {
@@ -78,8 +78,8 @@ pub(super) fn all(sheet: &AnswerSheet) -> Vec<Hypothesis> {
     found
 }
 
-/// Hypotheses with the values of other cells: of a quantity in the same unit at the same position, or of the same
-/// quantity at another position. Angles relative to other links are also among them.
+/// Hypotheses with the values of other cells: values of another quantity in the same unit at the same position, and
+/// values of the same quantity at another position. The list also contains angles relative to other links.
 fn other_cells(sheet: &AnswerSheet) -> Vec<Hypothesis> {
     let mut found = Vec::new();
     let alike = |one: usize, other: usize| {

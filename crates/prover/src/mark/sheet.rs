@@ -23,8 +23,8 @@ pub struct AnswerSheet {
     pub columns: Vec<AskedColumn>,
     /// The right answers in the printed units: position by position, quantity by quantity.
     pub right: Vec<Vec<f64>>,
-    /// Requested number of decimals of each quantity. With these decimals, the largest value has at least the wanted
-    /// number of significant digits.
+    /// Requested number of decimals of each quantity. The number gives the largest value at least the requested number
+    /// of significant digits.
     pub decimals: Vec<i32>,
     /// The state of the mechanism at each position.
     pub(super) states: Vec<State>,
@@ -79,7 +79,7 @@ impl AnswerSheet {
         0.5 * 10f64.powi(-self.decimals[column]) * (1.0 + 1e-9)
     }
 
-    /// The answers to the same questions about another case, at `positions` of that case's input (SI).
+    /// The answers to the questions of this sheet for another case, at `positions` of the other case's input (SI).
     /// `None` if the case cannot be solved at these positions.
     pub(super) fn answers_of(&self, case: &Case, positions: Vec<f64>) -> Option<AnswerTable> {
         let channels: Vec<Channel> = self.columns.iter().flat_map(|own| own.channels.clone()).collect();
@@ -104,7 +104,7 @@ fn table_of(columns: &[AskedColumn], solved: &Trajectory) -> Option<AnswerTable>
 
 fn decimals(column: &AskedColumn, place: usize, right: &AnswerTable, digits: usize) -> i32 {
     let largest = right.iter().fold(0.0, |most: f64, row| most.larger(row[place].abs()));
-    // If all values are zero up to rounding, the decimals are those of the value 1.
+    // If all values are zero up to rounding, the number of decimals is chosen as for the value 1.
     let order = if largest > 1e-9 { largest.log10().floor() as i32 } else { 0 };
     let own = digits as i32 - 1 - order;
     match column.turn {

@@ -15,7 +15,7 @@ use linkage::trajectory::Stage;
 /// Largest number of combinations of two groups that both have another configuration.
 const PAIRS: usize = 12;
 
-/// The hypotheses of this file.
+/// The hypotheses of mistakes by which the student solved another case.
 pub(super) fn all(sheet: &AnswerSheet) -> Vec<Hypothesis> {
     let case = &sheet.case;
     let mut found: Vec<(MarkCause, f64, Option<Case>)> = Vec::new();
@@ -85,7 +85,8 @@ fn with_speed(case: &Case, speed: f64) -> Option<Case> {
     })
 }
 
-/// Cases in which a point of a link is measured from the wrong one of two other points: P becomes Q1 + Q2 - P.
+/// Cases in which the position of a point P is measured from Q2 instead of Q1. Q1 and Q2 are two other points of the
+/// link: P becomes Q1 + Q2 - P.
 /// Each case comes with the names of the link and of the point P.
 fn from_other_ends(case: &Case) -> Vec<(String, String, Case)> {
     let mut found = Vec::new();

@@ -22,7 +22,7 @@ pub struct Deviation {
     pub channel: Channel,
     /// Largest error divided by the channel's scale.
     pub error: f64,
-    /// Bound at the instant of that error: the known errors of the sides, divided by the channel's scale.
+    /// Bound at the instant of the largest error: the known errors of the sides, divided by the channel's scale.
     pub bound: f64,
     /// Largest ratio of error to bound at any instant.
     pub used: f64,
@@ -54,7 +54,7 @@ pub struct BothSides {
     pub sides: [AnalyticSide; 2],
     /// The checks of the sides that a proof makes; empty if a side failed.
     pub checks: Vec<Check>,
-    /// The verdict of `checks`. It is inconclusive if a side failed.
+    /// The overall verdict of `checks`; inconclusive if a side failed.
     pub verdict: Verdict,
     /// Number of channels of the sides that deviate from external numbers by more than their bounds although every
     /// check agrees.
@@ -63,10 +63,11 @@ pub struct BothSides {
     pub trajectory: Option<Trajectory>,
 }
 
-/// Solves a case with both sides and judges them as in a proof. Compares them with `truth` if it is given.
+/// Solves a case with both sides and judges the sides as in a proof. If `truth` is given, compares both sides with
+/// these numbers.
 ///
 /// # Errors
-/// If `truth` has another grid. A side that fails is part of the result.
+/// If `truth` has another grid. A failure of a side is not an error but a part of the result.
 pub fn sides(case: &Case, truth: Option<&Trajectory>) -> Result<BothSides> {
     let solve = |side: &dyn Solver| observe(case, side, Watch::Side, &mut |_| {}).map_err(Error::from);
     let found = EachSide::of(|side| counted(|| solve(TRUE_SIDES[side].solver)));

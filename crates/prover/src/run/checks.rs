@@ -18,8 +18,8 @@ use linkage::trajectory::{Channel, ChannelKind, Stage, Trajectory, Unit};
 /// These lengths are the mechanism's size and the mechanism's distance from the origin.
 /// For the shipped mechanisms the ratio is at most 5e-16.
 const CLOSURE: f64 = 1e-13;
-/// Two methods compute the balancing moment of an analytic side. Their difference, divided by the moments in the
-/// balance, must not exceed this limit.
+/// Two methods compute the balancing moment of an analytic side. The difference of the two results, divided by the
+/// moments in the balance, must not exceed this limit.
 const TWO_WAYS: f64 = 1e-11;
 
 /// Returns `TWO_WAYS`, or a larger limit for a side that passes change points. Near change points, forces are known
@@ -102,8 +102,8 @@ pub struct Beyond {
     pub margin: f64,
 }
 
-/// Every channel in which the two sides differ by more than is allowed, with the first such instant and the largest
-/// ratio.
+/// Every channel in which the two sides differ by more than is allowed, with the first instant of the disagreement and
+/// the largest ratio of difference to allowed difference.
 pub(super) fn beyond(sides: EachSide<&Observed>, known: &Known) -> Vec<Beyond> {
     let [reference, other] = sides.pair().map(|own| &own.trajectory);
     let rows = ascending(reference.times());
@@ -152,8 +152,8 @@ pub(super) fn of_engine(problem: Problem, engine: &dyn Engine, runs: &Runs) -> V
 }
 
 /// Checks the opening of the engine's loops.
-/// A closed loop has no opening, so any opening is an error.
-/// As the step is refined, the opening must vanish with the observed order of convergence.
+/// In an exact solution no loop is open, so any opening is an error of the engine. If the step is reduced, the opening
+/// must decrease with the observed order of convergence.
 fn closure(problem: Problem, engine: &dyn Engine, runs: &Runs) -> Check {
     let size = problem.case.mechanism.size();
     let kind = Channel::named("point.A.x_m").expect("the table has positions of points").kind;
@@ -169,7 +169,7 @@ fn closure(problem: Problem, engine: &dyn Engine, runs: &Runs) -> Check {
 }
 
 /// Checks the engine's driving moment against the balance of powers of the same motion.
-/// Both moments belong to one motion, so their difference must vanish with the step.
+/// Both moments belong to the same motion, so their difference must tend to zero with the step.
 fn power_balance(problem: Problem, engine: &dyn Engine, runs: &Runs) -> Check {
     let kind = Channel::named("drive.torque_N_m").expect("the table has the moment").kind;
     // If all moments are only rounding, the scale is the moment that the mechanism's data make possible.
@@ -181,7 +181,7 @@ fn power_balance(problem: Problem, engine: &dyn Engine, runs: &Runs) -> Check {
         of: &|run: &Observed| gaps(run).into_iter().map(|gap| share(gap, scale)).collect(),
         value: share(largest_size(&gaps(runs.single())), scale),
         kind,
-        // The factor is 2, because each of the two compared moments may have the rounding error of one moment.
+        // The factor is 2, because two moments are compared and each has a rounding error.
         noise: if scale == 0.0 { 0.0 } else { 2.0 / scale },
         note: match by_differences {
             true => sentences::BOTH_FROM_THE_SAME_ACCELERATIONS,
@@ -191,16 +191,16 @@ fn power_balance(problem: Problem, engine: &dyn Engine, runs: &Runs) -> Check {
     .check(problem, engine, runs)
 }
 
-/// A relative number that would be zero for a perfect engine, evaluated from an engine's runs.
+/// A relative number that is zero for an engine without errors. The number is evaluated from an engine's runs.
 struct Vanishing<'a> {
     family: String,
     /// The number at every instant of a run.
     of: &'a dyn Fn(&Observed) -> Vec<f64>,
     /// Largest absolute value of the number in the judged run.
     value: f64,
-    /// The kind of channel whose order and rounding error the number has.
+    /// A kind of channel with the same order of convergence and a proportional rounding error.
     kind: &'static ChannelKind,
-    /// Ratio of the number's rounding error to that of the channel.
+    /// Ratio of the number's rounding error to the channel's rounding error.
     noise: f64,
     /// Note on what the check shows.
     note: &'static str,
@@ -208,8 +208,8 @@ struct Vanishing<'a> {
 
 impl Vanishing<'_> {
     /// Checks that the number does not exceed the bound that its convergence over the runs gives.
-    /// Let v be the part of the number that vanishes with the step, and s the safety factor. A part that does not
-    /// vanish is found if it exceeds about (s - 1) v.
+    /// Let v be the part of the number that tends to zero with the step, and s the safety factor. A remaining part that
+    /// does not tend to zero is found if it exceeds about (s - 1) v.
     fn check(self, problem: Problem, engine: &dyn Engine, runs: &Runs) -> Check {
         let (case, resolution) = (problem.case, engine.settings().resolution);
         let noise = |engine: &dyn Engine| self.noise * engine.noise(case, self.kind);

@@ -1,4 +1,4 @@
-//! The groups that a channel depends on. An error in another group does not affect the channel.
+//! The groups that a channel depends on. Errors in all other groups do not affect the channel.
 //! See docs/numerics/bounds.md.
 
 use std::collections::BTreeMap;
@@ -30,8 +30,7 @@ impl Dependence {
         // Maps the last groups of a set to the index of the set, so that each set is determined only once.
         let mut known: BTreeMap<Vec<GroupId>, usize> = BTreeMap::new();
         for channel in channels {
-            // Of the groups that a link depends on, the link's own group is the last. So the link's own group
-            // determines the set.
+            // The link's group is the last of the groups that the link depends on, so this group determines the set.
             let tops = match case.is_free() || channel.kind.stage >= Stage::Reactions {
                 true => all.clone(),
                 false => {

@@ -6,11 +6,11 @@ use crate::numbers::error;
 use crate::sentences;
 
 impl Proof {
-    /// This proof, judged again with every bound multiplied by `dial`.
-    /// A factor `dial` below 1 is stricter. With `dial` = 0, only a residual of exactly zero agrees.
+    /// This proof, judged again with every bound multiplied by `dial`. The judgement is stricter if `dial` is below 1.
+    /// With `dial` = 0, only a residual of exactly zero agrees.
     ///
     /// Residuals do not change.
-    /// Inconclusive verdicts do not change either, because their bounds decide nothing whatever the factor.
+    /// Inconclusive verdicts do not change either, because their bounds decide nothing.
     #[must_use]
     pub fn with_bounds_scaled(mut self, dial: f64) -> Self {
         self.engines.iter_mut().for_each(|engine| scale_engine(engine, dial));
@@ -53,8 +53,8 @@ fn judge(verdict: &mut Verdict, value: f64, bound: &mut f64, dial: f64) {
     match (&*verdict, &again) {
         (Verdict::Agree { .. }, _) => *verdict = again,
         (Verdict::Disagree { .. }, _) if beyond => *verdict = again,
-        // The corrected value of a printed number is no longer within its bound, so the new verdict replaces the old
-        // one.
+        // The verdict was expected, but the number no longer agrees with the corrected value, so the verdict becomes
+        // disagree.
         (Verdict::Expected { .. }, Verdict::Disagree { .. }) => *verdict = again,
         (Verdict::Disagree { .. } | Verdict::Expected { .. } | Verdict::Inconclusive { .. }, _) => {}
     }

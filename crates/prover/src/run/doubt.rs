@@ -1,13 +1,13 @@
 //! Finds the instants at which channels jump. At these instants an engine's value depends on the smallest error of its
 //! motion.
 //!
-//! A load may jump when its link reverses. If a load vanishes at the reversal, it does not jump, so no instant is left
+//! A load may jump when its link reverses. A load that is zero at the reversal does not jump, so no instant is left
 //! out. A table of loads may jump at a crank angle.
-//! At the end of a piece of a cam's law, the third derivative of the motion jumps. The error of a second difference
-//! there depends on the place of the jump within the step.
+//! At the end of a piece of a cam's law, the third derivative of the motion jumps. The error of a second difference at
+//! this end depends on the position of the jump within the step.
 //! At a change point an engine follows one of many solutions.
-//! The engine's rates at the instant of the change point do not show which solution it follows. Only later instants
-//! show the solution.
+//! The engine's rates at the instant of the change point do not show which solution the engine follows. Only later
+//! instants show this.
 //! See docs/numerics/bounds.md.
 
 use linkage::case::Case;
@@ -22,25 +22,26 @@ use super::runs::Runs;
 /// Within this number of steps on either side of a jump, an engine's values are doubtful. The steps are those of the
 /// coarsest judged run.
 const STEPS: f64 = 8.0;
-/// Like `STEPS`, for impulses of a free motion. Impulses are computed from six steps, one step late.
+/// Number of steps instead of `STEPS` for impulses of a free motion. Impulses are computed from six steps, one step
+/// late.
 const IMPULSES: f64 = 5.0;
-/// Like `STEPS`, for a prescribed motion with extrapolated impulses.
-/// The instants at which a load jumps in the different runs lie within this fraction of a step.
-/// With the step h, the velocities of these runs differ by about h^2 / 12 times their second derivative.
+/// Number of steps instead of `STEPS` for a prescribed motion with extrapolated impulses. The instants at which a load
+/// jumps differ between the runs by at most this fraction of a step, because the velocities differ by about h^2 / 12
+/// times their second derivative with the step h.
 const APART: f64 = 0.25;
 
-/// Like `STEPS`, for accelerations and forces at the start of a free motion with friction.
-/// The acceleration of the first step, from which the engine computes its friction, lacks half of the centripetal part.
+/// Number of steps instead of `STEPS` for accelerations and forces at the start of a free motion with friction. The
+/// engine computes the friction of the first step from an acceleration without half of the centripetal part.
 const START: f64 = 2.0;
-/// Like `STEPS`, for accelerations and forces at the end of a piece of a cam's law.
+/// Number of steps instead of `STEPS` for accelerations and forces at the end of a piece of a cam's law.
 const KNOT: f64 = 2.0;
-/// An instant nearer to the end of a piece than this fraction of a step lies at this end.
+/// An instant lies at the end of a piece if its distance from this end is below this fraction of a step.
 const ON_KNOT: f64 = 1e-6;
 
 /// A drive counts as standing still below this fraction of its top speed. The limit exceeds the rounding error of a
 /// law's formula.
 const STANDSTILL: f64 = 1e-9;
-/// Number of instants that may be left out whatever the step: the two ends of a motion.
+/// Number of instants that may be left out with any step: the two ends of a motion.
 const ENDS: usize = 2;
 
 /// Doubtful channels of an engine's runs, by row of the grid.
@@ -59,7 +60,7 @@ struct Doubtful {
 impl Doubt {
     /// Finds the doubtful instants from the reversals of drives and loads, and from the singular poses of the
     /// reference.
-    /// `settings` are those of the judged run.
+    /// `settings` are the settings of the judged run.
     pub(super) fn of(case: &Case, reference: &Observed, runs: &Runs, settings: Settings) -> Self {
         let Observed { senses, singular, to_knot, .. } = reference;
         let Settings { resolution, route, extrapolated, .. } = settings;
@@ -116,20 +117,20 @@ impl Doubt {
         self.0.iter().map(|own| !is_out(own)).collect()
     }
 
-    /// Fraction of the instants, without the two ends of the motion, that are left out but would be kept with a finer
-    /// step.
+    /// Fraction of the instants that are left out but would be kept with a finer step. The two ends of the motion are
+    /// not counted.
     pub(super) fn too_coarse(&self) -> f64 {
         let out = self.0.iter().filter(|own| own.by_step).count().saturating_sub(ENDS);
         out as f64 / self.0.len().max(1) as f64
     }
 }
 
-/// Whether the angle between two velocities is at least 90 deg, or exactly one of the two is zero.
+/// Whether the angle between two velocities is at least 90 deg, or exactly one velocity is zero.
 fn against(a: Vec2, b: Vec2) -> bool {
     a.dot(&b) <= 0.0 && (a != Vec2::zeros() || b != Vec2::zeros())
 }
 
-/// Whether a drive with a law stands still, reverses, or its acceleration jumps, within `reach` (s) of `t` (s).
+/// Whether, within `reach` (s) of `t` (s), a drive with a law stands still or reverses, or its acceleration jumps.
 fn drive_turns(case: &Case, t: f64, reach: f64) -> bool {
     case.drives.iter().any(|drive| match &drive.motion {
         DriveMotion::Free { .. } => false,
@@ -195,8 +196,7 @@ mod tests {
         Scenario::parse(text, std::path::Path::new("x.toml")).unwrap_or_else(|error| panic!("{error}")).case
     }
 
-    /// Two numbers of instants at which values are left out (velocities, positions), and the number of instants that a
-    /// smaller step would make usable.
+    /// Three numbers of instants: with velocities left out, with positions left out, and usable with a smaller step.
     /// At steps of 1.1 ms, the values within 17.6 ms on either side of a jump are doubtful.
     fn left_out(file: &str) -> ([usize; 2], f64) {
         let case = parsed(&text(file));
@@ -220,8 +220,8 @@ mod tests {
     }
 
     /// A pendulum with friction, released from rest, reverses twice in three seconds.
-    /// Impulses are computed from six steps, one step late.
-    /// So five of the longest steps (11 ms) are doubtful on either side of each reversal.
+    /// Impulses are computed from six steps, one step late. Five of the longest steps (11 ms) are therefore doubtful on
+    /// either side of each reversal.
     /// If forces come from second differences, 17.6 ms are doubtful on either side of each reversal.
     #[test]
     fn only_forces_beside_a_reversal_of_free_motion_are_left_out() {

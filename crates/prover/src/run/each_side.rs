@@ -1,4 +1,4 @@
-//! The analytic sides, and a container with one value for each of them.
+//! The analytic sides, and a container with one value for each side.
 
 use std::fmt;
 use std::ops::{Index, IndexMut};
@@ -71,7 +71,7 @@ impl<T> EachSide<T> {
         EachSide(Reference::ALL.map(of))
     }
 
-    /// Like `EachSide::of`, for a function that can fail. Returns the first error.
+    /// Calls `of` for every side, as `EachSide::of` does, and returns the first error.
     pub(crate) fn tried<E>(mut of: impl FnMut(Reference) -> Result<T, E>) -> Result<Self, E> {
         Ok(EachSide([of(Reference::Assur)?, of(Reference::Newton)?]))
     }

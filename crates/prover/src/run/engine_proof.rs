@@ -58,12 +58,11 @@ pub struct ChannelProof {
     /// Largest difference between the extrapolated limit of the engine's runs and the reference, in the channel's unit.
     /// `None` if the limit cannot be estimated.
     pub limit: Option<f64>,
-    /// For a free motion: largest change of the channel over the run, divided by its scale, per relative change of
-    /// gravity and motor torque.
+    /// For a free motion, the sensitivity to forces: largest change of the channel over the run, divided by the
+    /// channel's scale and by the relative change of gravity and motor torque.
     pub sensitivity: Option<f64>,
-    /// Number of instants that are not judged.
-    /// At these instants a drive or a loaded link reverses and the channel jumps, the mechanism passes a change point,
-    /// or a free motion begins.
+    /// Number of instants that are not judged. Three reasons exist: a drive or a loaded link reverses and the channel
+    /// jumps, the mechanism passes a change point, or a free motion begins.
     pub left_out: usize,
     /// Basis of the bound.
     pub basis: BoundBasis,
@@ -87,21 +86,22 @@ pub struct SettingsSearch {
 /// Why a search of settings ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SearchEnd {
-    /// Every channel has the target accuracy; or every channel is conclusive and the work allowed for further
-    /// refinement is spent; or a channel converges steadily with too low an order.
+    /// Further refinement is not needed or does not help. Either every channel has the target accuracy, or every
+    /// channel is conclusive and the work for further refinement is spent, or a channel converges steadily with too low
+    /// an order.
     Decided,
-    /// A finer step would add more rounding error than the truncation error that it removes.
+    /// A finer step would add more rounding error than it would remove truncation error.
     Rounding,
     /// The allowed work is done.
     Budget,
-    /// At the rate of progress of the search, the allowed work would not be enough.
+    /// The search progresses so slowly that the allowed work would not be enough.
     Pace,
     /// No free setting is left to change.
     Nothing,
 }
 
 impl SearchEnd {
-    /// Adds to an inconclusive verdict why the search ended, and replaces the advice accordingly.
+    /// Adds to an inconclusive verdict the reason why the search ended, and replaces the advice to match this reason.
     pub(super) fn tell(self, verdict: &mut Verdict, budget: f64) {
         let Verdict::Inconclusive { reason, advice } = verdict else { return };
         if advice.is_empty() {
@@ -131,12 +131,13 @@ pub struct EngineProof {
     pub channels: Vec<ChannelProof>,
     /// Checks on the engine alone; empty for the engine's own forces.
     pub checks: Vec<Check>,
-    /// Judgement of the forces that the engine itself exerts. `None` unless the judged forces follow from its motion.
+    /// Judgement of the forces that the engine itself exerts. The judgement exists only if the forces in `channels`
+    /// follow from the engine's motion.
     pub own_forces: Option<Box<EngineProof>>,
     /// Verdict on channels, checks and the engine's own forces together.
     pub verdict: Verdict,
-    /// Trajectory of the engine: all instants, or those before a failure.
-    /// In a proof of the engine's own forces it contains forces only.
+    /// Trajectory of the engine: all instants, or the instants before a failure. In a proof of the engine's own forces,
+    /// the trajectory contains only forces.
     pub trajectory: Option<Trajectory>,
     /// Engine minus reference; `None` if the engine failed, and in a proof of the engine's own forces.
     pub errors: Option<Trajectory>,
@@ -177,8 +178,8 @@ impl EngineProof {
     }
 
     /// The part of the verdict that comes from the forces that the engine itself exerts.
-    /// An inconclusive verdict on these forces is reported but does not change the whole verdict, because the motion
-    /// and the forces that follow from it are judged without them.
+    /// An inconclusive verdict on these forces is reported but does not change the whole verdict, because motion and
+    /// resulting forces are judged independently of these forces.
     /// The engine computes these forces as impulses. Impulses converge with a lower order than the motion, and need the
     /// true masses and many sweeps.
     #[must_use]
@@ -189,8 +190,8 @@ impl EngineProof {
 
     /// Which of the two judgements of the forces disagrees.
     /// `None` if both judgements agree or if only one judgement exists.
-    /// Also `None` if the other judgement is inconclusive or the motion itself disagrees, because the cause is then
-    /// unknown.
+    /// Also `None` if one judgement disagrees and the other judgement is inconclusive, or if the motion disagrees: the
+    /// cause is then unknown.
     #[must_use]
     pub fn force_fault(&self) -> Option<ForceFault> {
         let own = &self.own_forces.as_ref()?.channels;
@@ -217,7 +218,7 @@ impl EngineProof {
         channels.map(|own| own.residual.channel.to_string()).chain(checks.map(Check::name)).collect()
     }
 
-    /// Makes all disagreements inconclusive, with a reason and advice.
+    /// Changes all verdicts from disagree to inconclusive, with a reason and advice.
     pub(super) fn doubt(&mut self, why: &str, way_out: &Advice) {
         for verdict in self.verdicts_mut() {
             if let Verdict::Disagree { place } = verdict {

@@ -47,8 +47,8 @@ pub(super) fn prove(
     let Judged { mut proof, run, .. } = match found {
         Ok(found) => found,
         Err(Stopped { error, kept, spent }) => {
-            // If no work remains for finer steps, possibly only the coarse steps have failed. So the verdict is
-            // inconclusive with the advice to allow more work.
+            // If no work remains for finer steps, perhaps only the coarse steps fail. The verdict is then inconclusive,
+            // with the advice to allow more work.
             let (verdict, failure) = match spent {
                 None => (Verdict::open(error.message()), Some(error)),
                 Some(work) => {
@@ -105,7 +105,7 @@ pub(super) fn prove(
 type Outcome = std::result::Result<Judged, Stopped>;
 
 /// Judges the engine at its given settings, without a search.
-/// The work is limited by the usual budget or, if that is larger, by the budget of a search.
+/// The limit of the work is the larger of two budgets: the usual budget and the given budget.
 fn at_given(judge: &Judge, bank: &mut Bank, engine: &dyn Engine, budget: f64, progress: Progress) -> Outcome {
     if !engine.controls_error() {
         let budget = budget.larger(BUDGET);
@@ -117,8 +117,8 @@ fn at_given(judge: &Judge, bank: &mut Bank, engine: &dyn Engine, budget: f64, pr
         Ok(judge.judge(engine, runs)?)
     };
     let judged = with(&others[..others.len().min(1)])?;
-    // If the sweeps have hardly begun to converge, two runs differ little. A third run distinguishes this case from
-    // convergence.
+    // Two runs with different numbers of sweeps differ little if the sweeps have converged, but also if the sweeps have
+    // hardly begun to converge. A third run distinguishes these cases.
     let mut judged = match judged.proof.against().is_empty() || others.len() < 2 {
         true => judged,
         false => match with(&others) {

@@ -34,7 +34,7 @@ const MOST_WORK: u64 = 100_000_000;
 /// An analytic side: its solver, and the same solver with a tighter tolerance of integration.
 #[derive(Clone, Copy)]
 pub struct Entrant<'a> {
-    /// Solver of the side. Its name is that of one of the solvers in [`analytic::all`].
+    /// Solver of the side. The name of the solver must be the name of a solver in [`analytic::all`].
     pub solver: &'a dyn Solver,
     /// The side with a tighter tolerance.
     pub tight: &'a dyn Solver,
@@ -46,7 +46,7 @@ pub const TRUE_SIDES: EachSide<Entrant<'static>> = EachSide::new(
     Entrant { solver: &NewtonSolver, tight: &TIGHT_NEWTON },
 );
 
-/// The part of engines in a proof.
+/// How engines take part in a proof.
 pub struct EngineRole<'a> {
     /// The case that the engines solve, on the scenario's instants.
     pub case: &'a Case,
@@ -57,7 +57,7 @@ pub struct EngineRole<'a> {
 }
 
 impl<'a> EngineRole<'a> {
-    /// Engines without changes, on a case.
+    /// Unchanged engines that solve `case`.
     pub(crate) fn on(case: &'a Case) -> Self {
         EngineRole { case, around: &|engine| engine, own_forces: true }
     }
@@ -77,7 +77,8 @@ pub struct ObservedSides {
 }
 
 impl ObservedSides {
-    /// Solves a problem with both sides. The problem's case may be only a part (the scene) of the case `whole`.
+    /// Solves a problem with both sides. `whole` is the complete case; the problem's case may be only a part (the
+    /// scene) of it.
     ///
     /// # Errors
     /// The errors of the sides.
@@ -152,7 +153,7 @@ impl ObservedSides {
     }
 
     /// Judges every claim of the formulas by the results of both sides. A claim is left out if the sides do not have
-    /// its channels.
+    /// the channels of the claim.
     ///
     /// # Errors
     /// The errors of [`check::judge`].
@@ -189,8 +190,8 @@ impl ObservedSides {
         Ok(Judgement { causes, undefined, unsought, work, ..Judgement::of(sides) })
     }
 
-    /// Every claim, compared with the results of each side that has the channels of the claim. Causes of wrong
-    /// formulas are not sought.
+    /// Compares every claim with the results of each side that has the channels of the claim. This function seeks no
+    /// causes of wrong formulas.
     ///
     /// # Errors
     /// The errors of [`check::judge`].
@@ -198,7 +199,7 @@ impl ObservedSides {
         EachSide::tried(|side| self.on_course(case, side, |course| check::judge(formulas, course)))
     }
 
-    /// Calls `then` with the trajectory of one side of a case, and with the errors of this trajectory.
+    /// Calls `then` with the trajectory of the side `side` and the known errors of this trajectory.
     pub fn on_course<T>(
         &self,
         case: &Case,
@@ -207,7 +208,7 @@ impl ObservedSides {
     ) -> Result<T> {
         let trajectory = &self.observed[side].trajectory;
         let error = |column: usize, row: usize| {
-            // The column index is valid for either side, because both sides have the same channels in the same order.
+            // A column index is valid for both sides, because both sides have the same channels in the same order.
             self.known.at(side, trajectory.channels()[column].kind.stage, column, row)
         };
         then(&KnownTrajectory::new(case, trajectory, &error).with_figures(&self.figures[side]))

@@ -10,7 +10,8 @@ use linkage::case::{Case, Grid};
 use linkage::trajectory::{Channel, Trajectory};
 
 /// Examines the analytic side that contradicts all other parties.
-/// Without such a side, examines the first engine that disagrees, or else the side that is not the reference.
+/// If no side contradicts all others, examines the first engine that disagrees. If no engine disagrees, examines the
+/// side that is not the reference.
 /// `None` if no channel disagrees.
 pub(super) fn of(
     case: &Case,
@@ -24,7 +25,7 @@ pub(super) fn of(
     if engine.is_none() && !between.iter().any(|judged| judged.disagrees) {
         return None;
     }
-    // Instants that are not judged need no explanation.
+    // The diagnosis leaves out instants that are not judged.
     let keep = engine.map_or_else(|| vec![true; case.grid.len()], |engine| engine.kept.clone());
     let thin = |trajectory: &Trajectory| trajectory.at_rows(&keep);
     let own = EachSide::of(|side| thin(&sides[side].trajectory));
@@ -33,7 +34,7 @@ pub(super) fn of(
     let ran: Vec<(&EngineProof, Trajectory)> =
         ran.filter_map(|engine| Some((engine, thin(engine.trajectory.as_ref()?)))).collect();
 
-    // The bound is on the difference of the two analytic sides, so each side gets half of it.
+    // The bound applies to the difference of the two analytic sides, so each side gets half of the bound.
     let halves: Vec<_> = between.iter().map(|judged| (judged.channel.clone(), judged.bound / 2.0)).collect();
     let mut parties: Vec<DiagnosedParty> = own
         .iter()
@@ -75,8 +76,8 @@ fn disagrees(verdict: &Verdict) -> bool {
     matches!(verdict, Verdict::Disagree { .. })
 }
 
-/// The channels of an engine with reliable bounds.
-/// A channel that exceeds its bound with an inconclusive verdict is left out.
+/// The channels of an engine whose bounds are reliable. A channel is left out if it exceeds its bound but the verdict
+/// is inconclusive.
 fn judged(engine: &EngineProof) -> Vec<SuspectChannel> {
     let channels = engine.channels.iter().filter(|own| own.convergence.is_trusted());
     let judged = channels.map(|own| (own.residual.max, own.bound, &own.residual.channel, disagrees(&own.verdict)));
@@ -84,7 +85,7 @@ fn judged(engine: &EngineProof) -> Vec<SuspectChannel> {
     sure.map(|(_, bound, channel, disagrees)| SuspectChannel { channel: channel.clone(), bound, disagrees }).collect()
 }
 
-/// Bounds on the difference of the two sides, from the known errors of both.
+/// Bounds on the difference of the two sides, from the known errors of both sides.
 fn side_bounds(sides: &EachSide<Observed>, known: &Known) -> Vec<SuspectChannel> {
     let [one, other] = sides.pair().map(|own| &own.trajectory);
     let of = |(index, channel): (usize, &Channel)| {

@@ -12,8 +12,8 @@ use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
 use scenario::{Formulas, MechanismFigure};
 
-/// Relative error assumed for a side's figures. The value is chosen: rounding in sums over thousands of poses stays
-/// below this error.
+/// Relative error assumed for a side's figures. The value was chosen so that rounding in sums over thousands of poses
+/// stays below this error.
 const KNOWN: f64 = 1e-11;
 
 /// The figures that formulas claim, from both sides, in SI units. The error of a figure covers the difference of the
@@ -80,7 +80,8 @@ impl<'a> Measured<'a> {
     /// Steady speeds of the crank and of the motor (rad/s).
     fn steady(&mut self) -> Result<[f64; 2]> {
         let case = self.case;
-        // A scenario with this figure has a motor, but a changed case may lack a motor. The result is then this error.
+        // This error occurs only for a changed case without a motor, because every scenario with this figure has a
+        // motor.
         let no_motor = || Error::new(ErrorKind::Input, sentences::THE_STEADY_SPEED_NEEDS_A_MOTOR);
         let motor = case.crank().motor().ok_or_else(|| no_motor().help(sentences::ADD_MOTOR_OR_LEAVE_THE_FIGURE))?;
         // The motor acts in the direction in which the crank is driven.

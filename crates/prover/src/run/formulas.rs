@@ -12,7 +12,7 @@ use crate::tolerance::{BoundBasis, Tolerance};
 /// Judgement of all formulas of a scenario.
 #[derive(Clone, Debug)]
 pub struct Judgement {
-    /// For each side, every claim compared with the side's results: by value, then by derivative.
+    /// For each side, the comparisons of every claim with the side's results: first by value, then by derivative.
     pub sides: EachSide<Vec<Vec<JudgedFormula>>>,
     /// The wrong formulas by name, each with its cause if a simple cause was found.
     pub causes: Vec<(String, Option<FormulaCause>)>,
@@ -58,15 +58,15 @@ pub fn checks(judgement: &Judgement) -> Vec<Check> {
     judgement.sides.iter().flat_map(of_side).collect()
 }
 
-/// Beginning of the families of checks of formulas; the side follows.
+/// Beginning of the family name of formula checks; the name of the side follows.
 const FAMILY: &str = "formulas (";
 
-/// Whether a check is that of a formula.
+/// Whether a check belongs to a formula.
 pub(super) fn is_of_formula(check: &Check) -> bool {
     check.family.starts_with(FAMILY)
 }
 
-/// The check of a judged formula. `why` is the cause of its error, if known.
+/// The check of a judged formula. `why` is the cause of the formula's error; empty if the cause is unknown.
 fn check(side: Reference, judged: &JudgedFormula, why: &str) -> Check {
     let (value, bound) = judged.worst.map_or((0.0, 0.0), |worst| (worst.difference.abs(), worst.bound));
     let tolerance = Tolerance { bound, basis: BoundBasis::Formula { claimed: judged.claimed } };
@@ -113,8 +113,8 @@ mod tests {
     use crate::run::solved::judge;
     use scenario::{Claim, of_repository};
 
-    /// The formula is undefined below 0.5 rad. Below this angle its derivatives have values, which are wrong for
-    /// another reason.
+    /// The formula is undefined below 0.5 rad. Below this angle, the derivatives of the formula have values, which are
+    /// wrong for another reason.
     #[test]
     fn only_the_value_is_reported_as_undefined() {
         let mut scenario = of_repository("scenarios/crank_rocker.toml");

@@ -20,9 +20,9 @@ use linkage::math::statistics::half_range;
 use linkage::math::{KeepNan, largest_size};
 use linkage::trajectory::{Channel, ChannelKind, ChannelSubject, Stage, Trajectory, Unit};
 
-/// Number of steps at the beginning of a free motion whose second differences come from later steps.
+/// Number of steps at the beginning of a free motion in which second differences are taken from later steps.
 const BEGINNING: f64 = 5.0;
-/// If rounding exceeds this fraction of the widest conclusive bound, the beginning of a free motion is left out.
+/// The beginning of a free motion is left out if rounding exceeds this fraction of the widest conclusive bound.
 const MOST_ROUNDING: f64 = 0.1;
 
 /// Number of values of one run that are copied at a time for a comparison.
@@ -30,12 +30,12 @@ const COPIED: usize = 1_000_000;
 /// Number of channels compared at a time as one batch. The look-up of a channel searches one batch.
 const AT_A_TIME: usize = 256;
 
-/// If a difference between runs with different numbers of sweeps is below this fraction of the widest conclusive bound,
-/// the difference is ignored.
+/// A difference between runs with different numbers of sweeps is ignored if it is below this fraction of the widest
+/// conclusive bound.
 const COUNTS: f64 = 0.01;
 
-/// If a link's gain of speed in a step exceeds this multiple of the range of its speed, the step cannot resolve the
-/// motion.
+/// A step is too long for a motion if, at the largest acceleration, a link would gain more than this multiple of its
+/// range of speed in one step.
 const OUTRUN: f64 = 10.0;
 
 /// What is judged.
@@ -65,7 +65,7 @@ pub(super) struct Judge<'a> {
     scales: Vec<f64>,
     /// Known errors of the reference.
     known: &'a Known,
-    /// Requested settings; the search begins with them.
+    /// Requested settings, with which the search begins.
     pub(super) asked: Settings,
     /// What is judged.
     pub(super) asks: Asks,
@@ -80,12 +80,12 @@ pub(super) struct Judged {
     pub(super) too_coarse: f64,
 }
 
-/// An engine's runs at the instants at which the channels of one stage are judged.
+/// An engine's runs, reduced to the instants at which the channels of one stage are judged.
 struct Stand<'a> {
     engine: &'a dyn Engine,
     /// The engine with the settings of its finest run.
     finest: &'a dyn Engine,
-    /// The case on these instants.
+    /// The case on the judged instants.
     case: &'a Case,
     ladder: Ladder<'a>,
     reference: &'a Trajectory,
@@ -152,7 +152,7 @@ impl<'a> Judge<'a> {
 
     /// Whether a link of a free motion would gain many times more speed in one step than the range of its speed.
     /// Such a gain occurs with a motor that is much too strong for its load.
-    /// Runs at several such steps agree, because they all miss the motion.
+    /// Runs at several steps of this size agree, because no run resolves the motion.
     fn outruns(&self, step: f64) -> bool {
         let reference = &self.reference.trajectory;
         let times = reference.times();
@@ -170,8 +170,8 @@ impl<'a> Judge<'a> {
 
     /// Largest growth of the differences between runs with increasing numbers of sweeps.
     /// The growth is the maximum over all position channels with differences that are not negligible.
-    /// If the engine's own forces are judged, the growth is the maximum over these forces, because these forces come
-    /// from simulations of their own.
+    /// For the engine's own forces, the growth is the maximum over these forces, because separate simulations compute
+    /// them.
     fn growth(&self, runs: &Runs) -> f64 {
         let Ladder { resolutions: [_, single, _], other_sweeps } = runs.ladder();
         let of = |(channel, scale): (&Channel, &f64)| {
@@ -244,8 +244,8 @@ impl<'a> Judge<'a> {
             .collect()
     }
 
-    /// The case without the beginning of a free motion, where second differences use later steps.
-    /// `None` if no instant is left out:
+    /// The case without the beginning of a free motion, in which second differences use later steps. In the following
+    /// cases, no instant is left out and the result is `None`:
     /// - in a prescribed motion;
     /// - in a motion that is not longer than its beginning;
     /// - if no impulses are judged, and accelerations and forces are conclusive despite the rounding error of second
@@ -264,7 +264,7 @@ impl<'a> Judge<'a> {
             stage >= Stage::Accelerations && self.asks.has(channel.kind) && noise > MOST_ROUNDING * wanted * scale
         });
         let late = || case.grid.times.iter().copied().filter(|&t| t > begin).collect();
-        // Impulses of the first steps are always computed from later steps, whatever their rounding error.
+        // Impulses of the first steps are always computed from later steps, even if their rounding error is small.
         let impulses = self.asks == Asks::OwnForces;
         (is_open || impulses).then(|| case.on(Grid::of_times(case.crank(), late()))).transpose()
     }

@@ -19,8 +19,8 @@ use linkage::solver::{Solver, State};
 use linkage::trajectory::{Channel, Stage, Trajectory, Unit};
 
 /// Relative error assumed for an analytic side in well-conditioned poses. The value is chosen, not measured.
-/// Each derivative multiplies the rounding error of its input by the condition number of the pose, and so does each
-/// linear solve for forces. In well-conditioned poses the condition number is at most some tens.
+/// Each derivative, and each linear solve for forces, multiplies the rounding error of its input by the condition
+/// number of the pose. In well-conditioned poses the condition number is at most some tens.
 pub(super) fn usual(stage: Stage) -> f64 {
     match stage {
         Stage::Positions => 1e-12,
@@ -41,9 +41,9 @@ fn power(stage: Stage) -> i32 {
 /// Rounding error of a position in a pose of condition number 1, in units in the last place.
 const ULPS: f64 = 16.0;
 
-/// Assumed ratio of a side's integration error to the side's difference from its run with a tighter tolerance. The run
-/// with a tighter tolerance also has an error.
-/// A ratio of 3.2 was measured with steps that crossed knots of a load's table. The integrator's steps end at knots.
+/// Factor on the difference between a side's run and its run with a tighter tolerance: the product is the assumed
+/// integration error. A factor is needed because the tighter run also has an error. A ratio of 3.2 was measured with
+/// steps that crossed knots of a load's table; now the integrator's steps end at knots.
 const SAFETY: f64 = 4.0;
 
 /// Relative rounding error of a stage in a pose of this condition number.
@@ -51,9 +51,9 @@ pub(super) fn of_condition(stage: Stage, condition: f64) -> f64 {
     ULPS * f64::EPSILON * condition.powi(power(stage))
 }
 
-/// Factor on rounding errors due to distant mass centres, at least 1.
-/// For one link, the factor is the largest distance between its points, mass centre included, divided by the largest
-/// distance without the mass centre.
+/// Factor on rounding errors due to distant mass centres, at least 1. For one link, the factor is a ratio of two
+/// lengths: the largest distance between its points including the mass centre, and the largest distance without the
+/// mass centre.
 /// Side 2 calculates with the positions of mass centres.
 /// The position of a joint is therefore as uncertain as the last digit of the joint's distance from the mass centre.
 /// For angles, this uncertainty is divided by the distance between the joints.
@@ -76,11 +76,10 @@ fn lever(case: &Case, groups: &[GroupId]) -> f64 {
 /// The constant is more than three times this value.
 const PLACES: f64 = 4.0;
 
-/// Rounding error of the positions of groups (m, in units of [`ULPS`]), and the length of the shortest link (m).
-/// The length of a link is the largest distance between its pins.
-/// A group far from the origin is known only to the last digit of its distance from the origin.
-/// For angles, the error is divided by the shortest length.
-/// The errors of successive groups are independent. Their sum grows with the square root of the number of groups.
+/// Rounding error of the positions of groups (m, in units of [`ULPS`]), and the length of the shortest link (m). The
+/// length of a link is the largest distance between its pins. The position of a group is known only to the last digit
+/// of the group's distance from the origin. For angles, the error is divided by the shortest length. The errors of
+/// successive groups are independent, so their sum grows with the square root of the number of groups.
 fn placed(case: &Case, groups: &[GroupId]) -> [f64; 2] {
     let (mut far, mut arm) = (0.0f64, f64::INFINITY);
     for group in groups.iter().map(|&group| &case.structure.groups[group]) {
@@ -99,28 +98,27 @@ fn placed(case: &Case, groups: &[GroupId]) -> [f64; 2] {
 
 /// Allowed errors of the analytic sides, channel by channel.
 /// Each error is relative to the numbers from which the channel is computed.
-/// So a dead centre of one group does not enlarge the errors of other groups.
+/// A dead centre of one group therefore does not enlarge the errors of other groups.
 pub(super) struct Known {
-    /// Size of the numbers in every channel, in its unit.
+    /// Size of the numbers in every channel, in the channel's unit.
     pub(super) magnitudes: Vec<f64>,
     /// The side that serves as the reference.
     reference: Reference,
-    /// Sensitivity of a motion under forces to these forces, channel by channel. The bound contains the relative
-    /// rounding error of the forces times this sensitivity.
-    /// Empty for a prescribed motion.
+    /// Sensitivity of a free motion to the forces, channel by channel. The bound contains the relative rounding error
+    /// of the forces times this sensitivity. The list is empty for a prescribed motion.
     pub(super) sensitivity: Vec<f64>,
-    /// Integration error of each side in every channel, in its unit; zeros for a prescribed motion.
+    /// Integration error of each side in every channel, in the channel's unit; zeros for a prescribed motion.
     integration: EachSide<Vec<f64>>,
     /// The groups that channels depend on.
     dependence: Dependence,
     /// Condition number of the pose at every instant, for every set of groups.
-    /// In a motion under forces, each entry is the largest condition number up to its instant.
-    /// Empty until the condition numbers are needed.
+    /// In a motion under forces, each entry is the largest condition number up to its instant. The list is empty until
+    /// the condition numbers are needed.
     conditions: Vec<Vec<f64>>,
-    /// Factor on the rounding error of every channel, from the distances of mass centres ([`lever`]) and of the origin
-    /// ([`placed`]).
+    /// Factor on the rounding error of every channel. The factor takes account of distant mass centres ([`lever`]) and
+    /// of a distant origin ([`placed`]).
     levers: Vec<f64>,
-    /// Absolute value of the input at every instant of a prescribed motion (rad or m). Both sides receive this value
+    /// Absolute value of the input at every instant of a prescribed motion (rad or m). Both sides receive the input
     /// rounded to a double.
     turned: Vec<f64>,
     /// Whether a channel is an angle.
@@ -168,8 +166,8 @@ impl Known {
         let integration = EachSide::tried(|side| integration(sides[side]))?;
         let dependence = Dependence::of(case, own.channels());
         let magnitudes = magnitudes_by(own, &dependence.of, &|from, to| dependence.feeds(from, to));
-        // If a size is only rounding error, a size from the case's data replaces it. An example is the size of a
-        // vanishing velocity if the channels contain no coordinate from which a size could follow.
+        // A size that is only rounding error is replaced by a size from the case's data. Example: a velocity is zero,
+        // and the channels contain no coordinate from which a size could follow.
         let sizes = built(case);
         let sized = magnitudes.into_iter().zip(own.channels());
         // The angular acceleration of a wheel is a sum of terms of the size omega^2, which cancel if the ratio of the
@@ -215,12 +213,13 @@ impl Known {
             let own = conditions(&case.mechanism, &case.structure.groups, &pose);
             for (set, worst) in sets.iter().zip(&mut worst) {
                 let own: f64 = match state.passing.filter(|_| !set.is_empty()) {
-                    // At a change point the condition number of the passage counts. The condition number of the pose is
-                    // unbounded, but no side calculates at that pose.
+                    // At a change point, the condition number of the passage is used. The condition number of the pose
+                    // is unbounded there, but no side calculates in that pose.
                     Some(passing) => passing,
                     None => set.iter().map(|&group| own[group]).product(),
                 };
-                // A motion under forces does not regain lost accuracy, so the largest condition number so far counts.
+                // In a motion under forces, lost accuracy is never regained, so the largest condition number so far is
+                // used.
                 *worst = if case.is_free() { worst.larger(own) } else { own };
             }
             all[row].clone_from(&worst);
@@ -231,7 +230,7 @@ impl Known {
         Ok(())
     }
 
-    /// Integration error of a side in a channel, in its unit; zero in a prescribed motion.
+    /// Integration error of a side in a channel, in the channel's unit; zero in a prescribed motion.
     pub(super) fn integration(&self, side: Reference, channel: usize) -> f64 {
         self.integration[side][channel]
     }
@@ -240,7 +239,7 @@ impl Known {
     fn rounding(&self, stage: Stage, channel: usize, row: usize) -> f64 {
         let set = self.dependence.of[channel];
         let condition = self.conditions.get(row).map_or(1.0, |sets| sets[set]);
-        // Rounding the crank angle, before either side begins, acts like any other error of a position.
+        // The crank angle is rounded before the sides begin. This rounding acts like any other error of a position.
         let turned = self.turned.get(row).filter(|_| !self.is_angle[channel]);
         let turned = turned.map_or(0.0, |turned| f64::EPSILON * turned * condition.powi(power(stage)));
         usual(stage).larger(self.levers[channel] * of_condition(stage, condition)) + turned
@@ -278,8 +277,8 @@ mod tests {
     use linkage::case::{Grid, Wanted};
     use scenario::{Scenario, of_repository};
 
-    /// A motion under forces does not regain lost accuracy. In a prescribed motion, the accuracy at an instant depends
-    /// only on the pose at this instant.
+    /// In a motion under forces, accuracy that is lost in one pose remains lost. In a prescribed motion, the accuracy
+    /// at an instant depends only on the pose at this instant.
     #[test]
     fn in_free_motion_the_worst_condition_so_far_counts() {
         let falls = |name: &str| {
@@ -316,15 +315,14 @@ mod tests {
         assert!(seen > 10, "{seen} channels have an error of their integration");
     }
 
-    /// Each derivative divides the result by the determinant of the pose once more, and so does the solution for
-    /// forces.
+    /// Each derivative, and the solution for forces, divides the result by the determinant of the pose once more.
     #[test]
     fn rounding_grows_with_a_power_of_the_condition() {
         let grown = Stage::ALL.map(|stage| of_condition(stage, 2e3) / of_condition(stage, 1e3));
         assert_eq!(grown, [2.0, 4.0, 8.0, 8.0, 8.0]);
     }
 
-    /// Side 2 calculates from mass centres. So positions on a link are as uncertain as the last digit of their distance
+    /// Side 2 calculates from mass centres, so positions on a link are as uncertain as the last digit of their distance
     /// from the mass centre.
     #[test]
     fn a_distant_mass_centre_amplifies_rounding() {

@@ -21,20 +21,20 @@ const TRAJECTORIES: f64 = 8.0;
 /// Number of runs of an engine in memory at the peak: one run for each halving of the step, and, at some steps, further
 /// runs with different numbers of sweeps.
 const RUNS: f64 = 12.0;
-/// Number of values stored per instant besides the channels: time, crank angle, order, openings, powers.
+/// Number of values stored per instant in addition to the channels: time, crank angle, order, openings, powers.
 const BESIDE: usize = 6;
 
 /// Estimated memory (bytes) of a proof of a case in which `engines` engines run one after the other.
 #[must_use]
 pub fn of_proof(case: &Case, engines: usize) -> f64 {
-    // The trajectory of every engine whose runs are finished stays in memory.
+    // After the runs of an engine are finished, its trajectory stays in memory.
     let trajectories = TRAJECTORIES + engines.saturating_sub(1) as f64;
     let row = trajectories * trajectory(case) + RUNS * Rows::bytes_of_row(case) as f64;
     ELSE + case.grid.len() as f64 * row
 }
 
-/// Memory per number of a table (bytes): the number as it is in the file, the number with its digits, and the computed
-/// number for comparison.
+/// Memory per number of a table (bytes). Each number is stored three times: as it is in the file, with its digits, and
+/// as the computed number for comparison.
 const OF_NUMBER: f64 = 88.0;
 /// Memory per row of a table, without the row's numbers (bytes).
 const OF_ROW: f64 = 50.0;
@@ -69,8 +69,8 @@ pub fn check_input(what: &str, needed: f64, most: Option<f64>) -> Result<()> {
     allowed(needed, most, || sentences::needs_about_of_memory(&what, &gigabytes(needed)), fewer)
 }
 
-/// Checks that `needed` (bytes) is allowed.
-/// `what` is the beginning of the error message; `fewer` is advice on how to need less memory.
+/// Checks that the memory `needed` (bytes) is allowed. `what` is the beginning of the error message; `fewer` is advice
+/// on how to use less memory.
 fn allowed(needed: f64, most: Option<f64>, what: impl FnOnce() -> String, fewer: Advice) -> Result<()> {
     let most = most.unwrap_or(MOST);
     if needed <= most {

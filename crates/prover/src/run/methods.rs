@@ -28,7 +28,7 @@ enum Quantity {
     Force,
 }
 
-/// For every quantity: the largest difference of one method from the reference, and the value of the input (SI) at this
+/// For every quantity, the largest difference between a method and the reference, and the input (SI) at this
 /// difference.
 #[derive(Default)]
 struct Worst {
@@ -40,7 +40,7 @@ struct Worst {
 impl Worst {
     fn put(&mut self, quantity: Quantity, difference: f64, crank: f64) {
         let worst = &mut self.differences[quantity as usize];
-        // This form of the comparison records NaN and keeps it.
+        // A NaN is recorded, and no later difference replaces it.
         if !(difference <= worst.0) && !worst.0.is_nan() {
             *worst = (difference, crank);
         }
@@ -134,8 +134,8 @@ impl Watch {
             }
             rates(worst, found.rates(drive.rate, drive.acceleration));
         }
-        // Forces are not compared at the start of a free motion: loads already oppose a motion that the state does not
-        // show yet.
+        // Forces are not compared at the start of a free motion. At this instant, loads already oppose the motion that
+        // begins, although all rates are still zero.
         let setting_off = case.is_free() && drive.rate == 0.0;
         if deepest >= Stage::Reactions && !setting_off {
             let known = self.triad.known(case, state);
@@ -181,8 +181,7 @@ pub fn checks(case: &Case, reference: &dyn Solver) -> Result<Vec<Check>> {
     let watches: Result<Vec<Watch>> = Triad::all(case).into_iter().map(|triad| Watch::of(case, triad)).collect();
     let mut watches = watches?;
     let mut visit = |row: usize, state: &State| {
-        // The equations of all these methods are singular at a change point, so the methods are not used at a change
-        // point.
+        // The methods are not used at a change point, because their equations are singular there.
         if state.passing.is_none() {
             watches.iter_mut().for_each(|watch| watch.see(case, row, state));
         }
@@ -197,7 +196,7 @@ pub fn checks(case: &Case, reference: &dyn Solver) -> Result<Vec<Check>> {
     Ok(watches.into_iter().flat_map(of_one).collect())
 }
 
-/// The crank at an instant: by its law, or from the state if forces decide the motion.
+/// The crank's state at an instant: from the law of the drive, or from `state` if forces determine the motion.
 fn crank_of(case: &Case, row: usize, state: &State) -> InputState {
     let drive = case.crank();
     if !case.is_free() {
@@ -211,7 +210,7 @@ mod tests {
     use super::*;
 
     /// If a method fails, only the instants before the failure are judged.
-    /// The first error of the method is reported as the reason, whatever the result before the failure.
+    /// The first error of the method is reported as the reason, even if the instants before the failure agree.
     #[test]
     fn a_failed_method_is_inconclusive() {
         for before in [0.0, 1e-3] {
@@ -228,7 +227,7 @@ mod tests {
         }
     }
 
-    /// A NaN at any instant is recorded and kept. The method's number then does not count as right.
+    /// A NaN at any instant is kept as the largest difference. The check of the method then does not agree.
     #[test]
     fn a_method_with_nan_at_one_instant_disagrees() {
         for values in [[f64::NAN, 0.0, 1e-13], [0.0, f64::NAN, 1e-13], [1e-13, 0.0, f64::NAN], [-f64::NAN, 0.0, 0.0]] {

@@ -1,5 +1,5 @@
-//! How far an engine's channels are from being conclusive, which part dominates its bounds, and whether the work that
-//! is still allowed suffices.
+//! Measures for a search of settings: how far an engine's channels are from being conclusive, which part dominates the
+//! bounds, and whether the remaining work suffices.
 //! See docs/numerics/settings.md.
 
 use linkage::math::KeepNan;
@@ -9,9 +9,10 @@ use super::judge::Judged;
 use crate::bounds::Verdict;
 use crate::tolerance::BoundPart;
 
-/// Limit of the fraction of instants that may be left out because they are too close to a reversal for the step.
+/// Largest fraction of the instants that may be left out because, with this step, they are too close to a reversal.
 pub(super) const MOST_LEFT_OUT: f64 = 0.03;
-/// A step that leaves out too many instants is treated like a bound that is this many times the requested bound.
+/// If a step leaves out too many instants, the need is this ratio, as if a bound were this multiple of the requested
+/// bound.
 const LEFT_OUT: f64 = 2.0;
 
 /// The item that is farthest from being conclusive.
@@ -40,8 +41,9 @@ impl Need {
         !self.is_vague && self.share <= most
     }
 
-    /// Whether a trial is closer to conclusive than another: its `share` is at most `part` times that of `other`.
-    /// A trial with an observed order of convergence is always closer than a trial without.
+    /// Whether this trial is closer to conclusive than the trial `other`: its `share` is at most `part` times the
+    /// `share` of `other`. A trial with an observed order of convergence is always closer than a trial without an
+    /// observed order.
     pub(super) fn is_less(self, part: f64, other: Need) -> bool {
         match (self.is_vague, other.is_vague) {
             (false, true) => true,
@@ -56,17 +58,17 @@ impl Need {
     }
 }
 
-/// If the sweeps cause at most this fraction of a bound, sweeps and step are both to blame.
+/// Sweeps and step are both to blame for a bound if the sweeps cause at most this fraction of the bound.
 const SHARED: f64 = 0.8;
 
 /// Cause of the largest bound.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Blame {
-    /// The largest part of the bound. If no order of convergence is observed, this is the iteration part, unless the
-    /// iteration part is negligible.
+    /// The largest part of the bound. If no order of convergence is observed, the iteration part is taken instead,
+    /// unless it is negligible.
     pub(super) part: BoundPart,
-    /// Whether the step contributes much although the sweeps cause the largest part. Halving the step then reduces both
-    /// parts.
+    /// Whether the step contributes much to a bound although the sweeps cause the largest part. Halving the step then
+    /// reduces both contributions.
     pub(super) is_shared: bool,
 }
 
@@ -87,13 +89,13 @@ pub(super) fn need(judged: &Judged, wanted: f64) -> (Need, Blame) {
     for (parts, scale, convergence, verdict) in channels.chain(checks) {
         let share = share(parts.sum(), wanted * scale);
         let is_open = matches!(verdict, Verdict::Inconclusive { .. });
-        // If the bound is not the reason why a verdict is inconclusive, no setting can change the verdict. The need is
-        // then zero.
+        // If a verdict is inconclusive for another reason than the bound, no setting can change the verdict. The need
+        // is then zero.
         let is_vague = is_open && !convergence.is_trusted();
         let share = if is_open && !is_vague && share <= 1.0 { 0.0 } else { share.larger(0.0) };
         let own = Need { is_vague, share: if share.is_nan() { f64::INFINITY } else { share }, of: Of::Bound };
         if own > worst.0 {
-            // If no order is observed, the sweeps are to blame as soon as the iteration part is not negligible.
+            // If no order is observed, the sweeps are to blame, unless the iteration part is negligible.
             let sweeps = is_vague && 10.0 * parts.iteration > parts.discretisation;
             let part = if sweeps { BoundPart::Iteration } else { parts.largest() };
             worst = (
@@ -110,8 +112,8 @@ pub(super) fn need(judged: &Judged, wanted: f64) -> (Need, Blame) {
 const ROUNDS: usize = 4;
 /// Factor on the observed exponent p of the law need = constant / work^p. The exponent may still increase, because
 /// extrapolation becomes more effective as the runs become smooth.
-/// In successful searches, progress in the last rounds is at most twice as fast as in the first rounds (all shipped
-/// scenarios).
+/// For all shipped scenarios, the last rounds of a successful search progress at most twice as fast as the first
+/// rounds.
 const OPTIMISM: f64 = 2.0;
 
 /// The rounds of a search: work so far, and the smallest need so far.
@@ -147,10 +149,10 @@ const MOST_VAGUE: usize = 2;
 const BRINGS: f64 = 0.7;
 /// If more sweeps reduce the bound to at most this fraction, the additional sweeps are worth their work.
 const HELPS: f64 = 0.5;
-/// If half the step at least doubles the bound in this number of consecutive rounds, rounding is to blame, however
-/// small the rounding part of the bound is.
+/// Rounding is to blame if half the step at least doubles the bound in this number of consecutive rounds. The rounding
+/// part of the bound may then be small.
 const MOST_WIDER: usize = 2;
-/// If more sweeps have helped little, this number of rounds passes before more sweeps are tried again.
+/// Number of rounds that must pass before more sweeps are tried again after more sweeps have helped little.
 const PATIENCE: usize = 3;
 
 /// Record of steps without progress in a search.
@@ -171,17 +173,17 @@ pub(super) struct Stall {
 /// The next action of a search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Next {
-    /// The search changes the settings that this part depends on.
+    /// The search changes the settings on which this part of the bound depends.
     Blames(BoundPart),
     /// The search returns to this number of sweeps and reduces the step.
     Returns(usize),
 }
 
 impl Stall {
-    /// Decides what to do after a round with `sweeps`, from the round's need and the part of the bound that is to
-    /// blame.
-    /// Too few sweeps may hide the order of the step, and the error due to the sweeps is not always visible.
-    /// If a smaller step helps little, more sweeps are tried, provided that the number of sweeps is `free`.
+    /// Decides the next action after a round with `sweeps` sweeps. `need` is the need of the round, and `blame` is the
+    /// part of the bound that is to blame.
+    /// Too few sweeps may hide the order of the step, and the error due to the sweeps is not always visible. If a
+    /// smaller step helps little and the number of sweeps is `free`, more sweeps are therefore tried.
     /// If a smaller step and more sweeps both help little, the search returns to the previous number of sweeps.
     pub(super) fn look_closer(&mut self, need: Need, blame: BoundPart, sweeps: usize, free: bool) -> Next {
         self.vague = if need.is_vague { self.vague + 1 } else { 0 };
@@ -254,7 +256,8 @@ mod tests {
         Need { is_vague: false, share, of: Of::Bound }
     }
 
-    /// Next actions of a search after rounds with these needs and sweeps.
+    /// The actions that a search takes after each of these rounds. A round is given as its need and its number of
+    /// sweeps.
     fn follow(rounds: &[(f64, usize)]) -> Vec<Next> {
         let mut stall = Stall::default();
         let next =

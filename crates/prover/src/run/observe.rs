@@ -13,7 +13,7 @@ use linkage::mechanism::Pose;
 use linkage::solver::{Progress, Sampler, Solver, State};
 use linkage::trajectory::{Stage, Trajectory};
 
-/// Quantities observed during a run besides its trajectory.
+/// The quantities that are observed during a run in addition to its trajectory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Watch {
     /// All quantities, for an analytic side.
@@ -36,24 +36,23 @@ pub(super) struct Observed {
     /// Largest distance of a joint from the origin (m).
     pub(super) reach: f64,
     /// Balancing moment from the balance of powers (N m) at every instant; empty if no balancing moment is requested.
-    /// If the crank's speed changes, the moment is multiplied by the ratio of the crank's speed to its top speed.
-    /// In a motion under forces, the divisor of this ratio is the top speed or the largest speed of a driving link,
-    /// whichever is larger.
+    /// If the crank's speed changes, the moment is multiplied by the crank's speed and divided by its top speed. In a
+    /// motion under forces, the divisor is the larger of two speeds: the top speed and the largest speed of a driving
+    /// link.
     pub(super) power: Vec<f64>,
-    /// Balancing moments of the trajectory, reduced to the crank (N m), at every instant. These moments are multiplied
-    /// by the ratio that is described for `power`.
+    /// Balancing moments of the trajectory, reduced to the crank (N m), at every instant. If the crank's speed changes,
+    /// these moments are multiplied by the same ratio of speeds as `power`.
     pub(super) torque: Vec<f64>,
-    /// The larger of two ratios over the run.
-    /// The first ratio compares the shaking forces from reactions and from momentum: their largest difference divided
-    /// by the largest force in a joint.
-    /// The second ratio compares the shaking moments from reactions and from momentum: their largest difference divided
-    /// by the largest moment of a joint force about the origin.
+    /// Largest relative difference between the shaking from reactions and the shaking from momentum: the larger of two
+    /// ratios over the run. The first ratio is the largest difference of the shaking forces divided by the largest
+    /// force in a joint. The second ratio is the largest difference of the shaking moments divided by the largest
+    /// moment of a joint force about the origin.
     pub(super) unbalance: Option<f64>,
     /// Largest moment on the driving link (N m): the balancing moment, or a joint's force times the link's length.
     pub(super) moment: f64,
     /// Largest condition number of a passage of a side through a change point; 1 if no side passes a change point.
     pub(super) passing: f64,
-    /// For every row, whether a side passes a change point in a singular pose; empty if the crank may not pass change
+    /// For every row, whether the side passes a change point in a singular pose; empty if the crank may not pass change
     /// points.
     pub(super) singular: Vec<bool>,
     /// For every row, the time (s) to the nearest end of a piece of a cam's law; empty if there is no transmission.
@@ -66,7 +65,7 @@ pub(super) struct Observed {
 pub(super) struct Senses {
     each: usize,
     values: Vec<Vec2>,
-    /// For each vector, whether its load would jump if the vector reversed at this instant.
+    /// For each vector at each instant, whether the vector's load would jump if the vector reversed.
     jumps: Vec<bool>,
 }
 
@@ -80,7 +79,7 @@ impl Senses {
         &self.values[row * self.each..][..self.each]
     }
 
-    /// For each vector of [`Senses::of`], whether its load would jump if the vector reversed at this row.
+    /// For each vector of [`Senses::of`], whether the vector's load would jump if the vector reversed at this row.
     pub(super) fn jumps(&self, row: usize) -> &[bool] {
         &self.jumps[row * self.each..][..self.each]
     }
@@ -94,8 +93,8 @@ impl Observed {
 
     /// Largest difference between the balancing moment of the trajectory and the balancing moment of the powers,
     /// divided by the moments in the balance.
-    /// If the balancing moment vanishes, the moments in the balance cancel each other and only the rounding error of
-    /// these moments remains.
+    /// Where the balancing moment is zero, the moments in the balance cancel each other, and the difference is the
+    /// rounding error of these moments.
     pub(super) fn two_ways(&self) -> f64 {
         share(largest_size(&self.moment_gap().collect::<Vec<f64>>()), self.moment)
     }
@@ -110,8 +109,8 @@ impl Observed {
 pub(super) struct Stopped {
     pub(super) error: Error,
     pub(super) kept: Option<Box<Trajectory>>,
-    /// Set if too little work was allowed: the work that the first runs need or, after the first runs, the allowed
-    /// work.
+    /// `None` if enough work was allowed. Otherwise the work that the first runs need, or the allowed work if the first
+    /// runs were made.
     pub(super) spent: Option<f64>,
 }
 
@@ -165,8 +164,8 @@ pub(super) fn observe(
             (*opening, reach) = (own, reach.larger(far));
         }
         if with_power {
-            // A crank at rest has no power. So if the crank's speed changes, powers are compared instead of moments.
-            // When the run is complete, the powers are divided by the top speed.
+            // A crank at rest has no power. If the crank's speed changes, powers are therefore compared instead of
+            // moments. After the run, the powers are divided by the top speed.
             (power[row], torque[row]) = match steady {
                 true => (power::balancing_moment(case, state), reduced_torque(case, state)),
                 false => (-power::of_known_forces(case, state), state.drive_power(case)),
@@ -195,9 +194,9 @@ pub(super) fn observe(
         return Err(Stopped { error, kept, spent: None });
     }
     if !steady {
-        // In a free motion, powers are divided by the largest speed or by the nominal speed, whichever is larger.
-        // The motion may be much faster than the nominal speed. If an engine's links stay at rest, their speeds are
-        // only rounding errors, so the nominal speed is used.
+        // In a free motion, powers are divided by the larger of two speeds: the largest speed, because the motion may
+        // be much faster than the nominal speed, and the nominal speed, because the speeds of an engine's links at rest
+        // are only rounding errors.
         let nominal = case.crank().top_speed();
         let top = if case.is_free() { fastest.larger(nominal.abs()) } else { nominal };
         power.iter_mut().chain(&mut torque).for_each(|power| *power = share(*power, top));
@@ -217,7 +216,8 @@ pub(super) fn observe(
     })
 }
 
-/// The velocity whose direction a load depends on (rad/s as the first component, or m/s); zero at standstill.
+/// The velocity on whose direction a load depends: an angular velocity (rad/s, as the first component) or a velocity
+/// (m/s); zero at standstill.
 fn sensed_in(case: &Case, state: &State, senses: LoadSenses) -> Option<Vec2> {
     match senses {
         LoadSenses::Nothing => None,
@@ -243,16 +243,15 @@ fn reduced_torque(case: &Case, state: &State) -> f64 {
     state.torques[0] + further.sum::<f64>()
 }
 
-/// A vector that reverses only where the crank passes a jump of a table.
-/// The length of the vector is the distance of the crank from the nearest jump (rad).
+/// A vector that reverses when the crank passes a jump of a table, and only then. The length of the vector is the
+/// distance of the crank from the nearest jump (rad).
 fn beside(crank: f64, [jump, period]: [f64; 2]) -> Vec2 {
     let share = ((crank - jump) / period).rem_euclid(1.0);
     unit(PI * share) * (period * share.smaller(1.0 - share))
 }
 
-/// Force (N) and moment about the origin (N m) that a state leaves undetermined.
-/// A load on a link or point at rest already opposes the motion that begins, but the state does not show this motion
-/// yet.
+/// Part of the force (N) and of the moment about the origin (N m) that does not follow from a state. A load on a link
+/// or point at rest already opposes the motion that begins, but in the state all velocities are still zero.
 fn open(case: &Case, state: &State, crank: f64) -> [f64; 2] {
     let mut open = [0.0; 2];
     let of_state =
@@ -311,7 +310,8 @@ impl Unbalance {
 mod tests {
     use super::*;
 
-    /// Forces are relative to the largest force, moments to the largest moment. The larger ratio counts.
+    /// Differences of forces are divided by the largest force, differences of moments by the largest moment. The result
+    /// is the larger ratio.
     #[test]
     fn unbalance_is_the_larger_share_of_force_and_moment() {
         for (force, moment, wanted) in

@@ -9,7 +9,7 @@ use linkage::engine::{Engine, Route, Settings};
 use linkage::error::{Error, ErrorKind, Result};
 use scenario::{EngineSetting, EngineSettings, Scenario};
 
-/// Defines, for each setting, the method that sets it.
+/// Defines one method for each setting. The method sets the setting.
 macro_rules! setters {
     ($($(#[$doc:meta])* $name:ident: $kind:ty,)*) => {$(
         $(#[$doc])*
@@ -23,8 +23,9 @@ macro_rules! setters {
 /// Options of a proof.
 ///
 /// An option that is not given is taken from the scenario.
-/// If neither the options nor the scenario give step, sweeps or extrapolation, the proof finds them.
-/// If neither the options nor the scenario give substeps, route or accuracy, the engine's default is used.
+/// If neither the options nor the scenario give the step, the sweeps or the extrapolation, the proof finds this
+/// setting.
+/// If neither the options nor the scenario give the substeps, the route or the accuracy, the engine's default is used.
 /// If a step is given, runs are extrapolated only if extrapolation is requested.
 /// The numbers in the options are checked when the proof begins.
 ///
@@ -64,12 +65,12 @@ pub struct Chosen {
 }
 
 impl Chosen {
-    /// This choice, with the engine wrapped by `around`.
+    /// This choice with the engine that `around` returns for the present engine.
     pub(crate) fn with_engine(self, around: &dyn Fn(Box<dyn Engine>) -> Box<dyn Engine>) -> Self {
         Chosen { engine: around(self.engine), ..self }
     }
 
-    /// This choice, with the default route as its given route. Forces that the engine itself exerts are then not
+    /// This choice with the engine's present route as given route. Forces that the engine itself exerts are then not
     /// judged.
     pub(crate) fn by_motion_alone(mut self) -> Self {
         self.given.route = EngineSetting::of(self.engine.settings().route);
@@ -86,7 +87,7 @@ impl Options {
         self
     }
 
-    /// Options that give all settings of an engine. `None` if it is not an engine of this project.
+    /// Options that give all settings of an engine. `None` if the engine does not belong to this project.
     pub fn exactly(engine: &dyn Engine) -> Option<Self> {
         let settings = EngineSettings::exactly(engine);
         (!settings.engines.is_free()).then(|| Options { settings, ..Options::default() })
@@ -149,7 +150,7 @@ impl Options {
     }
 
     /// The engines for the proof of a case.
-    /// A setting is free if it is given neither by the options nor by the scenario's settings `own`.
+    /// A setting is free if neither the options nor the scenario's settings `own` give it.
     ///
     /// # Errors
     /// The errors of [`Options::set_engines`].
@@ -173,7 +174,7 @@ impl Options {
 }
 
 /// An engine with the given settings.
-/// If `several` engines are judged, an engine that does not have the given route keeps its own route.
+/// If `several` engines are judged, an engine without the given route keeps its default route.
 fn set(engine: Box<dyn Engine>, given: &EngineSettings, several: bool) -> Result<Box<dyn Engine>> {
     let defaults = engine.settings();
     let resolution = match engine.controls_error() {

@@ -18,7 +18,7 @@ use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Stage, Trajectory};
 use scenario::{ExpectedCell, FigureValue, Oracle, OracleBasis, OraclePoint, OracleSeries, When};
 
-/// The checks of every series and figure of an oracle, for each analytic side.
+/// The checks of all series and figures of all oracles (sources of numbers), for each analytic side.
 /// Series refer to channels of the problem's case; figures refer to the `whole` mechanism.
 /// `integration` is the integration error of a side in a channel, in the channel's unit. `integration` applies to
 /// numbers of a motion under forces.
@@ -35,8 +35,8 @@ pub(super) fn checks(
 }
 
 /// Rounding error of a number from an analytic side. The unit is one ulp of the largest number that the quantity has in
-/// the side's trajectory.
-/// A printed number may have more digits than the side's result has correct digits.
+/// the side's trajectory. The error matters for printed numbers with more digits than the side's result has correct
+/// digits.
 const ULPS: f64 = 16.0;
 
 /// Largest number of instants at which all channels of a stage are solved.
@@ -80,8 +80,8 @@ impl<'a> Answers<'a> {
             }
             instants.sort_unstable_by(f64::total_cmp);
             instants.dedup();
-            // If there are many instants, the requested channels are solved at all of them. The scales are then
-            // determined at only some of them.
+            // If there are many instants, only the requested channels are solved at all instants. The scales are then
+            // determined from a selection of the instants.
             let step = instants.len().div_ceil(MOST);
             let few = instants.iter().copied().step_by(step).collect();
             let whole = case.on(along.grid(case.crank(), few))?.wanting(Wanted::of(&stages));
@@ -124,7 +124,8 @@ impl<'a> Answers<'a> {
     }
 }
 
-/// Results of both sides for a series. `known` is the error of `side`, in addition to the difference between the sides.
+/// Results of both sides for a series. `known` is the error of the side `side`; the difference between the sides is not
+/// included.
 struct Told<'a> {
     side: Reference,
     trajectory: &'a Trajectory,
@@ -142,7 +143,7 @@ struct Found {
     /// Difference between the result and the printed number.
     deviation: f64,
     bound: f64,
-    /// The part of the bound due to the rounding of the instant.
+    /// The part of the bound that is due to the rounding of the instant.
     instant: f64,
     scale: f64,
 }
@@ -154,7 +155,8 @@ impl Found {
         if used.is_nan() { f64::INFINITY } else { used }
     }
 
-    /// Whether the deviation is significant, and is within the bound only because the instant is rounded.
+    /// Whether a significant deviation is within the bound, although the deviation may be due to the rounded instant
+    /// only.
     fn is_open(&self) -> bool {
         self.used() <= 1.0 && self.deviation.smaller(self.instant) > TELLING * self.scale
     }
@@ -169,13 +171,13 @@ impl Told<'_> {
         };
         let row = instants.binary_search_by(|other| other.total_cmp(&at)).expect("solved at this instant");
         let [value, other] = [self.side, self.side.other()].map(|side| self.values[side][row]);
-        // The difference between the two sides limits how accurately any number is known. Twice the difference between
-        // the sides is therefore added to the known error.
+        // No number is known more accurately than the difference between the two sides. Twice this difference is
+        // therefore added to the known error.
         let known = self.known + 2.0 * (value - other).abs();
         let difference = value - point.value;
         let deviation = if series.channel.kind.periodic { wrapped(difference) } else { difference }.abs();
-        // A magnitude changes at most as much as its vector. The changes of the components are therefore combined like
-        // the components of a vector.
+        // The change of a magnitude is at most the magnitude of the change of the vector. The changes of the components
+        // are therefore combined like the components of a vector.
         let drift = self.channels.iter().map(|own| self.rounded.of_point(own, at, point.at_error));
         let instant = drift.fold(0.0, f64::hypot);
         // The error of a side adds to the rounding of the printed number.
@@ -203,7 +205,7 @@ fn of_series(
 
 /// The checks of one series.
 /// One check covers all values that are correct. Each value that is known to be wrong has its own check.
-/// If all values are known to be wrong, a single check covers them.
+/// If all values are known to be wrong, a single check covers all values.
 fn of_one(oracle: &Oracle, series: &OracleSeries, answers: &Answers, side: Reference) -> Result<Vec<Check>> {
     let [nominal, timed] = answers.of_series(oracle, series, side)?;
     let found = |point: &OraclePoint| {
@@ -258,9 +260,9 @@ fn shortly(at: When, input: Input) -> String {
     }
 }
 
-/// The worst check of a series whose printed numbers are all known to be wrong.
-/// A check with an unexpected result is worse than any check with the expected result.
-/// If two checks are equal in this respect, the check with the larger ratio of deviation to bound is worse.
+/// The worst check of a series whose printed numbers are all known to be wrong. A check whose verdict is not `expected`
+/// is worse than any check with the verdict `expected`. Of two checks of the same kind, the check with the
+/// larger ratio of deviation to bound is worse.
 fn worst_of(checks: impl Iterator<Item = Check>) -> Option<Check> {
     let rank = |check: &Check| (!matches!(check.verdict, Verdict::Expected { .. }), check.used());
     checks.reduce(|worst, check| {
@@ -269,7 +271,7 @@ fn worst_of(checks: impl Iterator<Item = Check>) -> Option<Check> {
     })
 }
 
-/// Bound of a number and its basis. `instant` is the part of the bound due to the rounding of the instant.
+/// Bound of a number and its basis. `instant` is the part of the bound that is due to the rounding of the instant.
 fn tolerance(oracle: &Oracle, origin: BoundOrigin, bound: f64, instant: f64, digits: i32) -> Tolerance {
     Tolerance { bound, basis: BoundBasis::Digits { origin, digits, source: oracle.source.clone(), instant } }
 }
@@ -283,7 +285,7 @@ fn origin(oracle: &Oracle) -> BoundOrigin {
     }
 }
 
-/// The channels of a series: one channel, or both components of a vector if the series is its magnitude.
+/// The channels of a series: one channel, or both components of a vector if the series contains the vector's magnitude.
 fn channels_of(series: &OracleSeries) -> impl Iterator<Item = Channel> {
     [Some(series.channel.clone()), series.y()].into_iter().flatten()
 }

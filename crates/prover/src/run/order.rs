@@ -2,8 +2,8 @@
 //!
 //! Typical causes are a value computed half a step late, or a wrong weight.
 //! A bound from the engine's runs covers an error of lower order at every step, so the size of the error never reveals
-//! the fault.
-//! Five runs give three estimates of the order. The order is reliable only if all three are near the same whole number.
+//! the fault. Five runs give three estimates of the order. The order is reliable only if all three estimates are near
+//! the same whole number.
 //! See docs/numerics/bounds.md.
 
 use crate::sentences;
@@ -20,21 +20,21 @@ use crate::bounds::{Convergence, Verdict};
 use crate::numbers::error;
 use crate::tolerance::Parts;
 
-/// If an observed order is below this fraction of the formal order, the observed order is examined further.
+/// An observed order is examined further if it is below this fraction of the formal order.
 const LOW: f64 = 0.75;
 /// Orders are steady if they differ from the same whole number by at most this amount.
 const STEADY: f64 = 0.1;
 /// The observed order counts as the order of the step error only if the step error of the finest run exceeds this
 /// multiple of the rounding, iteration and reference errors.
 const CLEAR: f64 = 5.0;
-/// If a bound is below this fraction of the widest conclusive bound, a low order does not matter.
+/// A low order does not matter if the bound is below this fraction of the widest conclusive bound.
 const NEGLIGIBLE: f64 = 0.01;
 
 /// Finds channels that converge steadily with too low an order, and makes their verdicts disagree.
 /// Returns whether there are channels that converge with too low an order.
 ///
 /// # Errors
-/// The errors of a run. A numeric error is not returned, because it shows nothing about the order.
+/// The errors of a run. Numeric errors are not returned, because they show nothing about the order.
 pub(super) fn look(judge: &Judge, bank: &mut Bank, proof: &mut EngineProof) -> Result<bool, Stopped> {
     let wanted = judge.problem.engine_rel;
     // Across a knot of a law of motion or of a cam the third derivative jumps, so second differences have order 1 at
@@ -100,8 +100,8 @@ pub(super) fn look(judge: &Judge, bank: &mut Bank, proof: &mut EngineProof) -> R
     Ok(is_found)
 }
 
-/// Whether three estimates of the order (the finest step last) are near the same whole number, and this number is too
-/// low.
+/// Whether three estimates of the order are near the same whole number, and this number is too low. The last estimate
+/// belongs to the finest step.
 fn is_steady(rungs: [Convergence; 3]) -> bool {
     let Convergence { observed, formal, .. } = rungs[2];
     let whole = observed.round();
@@ -109,8 +109,8 @@ fn is_steady(rungs: [Convergence; 3]) -> bool {
     is_same && whole >= 1.0 && whole <= LOW * formal
 }
 
-/// The order of three estimates, the finest last. `None` if the order is not steady, or if other parts of the finest
-/// run's error may have caused this order.
+/// The order from three estimates. The last estimate belongs to the finest step. `None` if the order is not steady, or
+/// if other parts of the finest run's error may have caused this order.
 fn steady(rungs: [Convergence; 3], finest: Parts) -> Option<f64> {
     let other = finest.iteration.larger(finest.rounding).larger(finest.reference);
     let is_clear = rungs[2].error > CLEAR * other;
@@ -121,7 +121,7 @@ fn steady(rungs: [Convergence; 3], finest: Parts) -> Option<f64> {
 mod tests {
     use super::*;
 
-    /// Each halving of the step halves the error, which begins at 8. The observed order is therefore 1, while the
+    /// The error begins at 8 and is halved with each halving of the step. The observed order is therefore 1, but the
     /// method has order 2.
     /// If sweeps, rounding or the reference contribute a fourth of the finest error, these errors may have caused the
     /// observed order.
@@ -146,7 +146,8 @@ mod tests {
                 assert_eq!(steady(first, other), found, "{other:?}");
             }
         }
-        // Cases in which nothing is found: changing orders, an order of zero, and the formal order of the method.
+        // In the following cases no fault is found: changing orders, an order of zero, and the formal order of the
+        // method.
         for (orders, formal) in [([1.3, 1.1, 1.0], 2.0), ([0.0; 3], 2.0), ([2.0; 3], 2.0), ([1.0; 3], 1.0)] {
             assert_eq!(steady(rungs(orders, formal), none), None, "{orders:?} {formal}");
         }

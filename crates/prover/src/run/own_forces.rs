@@ -1,7 +1,7 @@
 //! Judges the forces that an engine itself exerts: its own forces.
 //! These forces are judged in addition to the forces that follow from the engine's motion by Newton-Euler equations.
-//! The settings for them are searched after those for the motion: one search for each method by which the engine
-//! reports its forces (`Engine::own_routes`), until one is conclusive.
+//! The settings for the engine's own forces are searched after the settings for the motion. There is one search for
+//! each method by which the engine reports its forces (`Engine::own_routes`), until one result is conclusive.
 //! See docs/numerics/forces.md.
 
 use crate::sentences;
@@ -25,7 +25,7 @@ use scenario::EngineSetting;
 
 /// Limit of the number of sweeps at the start of the search, even if the motion has needed more sweeps.
 const ENOUGH: usize = 32;
-/// Additional work allowed for the engine's own forces, as a fraction of the work allowed for its settings.
+/// Additional work allowed for the engine's own forces, as a fraction of the work allowed for the search of settings.
 const SHARE: f64 = 0.05;
 
 /// Whether the engine's own forces are judged.
@@ -46,9 +46,9 @@ pub(super) fn judged(
     progress: Progress,
 ) -> Option<EngineProof> {
     let effort = motion.search.as_ref().map_or(0.0, |search| search.effort);
-    // If the motion has needed more work than is allowed for the engine's own forces, these forces are not judged.
-    // Impulses are of a lower order than the motion, so the runs for impulses need at least as much work as the runs
-    // for the motion.
+    // The engine's own forces are not judged if the motion has needed more work than is allowed for these forces.
+    // Impulses converge with a lower order than the motion, so their runs need at least as much work as the runs for
+    // the motion.
     if effort > SHARE * chosen.budget {
         let told = sentences::the_motion_has_taken_the_work(&error(effort), &error(SHARE * chosen.budget));
         let failure = Error::new(ErrorKind::Unsupported, told);
@@ -63,7 +63,7 @@ pub(super) fn judged(
     for &route in chosen.engine.own_routes(case) {
         let own = by_route(judge, case, chosen, route, sweeps, progress);
         let is_open = matches!(own.verdict, Verdict::Inconclusive { .. });
-        // If several results are inconclusive, a result with numbers is preferred.
+        // Of several inconclusive results, a result with numbers is preferred to a failure.
         let better = found.as_ref().is_none_or(|found| !is_open || found.failure.is_some());
         if better {
             found = Some(own);
@@ -76,10 +76,10 @@ pub(super) fn judged(
 }
 
 /// A result without comparison.
-/// If the only reason is too little work, `work` is the work that was needed so far.
-/// The advice then names a sufficient amount of work.
+/// `work` is the work that was needed so far, if too little allowed work is the only reason for the failure. The advice
+/// then names a sufficient amount of work.
 fn failed(engine: &dyn Engine, failure: Error, work: Option<f64>) -> EngineProof {
-    // A power of ten that is certainly enough for the next attempt.
+    // The advised work is rounded up to a power of ten, so that it is enough for the next attempt.
     let advice = work.map(|work| Advice::MoreWork { to: 10f64.powf((work / SHARE).log10().ceil()) });
     let reason = failure.message().to_string();
     let verdict = Verdict::Inconclusive { reason, advice: advice.into_iter().collect() };
@@ -126,8 +126,8 @@ fn by_route(
     }
 }
 
-/// Returns the largest of `step`, 2 `step`, 4 `step`, ... that does not exceed `most`.
-/// Returns `step` if `step` itself exceeds `most`.
+/// Returns the largest of the steps `step`, 2 `step`, 4 `step`, ... that does not exceed `most`. Returns `step` if even
+/// `step` exceeds `most`.
 fn coarser(step: f64, most: f64) -> f64 {
     let times = (most / step).log2().floor();
     if times > 0.0 { step * 2f64.powf(times) } else { step }

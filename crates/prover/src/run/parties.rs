@@ -1,5 +1,5 @@
-//! Compares the parties, that is reference and engines, with each other, to find the party that disagrees with all
-//! others.
+//! Compares the parties of a proof with each other, to find the party that disagrees with all others. The parties are
+//! the reference and the engines.
 
 use super::engine_proof::EngineProof;
 use crate::bounds::largest_difference;
@@ -12,8 +12,8 @@ pub struct Dispute {
     pub channel: String,
     /// Pairs of parties whose difference exceeds the sum of their bounds.
     pub pairs: Vec<[&'static str; 2]>,
-    /// The only party without which all others agree. `None` if there is no such party, or if there are only two
-    /// parties.
+    /// The party that is the only cause of the dispute: without this party, all others agree. `None` if no single party
+    /// is the cause, or if there are only two parties.
     pub odd: Option<&'static str>,
 }
 
@@ -25,7 +25,7 @@ struct Party<'a> {
 }
 
 /// Every channel in which two parties differ by more than the sum of their bounds.
-/// The bound of the reference is 0 here, because the bounds of the engines include its error.
+/// The bound of the reference is set to 0, because the bounds of the engines include the error of the reference.
 /// Engines with an inconclusive verdict are left out.
 #[must_use]
 pub fn disputes(name: &'static str, reference: &Trajectory, engines: &[EngineProof]) -> Vec<Dispute> {
@@ -46,7 +46,8 @@ fn dispute(name: &'static str, channel: &Channel, values: &[f64], engines: &[Eng
     Some(Dispute { channel: channel.to_string(), pairs, odd })
 }
 
-/// Pairs of parties that differ by more than the sum of their bounds, and the only party that is in all these pairs.
+/// Pairs of parties that differ by more than the sum of their bounds, and the party that occurs in all these pairs if
+/// there is exactly one such party.
 /// `None` if no pair differs.
 fn apart(parties: &[Party], periodic: bool) -> Option<(Vec<[&'static str; 2]>, Option<&'static str>)> {
     let differ = |a: &Party, b: &Party| {

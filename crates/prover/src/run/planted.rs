@@ -141,10 +141,8 @@ fn side_checks_find_three_times_their_bound_and_pass_a_fifth() {
 }
 
 /// Symptom: 1e-9 deg from a dead centre the crank pin's acceleration was wrong by 176 %, but the check between the
-/// sides did not find it.
-/// Cause: the check's scale was the largest acceleration of the mechanism, and its condition number was that of the
-/// worst group.
-/// The check must use the numbers from which the channel itself is computed.
+/// sides did not find the error. Cause: the check used the largest acceleration of the mechanism as scale, and the
+/// condition number of the worst group. The check must use the numbers from which the channel itself is computed.
 #[test]
 fn regress_a_driving_link_has_its_own_bound_near_a_dead_point() {
     let folded = [
@@ -195,7 +193,7 @@ fn nan_at_one_instant_disagrees() {
         let found = checks::of_sides(&case, EachSide::new(&side, &other), &known);
         assert_eq!(named(&found, name).verdict.word(), "disagree", "{name}");
     }
-    // A NaN that is not visible in any channel still reaches the closure check.
+    // A NaN reaches the closure check even if no channel shows the NaN.
     let second: Fault = |state, _| state.motions[LinkId(3)].origin.y = f64::NAN;
     let positions = case.wanting(Wanted::of(&[]));
     assert!(seen(&positions, &assur(second, 0.0)).closure().is_nan());
@@ -216,7 +214,7 @@ fn every_class_three_method_is_in_the_proof_and_finds_faults() {
     assert!(right.iter().all(|check| check.verdict.word() == "agree"), "{right:?}");
     // Angles, rates and forces of the group's links and joints are changed by 1e-9 of their size: ten times the largest
     // bound.
-    // Only the method of class change computes directions itself.
+    // Of the published methods, only the method of class change computes directions.
     let [first, ..] = Triad::all(case)[0].links();
     assert_ne!(first, GROUND);
     let rates: Fault = |state, size| state.motions.iter_mut().skip(2).for_each(|motion| motion.omega *= 1.0 + size);
@@ -253,7 +251,7 @@ fn every_class_three_method_is_in_the_proof_and_finds_faults() {
     }
 }
 
-/// Settings that the proof searches.
+/// The settings that the proof searches: none, or all.
 #[derive(Clone, Copy, Debug)]
 enum Search {
     None,
@@ -279,9 +277,9 @@ fn engine_proven(scenario: &Scenario, hook: Everywhere, search: Search) -> Engin
     engines::prove(&judge, &scenario.case, &chosen, &mut Ledger::default(), &mut |_| {}).unwrap()
 }
 
-/// Two faults are planted: an opening that does not vanish with the step, and a balancing moment that disagrees with
-/// the balance of powers.
-/// The opening is far below 1 % of the mechanism's size. The moment is far below 1 % of the largest moment.
+/// Two faults are planted: an opening that does not tend to zero with the step, and a balancing moment that disagrees
+/// with the balance of powers. The opening is far below 1 % of the mechanism's size. The fault of the moment is far
+/// below 1 % of the largest moment.
 #[test]
 fn engine_checks_find_errors_that_do_not_vanish_with_the_step() {
     let scenario = parsed("crank_rocker", &text("crank_rocker"));
@@ -325,10 +323,10 @@ fn regress_late_readings_converge_with_order_one_and_disagree() {
         }
     };
     let accelerations: Fault = |state, late| {
-        // The fault adds a term of the size of a jerk.
+        // The planted fault is the delay times a value of the size of the jerk.
         state.motions.iter_mut().for_each(|motion| motion.alpha -= late * motion.omega.powi(3));
     };
-    // Five steps up to 8e-3 s still show the order for the crank-rocker, but not for the faster machine `ov7_base`.
+    // Five runs with steps up to 8e-3 s show the order for the crank-rocker, but not for the faster machine `ov7_base`.
     // `ov7_base` is therefore tested only with free settings.
     for (name, free) in
         [("crank_rocker", Search::None), ("crank_rocker", Search::Everything), ("ov7_base", Search::Everything)]
@@ -348,7 +346,7 @@ fn regress_late_readings_converge_with_order_one_and_disagree() {
     }
 }
 
-/// Each analytic side has its own integration error, whichever side is the reference.
+/// Each analytic side has a separate integration error, which does not depend on the choice of the reference.
 #[test]
 fn each_side_has_the_error_of_its_own_integration() {
     let plain = text("crank_rocker_runup");
@@ -366,7 +364,8 @@ fn each_side_has_the_error_of_its_own_integration() {
     }
 }
 
-/// A difference of the sides is reported with its first instant and as a multiple of the allowed difference.
+/// A difference between the sides is reported with the first instant of disagreement, and as a multiple of the allowed
+/// difference.
 #[test]
 fn side_differences_are_reported_as_multiples_of_the_bound() {
     let case = parsed("crank_rocker", &text("crank_rocker")).case;
@@ -385,7 +384,7 @@ fn side_differences_are_reported_as_multiples_of_the_bound() {
 }
 
 /// If the drive is reversed, only the sign of the steady speeds changes.
-/// A resistance opposes either direction of motion, and weights rise as far as they fall.
+/// A resistance opposes both directions of motion, and over a revolution weights rise as far as they fall.
 #[test]
 fn a_reversed_drive_has_the_reversed_steady_speed() {
     let speeds = |rpm: &str| {
@@ -416,7 +415,8 @@ fn all_bounds_of_extrapolated_runs_have_the_larger_factor() {
     }
 }
 
-/// The recorded error is the engine minus the reference: a fault that adds gives a positive error.
+/// The recorded error is the engine's value minus the reference's value: a fault that increases the engine's value
+/// gives a positive error.
 #[test]
 fn errors_of_an_engine_have_the_sign_of_its_fault() {
     let scenario = parsed("crank_rocker", &text("crank_rocker"));
@@ -475,7 +475,7 @@ fn integration_error_widens_the_bound_of_numbers_at_a_time() {
 /// For the acceleration of a crank at constant speed, a fault of a millionth of the quantity is found.
 /// For a rocker that rotates with the crank through change points, only a fault of at least a hundredth of the quantity
 /// is found.
-/// A smaller difference in the rocker's channels proves nothing.
+/// In the rocker's channels, an agreement within a smaller difference proves nothing.
 #[test]
 fn a_fault_of_fixed_size_is_found_where_the_reference_is_zero() {
     let cranks = include_str!("../../../../tests/suite/exact_zeros/parallel_cranks.toml");

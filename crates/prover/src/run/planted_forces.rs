@@ -1,4 +1,4 @@
-//! Faults that are visible to only one of the two judgements of an engine's forces.
+//! Faults that only one of the two judgements of an engine's forces can find.
 
 use super::judge::Judge;
 use super::known::Known;
@@ -20,7 +20,7 @@ use scenario::{EngineSettings, of_repository};
 /// Effect of a fault on every state.
 type Fault = fn(&mut State);
 
-/// A fault in an engine's states that occurs only with some routes.
+/// A fault in an engine's states that occurs only with some routes to the forces.
 #[derive(Clone, Copy)]
 struct ByRoute {
     fault: Fault,

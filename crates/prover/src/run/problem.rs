@@ -13,7 +13,7 @@ pub struct Problem<'a> {
     /// Published numbers.
     pub(crate) oracles: &'a [Oracle],
     pub(crate) formulas: &'a Formulas,
-    /// If the bound on an engine's error exceeds this fraction of a channel's scale, agreement proves nothing.
+    /// Agreement proves nothing if the bound on an engine's error exceeds this fraction of a channel's scale.
     pub(crate) engine_rel: f64,
 }
 
@@ -26,9 +26,9 @@ impl<'a> Problem<'a> {
 }
 
 /// Length, speed and force from the data of the case. These values do not depend on which links move.
-/// These three values are the scales for quantities that vanish in the whole mechanism.
-/// The force is the larger of two forces: the weight of all links, and the force that accelerates the links at this
-/// speed and size. The force is zero without masses.
+/// These three values give the scales of quantities that are zero in the whole mechanism. The force is the larger of
+/// two forces: the weight of all links, and the force that accelerates the links at this speed and size. The force is
+/// zero if the links have no masses.
 pub(super) fn built(case: &Case) -> Built {
     let (length, speed) = (case.mechanism.size(), case.drives.top_speed(case.mechanism.size()));
     let mass: f64 = case.mechanism.links().iter().map(|link| link.mass).sum();

@@ -1,5 +1,5 @@
 //! Figures of a proven motion, for reports.
-//! They follow from the reference's trajectory alone, so they need no further solution.
+//! All figures follow from the reference's trajectory, so no further solution is needed.
 
 use super::Proof;
 use super::reported_figure::ReportedFigure;
@@ -19,12 +19,12 @@ const OUTPUTS: usize = 2;
 const JOINTS: usize = 3;
 /// Largest number of usual figures.
 const MOST: usize = 10;
-/// A joint force below this fraction of the largest one counts as zero.
+/// A joint force below this fraction of the largest joint force counts as zero.
 const ROUNDING: f64 = 1e-9;
-/// From this range on (deg), a link counts as turning fully.
+/// A link counts as turning fully if its range of rotation is at least this angle (deg).
 const FULL_TURN: f64 = 359.9;
 
-/// A usual figure: its words and its text.
+/// A usual figure: its label in words, and its text as in a scenario file.
 struct Usual {
     label: String,
     figure: String,
@@ -38,7 +38,7 @@ impl Usual {
 
 impl Proof {
     /// The figures that the file requests in `[report]`, otherwise the usual figures of the mechanism.
-    /// A figure whose channels were not solved, or that has no value, is left out.
+    /// A figure is left out if its channels were not solved or if it has no value.
     #[must_use]
     pub fn figures(&self) -> Vec<ReportedFigure> {
         if !self.asked.is_empty() {
@@ -58,11 +58,12 @@ impl Proof {
 
     fn usual(&self, usual: Usual) -> Option<ReportedFigure> {
         let found = self.found(&CaseFigure::unchecked(&usual.figure).ok()?, usual.label)?;
-        // A quantity that is zero throughout, such as a force between massless links, tells nothing.
+        // A quantity that is zero at every instant, such as a force between massless links, is left out.
         (found.value != 0.0).then_some(found)
     }
 
-    /// A figure of several channels (SI), combined instant by instant. A formula cannot contain every name of a link.
+    /// A figure of several channels (SI), combined instant by instant. The figure is not written as a formula, because
+    /// a formula cannot contain all possible names of links.
     fn combined(
         &self,
         Usual { label, figure }: Usual,
@@ -98,8 +99,8 @@ impl Proof {
         Some(ReportedFigure { label, figure, value, unit, rows: found.rows })
     }
 
-    /// Swing or stroke, and largest speed, of the links that other machines take the motion from: the links on the
-    /// ground that no drive moves. Without such a link, the driven links count as outputs.
+    /// Swing or stroke, and largest speed, of the output links: the links on the ground that no drive moves. If there
+    /// is no such link, the driven links count as outputs.
     fn of_outputs(&self) -> Vec<ReportedFigure> {
         let case = &self.scene.case;
         let driven = |link: LinkId| {
@@ -162,7 +163,7 @@ impl Proof {
         };
         let mut found: Vec<ReportedFigure> = joints.filter_map(force).collect();
         found.sort_by(|a, b| b.value.total_cmp(&a.value));
-        // A force that is zero except for rounding tells nothing.
+        // Forces that are zero except for rounding are left out.
         let least = ROUNDING * found.first().map_or(0.0, |own| own.value);
         found.retain(|own| own.value > least);
         found.truncate(JOINTS);
@@ -224,8 +225,8 @@ fn of_points(mechanism: &Mechanism) -> Vec<Usual> {
     point.map(each).into_iter().flatten().collect()
 }
 
-/// The smallest sine of a transmission angle over all instants: without its sign, with its row and the links of the
-/// dyad. `None` if there is no dyad, or if the positions of its links were not solved.
+/// The smallest absolute sine of a transmission angle over all instants and dyads, with the row of the instant and the
+/// links of the dyad. `None` if there is no dyad, or if the position of a moving link was not solved.
 fn smallest_sine(case: &Case, run: &Trajectory) -> Option<(f64, usize, String)> {
     let mechanism = &case.mechanism;
     let columns = |name: &str| {

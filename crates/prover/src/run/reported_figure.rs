@@ -3,7 +3,7 @@
 /// A figure of a proven motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReportedFigure {
-    /// The figure in words; the text of the figure if the file requests it.
+    /// The figure in words; for a figure that the file requests, the text in the file.
     pub label: String,
     /// The figure, as sweeps and files write it.
     pub figure: String,
@@ -11,7 +11,7 @@ pub struct ReportedFigure {
     pub value: f64,
     /// Unit; empty for a number without a unit.
     pub unit: String,
-    /// Rows of the reference's grid at which the figure occurs; for a range, those of the largest and of the smallest
-    /// value. Empty for a mean.
+    /// Rows of the reference's grid at which the figure occurs; for a range, the rows of the largest and of the
+    /// smallest value. Empty for a mean.
     pub rows: Vec<usize>,
 }

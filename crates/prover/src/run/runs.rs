@@ -20,7 +20,7 @@ use linkage::work::limited;
 pub(super) struct Runs {
     /// Runs at double, single and half the resolution.
     pub(super) resolutions: [Arc<Observed>; 3],
-    /// Runs at the single resolution. Their numbers of sweeps differ from that of the judged run.
+    /// Runs at the single resolution, with other numbers of sweeps than the judged run.
     pub(super) other_sweeps: OtherSweeps<Arc<Observed>>,
 }
 
@@ -37,10 +37,9 @@ impl Runs {
     }
 }
 
-/// Numbers of sweeps for the runs that are compared with a run with `sweeps`.
+/// Numbers of sweeps for the additional runs that are compared with a run with `sweeps` sweeps.
 /// The first number is `sweeps` / `share`; the second is the first number divided by `share`.
-/// If `sweeps` is one, the compared run has two sweeps.
-/// Empty if the iteration leaves no error.
+/// If `sweeps` is one, the additional run has two sweeps. The list is empty if the iteration leaves no error.
 pub(super) fn other_sweeps(case: &Case, engine: &dyn Engine, sweeps: usize, share: usize) -> Vec<usize> {
     match (sweeps, engine.sweeps(case)) {
         (_, None) | (1, Some([_, 1])) => Vec::new(),
@@ -52,15 +51,14 @@ pub(super) fn other_sweeps(case: &Case, engine: &dyn Engine, sweeps: usize, shar
     }
 }
 
-/// If the sweeps are given: number of sweeps of the judged run, divided by the number of sweeps of the run with fewer
-/// sweeps.
+/// Ratio of the numbers of sweeps of two successive runs, if the sweeps are given.
 pub(super) const FEWER: usize = 2;
 
-/// If a trajectory has more values than this, not all trajectories of a search are kept.
+/// Not all trajectories of a search are kept if a trajectory has more values than this number.
 pub(super) const FEW: usize = 1_000_000;
 
-/// All runs of one engine on one case.
-/// Each run is made and observed once. Runs with many instants are made again when needed.
+/// All runs of one engine on one case. Each run is made and observed once. Large runs are dropped and made again when
+/// needed.
 pub(super) struct Bank<'a> {
     pub(super) case: &'a Case,
     kept: CachedEngine,
@@ -77,7 +75,7 @@ impl<'a> Bank<'a> {
         Bank { case, kept: CachedEngine::new(engine), seen: Vec::new(), watch, count: 0, effort: 0.0 }
     }
 
-    /// The engine at `settings`. This engine takes its runs from the bank.
+    /// An engine with these settings that takes its runs from the bank.
     pub(super) fn engine(&self, settings: Settings) -> Box<dyn Engine> {
         self.kept.with(settings)
     }
@@ -95,14 +93,14 @@ impl<'a> Bank<'a> {
         self.work(&self.kept.missing(self.case, settings))
     }
 
-    /// Work of plain runs on the case's grid. The work is counted instead of timed, so that equal inputs give equal
-    /// work.
+    /// Work of plain runs on the case's grid. The work is counted and not measured in seconds, so that equal inputs
+    /// give equal work.
     fn work(&self, runs: &[Settings]) -> f64 {
         let [first, last] = ends(self.case);
         size_of_step(self.case) * runs.iter().map(|run| (last - first) * run.work()).sum::<f64>()
     }
 
-    /// Forgets all runs with numbers of sweeps that are not in `sweeps`.
+    /// Drops all runs whose number of sweeps is not in `sweeps`.
     pub(super) fn keep_sweeps(&mut self, sweeps: &[usize]) {
         self.kept.retain(|settings| sweeps.contains(&settings.sweeps));
         self.seen.retain(|(settings, _)| sweeps.contains(&settings.sweeps));
@@ -169,15 +167,16 @@ impl<'a> Bank<'a> {
     }
 }
 
-/// Settings of the runs that judge an engine at `settings`, the single resolution first, then half and double.
+/// Settings of the runs that judge an engine at `settings`: first the single resolution, then the half and the double
+/// resolution, then the other numbers of sweeps.
 pub(super) fn rungs(settings: Settings, others: &[usize]) -> Vec<Settings> {
     let at = |factor: f64| Settings { resolution: settings.resolution * factor, ..settings };
     let other = others.iter().map(|&sweeps| Settings { sweeps, ..settings });
     [settings, at(0.5), at(2.0)].into_iter().chain(other).collect()
 }
 
-/// The failure `stopped`, with a message that names the auxiliary run that failed.
-/// The user did not request the auxiliary run.
+/// The failure `stopped` of an auxiliary run. The message names the failed run, because the user did not request this
+/// run.
 fn in_ladder(stopped: Stopped, what: &str, asked: Settings, controls_error: bool) -> Stopped {
     let told = |message: &str| sentences::the_run_from_which_the_error(&what, &message);
     // Values to try are based on the settings that the user requested.
@@ -192,7 +191,7 @@ fn ends(case: &Case) -> [f64; 2] {
 
 /// The largest step (s) for which a run of this engine stays within the reachable crank angles.
 /// A run of a prescribed motion begins some steps before the first instant and ends some steps after the last instant.
-/// Near a limit of rotation, the additional steps of a run stay within the limit only if the steps are small.
+/// Near a limit of rotation, the steps must be so small that the additional steps of a run stay within the limit.
 /// The result is infinite if the crank makes full revolutions or if forces determine the motion.
 pub(super) fn room(case: &Case, engine: &dyn Engine) -> f64 {
     let steps = engine.overrun();
@@ -200,17 +199,17 @@ pub(super) fn room(case: &Case, engine: &dyn Engine) -> f64 {
     let drive = case.crank();
     let at = |t: f64| {
         let own = drive.at(t);
-        // Distance to the nearer limit, because the run extends beyond the instants in both directions of time.
+        // The nearer limit is used, because the run extends beyond the instants in both directions of time.
         let distance = (own.value - from).abs().smaller((to - own.value).abs());
         distance / own.rate.abs() / steps
     };
-    // At an instant at which the drive is at rest, the step is not limited.
+    // An instant at which the drive is at rest does not limit the step.
     ends(case).map(at).into_iter().filter(|step| step.is_finite()).fold(f64::INFINITY, f64::smaller)
 }
 
 /// Limits of the crank angle (rad) in a prescribed motion of one drive.
-/// `None` if the angle is not limited, or if the limits are still unknown after some work. The engine then reports the
-/// position that it cannot pass.
+/// `None` if the angle is not limited, or if the limits are still unknown after some work. An engine that reaches an
+/// unknown limit reports the position that it cannot pass.
 fn limits(case: &Case) -> Option<[f64; 2]> {
     if case.is_free() || case.drives.len() > 1 {
         return None;

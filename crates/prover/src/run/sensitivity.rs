@@ -13,10 +13,10 @@ use linkage::trajectory::Trajectory;
 /// compared with rounding.
 const CHANGE: f64 = 1e-6;
 
-/// Sensitivity of every channel of `reference`, in its order and in the channel's unit.
+/// Sensitivity of every channel of `reference`, in the order of these channels and in the channel's unit.
 /// The sensitivity is the largest change of the channel's values over the run, per relative change of gravity and motor
 /// torque.
-/// Empty for a motion that does not depend on forces.
+/// The list is empty for a motion that does not depend on forces.
 ///
 /// # Errors
 /// The errors of the solver.
@@ -45,7 +45,7 @@ mod tests {
     /// In stronger gravity, a pendulum released from rest passes the same positions in a shorter time.
     /// If gravity is multiplied by 1 + e, the time is divided by sqrt(1 + e): theta(t; (1 + e) g) = theta(t sqrt(1 +
     /// e); g).
-    /// Each derivative adds one more factor sqrt(1 + e).
+    /// Each time derivative is multiplied by one more factor sqrt(1 + e).
     #[test]
     fn sensitivity_of_a_pendulum_to_gravity_is_that_to_time_scale() {
         let case = of_repository("scenarios/pendulum.toml").case;

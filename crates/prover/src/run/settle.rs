@@ -21,24 +21,24 @@ use scenario::EngineSettings;
 
 /// Work allowed by default, in steps without sweeps.
 pub const BUDGET: f64 = 2e7;
-/// As long as the search has done less than this fraction of the allowed work, a conclusive result is refined further,
-/// to the target accuracy.
+/// A conclusive result is refined further, to the target accuracy, as long as the search has done less than this
+/// fraction of the allowed work.
 const THRIFT: f64 = 0.0015;
 /// Target of the search: bounds at this fraction of the widest conclusive bound. With extrapolation, such bounds cost
 /// little more work than conclusive bounds.
 const AIM: f64 = 0.01;
-/// Limit of extrapolations. With more extrapolations, the weights of the runs add more rounding error than they cancel
-/// truncation error.
+/// Limit of extrapolations. Further extrapolations would add more rounding error than they would cancel truncation
+/// error.
 const MOST_TIMES: usize = 4;
 /// The coarsest step is at most this multiple of the first step.
 /// Steps coarser than the first step are tried if rounding dominates.
 const COARSEST: f64 = 16.0;
-/// Work that the first runs may always do. This work takes some hundredths of a second.
-/// Without the first runs there is no result.
+/// Work that the first runs may always do, because there is no result without the first runs. This work takes some
+/// hundredths of a second.
 pub(super) const FIRST: f64 = 1e4;
-/// Each time this number of runs has failed, more sweeps are tried instead of a smaller step.
+/// After every sequence of this number of failed runs, more sweeps are tried instead of a smaller step.
 const FAILURES: usize = 6;
-/// A run of a prescribed motion begins and ends a few steps outside its grid. These additional steps may use this
+/// A run of a prescribed motion begins and ends a few steps outside the grid. The additional steps may take this
 /// fraction of the angle to a dead centre.
 const ROOM: f64 = 0.98;
 /// Largest number of rounds of a short search.
@@ -52,8 +52,8 @@ const NEAR: f64 = 8.0;
 
 /// Returns an error if the first runs of an engine, at the settings `rungs`, need more work than `most`.
 /// The error names the requested `budget`.
-/// A step that divides the motion into more than [`BUDGET`] steps counts as a mistake of the user.
-/// If the step counts as a mistake, this function returns no error, because the engine itself rejects the step.
+/// A step counts as a mistake of the user if it divides the motion into more than [`BUDGET`] steps. This function then
+/// returns no error, because the engine rejects the step.
 pub(super) fn too_much(
     bank: &Bank,
     settings: Settings,
@@ -71,7 +71,7 @@ pub(super) fn too_much(
     Err(Stopped { error, kept: None, spent: Some(first) })
 }
 
-/// One combination of the runs made so far, judged.
+/// The judgement of one combination of the runs made so far.
 struct Trial {
     judged: Judged,
     need: Need,
@@ -83,7 +83,7 @@ pub(super) struct Settling<'a, 'b> {
     judge: &'a Judge<'a>,
     bank: &'a mut Bank<'b>,
     given: &'a EngineSettings,
-    /// Current settings. The step is that of the finest run.
+    /// Current settings, with the step of the finest run.
     now: Settings,
     most_sweeps: usize,
     /// Step of the coarsest run.
@@ -99,7 +99,7 @@ pub(super) struct Settling<'a, 'b> {
     factor: usize,
     /// Whether the bound of the last round was near the requested bound.
     near: bool,
-    /// Largest step (s) for which runs stay clear of the dead centres; `None` until it is needed.
+    /// Largest step (s) for which runs do not reach a dead centre; `None` until this step is needed.
     room: Option<f64>,
 }
 
@@ -117,7 +117,7 @@ impl<'a, 'b> Settling<'a, 'b> {
         if given.sweeps.is_free() {
             now.sweeps = first;
         }
-        // The finest step of the first three runs.
+        // The search begins with three runs. `now` gets the finest step of these runs.
         let times = if given.extrapolated.is_free() { 0 } else { now.extrapolated };
         now.resolution *= 0.5f64.powi(times as i32 + 1);
         let coarsest = 2.0 * engine.settings().resolution;
@@ -138,8 +138,8 @@ impl<'a, 'b> Settling<'a, 'b> {
         }
     }
 
-    /// This search, ended as soon as every channel is conclusive.
-    /// It begins with coarser steps and with at least `sweeps` sweeps, and chooses no step below `finest` (s).
+    /// A search that ends as soon as every channel is conclusive. The search begins with coarser steps and with at
+    /// least `sweeps` sweeps, and chooses no step below `finest` (s).
     pub(super) fn conclusive(mut self, finest: f64, sweeps: usize) -> Self {
         (self.aim, self.conclusive, self.finest, self.factor) = (1.0, true, finest, MORE_SWEEPS[1]);
         if self.given.sweeps.is_free() {
@@ -245,15 +245,15 @@ impl<'a, 'b> Settling<'a, 'b> {
         let search = SettingsSearch { runs: self.bank.count, effort: self.bank.effort, budget: self.budget, end };
         match (best, failure) {
             (Some(mut best), _) => {
-                // If the step is given, there is no finer run to confirm a disagreement. The error estimate of the run
-                // itself then counts.
+                // If the step is given, there is no finer run to confirm a disagreement. A disagreement is then judged
+                // by the error estimate of the run itself.
                 let is_over = matches!(end, SearchEnd::Budget | SearchEnd::Pace);
                 let is_cut = self.given.sweeps.is_free() && is_over;
                 if (!self.is_finest() || is_cut) && borne_out.is_empty() {
                     best.judged.proof.doubt(sentences::NO_FINER_RUN_BEARS_IT_OUT, &Advice::SmallerStep { to: None });
                 }
-                // Impulses are of first order, and sweeps leave larger errors in impulses than in the motion.
-                // If the search ends before all channels are conclusive, disagreements are not reported.
+                // Impulses converge with order 1, and sweeps leave larger errors in impulses than in the motion.
+                // Disagreements are therefore not reported if the search ends before all channels are conclusive.
                 if self.conclusive && is_over {
                     best.judged
                         .proof
@@ -269,7 +269,7 @@ impl<'a, 'b> Settling<'a, 'b> {
         }
     }
 
-    /// Chooses smaller steps for the next rounds, so that a run leaves out an acceptable number of instants.
+    /// Chooses smaller steps for the next rounds, so that the runs leave out fewer instants.
     /// The number of instants that a run leaves out is proportional to its step.
     fn leave_out_less(&mut self, judged: &Judged) {
         let most = judged.proof.info.settings.resolution * MOST_LEFT_OUT / judged.too_coarse;
@@ -282,17 +282,16 @@ impl<'a, 'b> Settling<'a, 'b> {
         }
     }
 
-    /// If the steps of this round lead a run beyond a dead centre, continues with smaller steps.
-    /// Runs that go through a dead centre fail or show no order of convergence.
-    /// Returns whether the steps were too large.
+    /// Chooses smaller steps if a run with the steps of this round goes beyond a dead centre. Runs through a dead
+    /// centre fail or show no order of convergence. Returns whether the steps were too large.
     fn makes_room(&mut self) -> bool {
         let (case, engine) = (self.judge.problem.case, self.bank.engine(self.now));
         let most = *self.room.get_or_insert_with(|| room(case, engine.as_ref()));
         let is_cramped = 4.0 * self.now.resolution > most && !self.is_finest();
         if is_cramped {
-            // The finest step of the next round must be at most a quarter of `most`. The next round halves the step
-            // that is set here, so this step may be half of `most`.
-            // The step is as large as permitted, because a large step keeps rounding small.
+            // The finest step of the next round must be at most a quarter of `most`. The next round halves the present
+            // step, so the present step may be half of `most`. The largest permitted step is chosen, because a large
+            // step keeps rounding small.
             if self.finest == 0.0 {
                 self.now.resolution = self.now.resolution.smaller(ROOM * 0.5 * most);
             }
@@ -304,7 +303,8 @@ impl<'a, 'b> Settling<'a, 'b> {
         is_cramped
     }
 
-    /// Changes the settings that the part `blame` depends on. If this is not possible, returns the reason.
+    /// Changes the settings on which the part `blame` of the bound depends. Returns the reason if no setting can be
+    /// changed.
     fn refine(&mut self, blame: BoundPart) -> Option<SearchEnd> {
         let mut next = self.now;
         let factor = MORE_SWEEPS[usize::from(self.conclusive || self.near)];
@@ -326,8 +326,8 @@ impl<'a, 'b> Settling<'a, 'b> {
                 self.coarsest = COARSEST * self.judge.asked.resolution;
                 return None;
             }
-            // If the step is free, coarser steps have been tried already or would not reduce the error of the
-            // reference.
+            // A free step needs no further change: coarser steps have been tried already, or they would not reduce the
+            // error of the reference.
             BoundPart::Rounding | BoundPart::Reference if self.given.step.is_free() => {
                 return Some(SearchEnd::Rounding);
             }
@@ -371,7 +371,8 @@ impl<'a, 'b> Settling<'a, 'b> {
     }
 
     /// Makes the runs of a round, judges their combinations and returns the best combination.
-    /// In a long search (`is_long`), the iteration error is determined even if the step is to blame for the bound.
+    /// If `is_long` is true (a long search), the iteration error is determined even if the step is to blame for the
+    /// bound.
     fn round(&mut self, is_long: bool, progress: Progress) -> Result<Trial, Stopped> {
         let mut best: Option<Trial> = None;
         let mut failure = None;
@@ -413,9 +414,9 @@ impl<'a, 'b> Settling<'a, 'b> {
             }
             found => found?,
         };
-        // Before the sweeps are multiplied, a third run shows how fast they converge.
-        // Before a channel is reported as disagreeing, the third run shows whether the sweeps converge at all. If the
-        // sweeps have hardly begun to converge, two runs with different numbers of sweeps differ little.
+        // A third run shows how fast the sweeps converge, before the number of sweeps is multiplied. The third run also
+        // shows whether the sweeps converge at all, before a channel is reported as disagreeing: if the sweeps have
+        // hardly begun to converge, two runs with different numbers of sweeps differ little.
         let is_asked =
             found.blame.part == BoundPart::Iteration && !found.need.is_within(self.aim) && self.given.sweeps.is_free();
         if others.len() < 2 || (!is_asked && found.judged.proof.against().is_empty()) {

@@ -15,15 +15,16 @@ use scenario::{OraclePoint, When, within};
 /// The known errors of the analytic sides cover an error of this size.
 const EXACT: f64 = 4.0;
 /// Shifts of the instants at which the case is solved, as fractions of the rounding error of the instant.
-/// If the values between the two ends form a parabola, the two ends suffice, wherever the vertex of the parabola is.
+/// If the values form a parabola over the interval, these two ends suffice, even if the vertex of the parabola lies
+/// between them.
 const ENDS: [f64; 2] = [-1.0, 1.0];
 /// If the crank rotates by more than `FAR` (rad) between an instant and an end of its rounding interval, the case is
 /// also solved at `BETWEEN`.
 const FAR: f64 = 0.01;
 const BETWEEN: [f64; 2] = [-0.5, 0.5];
 
-/// If the uncertainty due to digits, interpolation and instants exceeds this fraction of a scale, agreement proves
-/// nothing.
+/// Agreement proves nothing if the uncertainty due to digits, interpolation and rounded instants exceeds this fraction
+/// of a scale.
 pub const TELLING: f64 = 1e-2;
 
 /// Quantity in which instants are given.
@@ -36,7 +37,7 @@ pub enum Along {
 }
 
 impl Along {
-    /// An instant in this quantity; `None` if the instant is given in the other quantity.
+    /// The value of an instant in this quantity; `None` if the instant is given in another quantity.
     pub(super) fn of(self, when: When) -> Option<f64> {
         match self {
             Along::Crank => when.crank(),
@@ -61,12 +62,12 @@ pub fn is_exact(at: f64, error: f64) -> bool {
 /// Solves a case at the instants of its trajectory `own`, shifted by fractions of `slack`. `slack` has one value for
 /// each row.
 /// Every solution is passed to `then`, with its case.
-/// The solutions show the changes of all channels, forces included, even at instants at which the rate of a channel
-/// vanishes.
+/// The solutions show the changes of all channels, including forces, even at instants at which the rate of a channel is
+/// zero.
 ///
 /// # Errors
-/// The errors of the solver, for example if a shifted instant is beyond the reach of the mechanism, and the errors of
-/// `then`.
+/// The errors of the solver and the errors of `then`. The solver fails, for example, if the mechanism cannot reach a
+/// shifted instant.
 pub fn shifted(
     case: &Case,
     own: &Trajectory,
@@ -100,8 +101,8 @@ pub fn shifted(
     Ok(())
 }
 
-/// Raises every entry of `drift` to at least the magnitude of its entry in `changes`. Values of an angle that differ by
-/// a `turn` are equal.
+/// Raises every entry of `drift` to at least the absolute value of the corresponding entry of `changes`. Values of an
+/// angle that differ by a whole `turn` are equal.
 pub fn grow(drift: &mut [f64], changes: impl Iterator<Item = f64>, turn: Option<f64>) {
     for (drift, change) in drift.iter_mut().zip(changes) {
         let change = turn.map_or(change, |turn| change - turn * (change / turn).round()).abs();
@@ -125,7 +126,7 @@ impl RoundedInstants {
     /// neighbouring rows.
     ///
     /// # Errors
-    /// The errors of the solver at the instants themselves.
+    /// The errors of the solver at the unshifted instants.
     pub(super) fn of<'a>(
         case: &Case,
         points: impl Iterator<Item = &'a OraclePoint>,
@@ -156,7 +157,8 @@ impl RoundedInstants {
         Ok(RoundedInstants { at, drift: own.channels().iter().cloned().zip(drift).collect() })
     }
 
-    /// Change of a channel within the rounding of a point's instant. `at` is this instant in the motion of the case.
+    /// Change of a channel within the rounding interval of a point's instant. `at` is the instant, and `error` is its
+    /// rounding error.
     pub(super) fn of_point(&self, channel: &Channel, at: f64, error: f64) -> f64 {
         let place = self.at.binary_search_by(|own| own.0.total_cmp(&at).then(own.1.total_cmp(&error)));
         let column = self.drift.iter().find(|(own, _)| own == channel);

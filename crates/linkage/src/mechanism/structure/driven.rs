@@ -13,7 +13,7 @@ pub struct DrivenJoint {
 }
 
 impl From<JointId> for DrivenJoint {
-    /// The joint of a crank.
+    /// A driven joint whose coordinate is a crank angle.
     fn from(joint: JointId) -> Self {
         DrivenJoint { joint, input: Input::Angle }
     }

@@ -20,13 +20,13 @@ pub enum GroupKind {
     Prp,
     /// Any group with more than two rigid bodies, and any group of two bodies with a transmission.
     Higher,
-    /// A link whose pose follows from a given joint on a link of an earlier group, or from a transmission between
-    /// earlier links. Such a link is a driving link (class I).
+    /// A driving link (class I). Its pose follows from a joint with given coordinate on a link of an earlier group, or
+    /// from a transmission between earlier links.
     Driven,
 }
 
 impl GroupKind {
-    /// The assembly modes of a dyad with two configurations, the mode with positive sine first; `None` for other kinds.
+    /// The two assembly modes of an RRR, RRP or RPR dyad, first the mode with positive sine; `None` for other kinds.
     #[must_use]
     pub const fn modes(self) -> Option<&'static [AssemblyMode; 2]> {
         match self {
@@ -76,12 +76,11 @@ pub struct Group {
     /// Joints between a link of the group and a link whose pose is known before the group is solved.
     pub outer: Vec<JointId>,
     /// The joints of `inner` and `outer` whose coordinate is given.
-    /// Two links connected by a given joint count as one body, which is rigid at every instant although its shape
-    /// changes with time.
-    /// Class and kind of the group are those of its bodies.
+    /// Links connected by a joint with given coordinate count as one body. This body is rigid at every instant,
+    /// although its shape changes with time. Class and kind of the group are found from its bodies.
     pub given: Vec<JointId>,
-    /// The transmissions that the group contains. Each of them couples a coordinate of the group to coordinates of the
-    /// same group or of earlier links.
+    /// The transmissions that the group contains. Each transmission couples a coordinate of the group to coordinates of
+    /// the same group or of earlier links.
     pub trains: Vec<TransmissionId>,
     /// Class: 1 for a driven link, 2 for dyads. For other groups, the number of sides of the closed contour with the
     /// most sides (Artobolevsky).
@@ -97,7 +96,8 @@ impl Group {
         self.outer.len()
     }
 
-    /// Whether the group has neither given joints nor transmissions, so that every body is one link.
+    /// Whether every body of the group is one link: no joint of the group has a given coordinate, and the group has no
+    /// transmission.
     #[must_use]
     pub fn is_rigid(&self) -> bool {
         self.given.is_empty() && self.trains.is_empty()
@@ -164,7 +164,7 @@ impl Group {
 }
 
 /// Number of sides of the closed contour with the most sides.
-/// A link with three or more inner pairs is a contour. The number of its sides is the number of its inner pairs.
+/// A link with three or more inner pairs is a contour with as many sides as inner pairs.
 /// Every shortest loop of inner joints is a contour too.
 pub(super) fn highest_contour(mechanism: &Mechanism, group: &Group) -> usize {
     let leads = group.leads(mechanism);

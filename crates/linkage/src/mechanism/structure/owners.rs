@@ -1,5 +1,5 @@
-//! Ownership of equations. An equation of a joint or drive concerns two links, an equation of a transmission three.
-//! One of these links owns the equation. A link owns three equations.
+//! Ownership of equations. An equation of a joint or drive concerns two links; an equation of a transmission concerns
+//! three links. Each equation is owned by one of its links. Each moving link owns three equations.
 
 use crate::sentences;
 use petgraph::algo::tarjan_scc;
@@ -25,9 +25,8 @@ pub(super) fn check_sparse(mechanism: &Mechanism, drives: &[DrivenJoint]) -> Res
         let ends = [joint.first.link, joint.second.link];
         owners.add((0..3).map(|_| Equation { of: Source::Joint(index), ends: joined(ends) }));
         owners.assign_from(count, mechanism)?;
-        // The search may have given equations to new owners. These equations keep the new owners when the copies are
-        // removed.
-        // All equations except the copies therefore still have owners.
+        // The search may have moved equations of the mechanism to new owners. These equations keep their new owners
+        // when the copies are removed, so every equation of the mechanism still has an owner.
         owners.keep(count);
     }
     Ok(())
@@ -41,7 +40,7 @@ pub(super) enum Source {
     Transmission(TransmissionId),
 }
 
-/// One scalar equation and the links that it concerns. One of these links becomes its owner.
+/// One scalar equation and the links that it concerns. One of these links owns the equation.
 #[derive(Clone, Copy)]
 struct Equation {
     of: Source,
@@ -98,7 +97,7 @@ impl Owners {
         self.assign_from(0, mechanism)
     }
 
-    /// Finds owners for the equations from `first` on, which have no owners yet.
+    /// Finds owners for the equations with index `first` and above. These equations have no owners yet.
     fn assign_from(&mut self, first: usize, mechanism: &Mechanism) -> Result<()> {
         let mut visited = vec![false; mechanism.links().len()];
         for equation in first..self.equations.len() {
@@ -110,7 +109,7 @@ impl Owners {
         Ok(())
     }
 
-    /// Removes the equations from `count` on.
+    /// Keeps the first `count` equations and removes all later equations.
     fn keep(&mut self, count: usize) {
         for equation in count..self.equations.len() {
             if let Some(link) = self.owner[equation] {

@@ -11,8 +11,8 @@ use crate::math::{Vec2, cross, rotated, turned};
 pub struct Member {
     /// The link.
     pub link: LinkId,
-    /// Axle of a wheel, cam or swinging follower in the frame of the carrier (m). For a rack, the foot of the pinion's
-    /// axle on the pitch line; for a sliding follower, the joint's point on the carrier.
+    /// Axle of a wheel, cam or swinging follower in the frame of the carrier (m). A rack has here the foot of the
+    /// pinion's axle on the pitch line; a sliding follower has the joint's point on the carrier.
     pub place: Vec2,
     /// Pitch radius (m); 0 for a rack, cam or follower.
     pub radius: f64,
@@ -20,13 +20,13 @@ pub struct Member {
     pub local: Vec2,
 }
 
-/// Distance of two axles, as a fraction of the mechanism's size, below which they coincide.
+/// Two axles coincide if their distance, divided by the mechanism's size, is below this number.
 pub(super) const COINCIDE: f64 = 1e-9;
 
 /// Axle of a link in the frame of the carrier and in the frame of the link.
 /// The axle is a revolute joint of the link with the carrier, or with a third link.
-/// If the axle is a joint with a third link, the third link must have a revolute joint with the carrier at the same
-/// place.
+/// If the axle is a joint with a third link, this third link must also have a revolute joint with the carrier at the
+/// same point.
 pub(super) fn axle(joints: &PerJoint<Joint>, size: f64, link: LinkId, carrier: LinkId) -> Option<[Vec2; 2]> {
     let pins = |on: LinkId| joints.iter().filter(move |joint| joint.is_pin() && joint.on(on).is_some());
     let near = COINCIDE * size;
@@ -43,8 +43,9 @@ pub(super) fn axle(joints: &PerJoint<Joint>, size: f64, link: LinkId, carrier: L
     })
 }
 
-/// The prismatic joint of a rack or follower with the carrier, and its line: a point and the axis in the frame of the
-/// carrier, and the joint's point in the frame of the rack or follower.
+/// The prismatic joint between a carrier and its rack or follower, with three vectors. The first two vectors are a
+/// point and the axis of the guide in the frame of the carrier. The third vector is the joint's point in the frame of
+/// the rack or follower.
 pub(super) fn guide(joints: &PerJoint<Joint>, rack: LinkId, carrier: LinkId) -> Option<(JointId, [Vec2; 3])> {
     joints.entries().find_map(|(index, joint)| {
         let axis = joint.axis_on(carrier)?;
@@ -52,12 +53,14 @@ pub(super) fn guide(joints: &PerJoint<Joint>, rack: LinkId, carrier: LinkId) -> 
     })
 }
 
-/// Sign of the joint's slide if `link` moves along the axis relative to the other link.
+/// Sign of the rate of the joint's coordinate if `link` moves in the positive direction relative to the joint's other
+/// link.
 pub(super) fn sense(joint: &Joint, link: LinkId) -> f64 {
     if joint.second.link == link { 1.0 } else { -1.0 }
 }
 
-/// A follower that slides in a guide. `local` is [`CamContact::point`]; the line of the guide is that of [`guide`].
+/// A follower that slides in a guide. `local` is [`CamContact::point`]; the three vectors of the guide are the result
+/// of [`guide`].
 pub(super) fn sliding(link: LinkId, joint: &Joint, [at, axis, own]: [Vec2; 3], local: Vec2) -> (Member, Follower) {
     let (own_axis, sign) = (joint.axis_on(link).expect("it slides"), sense(joint, link));
     let turn = Vec2::new(own_axis.dot(&axis), cross(own_axis, axis));

@@ -48,7 +48,7 @@ fn ratios_and_radii_follow_from_teeth_and_radii() {
         assert_relative_eq!(own.ratio().unwrap(), ratio, epsilon = 1e-14);
         assert_relative_eq!(own.members[0].radius, radii[0], epsilon = 1e-14);
         assert_relative_eq!(own.members[1].radius, radii[1], epsilon = 1e-14);
-        // Both lines have the same lever arm about the second axle, with opposite senses.
+        // The two lines of action have equal lever arms about the second axle and opposite senses.
         let lever = |line: &LineOfAction| cross(line.feet[1] - own.members[1].place, line.direction);
         let lines = own.contact([0.0; 2]).lines;
         assert_relative_eq!(lever(&lines[0]), -lever(&lines[1]), epsilon = 1e-14);

@@ -8,8 +8,8 @@ use linkage::math::KeepNan;
 
 /// Largest number of angles whose sines and cosines are included.
 const ANGLES: usize = 10;
-/// Largest number of steps tried. These are the last steps before the formula.
-/// The number of products of two steps grows with the square of this number.
+/// Largest number of steps tried. The last steps before the formula are chosen. The number of products of two steps
+/// grows with the square of the number of steps.
 const STEPS: usize = 60;
 
 /// An expression that varies with the crank angle, or the constant 1.
@@ -31,15 +31,15 @@ impl Entry {
     }
 }
 
-/// The expressions that may be missing in a formula, and name and value of every constant step before the formula.
+/// The expressions that may be missing in a formula, and the constant steps before the formula with their names and
+/// values.
 pub(super) struct Dictionary {
     pub(super) entries: Vec<Entry>,
     pub(super) constants: Vec<(String, f64)>,
 }
 
-/// Expressions that may be missing, each with its weight.
-/// The constants below list expressions of a step `a`, of two steps `a` and `b`, of two angles `x` and `y`, of a step
-/// and an angle, and of one angle.
+/// The following constants list expressions that may be missing, each with its weight. `a` and `b` are steps, `x` and
+/// `y` are angles.
 const OF_STEP: &str = "a: 1; a^2: 2; 1/a: 2; 1/a^2: 3";
 const OF_STEPS: &str = "a*b: 2; a/b: 3; b/a: 3; a^2*b: 4; a*b^2: 4";
 const OF_ANGLES: &str = "cos(x)*tan(y): 0; sin(x)*tan(y): 0";
@@ -49,7 +49,7 @@ const OF_ANGLE: &str = "cos(x)*sin(x): 2; cos(x)^2: 2; cos(x)^3: 2; 1/cos(x): 2;
                         sin(x)^2: 2; sin(x)^3: 2; 1/sin(x): 2; 1/sin(x)^2: 3; 1/sin(x)^3: 3; \
                         cos(x): 0; sin(x): 0; tan(x): 1";
 
-/// Parses expressions, in which letters stand for steps and angles, and their weights.
+/// Parses expressions with their weights. Letters in the expressions are placeholders for steps and angles.
 fn read(text: &str) -> Vec<(FormulaTree, usize)> {
     let one = |own: &str| {
         let (tree, weight) = own.split_once(':').expect("an expression has a weight");
@@ -59,7 +59,8 @@ fn read(text: &str) -> Vec<(FormulaTree, usize)> {
 }
 
 impl Dictionary {
-    /// Collects the expressions that may be missing in the formula of a trial, from everything before this formula.
+    /// Collects the expressions that may be missing in the formula of a trial. The parts of the expressions come from
+    /// the derivation before this formula.
     pub(super) fn of(trial: &Trial) -> Self {
         let before = trial.index.saturating_sub(STEPS)..trial.index;
         let steps: Vec<FormulaTree> =
@@ -101,8 +102,9 @@ impl Dictionary {
 }
 
 /// Angles of the derivation, each with the complexity of its sine or cosine.
-/// These angles are the crank angle, the steps in arguments of sines, cosines and tangents, the steps that are values
-/// of inverse functions, and differences of two such angles. Twice and three times the crank angle are added.
+/// The list starts with the crank angle, the steps in arguments of sines, cosines and tangents, and the steps that are
+/// values of inverse functions. Differences of two of these angles are added, and twice and three times the crank
+/// angle.
 fn angles(trial: &Trial) -> Vec<(FormulaTree, usize)> {
     let mut names: Vec<FormulaTree> = vec![FormulaTree::name("phi")];
     let known = &trial.formulas.list[..trial.index];

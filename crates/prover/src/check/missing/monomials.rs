@@ -44,15 +44,15 @@ impl Monomials {
         self.products.len()
     }
 
-    /// Returns the products with this value, to this relative accuracy, each with its complexity.
-    /// The simplest come first, and their number is limited.
+    /// Returns the products that equal `value` within the relative accuracy `accuracy`, each with its complexity. The
+    /// simplest products come first, and the number of products is limited.
     pub(in crate::check) fn with_value(&self, value: f64, accuracy: f64) -> Vec<(FormulaTree, usize)> {
         let near = self.products.near(value.abs(), accuracy).into_iter().take(SIMPLEST);
         near.map(|own| (self.tree(own, own.is_negative != (value < 0.0)), own.weight)).collect()
     }
 
-    /// Returns the number of products of this dimension that are no more complicated than `weight`.
-    /// Also returns the expected number of these products that match `value` by chance to this accuracy.
+    /// Returns two numbers. The first is the number of products of this dimension whose complexity is at most `weight`.
+    /// The second is the expected number of these products that match `value` by chance within `accuracy`.
     pub(in crate::check) fn by_chance(
         &self,
         value: f64,
@@ -77,7 +77,7 @@ impl Monomials {
             let powers = product.powers.iter().filter(move |(_, exponent)| (*exponent > 0) == is_above);
             powers.map(power)
         };
-        // Halves and thirds are written below the fraction bar.
+        // A fractional coefficient is written as a quotient, so one half becomes a divisor of 2.
         let is_whole = |below: &f64| (below * product.number).fract() == 0.0;
         let below = [1.0, 2.0, 3.0, 4.0, 8.0].into_iter().find(is_whole).unwrap_or(1.0);
         let above = below * product.number;
@@ -91,7 +91,7 @@ impl Monomials {
     }
 }
 
-/// Sines and cosines of constants that occur in formulas up to this one.
+/// Sines and cosines of constants that occur in the formula `formula` and in the formulas before it.
 fn calls(formulas: &Formulas, formula: usize) -> Vec<(FormulaTree, f64)> {
     let mut found: std::collections::BTreeMap<String, FormulaTree> = std::collections::BTreeMap::new();
     let mut put = |part: &FormulaTree| {

@@ -36,7 +36,8 @@ fn is_unit(value: f64) -> bool {
     GRAVITY.contains(&value) || [1e3, 1e6, 1e-3, 1e-6, 30.0, 60.0, 90.0, 180.0, 270.0, 360.0, 3600.0].contains(&value)
 }
 
-/// If a name denotes the plain number of a quantity without its unit, returns this quantity.
+/// If the part is the key of a parameter, which denotes the number in the unit of the file, returns the name of the
+/// quantity.
 fn quantity<'a>(part: &FormulaTree, parameters: &'a [Parameter]) -> Option<&'a str> {
     let NodeShape::Name(own) = &part.shape else { return None };
     parameters.iter().find(|parameter| parameter.key == *own).and_then(Parameter::short)
@@ -50,7 +51,8 @@ fn others(part: &FormulaTree, names: &[&str], parameters: &[Parameter]) -> Vec<F
     names.iter().filter(is_other).map(|other| FormulaTree::name(*other)).collect()
 }
 
-/// A sum, difference, product or quotient in which two quantities are exchanged at all their occurrences.
+/// Variants of a sum, difference, product or quotient. In each variant, two quantities are exchanged at all their
+/// occurrences.
 fn exchanged(part: &FormulaTree, names: &[&str]) -> Vec<FormulaTree> {
     let NodeShape::Pair(Plus | Minus | Over | Times, _) = part.shape else { return Vec::new() };
     let mut own: Vec<&str> = part.names().into_iter().map(|(name, _)| name).filter(|own| names.contains(own)).collect();
@@ -78,8 +80,8 @@ fn rename(tree: &mut FormulaTree, [one, other]: [&str; 2]) {
     }
 }
 
-/// The symbols of the part in the same order, with other parentheses. Only groupings that the table of rules
-/// (`rules.rs`) cannot express are returned:
+/// The part with other parentheses and the same order of symbols. Only groupings that the table of rules (`rules.rs`)
+/// cannot express are returned:
 /// a*b + c + d for a*(b + c + d), a/b + c for a/(b + c), sin(a) + b for sin(a + b), sin(a^2) for sin(a)^2.
 fn regrouped(part: &FormulaTree) -> Option<FormulaTree> {
     let first = first_of(part);

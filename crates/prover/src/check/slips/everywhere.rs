@@ -9,7 +9,7 @@ use formula::{DerivationSheet, FormulaTree, Function, NodeShape, Operator};
 use scenario::Formulas;
 
 /// Tries corrections of every quantity, and of sines, cosines and tangents, at all their occurrences.
-/// The corrections are tried first in the first of the formulas `used`, then in all formulas `used`.
+/// The corrections are tried first in the formula `used[0]` only, then in all formulas of `used`.
 /// A quantity that occurs only once is not tried.
 pub(super) fn tried(trial: &mut Trial, used: &[usize], names: &[&str], dimensions: &Dimensions, tried: &mut Tried) {
     use Function::{Cos, Sin, Tan};
@@ -95,8 +95,8 @@ impl Search<'_, '_> {
         self.trial.sheet.depending(&places.iter().map(|(place, _)| *place).collect::<Vec<usize>>())
     }
 
-    /// Tries a correction, given in two forms: as `changes` of the derivation's parts, and as a function `change` of a
-    /// formula's tree.
+    /// Tries a correction. `changes` gives the corrected parts of the derivation. `change` makes the same correction in
+    /// the tree of a formula.
     fn mended(
         &mut self,
         kind: SlipKind,

@@ -13,8 +13,8 @@ pub struct FormulaMark {
     pub right: String,
 }
 
-/// The parts of `text` in which a formula differs from its correction, from left to right.
-/// Parts without a position in the text, and parts that are equal, are left out.
+/// The parts of `text` in which a formula differs from its correction, from left to right. Parts without a position in
+/// the text are left out.
 pub(in crate::check) fn marks(text: &str, written: &FormulaTree, right: &FormulaTree) -> Vec<FormulaMark> {
     let mut found = Vec::new();
     differing(text, written, right, &mut found);
@@ -31,7 +31,7 @@ fn differing(text: &str, written: &FormulaTree, right: &FormulaTree, found: &mut
     if is_same(written, right) {
         return;
     }
-    // The whole part stays, and something is put around it: a sign, a factor, a term.
+    // The correction adds a sign, a factor or a term to the unchanged part.
     if right.parts().iter().any(|part| is_same(part, written)) {
         return found.push(FormulaMark { at: written.at.clone(), right: right.to_string() });
     }
@@ -48,7 +48,7 @@ fn differing(text: &str, written: &FormulaTree, right: &FormulaTree, found: &mut
                 None => put(written.at.clone(), right.to_string()),
             }
         }
-        // A term or factor too many is marked with its sign.
+        // A superfluous term or factor is marked together with its sign.
         (NodeShape::Pair(own, ends), _) if ends.iter().any(|end| is_same(end, right)) => {
             let gap = ends[0].at.end..ends[1].at.start;
             let sign = text.get(gap.clone()).and_then(|between| between.find(own.sign())).map(|sign| gap.start + sign);
@@ -71,7 +71,7 @@ fn differing(text: &str, written: &FormulaTree, right: &FormulaTree, found: &mut
             parts().for_each(|(a, b)| differing(text, a, b, found));
         }
         (NodeShape::Negative(_), NodeShape::Negative(_)) => parts().for_each(|(a, b)| differing(text, a, b, found)),
-        // A minus sign too many is marked alone.
+        // A superfluous minus sign is marked without its operand.
         (NodeShape::Negative(part), _) if is_same(part, right) => {
             let start = written.at.start;
             put(start..start + 1, String::new());

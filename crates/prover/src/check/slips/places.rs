@@ -13,7 +13,7 @@ pub(in crate::check) fn quantities(formulas: &Formulas, formula: usize) -> Vec<S
     formulas.parameters.iter().map(|own| own.quantity().to_string()).chain(steps).collect()
 }
 
-/// Indices of a formula and of the formulas that it uses, the formula first.
+/// Index of a formula, followed by the indices of the formulas that the formula uses.
 pub(in crate::check) fn used_by(formulas: &Formulas, formula: usize) -> Vec<usize> {
     let names: BTreeMap<&str, usize> =
         formulas.list[..formula].iter().enumerate().map(|(index, own)| (own.name.as_str(), index)).collect();
@@ -43,7 +43,7 @@ pub(in crate::check) fn at_every_place<'a>(tree: &'a FormulaTree, visit: &mut dy
     go(tree, &mut Vec::new(), visit);
 }
 
-/// The part with this number in the order of [`at_every_place`].
+/// The part at place `number` in the order of [`at_every_place`].
 pub(in crate::check) fn numbered(tree: &FormulaTree, number: usize) -> &FormulaTree {
     let (mut found, mut next) = (tree, 0);
     at_every_place(tree, &mut |_, part| {
@@ -55,7 +55,7 @@ pub(in crate::check) fn numbered(tree: &FormulaTree, number: usize) -> &FormulaT
     found
 }
 
-/// A tree in which `other` replaces the part with this number.
+/// The tree with the part `number` replaced by `other`.
 pub(in crate::check) fn replaced(tree: &FormulaTree, number: usize, other: &FormulaTree) -> FormulaTree {
     let (mut at, mut next) = (Vec::new(), 0);
     at_every_place(tree, &mut |place, _| {

@@ -1,4 +1,4 @@
-//! Slips as rules: the written form and its possible corrections.
+//! Slips as rules: each rule gives a written form and its possible corrections.
 
 use crate::sentences;
 use std::sync::LazyLock;
@@ -10,10 +10,11 @@ use scenario::formula::OMEGA;
 
 /// Written form and possible corrections, the likeliest first.
 /// Letters of the written form:
-/// `a`, `b` and `c` are any parts. `n` is a number. `q` is neither a number nor pi. `u` is a `q` that is not a call.
-/// `t` has the form of an angle or a time; its multiples may change by whole revolutions from instant to instant.
-/// `r` is neither a number, nor pi, nor a `t`.
-/// `g` is an `r` if no parameter is in m/s^2, so that gravity, if it occurs at all, is written as a number.
+/// `a`, `b` and `c` are any parts. `n` is a number. `q` is any part except a number or pi. `u` is any part except a
+/// number, pi or a function call. `t` contains the crank angle or the time outside function calls; multiples of `t` may
+/// change by whole revolutions from instant to instant. `r` is any part except a number, pi or a `t`. `g` is an `r` in
+/// a file without a
+/// parameter in m/s^2; gravity is then written as a number.
 /// `w` is the crank's angular velocity.
 const RULES: [(SlipKind, &str); 52] = [
     (SlipKind::Sign, "a + b => a - b"),
@@ -98,7 +99,7 @@ pub(super) fn with_slips(part: &FormulaTree, kind: SlipKind, has_gravity: bool, 
     }
 }
 
-/// Whether a part matches a written form; `found` receives the parts that match its letters.
+/// Whether a part matches a written form; `found` receives the parts that match the letters of the form.
 fn goes_with<'a>(
     written: &'a FormulaTree,
     part: &'a FormulaTree,
@@ -141,7 +142,7 @@ fn is_turning(part: &FormulaTree) -> bool {
     }
 }
 
-/// A tree with its letters replaced by parts.
+/// A tree in which parts replace the letters.
 pub(in crate::check) fn with_parts(tree: &FormulaTree, parts: &[(&str, &FormulaTree)]) -> FormulaTree {
     let go = |tree: &FormulaTree| with_parts(tree, parts);
     match &tree.shape {

@@ -16,7 +16,7 @@ pub struct FormulaSlip {
     pub written: String,
     /// The corrected part.
     pub right: String,
-    /// Whether the slip is at every occurrence: in the formula alone, or also in the steps that the formula uses.
+    /// Whether the slip occurs wherever the part occurs: in the formula, or in the formula and the steps that it uses.
     pub everywhere: bool,
     /// The smallest wrong parts of the formula's text; empty if the slip is not in a formula.
     pub marks: Vec<FormulaMark>,
@@ -36,10 +36,10 @@ linkage::words! {
         Function = "another function",
         /// A square or a root that is missing or superfluous.
         Power = "a power",
-        /// A derivative with respect to the crank angle in place of one with respect to time.
+        /// A derivative with respect to the crank angle in place of a derivative with respect to time.
         PerRadian = "per radian of the crank in place of per second",
-        /// A derivative with respect to time in place of one with respect to the crank angle, or a power in place of a
-        /// moment.
+        /// A derivative with respect to time in place of a derivative with respect to the crank angle, or a power in
+        /// place of a moment.
         PerSecond = "per second in place of per radian of the crank",
         /// A wrong name in place of the right one.
         Name = "another quantity",
@@ -51,7 +51,7 @@ linkage::words! {
         Reference = "another reference angle",
         /// A factor or divisor that is a small number.
         Factor = "a factor",
-        /// A product, quotient or power in place of another of these, or an inverted quotient.
+        /// A product, quotient or power in place of another of these operations, or an inverted quotient.
         Operator = "a product for a quotient",
         /// Parentheses that are missing or at a wrong position.
         Parentheses = "parentheses",
@@ -63,7 +63,7 @@ linkage::words! {
 /// Order of slips. The simplest slip has the smallest rank.
 /// The rank has four parts: whether the units contradict the correction, whether the slip occurs at many positions,
 /// whether the slip is in a step, and the kind of slip.
-/// For a wrong value, the second part is false if the digits of the value are confused, and true otherwise.
+/// For a wrong value, the second part is true if the digits of the value are not confused.
 type Rank = (bool, bool, bool, SlipKind);
 
 /// A slip and the effect of its correction.
@@ -72,8 +72,8 @@ pub(in crate::check) struct Mended {
     pub(in crate::check) rank: Rank,
     /// Fraction of the largest difference that remains after the correction; zero if the formula is then right.
     pub(in crate::check) left: f64,
-    /// Number of slips tried up to and including this one. The order of the trials is not that of the ranks:
-    /// slips at one position, kind by kind; slips at all occurrences; wrong values.
+    /// Number of slips tried up to and including this one. Slips are not tried in the order of ranks. Slips at one
+    /// position are tried first, kind by kind, then slips at all occurrences, then wrong values.
     pub(in crate::check) among: usize,
 }
 
@@ -82,8 +82,8 @@ pub(in crate::check) struct Mended {
 pub(in crate::check) struct Tried {
     /// Corrections that make the formula right, the simplest first.
     pub(in crate::check) right: Vec<Mended>,
-    /// The correction with the smallest remainder among those that do not make the formula right. `None` if no
-    /// remainder is small.
+    /// The correction that leaves the smallest remainder without making the formula right. `None` if no remainder is
+    /// small.
     pub(in crate::check) nearest: Option<Mended>,
     /// Number of corrections tried.
     pub(in crate::check) count: usize,
@@ -91,7 +91,8 @@ pub(in crate::check) struct Tried {
 
 impl Tried {
     /// Judges a corrected slip.
-    /// The correction is kept if the formula is then right, or closer to the mechanism than after earlier corrections.
+    /// Keeps the correction if it makes the formula right, or brings the formula closer to the mechanism than all
+    /// earlier corrections.
     pub(super) fn put(
         &mut self,
         trial: &mut Trial,
@@ -112,9 +113,8 @@ impl Tried {
         }
     }
 
-    /// Like `put`, for a slip in which one part of the first changed formula is replaced: `replaced` holds the old and
-    /// the new part.
-    /// The correction is judged only if the units allow it.
+    /// Judges a corrected slip as `put` does, but only if the units allow the correction. `replaced` holds the old and
+    /// the new part in the first changed formula.
     pub(super) fn put_standing(
         &mut self,
         trial: &mut Trial,

@@ -2,8 +2,8 @@
 //!
 //! The right number is calculated instant by instant.
 //! The right number must be the same at all instants, and must have few digits, like numbers that people write.
-//! If the formula is wrong by a factor or is constant, any of its numbers could be wrong.
-//! A number is then reported only if its digits are confused: exchanged, lost, added or doubled.
+//! If the formula is wrong by a factor or is constant, each of its numbers could be the wrong number. A number is then
+//! reported only if its digits are confused: exchanged, lost, added or doubled.
 
 use std::collections::BTreeSet;
 
@@ -18,8 +18,7 @@ use linkage::math::KeepNan;
 const DIGITS: usize = 6;
 /// Relative accuracy to which a number must be known before its digits are compared.
 const KNOWN: f64 = 1e-8;
-/// If a factor has less information than this (bits), it is simple. Digits changed by a simple factor are no evidence
-/// of confused digits.
+/// A factor is simple if its information is below this limit (bits). A simple factor is no evidence of confused digits.
 const SIMPLE: f64 = 2.0;
 
 /// Tries every number of the formulas `used`, and every parameter in them.
@@ -85,8 +84,8 @@ fn put(
     tried.put(trial, changed, slip, rank);
 }
 
-/// The right number in place of a wrong one, if a single number of the same sign is right at all instants, and whether
-/// the wrong number has confused digits of the right one.
+/// The number that makes the formula right at all instants in place of `wrong`, with the same sign, and whether `wrong`
+/// has the digits of this number in confused form.
 fn meant(trial: &mut Trial, place: usize, wrong: f64) -> Option<(f64, bool)> {
     if trial.is_spent() || wrong == 0.0 {
         return None;
@@ -123,9 +122,9 @@ fn short(value: f64, error: f64) -> Option<f64> {
     })
 }
 
-/// Whether the digits of the right number were confused: two exchanged, one lost, added or doubled.
+/// Whether the digits of the right number were confused: two digits exchanged, or one digit lost, added or doubled.
 /// A usual value of gravity in place of another usual value also counts as confused digits.
-/// A shifted decimal point or a simple factor does not count.
+/// A shifted decimal point and a simple factor are not confused digits.
 fn is_confused(wrong: f64, right: f64) -> bool {
     if edits::GRAVITY.contains(&wrong) && edits::GRAVITY.contains(&right) {
         return true;

@@ -5,11 +5,11 @@
 use crate::check::KnownTrajectory;
 use linkage::math::{ColumnVector, KeepNan, Matrix};
 
-/// Numbers that are wrong.
+/// Wrong numbers, with the corrections that are to be explained.
 pub struct Wrong<'a> {
     /// Rows of the trajectory with the wrong numbers.
     pub rows: &'a [usize],
-    /// Amounts to add to the numbers to make them right.
+    /// The right numbers minus the wrong numbers.
     pub differences: Vec<f64>,
     /// Bounds on the differences.
     pub bounds: Vec<f64>,
@@ -43,7 +43,7 @@ pub struct WeightedTerm<'a> {
     pub coefficient: f64,
 }
 
-/// What explains the difference.
+/// An explanation of the differences between wrong and right numbers.
 pub struct Explanation<'a> {
     /// One quantity or two.
     pub parts: Vec<WeightedTerm<'a>>,
@@ -55,10 +55,11 @@ pub struct Explanation<'a> {
 const FEWEST: usize = 8;
 /// The values of a quantity are assumed to have an error of this fraction of their largest value.
 const KNOWN: f64 = 1e-10;
-/// If an explanation leaves less than this fraction of the difference at `few`, it is tried at all instants.
+/// An explanation is tried at all instants if it leaves less than this fraction of the difference at the instants of
+/// `few`.
 const PROMISING: f64 = 1e-6;
 
-/// Calls `whole` with every explanation by one or two quantities that leaves no difference.
+/// Calls `whole` for every explanation that consists of one or two quantities and leaves no difference.
 /// The search ends at the first explanation by a single quantity.
 /// Returns the fit with the smallest remainder. For this comparison, the remainder of a fit by two quantities is
 /// doubled.
