@@ -10,7 +10,7 @@ use crate::tree::{FormulaTree, NodeShape, Operator};
 /// A part of the sheet. The arguments of a part are earlier parts, with smaller indices.
 #[derive(Clone, Copy, Debug)]
 enum Part {
-    /// A reference by name to another part, given as the position of that part.
+    /// Position of another part that the formula refers to by name.
     Named(usize),
     Own(Node<usize>),
 }
@@ -29,7 +29,7 @@ pub struct DerivationSheet {
     /// Values after a change, each with the number of the change for which it was calculated.
     changed: Vec<(u32, Rounded)>,
     change: u32,
-    /// Number of evaluations so far, counted per part and instant. Callers also add the work that they do themselves.
+    /// Number of evaluations so far, counted per part and instant. Callers add their own evaluations to this number.
     pub operations: u64,
 }
 
