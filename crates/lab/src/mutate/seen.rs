@@ -57,7 +57,7 @@ impl FaultyProof {
         }
     }
 
-    /// Whether a user learns that something is wrong.
+    /// Whether the fault is found: a channel or check disagrees, or a party gives no answer.
     pub fn is_found(&self) -> bool {
         match self {
             FaultyProof::Detected { .. } | FaultyProof::Refused(_) => true,
@@ -174,7 +174,7 @@ impl Eyes {
         }
     }
 
-    /// Whether something disagrees already.
+    /// Whether one of the collected verdicts is a disagreement.
     pub(super) fn is_decided(&self) -> bool {
         self.verdicts.iter().any(disagrees)
     }
