@@ -52,9 +52,9 @@ impl Guide {
 /// Start configuration of a group other than an RRR dyad.
 #[derive(Clone, Debug)]
 pub enum Ask {
-    /// The configuration in which the slide lies ahead, in the direction of the axis.
+    /// The assembly mode `ahead` of an RRP or RPR dyad.
     Ahead,
-    /// The configuration in which the slide lies behind, against the direction of the axis.
+    /// The assembly mode `behind` of an RRP or RPR dyad.
     Behind,
     /// The configuration near these approximate positions of points.
     Near(Vec<(String, Vec2)>),
