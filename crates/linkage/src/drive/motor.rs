@@ -32,7 +32,7 @@ pub enum MotorLaw {
         synchronous_speed: f64,
     },
     /// Straight lines between measured points. Beyond the table, the first and the last line continue.
-    /// Straight lines are used because they cannot overshoot: a decreasing table gives a decreasing law.
+    /// Straight lines cannot overshoot, so a decreasing table gives a decreasing law.
     Table {
         /// Speeds (rad/s), ascending, at least two.
         speeds: Vec<f64>,
@@ -102,7 +102,7 @@ pub struct ShaftInertia {
     /// Intermediate shaft of the reducer, which turns `intermediate_ratio` times as fast as the crank.
     /// The value is 0 if the reducer has no intermediate shaft.
     pub intermediate: f64,
-    /// Ratio of the intermediate shaft's speed to that of the crank; ignored if `intermediate` is 0.
+    /// Speed of the intermediate shaft divided by the speed of the crank; ignored if `intermediate` is 0.
     pub intermediate_ratio: f64,
     /// Output shaft of the reducer, which turns with the crank.
     pub output: f64,
