@@ -1,6 +1,7 @@
-//! The elimination of the parent module for orders known at compile time. The compiler unrolls the loops.
+//! Elimination as in the parent module, for orders that are known at compile time.
+//! The compiler can therefore unroll the loops.
 //!
-//! The operations and their order are those of the general elimination, so the results agree bit for bit.
+//! Operations are done in the same order as in the general elimination, so the results agree bit for bit.
 //! In contrast to the general elimination, this elimination rejects NaN in any position.
 //! For a group of four links, this elimination takes a third of the time of the general elimination.
 //! This elimination stores the resulting order of rows, while the general elimination stores each exchange of rows.
