@@ -19,7 +19,7 @@ struct Case {
     pose: Pose,
 }
 
-/// A random case. If `fitted`, the joints are closed in the pose of the case.
+/// A random case. The joints are closed in the pose of the case if `fitted` is true.
 fn case(random: &mut Lcg, pairs: Pairs, triad: bool, fitted: bool) -> Case {
     let hook = |random: &mut Lcg| usize::from(random.yes());
     let ends = if triad {
@@ -57,7 +57,7 @@ struct Tally {
     /// Largest closure error, as a fraction of the size.
     closure: f64,
     /// Number of cases in which the scan finds a double root, up to 1e-9.
-    /// For such a root neither the scan nor the module can decide between two zeros and a near miss.
+    /// Such a root may be two zeros or a near miss. Neither the scan nor the module can decide.
     double: usize,
 }
 
