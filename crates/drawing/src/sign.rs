@@ -40,7 +40,7 @@ pub struct LoadSign {
 }
 
 /// The point at which moments on a link are drawn: the link's pin on the ground.
-/// A link without such a pin has its moments at another pin, else at a point of the link, else at the mass centre.
+/// If no pin is on the ground, moments are drawn at another pin of the link, else at a point, else at the mass centre.
 fn place_of(mechanism: &Mechanism, link: LinkId) -> Vec2 {
     let pins = || mechanism.joints().iter().filter(|joint| joint.is_pin() && joint.on(link).is_some());
     let on_ground = pins().find(|joint| joint.other(link).link == GROUND);

@@ -43,7 +43,7 @@ pub struct Extras {
     /// Lengths and angles that define the links and the ground.
     pub dimensions: bool,
     /// Whether the picture is a frame of an animation.
-    /// Then only ground points have names, and only links with enough space have numbers.
+    /// In an animation, only ground points have names, and only links with enough space have numbers.
     /// Because of this restriction, no label jumps between frames.
     pub is_moving: bool,
     /// Whether the picture has no names and numbers.

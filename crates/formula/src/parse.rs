@@ -153,7 +153,8 @@ fn sign<'a>(input: &mut Input<'a>) -> Read<Prefix<Input<'a>, FormulaTree, ErrMod
 }
 
 fn negative(part: FormulaTree) -> FormulaTree {
-    // The range of the text begins one byte before the part. This byte is the minus or a space behind the minus.
+    // The range of the text begins one byte before the part.
+    // The byte before the part is the minus or a space behind the minus.
     let at = part.at.start.saturating_sub(1)..part.at.end;
     FormulaTree { shape: NodeShape::Negative(Box::new(part)), at }
 }

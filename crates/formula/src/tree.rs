@@ -192,7 +192,8 @@ impl fmt::Display for FormulaTree {
             NodeShape::Pair(operator, parts) => {
                 let rank = operator.rank();
                 // The inner and the outer operator may have the same precedence.
-                // Then the right part of `+`, `-`, `*` and `/` needs parentheses, and the left part of `^`.
+                // With equal precedence, parentheses are needed on the right of `+`, `-`, `*` and `/`, and on the left
+                // of `^`.
                 let [left, right] = match operator {
                     Operator::Plus | Operator::Minus | Operator::Times | Operator::Over => [rank, rank + 1],
                     Operator::Power => [rank + 1, NEGATION],

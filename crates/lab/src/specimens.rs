@@ -3,7 +3,7 @@
 //!
 //! A mechanism is drawn in its start pose ([`sketch`]), so that it can be assembled.
 //! The mechanism is stored as data ([`spec`]).
-//! These data can be turned, mirrored and loaded before they are written as a scenario.
+//! The stored mechanism can be turned, mirrored and loaded before it is written as a scenario.
 
 pub mod driven;
 pub mod dyads;

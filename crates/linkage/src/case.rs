@@ -45,7 +45,7 @@ pub struct Case {
     /// For every link, one link that represents its class. The angles of all links in a class differ only by constants.
     classes: Vec<LinkId>,
     /// A joint at or below this speed (rad/s) counts as standing still.
-    /// This speed is the rounding error of the drives' top speeds.
+    /// The speed of standstill is the rounding error of the drives' top speeds.
     standstill: f64,
 }
 
@@ -272,7 +272,7 @@ impl Case {
     }
 
     /// Actions of the moment (N m) or force (N) of a drive.
-    /// The first acts on the link that carries the drive, the second on the driving link.
+    /// The first action is on the link that carries the drive, the second action is on the driving link.
     /// The frame carries the drive of a crank.
     /// At a joint between moving links, and for a slide, the joint's first link exerts the moment or force on the
     /// second link.

@@ -64,7 +64,7 @@ pub trait Engine: Solver {
 
     /// Returns a function that computes reactions and balancing moments from a motion, by the engine's method.
     /// Returns `None` if the motion alone does not determine the forces.
-    /// In this case the engine must report the forces.
+    /// If the result is `None`, the engine must report the forces.
     /// Extrapolation calls this function to compute the forces of the extrapolated motion.
     fn statics(&self, case: &Case) -> Option<Statics>;
 

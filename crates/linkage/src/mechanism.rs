@@ -80,7 +80,7 @@ impl Mechanism {
     }
 
     /// A mechanism from unchecked links and joints.
-    /// Only for looking up names in a faulty file, or for drawing the existing parts of a faulty file.
+    /// This function serves only to look up names in a faulty file, or to draw the existing parts of a faulty file.
     #[must_use]
     pub fn unchecked(links: Vec<Link>, joints: Vec<Joint>) -> Self {
         let (links, joints) = (PerLink::from(links), PerJoint::from(joints));
@@ -209,7 +209,8 @@ impl Mechanism {
     /// Guide and block of a sliding joint; `None` for a joint that does not slide.
     /// If a link is the ground, the ground is the guide.
     /// If the joint is drawn as a cylinder, its first link is the guide.
-    /// Otherwise the larger of the two links is the guide. If the sizes are equal, the joint's first link is the guide.
+    /// In all other cases the larger of the two links is the guide.
+    /// If the sizes are equal, the joint's first link is the guide.
     #[must_use]
     pub fn guide_and_block(&self, joint: &Joint) -> Option<[JointSide; 2]> {
         let size = |side: JointSide| if side.link == GROUND { f64::INFINITY } else { self.links[side.link].size() };

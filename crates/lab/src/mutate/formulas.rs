@@ -59,7 +59,7 @@ impl Stage<'_> {
         let nodes: Vec<NodeId> = formulas.claims().map(|(formula, _)| formula.id).collect();
         let operations = Program::of(&formulas.graph, &nodes).len() * self.case.grid.len();
         // A formula's value and two derivatives are evaluated.
-        // Together they need about six times the operations of the value.
+        // Value and derivatives together need about six times the operations of the value.
         OPERATION * 2.0 * 6.0 * operations as f64
     }
 

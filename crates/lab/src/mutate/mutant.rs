@@ -53,7 +53,8 @@ pub struct Mutant {
     /// Largest change of the exact answers by the fault, relative to the largest number of the changed quantity. `None`
     /// if there is no exact answer.
     pub effect: Option<f64>,
-    /// Smallest size at which the fault is still found, to a factor of two. Only for a detected fault that has a size.
+    /// Smallest size at which the fault is still found, to a factor of two.
+    /// `None` if the fault has no size or is not detected, and if no search was requested.
     pub smallest: Option<f64>,
 }
 

@@ -60,7 +60,7 @@ impl<'a> Stage<'a> {
         let (sides, done) = counted(|| limited(allowed, of_sides).0);
         let sides = sides?;
         // Only side 1 counts the groups that it places.
-        // These groups are counted twice, because side 2 places as many links.
+        // The groups of side 1 are counted twice, because side 2 places as many links.
         let placed = PLACED * 2.0 * done.of(Count::Groups) as f64 + done.of(Count::Intervals) as f64;
         let right = AssurSolver.solve(&case)?;
         let integration = sides.integration();

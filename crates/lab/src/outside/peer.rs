@@ -65,7 +65,7 @@ impl<'a> Command<'a> {
         let table = directory.join("answer.csv");
         let request = directory.join("request.json");
         // Removes the files of an earlier run.
-        // Otherwise an old table could be taken as the answer, or an old symbolic link could be followed.
+        // Without this removal, an old table could be taken as the answer, or an old symbolic link could be followed.
         for old in [&table, &request] {
             let _ = fs::remove_file(old);
         }

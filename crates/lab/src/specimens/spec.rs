@@ -133,7 +133,7 @@ pub struct Other {
     pub drive: String,
     /// Further sections, such as a motor or loads.
     pub sections: String,
-    /// Last instant (s) and number of steps of a grid in time. This grid replaces the grid of crank angles.
+    /// Last instant (s) and number of steps of a grid in time. A grid in time replaces the grid of crank angles.
     pub times: Option<(f64, usize)>,
 }
 

@@ -64,7 +64,8 @@ struct Floor(Vec<(usize, f64)>);
 
 impl Floor {
     /// Lower limit of the cost at this number of sweeps.
-    /// The cost is modelled as a constant plus a term proportional to the number of sweeps. Neither is negative.
+    /// The cost is modelled as a constant plus a term proportional to the number of sweeps.
+    /// Constant and term are not negative.
     fn at(&self, sweeps: usize) -> f64 {
         let sweeps = sweeps.max(1) as f64;
         let of = |&(many, price): &(usize, f64)| price * (sweeps / many.max(1) as f64).smaller(1.0);

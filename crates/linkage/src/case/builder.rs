@@ -164,7 +164,8 @@ impl CaseBuilder {
     }
 
     /// Sets the two efficiencies of the transmission added last.
-    /// The first holds if power flows from the first member to the second, the second if power flows back.
+    /// The first efficiency holds if power flows from the first member to the second.
+    /// The second efficiency holds if power flows back.
     pub fn efficiency(mut self, efficiency: [f64; 2]) -> Self {
         if let Some(last) = self.transmissions.last_mut() {
             last.efficiency = efficiency;

@@ -154,7 +154,7 @@ impl Friction<'_> {
         }
     }
 
-    /// Sum of the normal forces of a joint's contacts (N). This sum is a norm of the reaction.
+    /// Sum of the normal forces of a joint's contacts (N). The sum of the normal forces is a norm of the reaction.
     /// For a transmission, the magnitude of the force times the lost fraction of the power.
     /// The sign of `sense` is the sign of [`rate`](Friction::rate).
     #[must_use]

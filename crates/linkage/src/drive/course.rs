@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::math::{Piecewise, just_below};
 
 /// The jumps of a table are moved back by this angle (rad) or slide (m).
-/// This distance is much larger than rounding errors.
+/// The displacement of the jumps is much larger than rounding errors.
 /// At the stated input of a jump, all solvers therefore find the value after the jump.
 const BEFORE: f64 = 4e-9;
 

@@ -326,7 +326,7 @@ mod tests {
                 assert_eq!(drive.coordinate(state.value), 3.0 + state.value);
             }
         }
-        // The table starts at 0.5. It reaches 0.8 three times and 0.6 once.
+        // The table starts at 0.5, and reaches 0.8 three times and 0.6 once.
         let own = drive(table());
         assert!(own.time_of(0.8).is_nan() && own.time_of(1.6).is_nan() && own.time_of(0.5) == 0.0);
         assert!([0.6, 1.2, 1.5].iter().all(|&value| (own.at(own.time_of(value)).value - value).abs() < 1e-15));

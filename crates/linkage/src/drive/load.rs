@@ -400,7 +400,7 @@ impl Load {
     /// The jump is in N m, or in N for a force.
     /// For friction, the result is the jump per newton of the normal force.
     /// A load that depends on no sense of motion, or is zero at this crank angle, has no jump.
-    /// Such a load has at most a kink.
+    /// A load without a jump has at most a kink.
     #[must_use]
     pub fn jump(&self, crank: f64) -> f64 {
         match self.nature().senses {

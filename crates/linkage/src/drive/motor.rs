@@ -116,7 +116,8 @@ pub struct Motor {
     /// Ratio of the motor's speed to that of the crank, above 0.
     pub ratio: f64,
     /// Efficiency of the reducer, above 0 and at most 1. The efficiency is the same in both directions of power flow.
-    /// The efficiency reduces the motor's static torque. It does not affect the moments that accelerate the shafts.
+    /// The efficiency reduces the motor's static torque.
+    /// The efficiency does not affect the moments that accelerate the shafts.
     pub efficiency: f64,
     /// Moments of inertia of rotor and reducer.
     pub inertia: ShaftInertia,
@@ -151,7 +152,7 @@ impl Motor {
 
     /// The smooth piece of the moment on the crank that is valid at the crank's speed `omega` (rad/s).
     /// If two pieces meet at `omega`, a positive `towards` selects the piece at higher speeds.
-    /// Otherwise the piece at lower speeds is returned.
+    /// If `towards` is not positive, the piece at lower speeds is returned.
     #[must_use]
     pub fn branch(&self, omega: f64, towards: f64) -> MotorBranch {
         let holds = |branch: &&MotorBranch| match towards > 0.0 {
@@ -184,7 +185,7 @@ impl Motor {
     }
 
     /// Speed of the crank (rad/s) at stable equilibrium.
-    /// There the motor's moment equals `resistance` (N m) and decreases with increasing speed.
+    /// At stable equilibrium the motor's moment equals `resistance` (N m) and decreases with increasing speed.
     /// If there are several equilibrium speeds, the largest speed is returned. If there is no such speed, the result is
     /// `None`.
     #[must_use]

@@ -41,7 +41,7 @@ impl Extrapolated {
 /// Each run after the first cancels one of these terms.
 /// Neville's scheme, for run k after j extrapolations: T(k, j) = T(k + 1, j - 1) + (T(k + 1, j - 1) - T(k, j - 1)) /
 /// (2^p - 1).
-/// This formula removes the error term with the power p.
+/// The formula of Neville's scheme removes the error term with the power p.
 fn weights(order: f64, runs: usize) -> Vec<f64> {
     let mut rows: Vec<Vec<f64>> =
         (0..runs).map(|run| (0..runs).map(|k| f64::from(u8::from(k == run))).collect()).collect();

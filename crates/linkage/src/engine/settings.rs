@@ -14,7 +14,7 @@ crate::words! {
         /// Values that the engine reports during the run, such as impulses or multipliers.
         Native = "native",
         /// Values that the engine reports for a tiny additional step.
-        /// This step starts from a state of the engine's trajectory.
+        /// The additional step starts from a state of the engine's trajectory.
         Probe = "probe",
     }
 }

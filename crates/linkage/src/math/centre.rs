@@ -106,7 +106,7 @@ mod tests {
 
     #[test]
     fn a_wheel_rolls_about_its_contact_and_its_hub_has_no_acceleration() {
-        // A wheel of radius 0.5 m rolls to the right at 2 m/s. Its hub is at (3, 0.5).
+        // A wheel of radius 0.5 m rolls to the right at 2 m/s. The wheel's hub is at (3, 0.5).
         let wheel = turning(Vec2::new(3.0, 0.5), Vec2::new(2.0, 0.0), -4.0, Vec2::zeros(), 0.0);
         assert!((place(wheel.velocity_centre(NOISE)) - Vec2::new(3.0, 0.0)).norm() < 1e-15);
         assert_eq!(place(wheel.acceleration_centre(NOISE)), Vec2::new(3.0, 0.5));
@@ -150,7 +150,7 @@ mod tests {
         let relative = body.relative_to(&base);
         let velocity = base.arm((seen(t + h) - seen(t - h)) / (2.0 * h));
         let acceleration = base.arm((seen(t + h) - seen(t) * 2.0 + seen(t - h)) / (h * h));
-        // The truncation error is about h^2 times a third or fourth derivative. These derivatives are about 10.
+        // The truncation error is about h^2 times a third or fourth derivative, and these derivatives are about 10.
         assert!((relative.point_velocity(local) - velocity).norm() < 1e-4);
         assert!((relative.point_acceleration(local) - acceleration).norm() < 1e-4);
     }

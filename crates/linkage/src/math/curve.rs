@@ -21,7 +21,8 @@ pub trait Smooth: Debug + Send + Sync {
 pub enum Curve {
     /// A spline through points.
     Table(Piecewise),
-    /// The function amplitude (sin(2 pi x / period + phase) - sin(phase)), for all x. Its value is 0 at x = 0.
+    /// The function amplitude (sin(2 pi x / period + phase) - sin(phase)), for all x.
+    /// The value of the function is 0 at x = 0.
     Harmonic {
         /// Amplitude, not zero.
         amplitude: f64,

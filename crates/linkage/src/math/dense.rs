@@ -253,8 +253,8 @@ mod tests {
             compare::<4>(&values)?;
             compare::<6>(&values)?;
             // The elimination of fixed order must reject a NaN.
-            // The general elimination is not tested with a NaN, because a NaN that is multiplied by zero is not noticed
-            // there.
+            // The general elimination is not tested with a NaN, because the general elimination misses a NaN that is
+            // multiplied by zero.
             values[7] = f64::NAN;
             let (mut own, mut pivots, mut inverse) = (values[..16].to_vec(), [0; 4], [0.0; 4]);
             prop_assert!(fixed::factor::<4>(&mut own, &mut pivots, &mut inverse).is_none());

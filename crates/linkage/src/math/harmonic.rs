@@ -79,7 +79,7 @@ fn coefficients(degree: usize, f: impl Fn(f64) -> f64) -> Coefficients {
     let coefficient = |k: i64| {
         let term = |(j, &value): (usize, &f64)| {
             // The product k j is first reduced modulo one period and then converted to an angle.
-            // In this order no digits are lost.
+            // No digits are lost if the reduction comes first.
             let turn = (k * j as i64).rem_euclid(count as i64) as f64 / count as f64;
             Complex::from_polar(value / count as f64, -TAU * turn)
         };

@@ -78,7 +78,7 @@ pub struct Close {
     /// Largest absolute value of the function that counts as zero.
     pub value: f64,
     /// Largest distance between two bounds that count as equal.
-    /// This width is at least four rounding errors of the larger bound, even if a smaller width is requested.
+    /// The width is at least four rounding errors of the larger bound, even if a smaller width is requested.
     pub width: f64,
 }
 

@@ -100,7 +100,8 @@ ids! {
 }
 
 /// One value for each link, joint, group or transmission, in the order of their numbers.
-/// The list can be indexed only with numbers of the matching type. Otherwise it behaves like a slice.
+/// The list can be indexed only with numbers of the matching type.
+/// Apart from the index type, the list behaves like a slice.
 ///
 /// ```
 /// use linkproof_linkage::mechanism::{LinkId, PerLink};

@@ -3,7 +3,8 @@
 use crate::math::{KeepNan, Vec2, cross};
 
 /// Limit for collinear points. All points must be near the line through the mean point and the farthest point.
-/// Their distance from the line must not exceed this fraction of the distance between mean point and farthest point.
+/// A point's distance from the line must not exceed this fraction of the distance between mean point and farthest
+/// point.
 const ON_ONE_LINE: f64 = 1e-6;
 
 /// The outline through all points, and whether it is closed.

@@ -130,7 +130,7 @@ impl JointKind {
     }
 
     /// Whether the links turn together.
-    /// In this case the angle between the links is constant, and the reaction includes a moment.
+    /// If the links turn together, the angle between the links is constant, and the reaction includes a moment.
     #[inline]
     #[must_use]
     pub fn keeps_angle(self) -> bool {

@@ -1,4 +1,4 @@
-//! Helpers for planting faults. They select a part of a case or an answer, and change this part.
+//! Helpers for planting faults. A helper selects a part of a case or an answer, and changes this part.
 
 use linkage::case::Case;
 use linkage::math::statistics::distinct;

@@ -85,7 +85,7 @@ pub(super) const TRANSMISSION: StressFamily = StressFamily {
     setup: |degrees, _, _| {
         // Coupler and rocker have equal lengths.
         // At crank angle zero, coupler and rocker are the equal sides of a triangle.
-        // Its third side leads from the crank's end to the rocker's pivot.
+        // The third side of this triangle leads from the crank's end to the rocker's pivot.
         let (crank, rod) = (0.1, 0.3);
         let lengths = [crank + 2.0 * rod * (0.5 * degrees.to_radians()).sin(), crank, rod, rod];
         // The revolution begins at the smallest transmission angle, so this angle is the angle of an instant.

@@ -76,7 +76,7 @@ fn a_resisting_force_opposes_the_velocity_of_its_point() {
 
 #[test]
 fn a_spring_pulls_when_it_is_long_and_pushes_when_it_is_short() {
-    // The spring connects (0, 1) on the ground with (3, 5). Its length is 5 m.
+    // The spring connects (0, 1) on the ground with (3, 5), so the spring's length is 5 m.
     for (free_length, pull) in [(3.0, 200.0), (6.0, -100.0), (5.0, 0.0)] {
         let load = Load::Spring {
             ends: [side(LinkId(0), 0.0, 1.0), side(LinkId(1), 5.0, 0.0)],

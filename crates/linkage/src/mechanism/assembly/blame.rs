@@ -45,8 +45,8 @@ pub fn blame(
     let mut own = wanted.to_vec();
     own[failed].near.clear();
     // If the approximate positions of the failed group are ignored, the failed group may fit the present pose.
-    // In this case an earlier group is blamed only if a change of the earlier group clearly improves the fit: the
-    // failed group must come clearly nearer to its approximate positions.
+    // If the failed group fits without its approximate positions, an earlier group is blamed only if a change of the
+    // earlier group clearly improves the fit. The failed group must come clearly nearer to its approximate positions.
     let stands = first_choices(mechanism, &part, drive_angles, &own).is_ok();
     let earlier = part.groups.entries().rev().filter(|(index, _)| *index < failed && wanted[*index].near.is_empty());
     for (index, group) in earlier {

@@ -2,7 +2,7 @@
 //!
 //! A dyad has one outer joint on each link and the inner joint between the links. One scalar equation closes the dyad.
 //! An RRR dyad closes at the intersections of two circles.
-//! An RRP dyad closes at the intersections of a circle and a line. So does an RPR dyad in the frame of its guide.
+//! An RRP dyad closes at the intersections of a circle and a line. An RPR dyad does so in the frame of its guide.
 //! RPP and PRP dyads close at the intersection of two lines.
 //! A prismatic pair fixes the angle between its two links.
 //! A prismatic pair also keeps the joint's point on the second link on a line parallel to the axis.

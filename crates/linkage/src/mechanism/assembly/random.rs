@@ -99,8 +99,8 @@ pub fn group(mechanism: &Mechanism, links: &[LinkId], kind: GroupKind) -> Group 
 }
 
 /// Reference length for errors (m).
-/// It is the larger of two lengths: the mechanism's size, and the largest distance of a link's origin from the world's
-/// origin.
+/// The reference length is the mechanism's size, or the largest distance of a link's origin from the world's origin if
+/// this distance is larger.
 pub fn size(mechanism: &Mechanism, pose: &Pose) -> f64 {
     let bases = pose.0.iter().map(|link| link.origin.norm()).fold(0.0, f64::larger);
     mechanism.size().larger(bases)

@@ -18,7 +18,7 @@
 //! the base.
 //! The vector q2 p1 - q1 p2 therefore has the powers -1 to 2, and its square has the powers -3 to 3.
 //! The equation for beta is therefore a trigonometric polynomial of degree 3.
-//! It has at most six zeros, and all zeros can be found.
+//! This polynomial has at most six zeros, and all zeros can be found.
 //! If all conditions are lines, the three lines must meet in one point. A determinant of degree 2 is then zero.
 
 mod condition;

@@ -1,7 +1,7 @@
 //! Laws of cams: lift of the follower as a function of the cam's angle, in pieces or as one curve.
 //!
 //! The curve of a piece is normalised.
-//! It rises from 0 to 1 while x goes from 0 to 1, and its slope is zero at both ends.
+//! The normalised curve rises from 0 to 1 while x goes from 0 to 1. Its slope is zero at both ends.
 //! Equations: Norton, Cam Design and Manufacturing Handbook, 2nd ed., Industrial Press 2009, chapters 2 and 3.
 
 use std::f64::consts::{PI, TAU};

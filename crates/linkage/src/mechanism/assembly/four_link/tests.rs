@@ -57,7 +57,7 @@ struct Tally {
     /// Largest closure error, as a fraction of the size.
     closure: f64,
     /// Number of cases in which the scan finds a double root, up to 1e-9.
-    /// Such a root may be two zeros or a near miss. Neither the scan nor the module can decide.
+    /// A root that looks double may be two zeros or a near miss. Scan and module cannot distinguish these two cases.
     double: usize,
 }
 

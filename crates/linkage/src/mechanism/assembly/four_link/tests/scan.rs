@@ -8,7 +8,7 @@
 //! Along this path the function is smooth and periodic.
 //! Samples are closer together where the position changes fast.
 //! If two neighbouring samples have equal signs, the extremum between them is computed.
-//! Its sign distinguishes a pair of zeros from a near miss.
+//! The sign at the extremum distinguishes a pair of zeros from a near miss.
 
 use crate::math::KeepNan;
 use std::convert::Infallible;
@@ -22,7 +22,7 @@ use crate::mechanism::assembly::three_leads::{LeadPair, PlatformLead};
 const STEPS: usize = 60;
 
 /// An extremum below this fraction of the function's largest value counts as a double root.
-/// A double root may be two zeros or a near miss. Neither the scan nor the module under test can decide.
+/// A root that looks double may be two zeros or a near miss. Scan and module cannot distinguish these two cases.
 const DOUBLE: f64 = 1e-9;
 
 /// Result of a scan.
