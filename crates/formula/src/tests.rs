@@ -374,7 +374,7 @@ fn names_with_other_characters_need_backquotes() {
     assert_eq!(tree.names().iter().map(|(name, _)| *name).collect::<Vec<_>>(), ["body 2.x (m)", "a"]);
     assert_eq!(tree.to_string(), "2*`body 2.x (m)` - a");
     for open in ["`body", "2*`", "``"] {
-        assert!(FormulaTree::parse(open).unwrap_err().help.starts_with("close it"), "{open}");
+        assert!(FormulaTree::parse(open).unwrap_err().help.starts_with("close the backquote"), "{open}");
     }
 }
 

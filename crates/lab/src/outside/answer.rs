@@ -157,7 +157,7 @@ mod tests {
             assert!(answer("{\"seconds\": 1}", || Ok(bad.into())).is_err(), "{bad}");
         }
         for (output, reason) in
-            [("[]", "0 ways"), ("[1]", "no name"), ("{}", "is not a JSON array"), ("7\n", "is not a JSON array")]
+            [("[]", "0 settings"), ("[1]", "no name"), ("{}", "is not a JSON array"), ("7\n", "is not a JSON array")]
         {
             let found = ways(output).unwrap_err();
             assert!(found.contains(reason), "{output}: {found}");
