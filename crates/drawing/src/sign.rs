@@ -6,8 +6,8 @@ use linkage::math::{KeepNan, Vec2, turned, unit};
 use linkage::mechanism::{GROUND, JointId, JointSide, LinkId, Mechanism};
 use std::f64::consts::{PI, TAU};
 
-/// Arrow of a drive's direction: its radius in units of the sketch, the angle that it spans (rad), and the angle from
-/// the driven link to the arrow's start (rad).
+/// Radius of the arrow of a drive's direction, in units of the sketch. `SWEEP` is the angle of the arrow's arc (rad).
+/// `AHEAD` is the angle from the driven link to the arrow's start (rad).
 const DRIVE: f64 = 8.0;
 const SWEEP: f64 = 1.7;
 const AHEAD: f64 = 0.35;
@@ -15,8 +15,9 @@ const AHEAD: f64 = 0.35;
 const BESIDE: f64 = 5.5;
 /// Radius of a motor's circle, in units of the sketch.
 const MOTOR: f64 = 3.4;
-/// Length of an arrow's head in units of the sketch, upper limit of this length divided by the arrow's length, and half
-/// width of the head in units of the sketch.
+/// Length of an arrow's head, in units of the sketch.
+/// `HEAD_SHARE` limits this length to a fraction of the arrow's length.
+/// `HALF` is half the width of the head, in units of the sketch.
 const HEAD: f64 = 2.8;
 const HEAD_SHARE: f64 = 0.45;
 const HALF: f64 = 0.9;
@@ -32,13 +33,14 @@ const DRUM: f64 = 5.4;
 pub struct LoadSign {
     /// Index of the load in the loads of its case.
     pub load: usize,
-    /// Point at which the arrow is drawn: for a force the point on which it acts, for a moment a pin of the link (else
-    /// a point or the mass centre), for a load along a slide the joint's point on the moving link that slides.
+    /// Point at which the arrow is drawn. A force is drawn at the point on which the force acts.
+    /// A moment on a link is drawn at a pin of the link, else at a point or the mass centre.
+    /// A load at a joint is drawn at the joint's point on a moving link.
     pub at: JointSide,
 }
 
 /// The point at which moments on a link are drawn: the link's pin on the ground.
-/// If there is no such pin, the point is another pin, else a point of the link, else its mass centre.
+/// If no pin is on the ground, moments are drawn at another pin of the link, else at a point, else at the mass centre.
 fn place_of(mechanism: &Mechanism, link: LinkId) -> Vec2 {
     let pins = || mechanism.joints().iter().filter(|joint| joint.is_pin() && joint.on(link).is_some());
     let on_ground = pins().find(|joint| joint.other(link).link == GROUND);
@@ -94,7 +96,8 @@ pub fn twisted(mechanism: &Mechanism, load: &Load, u: f64) -> Option<(LinkId, Ve
     Some((link, vec![drum, Mark::line(MarkRole::TorsionDamper, vane), first, last]))
 }
 
-/// The arrow in the direction of a drive and the circle of the drive's motor, in the frame of the driven link.
+/// The symbols of a drive, in the frame of the driven link: an arrow in the direction of motion, and a circle for the
+/// motor.
 pub fn of_drive(mechanism: &Mechanism, drive: &Drive, u: f64) -> Vec<Mark> {
     let mut marks = match drive.has_moment() {
         true => of_driven(mechanism, drive.joint, drive.link, drive.sense(), u),

@@ -15,7 +15,7 @@ const UNITS: f64 = 60.0;
 /// Half length of the line drawn across a guide at a ground point, in units of the sketch.
 const STOP: f64 = 1.4;
 
-/// The unit (m) of a sketch if the size of its picture is unknown: a pin is 2.4 units wide, a block 10 units long.
+/// The unit (m) of a sketch, for a picture of unknown size. A pin is 2.4 units wide, a block is 10 units long.
 /// A picture about 150 units wide is easy to read.
 pub fn unit(mechanism: &Mechanism) -> f64 {
     mechanism.size() / UNITS
@@ -156,7 +156,8 @@ impl Sketch {
     }
 }
 
-/// Marks on the ground besides guides and pivots: traced points, and strokes across guides at the points of the guides.
+/// Marks on the ground besides guides and pivots: traced points, and a short line across each guide at its ground
+/// point.
 fn ground(mechanism: &Mechanism, unit: f64) -> Vec<Mark> {
     let mut marks: Vec<Mark> =
         body::traced(mechanism, GROUND).into_iter().flat_map(|at| body::tracer(at, unit)).collect();

@@ -1,4 +1,4 @@
-//! Springs and dampers: drawings that reach from one point to another, whatever the distance of the two points.
+//! Springs and dampers between two points. Each drawing is stretched to the distance of the two points.
 
 use super::mark::{Mark, MarkRole};
 use linkage::drive::{Load, On};
@@ -10,7 +10,7 @@ const WIDTH: f64 = 4.0;
 /// Distance between the middle lines of parallel springs and dampers, divided by their width.
 const APART: f64 = 1.25;
 /// Number of teeth of a spring's zigzag.
-/// The teeth begin and end at the fractions `COIL` of the spring's length.
+/// `COIL` gives the fractions of the spring's length at which the teeth begin and end.
 const TEETH: usize = 8;
 const COIL: [f64; 2] = [0.18, 0.82];
 
@@ -23,8 +23,7 @@ pub struct Stretched {
     pub load: usize,
     /// End points.
     pub ends: [JointSide; 2],
-    /// Width (m). The y coordinates of `marks` are multiplied by the width, the x coordinates by the distance between
-    /// the ends.
+    /// Width (m). In `marks`, the unit of y is this width, and the unit of x is the distance between the ends.
     pub width: f64,
     /// The drawing from (0, 0) to (1, 0); lines only.
     pub marks: Vec<Mark>,
@@ -73,7 +72,7 @@ fn spring(aside: f64) -> Vec<Mark> {
     vec![Mark::line(MarkRole::Spring, points)]
 }
 
-/// A cup, open at its end, and a piston with its rod in the cup.
+/// The drawing of a damper: a cup with one open end, and a piston with its rod.
 fn damper(aside: f64) -> Vec<Mark> {
     let at = |x: f64, y: f64| Vec2::new(x, y + aside);
     let cup = [at(0.68, 0.5), at(0.36, 0.5), at(0.36, -0.5), at(0.68, -0.5)];

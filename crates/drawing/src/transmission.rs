@@ -70,7 +70,7 @@ fn rack(mechanism: &Mechanism, travels: &Travels, own: &Transmission) -> Option<
 }
 
 /// The part of a follower that touches the cam: the roller, or the flat face.
-/// The flat face extends by the cam's largest radius `reach` to both sides.
+/// The flat face is drawn twice as long as the cam's largest radius `reach`.
 fn follower(mechanism: &Mechanism, own: &Transmission, contact: CamContact, reach: f64) -> Option<(LinkId, Mark)> {
     let link = own.members[1].link;
     let mark = match contact {

@@ -4,7 +4,8 @@
 use linkage::math::{KeepNan, Motion, Vec2};
 use linkage::mechanism::{JointId, LinkId, Mechanism, TransmissionId};
 
-/// Range of the distance between the block's point and the guide's point along the guide's axis (m), for every joint.
+/// Travel of every joint (m): the range of the distance from the guide's point to the block's point, along the guide's
+/// axis.
 /// The range is `None` for joints that do not slide, and before the first pose is included.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Travels {
@@ -68,7 +69,7 @@ impl Travels {
         self.members[transmission]
     }
 
-    /// These travels, with the travel of one joint replaced (m).
+    /// Replaces the travel of one joint (m).
     pub fn with(mut self, joint: JointId, travel: [f64; 2]) -> Travels {
         self.joints[joint] = Some(travel);
         self

@@ -16,8 +16,7 @@ use linkage::drive::{Drive, Load};
 use linkage::math::{KeepNan, Vec2, corners};
 use linkage::mechanism::{GROUND, LinkId, Mechanism};
 
-/// If the size of a plate, or the longest piece of a bar between two points, is below this (mm), the link has no space
-/// for its number.
+/// Size (mm) from which a link has space for its number. The size of a bar is its longest piece between two points.
 const FREE: f64 = 11.0;
 
 /// In a picture with numbered positions, the work allowed for placing labels is divided by this number.
@@ -43,7 +42,8 @@ pub struct Extras {
     pub loads: bool,
     /// Lengths and angles that define the links and the ground.
     pub dimensions: bool,
-    /// Whether only the names of ground points are drawn, and numbers only on links with enough space.
+    /// Whether the picture is a frame of an animation.
+    /// In an animation, only ground points have names, and only links with enough space have numbers.
     /// Because of this restriction, no label jumps between frames.
     pub is_moving: bool,
     /// Whether the picture has no names and numbers.
@@ -178,7 +178,7 @@ fn figure(
         picture.draw_gravity(subject.gravity);
     }
     let heading = (!small.is_empty()).then(|| sentences::paths_without_numbers(&small.join(", ")));
-    // A picture has many numbers of positions, but they lie apart from each other: less work is enough to place them.
+    // The numbers of the positions lie apart from each other, so less work is enough to place them.
     let share = if motion.series.is_some() { NUMBERED } else { 1 };
     (picture.finish(share * drawings), heading.into_iter().collect())
 }

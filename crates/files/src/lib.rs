@@ -33,8 +33,9 @@ pub fn replace<E: From<io::Error>>(target: &OutputTarget, fill: impl FnOnce(&Fil
     written(target, fill, true)
 }
 
-/// Like [`replace`], for one of many files that can be made again. The function does not wait for the device, and does
-/// not remove temporary files of killed runs. After a loss of power, the file may be incomplete.
+/// Replaces a file that can be made again.
+/// Unlike [`replace`], this function does not wait for the device, and it does not remove temporary files of killed
+/// runs. After a loss of power, the file may be incomplete.
 ///
 /// # Errors
 /// The errors of [`replace`].

@@ -28,10 +28,12 @@ pub fn sealed(text: &str, place: &Path) -> String {
     open.replacen(&blank, &format!("{MARK}{:016x}", hash(open.as_bytes())), 1)
 }
 
-/// Whether a file has an unbroken seal. This program then wrote the file, and nobody has changed the file since.
+/// Whether a file has an unbroken seal.
+/// An unbroken seal shows that this program wrote the file and that the file was not changed afterwards.
 pub fn is_sealed(bytes: &[u8]) -> bool {
     let Ok(text) = std::str::from_utf8(bytes) else { return false };
-    // Only the first and the last seal are tested, because the text between the two may quote another file's seal.
+    // The file's seal is the first or the last seal in the text.
+    // Any seal between them may be a quotation of another file's seal.
     [text.find(MARK), text.rfind(MARK)].into_iter().flatten().any(|found| {
         let digits = found + MARK.len()..found + MARK.len() + DIGITS;
         let Some(told) = text.get(digits.clone()) else { return false };

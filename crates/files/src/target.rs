@@ -14,7 +14,7 @@ const LINKS: usize = 40;
 /// Upper limit of the number of bytes that are read from an older file.
 const SEEN: u64 = 64 << 20;
 
-/// A file to be written, with the rule for replacing an existing file. Only this type implements the rule.
+/// A file to be written, with the rule for replacing an existing file.
 /// A file is replaced only if the caller named it or this program wrote it.
 /// A symbolic link is followed only if the caller named it.
 pub enum OutputTarget<'a> {
@@ -29,7 +29,7 @@ pub enum OutputTarget<'a> {
 pub(super) enum Place {
     /// The content goes to a path that is already open or that is not a regular file.
     Open(PathBuf),
-    /// The content replaces this file. The metadata are those of the existing file, if any.
+    /// The content replaces this file. The metadata describe the existing file, if there is one.
     File(PathBuf, Option<fs::Metadata>),
 }
 
@@ -89,7 +89,7 @@ fn followed(path: &Path) -> io::Result<PathBuf> {
     for _ in 0..LINKS {
         match fs::read_link(&place) {
             Ok(next) => place = directory_of(&place).join(next),
-            // `place` is not a symbolic link, so it is the result.
+            // `place` is not a symbolic link, so the search ends here.
             Err(_) => return Ok(place),
         }
     }

@@ -13,7 +13,7 @@ use tempfile::{Builder, NamedTempFile};
 /// A file of another program is therefore not mistaken for a temporary file, even if its name is similar.
 const TEMPORARY: [&str; 2] = [".linkproof-", ".partial"];
 
-/// A name that no other run has.
+/// A random name for a temporary file.
 fn name() -> String {
     let random = format!("{:016x}", RandomState::new().hash_one(0));
     format!("{}{random}-{}{}", TEMPORARY[0], check(&random), TEMPORARY[1])
@@ -42,15 +42,14 @@ pub(super) fn create(directory: &Path) -> io::Result<NamedTempFile> {
         // On a file system without locks this call fails. The failure is harmless, because `clear` then removes no
         // files.
         let _ = temporary.as_file().lock();
-        // Another run may have removed the file before the lock, because the file looked stale. A new file is then
-        // created.
+        // Before this run locked the file, another run may have removed it as stale. A new file is then created.
         if temporary.path().exists() {
             return Ok(temporary);
         }
     }
 }
 
-/// Removes the temporary files of killed runs. Nobody holds the lock of such a file.
+/// Removes the temporary files of killed runs. No process holds the lock of such a file.
 pub(super) fn clear(directory: &Path) {
     let Ok(entries) = fs::read_dir(directory) else { return };
     let is_temporary = |path: &PathBuf| path.file_name().and_then(|name| name.to_str()).is_some_and(is_own);

@@ -14,14 +14,13 @@ pub const LARGEST: u64 = 64 << 20;
 const LONGEST: usize = 2000;
 
 /// Limits the length of a text and escapes every invisible character.
-/// The escapes prevent a name from a file from imitating a line of output or controlling a terminal.
+/// Without the escapes, a name in a file could imitate a line of output or control a terminal.
 #[must_use]
 pub fn visible(text: &str) -> String {
     shown(text, is_unseen)
 }
 
 /// Limits the length of a text of several lines and escapes every invisible character except the line feed.
-/// An example is the help of an error that quotes lines for the scenario.
 #[must_use]
 pub fn visible_lines(text: &str) -> String {
     shown(text, |letter| letter != '\n' && is_unseen(letter))
@@ -61,7 +60,7 @@ pub fn text_from(from: impl Read) -> io::Result<String> {
 }
 
 /// Text of a file that another file names, at most 64 MiB.
-/// The file must be regular, because reading a file of another kind, such as a terminal, might never end.
+/// The file must be regular: reading a terminal, for example, might never end.
 ///
 /// # Errors
 /// The errors of [`read_text`], or an error if the file is not regular.
@@ -84,7 +83,7 @@ pub fn text(path: &Path) -> io::Result<Option<String>> {
     }
 }
 
-/// Remedy for a file that could not be read. The remedy is `usual`, unless the encoding of the file is not UTF-8.
+/// Remedy for a file that could not be read. The remedy is `usual` for every error except a wrong encoding.
 pub fn way_out(error: &io::Error, usual: &str) -> String {
     match error.get_ref().and_then(|inner| inner.downcast_ref::<Encoding>()) {
         None => usual.into(),
@@ -93,7 +92,7 @@ pub fn way_out(error: &io::Error, usual: &str) -> String {
     }
 }
 
-/// Encoding of a file, if it is not UTF-8.
+/// Encoding of a file that is not written in UTF-8.
 #[derive(Debug)]
 struct Encoding {
     told: String,

@@ -16,8 +16,7 @@ impl FormulaGraph {
         self.derivatives[&(of, input)]
     }
 
-    /// Rate of change of a node: the sum of the node's partial derivatives with respect to the inputs, each times the
-    /// rate of the input in `rates`.
+    /// Rate of change of a node: the sum, over all inputs, of the partial derivative times the input's rate in `rates`.
     /// Inputs without a rate are constant.
     pub fn rate(&mut self, of: NodeId, rates: &[Option<NodeId>]) -> NodeId {
         let mut sum = self.whole(0.0);

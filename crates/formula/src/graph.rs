@@ -11,8 +11,8 @@ use crate::tree::{FormulaFault, FormulaTree, Function, NodeShape, Operator};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct NodeId(pub(crate) u32);
 
-/// Operation of a node. The arguments of the operation are stored before the node. `P` is the type that refers to an
-/// argument.
+/// Operation of a node. The arguments of the operation are stored before the node.
+/// `P` is the type of a reference to an argument.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Node<P = NodeId> {
     Input(usize),
@@ -85,7 +85,7 @@ pub struct FormulaGraph {
 }
 
 impl FormulaGraph {
-    /// A graph with inputs of these names, `unnamed` further inputs without a name, and `pi`.
+    /// A graph with the constant `pi`, the named inputs `inputs`, and `unnamed` further inputs that have no name.
     #[must_use]
     pub fn new(inputs: &[&str], unnamed: usize) -> Self {
         let mut graph = FormulaGraph { inputs: inputs.len() + unnamed, ..FormulaGraph::default() };
@@ -192,9 +192,8 @@ impl FormulaGraph {
                         let zero = self.whole(0.0);
                         self.put(Node::Pair(Operator::Times, zero, left))
                     }
-                    // The operation with zero stays in the graph unsimplified, because the argument other than zero may
-                    // be outside a domain.
-                    // A simplified graph would lose this domain error.
+                    // An operation with zero is not simplified, because its other argument may be outside a domain.
+                    // Simplification would lose the domain error.
                     (Operator::Times | Operator::Over, Some(0.0), _)
                     | (Operator::Times | Operator::Power, _, Some(0.0)) => self.put(Node::Pair(*operator, left, right)),
                     _ => self.pair(*operator, left, right),
@@ -223,13 +222,13 @@ impl FormulaGraph {
         self.nodes[id.0 as usize]
     }
 
-    /// All nodes on which the given nodes depend, including the given nodes, arguments first.
+    /// The given nodes and all nodes on which they depend, arguments first.
     /// Only these nodes are visited, even in a large graph.
     pub(crate) fn needed(&self, nodes: &[NodeId]) -> Vec<NodeId> {
         self.needed_but(nodes, &|_| false)
     }
 
-    /// All nodes on which the given nodes depend, including the given nodes, arguments first.
+    /// The given nodes and all nodes on which they depend, arguments first.
     /// A node for which `is_done` is true is left out. Its arguments are left out too, unless another node needs them.
     /// A common part of several formulas is visited once.
     pub(crate) fn needed_but(&self, nodes: &[NodeId], is_done: &dyn Fn(NodeId) -> bool) -> Vec<NodeId> {
@@ -299,7 +298,8 @@ impl FormulaGraph {
         }
     }
 
-    /// A pair of operands, simplified for the zeros and ones that derivatives produce.
+    /// The node of an operator on two operands, simplified if an operand is zero or one.
+    /// Derivatives produce many zeros and ones.
     /// If a factor is dropped, no domain error is lost: the factor's node exists elsewhere, where its domain is
     /// checked.
     pub(crate) fn pair(&mut self, operator: Operator, left: NodeId, right: NodeId) -> NodeId {

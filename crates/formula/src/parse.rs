@@ -153,7 +153,8 @@ fn sign<'a>(input: &mut Input<'a>) -> Read<Prefix<Input<'a>, FormulaTree, ErrMod
 }
 
 fn negative(part: FormulaTree) -> FormulaTree {
-    // The range begins one byte before the part: at the minus, or at a space between the minus and the part.
+    // The range of the text begins one byte before the part.
+    // The byte before the part is the minus or a space behind the minus.
     let at = part.at.start.saturating_sub(1)..part.at.end;
     FormulaTree { shape: NodeShape::Negative(Box::new(part)), at }
 }
@@ -161,7 +162,7 @@ fn negative(part: FormulaTree) -> FormulaTree {
 fn between<'a>(input: &mut Input<'a>) -> Read<Infix<Input<'a>, FormulaTree, ErrMode<Found>>> {
     let text: &str = input;
     let (length, found) = match text.as_bytes() {
-        // Python and Fortran write a power as `**`, so it is recognised.
+        // `**` is recognised as a power, as in Python and Fortran.
         [b'*', b'*', ..] => (2, Operator::Power),
         [b'+', ..] => (1, Operator::Plus),
         [b'-', ..] => (1, Operator::Minus),
@@ -206,8 +207,7 @@ fn operand(input: &mut Input<'_>) -> Read<FormulaTree> {
         None => {
             refused(sentences::THE_FORMULA_ENDS_WHERE_A_PART, start..start, sentences::ADD_A_NUMBER_A_NAME_OR_A_CALL)
         }
-        // No operand begins with this character. The parser then tries the alternative of a minus or plus sign before a
-        // part.
+        // No operand begins with a plus or minus. The parser then tries to read a sign before an operand.
         Some('-' | '+') => none(),
         Some(sign @ (')' | ',' | '=' | '*' | '/' | '^')) => {
             let message = sentences::a_part_is_missing_before(&sign);

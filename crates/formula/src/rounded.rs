@@ -25,7 +25,7 @@ const WHOLE: f64 = 2.0 * f64::EPSILON;
 impl Rounded {
     /// Result of an operation outside its domain.
     pub const UNDEFINED: Self = Rounded { value: f64::NAN, error: f64::INFINITY };
-    /// A number about which nothing is known, because it is too large for a double or was divided by a possible zero.
+    /// An unknown number: the result is too large for a double, or the divisor may be zero.
     pub const UNKNOWN: Self = Rounded { value: 0.0, error: f64::INFINITY };
 
     /// A number that is exact.
@@ -54,7 +54,8 @@ impl Rounded {
         Rounded { value, error: if error.is_nan() { f64::INFINITY } else { error } }
     }
 
-    /// Adds an error for a result that may be too small for a double, unless the result `is_zero` exactly.
+    /// Adds the error of underflow to a result that may be too small for a double.
+    /// A result that `is_zero` exactly has no such error.
     fn or_tiny(self, is_zero: bool) -> Self {
         match self.value.abs() < f64::MIN_POSITIVE && !is_zero {
             true => Rounded { error: self.error + f64::MIN_POSITIVE, ..self },
@@ -130,8 +131,8 @@ impl Rounded {
                 let of = |value: f64| if function == Function::Asin { value.asin() } else { value.acos() };
                 let end = x.value.abs() + x.error;
                 if end < 1.0 {
-                    // The slope is taken at the end of the argument's interval that is nearer to the end of the domain,
-                    // because the function is steepest there.
+                    // The function is steepest at the ends of its domain, so the slope is taken at the argument's
+                    // largest possible absolute value.
                     return Rounded::of(of(x.value), x.error / ((1.0 - end) * (1.0 + end)).sqrt(), WHOLE);
                 }
                 growing(of, x, [-1.0, 1.0])
@@ -194,7 +195,8 @@ fn larger(one: f64, other: f64) -> f64 {
 }
 
 /// Value of a function that is monotonic from `domain[0]` to `domain[1]`.
-/// The error is the larger of two changes of the value: from the argument to either end of the argument's interval.
+/// The value changes between the argument and each end of the argument's interval.
+/// The error is the larger of the two changes.
 /// If the argument is outside the domain by less than its error, the end of the domain is used instead.
 fn growing(function: impl Fn(f64) -> f64, x: Rounded, domain: [f64; 2]) -> Rounded {
     let at = |value: f64| function(value.clamp(domain[0], domain[1]));
@@ -206,8 +208,8 @@ fn growing(function: impl Fn(f64) -> f64, x: Rounded, domain: [f64; 2]) -> Round
     Rounded::of(value, larger(below, above), WHOLE)
 }
 
-/// If the absolute value of a whole exponent is at most this number, the power is computed as a product. The rounding
-/// error of the product grows with every factor.
+/// Largest absolute value of a whole exponent for which a power is computed as a product.
+/// The rounding error of the product grows with every factor.
 const FACTORS: f64 = 1024.0;
 
 fn power(a: Rounded, b: Rounded) -> Rounded {
@@ -217,7 +219,6 @@ fn power(a: Rounded, b: Rounded) -> Rounded {
     }
     if is_whole && b.value.abs() <= FACTORS {
         let power = b.value as i32;
-        // A product of many factors is rounded at every factor, so the rounding error grows with the exponent.
         let rounding = WHOLE * (1.0 + b.value.abs());
         // The error uses the steepest slope. The slope is steepest where the base is largest, or, for a negative
         // exponent, where the base is smallest.

@@ -23,7 +23,7 @@ sentences! {
     LN_TAKES_A_POSITIVE_NUMBER = "ln takes a positive number";
     A_NEGATIVE_BASE_TAKES_A_WHOLE = "a negative base needs a whole exponent, and a base of zero needs an exponent that is not negative";
     A_DIVISOR_MUST_NOT_BE_ZERO = "a divisor must not be zero";
-    ITS_PARTS_MUST_HAVE_VALUES = "every part of it must have a value";
+    ITS_PARTS_MUST_HAVE_VALUES = "every part of the operation must have a value";
     is_undefined(what) = "{what} is undefined";
     WHAT_IT_STANDS_FOR_HAS_NO_VALUE = "the definition of this name has no value";
     // graph.rs
@@ -32,7 +32,7 @@ sentences! {
     // parse.rs
     WRITE_ATAN2_WITH_THE_SINE = "write atan2(y, x): first y, then x";
     needs_arguments(function, function_2) = "{function} needs {function_2} arguments";
-    CLOSE_IT_BEHIND_THE_NAME = "close it after the name: `body 2.x`";
+    CLOSE_IT_BEHIND_THE_NAME = "close the backquote after the name: `body 2.x`";
     THIS_BACKQUOTE_OPENS_NO_NAME = "this backquote does not enclose a name";
     there_is_no_function(name) = "there is no function `{name}`";
     the_functions_are_write_a_product(known) = "the functions are {known}; write a product with `*`";
@@ -61,11 +61,11 @@ sentences! {
     an_operator_is_missing_before(sign) = "an operator is missing before `{sign}`";
     A_COMMA_STANDS_BETWEEN_ARGUMENTS = "a comma is allowed only between the arguments of atan2";
     WRITE_NUMBERS_WITH_A_DECIMAL = "write numbers with a decimal point, such as 0.5";
-    WRITE_THE_RIGHT_SIDE_ONLY = "write the right side only";
+    WRITE_THE_RIGHT_SIDE_ONLY = "write only the right side of the equation";
     A_FORMULA_HAS_NO = "a formula has no `=`";
     TAKE_IT_OUT_OR_OPEN_IT = "remove this `)`, or add `(`";
     THERE_IS_NO_BEFORE_THIS = "there is no `(` before this `)`";
-    DIVIDE_IT_A_FORMULA_MAY_USE = "divide it: a formula can use earlier formulas by name";
+    DIVIDE_IT_A_FORMULA_MAY_USE = "divide the formula: a formula can use earlier formulas by name";
     the_formula_is_nested_deeper(deepest) = "the formula is nested deeper than {deepest}";
     the_formula_has_bytes_more(text, longest) = "the formula has {text} bytes, more than {longest}";
     WRITE_AN_EXPRESSION_SUCH_AS_A_COS = "write an expression such as a*cos(phi) + b";

@@ -10,7 +10,7 @@ use crate::tree::{FormulaTree, NodeShape, Operator};
 /// A part of the sheet. The arguments of a part are earlier parts, with smaller indices.
 #[derive(Clone, Copy, Debug)]
 enum Part {
-    /// A reference by name to another part, given as the position of that part.
+    /// Position of another part that the formula refers to by name.
     Named(usize),
     Own(Node<usize>),
 }
@@ -29,7 +29,7 @@ pub struct DerivationSheet {
     /// Values after a change, each with the number of the change for which it was calculated.
     changed: Vec<(u32, Rounded)>,
     change: u32,
-    /// Number of evaluations so far, counted per part and instant. Callers also add the work that they do themselves.
+    /// Number of evaluations so far, counted per part and instant. Callers add their own evaluations to this number.
     pub operations: u64,
 }
 
@@ -174,10 +174,10 @@ impl DerivationSheet {
         self.values[instant][place]
     }
 
-    /// The given positions and all positions that depend on them, in the order of evaluation, up to the last formula.
+    /// The positions `places` and all later positions that depend on `places`, in the order of evaluation.
     pub fn depending(&mut self, places: &[usize]) -> Vec<usize> {
         let Some(&first) = places.iter().min() else { return Vec::new() };
-        // This loop evaluates no part, so the visit of a part counts only as a sixteenth of an operation.
+        // This loop evaluates no part. The visit of a part therefore counts as a sixteenth of an operation.
         self.operations += (self.parts.len() - first) as u64 / 16;
         self.change += 1;
         let mut found = Vec::new();
@@ -196,7 +196,7 @@ impl DerivationSheet {
         found
     }
 
-    /// The value of the last formula at an instant, with the trees of `changes` at their positions.
+    /// The value of the last formula at an instant, after each tree of `changes` has replaced the part at its position.
     /// `depending` is the result of [`DerivationSheet::depending`] for the positions of `changes`.
     /// If a tree uses a name that is unknown before the tree's position, the name has the value NaN.
     pub fn changed(&mut self, changes: &[(usize, FormulaTree)], depending: &[usize], instant: usize) -> Rounded {
@@ -212,7 +212,7 @@ impl DerivationSheet {
         self.current(self.parts.len() - 1, instant)
     }
 
-    /// The value of the last formula at an instant, with `number` in place of the first part of `depending`.
+    /// The value of the last formula at an instant, if the first part of `depending` has the value `number`.
     fn with_number(&mut self, number: Rounded, depending: &[usize], instant: usize) -> Rounded {
         self.change += 1;
         let Some((&first, rest)) = depending.split_first() else { return Rounded::exact(f64::NAN) };
@@ -256,8 +256,7 @@ impl DerivationSheet {
         }
     }
 
-    /// The correction of a part that makes the last formula correct at an instant, and the uncertainty of the
-    /// correction.
+    /// Corrects a part so that the last formula is correct at an instant. Returns the correction and its uncertainty.
     /// The correction is the amount to add to the part (`Plus`) or the missing factor (`Times`).
     /// Newton's method starts at the correction `from`. `None` if the method finds no correction.
     /// `depending` is the result of [`DerivationSheet::depending`] for the part.

@@ -174,8 +174,8 @@ fn limit_of_differences(function: &dyn Fn(f64) -> Rounded) -> Option<(f64, f64)>
     for level in 0..9 {
         let step = 0.02 * 0.6f64.powi(level);
         let [above, below] = [function(step), function(-step)];
-        // The arguments x + step are rounded too. This rounding changes the values by the slope times the rounding
-        // error.
+        // The arguments x + step are rounded too.
+        // The rounding error of an argument changes the value by slope times rounding error.
         let slope = (above.value - below.value).abs() / (2.0 * step);
         let rounding = (above.error + below.error + 4.0 * f64::EPSILON * (1.0 + slope)) / (2.0 * step);
         let mut row = vec![(above.value - below.value) / (2.0 * step)];
@@ -223,7 +223,7 @@ proptest! {
         };
         prop_assume!(!holds(&tree, &unknown));
         let [_, first, mixed] = with_derivatives(&tree, x, y);
-        // The text contains both names, so that exmex numbers them in the same way.
+        // The text contains both names, x and y, so exmex numbers the names as this crate does.
         let text = format!("{}+0*x+0*y", in_parentheses(&tree));
         let theirs = exmex::parse::<f64>(&text).unwrap().partial(0).unwrap();
         let theirs = [theirs.eval(&[x, y]).unwrap(), theirs.partial(1).unwrap().eval(&[x, y]).unwrap()];
@@ -304,7 +304,8 @@ fn a_bound_covers_the_ends_of_wide_arguments() {
     }
 }
 
-/// Powers with any exponent are accurate to a few units in the last place, and propagate an error by their slope.
+/// A power with any exponent is accurate to a few units in the last place.
+/// An error of the argument is multiplied by the slope.
 #[test]
 fn a_power_is_as_accurate_as_its_base_and_exponent() {
     let known = |x: Rounded, y: Rounded| at("x^y", x, y);
@@ -373,7 +374,7 @@ fn names_with_other_characters_need_backquotes() {
     assert_eq!(tree.names().iter().map(|(name, _)| *name).collect::<Vec<_>>(), ["body 2.x (m)", "a"]);
     assert_eq!(tree.to_string(), "2*`body 2.x (m)` - a");
     for open in ["`body", "2*`", "``"] {
-        assert!(FormulaTree::parse(open).unwrap_err().help.starts_with("close it"), "{open}");
+        assert!(FormulaTree::parse(open).unwrap_err().help.starts_with("close the backquote"), "{open}");
     }
 }
 
@@ -392,8 +393,8 @@ fn temporary_derivatives_are_removed() {
     assert_eq!(Program::of(&graph, &[slope]).run(&[Rounded::exact(0.0)])[0].value, 1.0);
 }
 
-/// The derivatives of every operator and every function, with both arguments varying, agree with the rules of calculus.
-/// The random test skips cases that it cannot decide. This test skips no case.
+/// The derivatives of every operator and function agree with the rules of calculus, while both arguments vary.
+/// This test skips no case. The test with random formulas skips cases that it cannot decide.
 #[test]
 fn derivatives_follow_the_rules_of_calculus() {
     let (x, y) = (0.7f64, 1.3f64);
@@ -434,7 +435,7 @@ fn derivatives_follow_the_rules_of_calculus() {
 }
 
 /// A function has no derivative at a kink or a jump.
-/// At a kink, the two one-sided slopes differ. The mean of the two slopes is zero, which would be a wrong derivative.
+/// At a kink, the two one-sided slopes differ. A derivative from the mean of the two slopes would be wrong.
 #[test]
 fn a_kink_has_no_derivative() {
     for text in ["abs(x)", "x*sign(x)", "abs(x)*abs(x)"] {
@@ -447,10 +448,10 @@ fn a_kink_has_no_derivative() {
     assert!(slope.value == -1.0 && slope.error < 1e-15, "{slope:?}");
 }
 
-/// Every operation outside its domain must be reported, even in a context where IEEE 754 or algebra would hide it.
+/// Every operation outside its domain is reported, also where IEEE 754 or algebra hides the operation.
 #[test]
 fn undefined_values_stay_undefined_in_every_context() {
-    // Pairs of an operation on constants and the same operation written with x = 1.
+    // Each pair is an operation on constants, and the same operation with x, where x = 1.
     let outside = [
         ("ln(-1)", "ln(-x)"),
         ("ln(0)", "ln(x - 1)"),

@@ -1,4 +1,4 @@
-//! The syntax tree of a formula, the only table of functions, and the faults in a formula's text with their positions.
+//! The syntax tree of a formula, the table of all functions, and the faults in a formula's text with their positions.
 
 use std::fmt;
 use std::ops::Range;
@@ -191,8 +191,9 @@ impl fmt::Display for FormulaTree {
             }
             NodeShape::Pair(operator, parts) => {
                 let rank = operator.rank();
-                // A part whose operator has the same precedence as the outer operator needs parentheses to the right of
-                // `+`, `-`, `*` and `/`, and to the left of `^`.
+                // The inner and the outer operator may have the same precedence.
+                // With equal precedence, parentheses are needed on the right of `+`, `-`, `*` and `/`, and on the left
+                // of `^`.
                 let [left, right] = match operator {
                     Operator::Plus | Operator::Minus | Operator::Times | Operator::Over => [rank, rank + 1],
                     Operator::Power => [rank + 1, NEGATION],

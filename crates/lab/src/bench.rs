@@ -45,7 +45,7 @@ pub struct Bench {
     pub versions: Vec<(String, String)>,
     /// The points, in the order of their creation.
     pub points: Vec<BenchPoint>,
-    /// Number of settings that the budget did not allow.
+    /// Number of settings that were not measured, because of the budget.
     pub left_out: usize,
     /// Peers that could not be called, with the reason.
     pub absent: Vec<(String, String)>,

@@ -1,15 +1,15 @@
 //! Tests whether the cross-check finds faults.
-//! Single faults are planted in one party of a proof at default settings, or in the code that all parties share.
+//! One fault at a time is planted in one party of a proof, or in the code that all parties share.
+//! The proof has default settings.
 //!
-//! A fault is a wrapper around a solver or an engine. Apart from this wrapper, the proof is the one that a user would
-//! run.
-//! If the fault is in one analytic side and the other side contradicts that side, the verdict needs no engine run.
+//! A fault is a wrapper around a solver or an engine. The rest of the proof is the same as in a user's run.
+//! If the two analytic sides contradict each other, the verdict needs no engine run.
 //! Proofs in which the engine has no fault share the same engine runs.
-//! New engine runs would give the same verdicts, because an engine's runs do not depend on the data with which they are
-//! compared.
+//! The verdicts are the same as with new engine runs, because an engine's run does not depend on the data of the other
+//! parties.
 //!
 //! The formulas of a scenario are a party too.
-//! A mistake in a formula is judged by both analytic sides, whose motion is correct.
+//! A mistake in a formula is judged by both analytic sides. The sides then have the correct motion.
 
 mod effect;
 mod formulas;

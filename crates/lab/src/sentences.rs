@@ -1,4 +1,4 @@
-//! Every sentence that this crate can show, in one place, to be read as a list.
+//! All messages that this crate can show, in one file, so that they can be read as a list.
 
 linkage::sentences! {
     // bench/ladder.rs
@@ -42,9 +42,9 @@ linkage::sentences! {
     ITS_ANSWER_HAS_NO_SECONDS = "its answer has no \"seconds\"";
     ITS_ANSWER_IS_NO_JSON_OBJECT = "its answer is not a JSON object";
     it_refuses(reason) = "it refuses: {reason}";
-    the_way_has_no_name_or_no_resolution(value) = "the way of running {value} has no name or no resolution";
-    it_has_ways_and_to_are_possible(list, most) = "it offers {list} ways of running; 1 to {most} are allowed";
-    ITS_WAYS_ARE_NO_JSON_ARRAY = "its list of ways of running is not a JSON array";
+    the_way_has_no_name_or_no_resolution(value) = "the setting {value} has no name or no resolution";
+    it_has_ways_and_to_are_possible(list, most) = "it offers {list} settings; 1 to {most} are allowed";
+    ITS_WAYS_ARE_NO_JSON_ARRAY = "its list of settings is not a JSON array";
     the_last_line_of_its_output(error) = "the last line of its output is not JSON: {error}";
     IT_WROTE_NOTHING_TO_STANDARD = "its standard output is empty";
     // outside/machine.rs
@@ -69,7 +69,7 @@ linkage::sentences! {
     it_ended_with_2(status) = "it ended with {status}";
     exec_rerun(python) = "exec {python} -m rerun \"$1\"";
     // stress/point.rs
-    THERE_IS_NOTHING_TO_HOLD = "no reference exists with which the engine can be compared";
+    THERE_IS_NOTHING_TO_HOLD = "the engine cannot be compared, because no reference exists";
     the_other_side(without) = "the other side ({without})";
     THE_OTHER_SIDE_2 = "the other side";
     // tune.rs

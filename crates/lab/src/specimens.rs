@@ -2,8 +2,8 @@
 //! machine.
 //!
 //! A mechanism is drawn in its start pose ([`sketch`]), so that it can be assembled.
-//! The mechanism is stored as data ([`spec`]), and can be turned, mirrored and loaded before it becomes the text of a
-//! scenario.
+//! The mechanism is stored as data ([`spec`]).
+//! The stored mechanism can be turned, mirrored and loaded before it is written as a scenario.
 
 pub mod driven;
 pub mod dyads;

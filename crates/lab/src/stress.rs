@@ -1,4 +1,4 @@
-//! Numerical stability: families of mechanisms and settings, each with one varied parameter.
+//! Tests numerical stability with families of mechanisms and of settings. Each family varies one parameter.
 //! Both analytic sides run on every family. Engines run where the family's [`Setup`] allows them.
 //! A family is one entry of [`FAMILIES`].
 //! See docs/numerics/laboratory.md.

@@ -1,7 +1,8 @@
 //! Searches for the cheapest settings with which an engine meets a requested error.
 //! Errors are measured against a reference solution.
 //!
-//! The error falls with a power of the step, so a few runs against the reference find the largest step of each method.
+//! The error is proportional to a power of the step.
+//! A few runs against the reference therefore find the largest step of each method.
 //! Three runs of the engine also predict the error without the reference.
 //! The predicted error is reported beside the measured error.
 //! See docs/numerics/laboratory.md.
@@ -30,7 +31,7 @@ use prover::run::{Options, memory};
 use scenario::Scenario;
 
 /// Work allowed by default. The unit is a step without sweeps.
-/// At an allowed error of 1e-7 of the scale, the shipped mechanisms need only a small fraction of this work.
+/// The shipped mechanisms need only a small fraction of this work, even at an allowed error of 1e-7 of the scale.
 const BUDGET: f64 = 5e6;
 
 /// The wanted accuracy.
@@ -47,16 +48,15 @@ pub struct WantedAccuracy {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tuning {
     /// The cheapest settings that meet the request and that a proof confirms.
-    /// If no proof confirms any settings, the field has the cheapest settings that meet the request.
+    /// If no settings are confirmed, the field contains the cheapest settings that meet the request.
     pub best: Candidate,
-    /// The cheapest settings that meet the request, whether a proof confirms them or not.
+    /// The cheapest settings that meet the request, with or without confirmation by a proof.
     pub cheapest: Candidate,
     /// Largest error of `best` divided by the channel's scale, predicted without the reference.
-    /// The prediction uses the engine's runs at three steps, and a run with twice the sweeps.
+    /// The prediction compares the engine's runs at three steps, and a run with twice the sweeps.
     pub predicted: f64,
     /// The cheapest settings of every engine that meets the request, refined if necessary until a proof confirms them.
-    /// Engines with confirmed settings come first; both among the confirmed and among the unconfirmed engines, the
-    /// cheapest engine is first.
+    /// Engines with confirmed settings come first. Engines with the same status are sorted by cost, the cheapest first.
     pub by_engine: Vec<Candidate>,
     /// Engines that do not meet the request, with the smallest error found.
     /// The error is infinite if no run of the engine finished.
@@ -66,7 +66,7 @@ pub struct Tuning {
     /// Number of runs in the search.
     pub runs: usize,
     /// Whether the search ended because the allowed work was used up.
-    /// If it was used up, cheaper settings may exist.
+    /// If the work was used up, cheaper settings may exist.
     pub is_spent: bool,
 }
 

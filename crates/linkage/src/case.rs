@@ -42,10 +42,10 @@ pub const STANDSTILL: f64 = 1e-12;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Case {
     parts: CaseParts,
-    /// For every link: the representative of the link's class.
-    /// A class contains the links whose angles differ only by constants.
+    /// For every link, one link that represents its class. The angles of all links in a class differ only by constants.
     classes: Vec<LinkId>,
-    /// Speed at or below which a joint counts as standing still (rad/s): the rounding error of the drives' top speeds.
+    /// A joint at or below this speed (rad/s) counts as standing still.
+    /// The speed of standstill is the rounding error of the drives' top speeds.
     standstill: f64,
 }
 
@@ -95,8 +95,8 @@ impl Case {
     }
 
     /// Returns a case made of `parts`, the changed parts of this case.
-    /// The classes of links whose angles differ only by constants are copied from this case, so the changed parts must
-    /// not affect these classes.
+    /// The change must not affect which links have angles that differ only by constants: this information is copied
+    /// from this case.
     fn of_parts(&self, parts: CaseParts) -> Case {
         Case::made(parts, self.classes.clone())
     }
@@ -139,8 +139,8 @@ impl Case {
         self.of_parts(CaseParts { wanted, only: None, ..self.parts.clone() })
     }
 
-    /// Returns this case with a request for `channels` only, whatever this case requests. Channels that the case does
-    /// not have are ignored.
+    /// Returns this case with a request for `channels` only, in place of the present request.
+    /// Channels that the case does not have are ignored.
     #[must_use]
     pub fn wanting_only(&self, channels: &[Channel]) -> Case {
         let stages: Vec<Stage> = channels.iter().map(|channel| channel.kind.stage).collect();
@@ -197,8 +197,8 @@ impl Case {
         self.subjects().flat_map(rows).collect()
     }
 
-    /// Whether unwrapped angles of links are needed. They are not needed if single channels are requested and none of
-    /// these channels is the angle of a link.
+    /// Whether unwrapped angles of links are needed.
+    /// If single channels are requested, angles are needed only for channels that are the angle of a link.
     #[must_use]
     pub fn wants_angles(&self) -> bool {
         self.only.as_ref().is_none_or(|only| only.iter().any(|own| own.kind.reading == Reading::Link(OfLink::Angle)))
@@ -247,8 +247,8 @@ impl Case {
         InputState { value: drive.from_coordinate(value), rate, acceleration }
     }
 
-    /// Channels whose signed sums are the coordinate of the first drive and the first two time derivatives of this
-    /// coordinate.
+    /// Channels from which the coordinate of the first drive and its first two time derivatives follow, as sums with
+    /// these signs.
     /// The coordinate differs from the input by the drive's zero.
     #[must_use]
     pub fn input_channels(&self) -> [Vec<(Channel, f64)>; 3] {
@@ -271,8 +271,8 @@ impl Case {
         }
     }
 
-    /// Actions of the moment (N m) or force (N) of a drive: first on the link that carries the drive, then on the
-    /// driving link.
+    /// Actions of the moment (N m) or force (N) of a drive.
+    /// The first action is on the link that carries the drive, the second action is on the driving link.
     /// The frame carries the drive of a crank.
     /// At a joint between moving links, and for a slide, the joint's first link exerts the moment or force on the
     /// second link.
@@ -284,18 +284,17 @@ impl Case {
         }
     }
 
-    /// Whether the pose is given as a function of the time instead of the first drive's input.
-    /// The pose is given as a function of the time if there are several drives and the speed of at least one drive
-    /// varies.
+    /// Whether the pose is a function of the time instead of the first drive's input.
+    /// The pose is a function of the time if there are several drives and the speed of at least one drive varies.
     #[must_use]
     pub fn goes_by_time(&self) -> bool {
         self.drives.len() > 1 && self.drives.iter().any(|drive| drive.constant_speed().is_none())
     }
 
-    /// Change of the variable that determines the pose: the time (s) if [`Case::goes_by_time`], otherwise the input of
+    /// Step of the variable that determines the pose: the time (s) if [`Case::goes_by_time`], otherwise the input of
     /// the first drive.
-    /// During the change of time, every driving link turns by at most `turn` (rad). The change of input is
-    /// [`Case::step`].
+    /// During a step of time, every driving link turns by at most `turn` (rad).
+    /// The step of the input is [`Case::step`].
     #[must_use]
     pub fn stride(&self, turn: f64) -> f64 {
         if self.drives.further().is_empty() {
@@ -329,15 +328,15 @@ impl Case {
         self.drives.further().is_empty() && self.crank().passes() && !self.has_friction()
     }
 
-    /// Whether no motion is free, and every drive has a constant speed.
+    /// Whether every drive has a prescribed constant speed.
     #[must_use]
     pub fn is_steady(&self) -> bool {
         !self.is_free() && self.drives.iter().all(|drive| drive.constant_speed().is_some())
     }
 
     /// Lever arm of the balancing moments (m): the extent of the largest driving link.
-    /// A slider's force acts at the position of the slider. If a driving link has a slider, the lever arm is therefore
-    /// at least the size of the mechanism.
+    /// If a driving link has a slider, the lever arm is at least the size of the mechanism, because a slider's force
+    /// acts at the slider's position.
     #[must_use]
     pub fn drive_arm(&self) -> f64 {
         let links = self.mechanism.links();
@@ -349,7 +348,7 @@ impl Case {
     }
 
     /// Calls `put` with the action of every load on every link, the ground included.
-    /// The friction in joints and the losses of transmissions are included; they follow from `reactions`.
+    /// Friction in joints and losses of transmissions are included. Friction and losses follow from `reactions`.
     /// `motions` and `angles` contain the motion and the angle (rad, unwrapped) of every link, as in
     /// [`State`](crate::solver::State).
     /// Loads depend on positions and velocities, not on accelerations.
@@ -419,8 +418,8 @@ impl Case {
         self.classes[link] != self.classes[GROUND]
     }
 
-    /// Whether a joint can move. Some revolute joints cannot: two sliders on fixed guides, for example, cannot turn
-    /// about the pin that joins them.
+    /// Whether a joint can move. Some revolute joints cannot move.
+    /// For example, two sliders on fixed guides cannot turn about their common pin.
     #[must_use]
     pub fn can_move(&self, joint: JointId) -> bool {
         let joint = &self.mechanism.joints()[joint];
@@ -429,13 +428,13 @@ impl Case {
 
     /// Angular velocity of a link (rad/s), for loads that depend on its sense of rotation.
     /// The result is zero for a link that cannot turn.
-    /// The result is also zero if the angular velocity may be only a rounding error of the fastest link's angular
-    /// velocity.
+    /// The result is also zero if the angular velocity is not larger than the rounding error of the fastest link's
+    /// angular velocity.
     #[inline]
     #[must_use]
     pub fn spin(&self, motions: &[Motion], link: LinkId) -> f64 {
         let omega = motions[link].omega;
-        // `is_seen` returns false if the angular velocity of any link is NaN, so this function then returns zero.
+        // If the angular velocity of any link is NaN, `is_seen` returns false and the result is zero.
         let is_seen = || motions.iter().all(|motion| omega.abs() > STANDSTILL * motion.omega.abs());
         if self.can_turn(link) && is_seen() { omega } else { 0.0 }
     }
@@ -475,11 +474,11 @@ impl Case {
         }
     }
 
-    /// Does the same as [`Case::loads_on`], except that the caller computes the loads that depend on a link's sense of
-    /// rotation, or on a joint's sense of sliding.
+    /// Like [`Case::loads_on`], but the caller computes loads that depend on a link's sense of rotation or a joint's
+    /// sense of sliding.
     /// `sensed` returns the moment (N m) or force (N) of such a load.
     /// `sensed` receives the number of the load, the load and the crank angle (rad).
-    /// `sensed` is not called for links that cannot turn, because these loads do not act on them.
+    /// `sensed` is not called for links that cannot turn, because such loads do not act on these links.
     #[inline]
     pub fn loads_with(
         &self,
@@ -491,13 +490,12 @@ impl Case {
         self.loads_along(motions, angles, ANY_CRANK, sensed, |_, velocity| sense_of(velocity), out);
     }
 
-    /// Does the same as [`Case::loads_with`], except that the caller also determines the direction of motion of loaded
-    /// points.
+    /// Like [`Case::loads_with`], but the caller also determines the direction in which loaded points move.
     /// `way` returns this direction (unit vector, or zero) for each load that depends on the direction.
     /// `way` receives the number of the load and the point's velocity (m/s).
     /// If the velocity is only rounding error, `way` receives zero.
-    /// Tables are read at the crank angle limited to the interval `piece` (rad), so that no load jumps at an end of the
-    /// interval.
+    /// For reading tables, the crank angle is limited to the interval `piece` (rad).
+    /// No load then jumps at an end of the interval.
     #[inline]
     pub fn loads_along(
         &self,
@@ -539,7 +537,7 @@ impl Case {
     }
 }
 
-/// An interval that does not limit the crank angle (rad).
+/// The interval of all crank angles (rad).
 pub const ANY_CRANK: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
 /// Largest absolute angular velocity of the links (rad/s).

@@ -22,8 +22,8 @@ use crate::error::Result;
 use crate::solver::{Progress, Solver, State};
 use crate::trajectory::ChannelKind;
 
-/// Computes the forces that belong to a state's motion and writes them into the state.
-/// The second argument is the number of the state's row in the grid.
+/// Computes the forces for the motion of a state, and writes the forces into the state.
+/// The second argument is the state's row in the grid.
 pub type Statics = Box<dyn FnMut(&Case, usize, &mut State) -> Result<()>>;
 
 /// An engine: a solver that integrates numerically and whose settings determine its accuracy.
@@ -46,15 +46,15 @@ pub trait Engine: Solver {
     }
 
     /// Whether the engine controls its error.
-    /// For an engine that controls its error, [`Settings::resolution`] is an accuracy, and the engine chooses its time
-    /// steps accordingly.
+    /// If the engine controls its error, [`Settings::resolution`] is an accuracy, and the engine chooses its time
+    /// steps.
     /// For any other engine, [`Settings::resolution`] is the time step.
     fn controls_error(&self) -> bool;
 
     /// Methods for joint reactions and balancing moment, the cheapest method first.
     fn routes(&self) -> &'static [Route];
 
-    /// Methods by which the engine reports the forces that it applies in a case, the cheapest method first.
+    /// Methods by which the engine reports the forces that it applies itself. The cheapest method comes first.
     /// The list is empty if the engine's default method already reports these forces.
     fn own_routes(&self, case: &Case) -> &'static [Route];
 
@@ -63,7 +63,8 @@ pub trait Engine: Solver {
     fn sweeps(&self, case: &Case) -> Option<[usize; 2]>;
 
     /// Returns a function that computes reactions and balancing moments from a motion, by the engine's method.
-    /// Returns `None` if the motion alone does not determine the forces; the engine must then report the forces.
+    /// Returns `None` if the motion alone does not determine the forces.
+    /// If the result is `None`, the engine must report the forces.
     /// Extrapolation calls this function to compute the forces of the extrapolated motion.
     fn statics(&self, case: &Case) -> Option<Statics>;
 
@@ -76,8 +77,8 @@ pub trait Engine: Solver {
         Rows::of_solver(self, case, progress)
     }
 
-    /// Number of time steps that a run of a prescribed motion adds before the first and after the last instant of its
-    /// grid.
+    /// Number of additional time steps in a run of a prescribed motion, before the first and after the last instant of
+    /// the grid.
     fn overrun(&self) -> f64;
 
     /// Expected order of convergence of a channel, with the engine's present method and extrapolation.
@@ -90,7 +91,7 @@ pub trait Engine: Solver {
     /// If the result is false, the factors are assumed values.
     fn is_noise_measured(&self) -> bool;
 
-    /// Names and values, for display, of the engine's properties that influence the result. A step size and the
-    /// extrapolation are stated elsewhere.
+    /// The engine's properties that influence the result, as names and values for display.
+    /// Step size and extrapolation are not included.
     fn told(&self) -> Vec<(&'static str, String)>;
 }

@@ -1,4 +1,4 @@
-//! The only error type. An error contains the request, the finding, the location and the remedy.
+//! The only error type. An error says what was requested and what was found, where the fault is, and how to mend it.
 //! The parts of an error are stored as data and become text only in the output.
 
 mod advice;
@@ -223,8 +223,8 @@ impl Error {
         self
     }
 
-    /// Marks the error as the failure to reach a pose on the branch of the case.
-    /// A caller that knows the solvers and the range of motion can then add the reachable crank angles.
+    /// Marks the error: a pose cannot be reached on the branch of the case.
+    /// A caller with access to the solvers can then add the reachable crank angles.
     pub fn out_of_reach(mut self) -> Self {
         self.0.out_of_reach = true;
         self
@@ -237,7 +237,7 @@ impl Error {
     }
 
     /// Names the scenario key (dotted path) at fault.
-    /// The innermost caller sets its key first and knows the fault best, so a key that is already set stays.
+    /// A key that is already set stays, because the innermost caller sets the first key and knows the fault best.
     pub fn key(mut self, key: impl Into<KeyPath>) -> Self {
         self.0.key.get_or_insert_with(|| key.into());
         self
@@ -315,20 +315,20 @@ impl Error {
         self.0.out_of_reach
     }
 
-    /// The remedies, each of them an alternative to the others; empty if no remedy is known.
+    /// The alternative remedies; empty if no remedy is known.
     #[must_use]
     pub fn advice(&self) -> &[Advice] {
         &self.0.advice
     }
 
-    /// The remedy and how far the run got, in words; `None` if neither is known. The text does not mention command-line
-    /// options.
+    /// The remedy and the progress of the failed run, in words; `None` if both are unknown.
+    /// The text does not mention command-line options.
     #[must_use]
     pub fn way_out(&self) -> Option<String> {
         self.way_out_by(Advice::to_string)
     }
 
-    /// Does the same as [`Error::way_out`], but `tell` puts each piece of advice into words.
+    /// Like [`Error::way_out`], but `tell` puts each piece of advice into words.
     #[must_use]
     pub fn way_out_by(&self, tell: impl Fn(&Advice) -> String) -> Option<String> {
         let parts = [Advice::sentence(&self.0.advice, tell), self.0.reached.map(|reached| reached.to_string())];

@@ -30,7 +30,7 @@ pub fn pin(links: &[Link], name: &str, point: &str, first: &str, second: &str) -
     Joint { name: name.into(), kind: JointKind::Revolute, first: side(first), second: side(second), drawn: None }
 }
 
-/// Mechanism from links and pins given as (joint name, point, first link, second link).
+/// Mechanism of links and pins. Each pin is given as (joint name, point, first link, second link).
 pub fn mechanism(links: Vec<Link>, pins: &[(&str, &str, &str, &str)]) -> Result<Mechanism> {
     let joints = pins.iter().map(|&(n, p, a, b)| pin(&links, n, p, a, b)).collect();
     Mechanism::new(links, joints)
@@ -78,14 +78,14 @@ pub fn class_four(side_b: f64, side_d: f64) -> Mechanism {
     mechanism(links, &pins).unwrap()
 }
 
-/// A case of a mechanism of dyads, all of them in the mode `Left`.
+/// A case of a mechanism of dyads. All dyads have the mode `Left`.
 /// Joint 0 drives link 1 from angle zero at 1 rad/s. The case has no gravity, no load and no grid.
 pub fn turning(mechanism: Mechanism) -> Case {
     let left = StartGroup { mode: Some(AssemblyMode::Left), ..StartGroup::default() };
     turning_from(mechanism, 0.0, &left)
 }
 
-/// A case like that of `turning`, for a mechanism with Assur groups of any kind.
+/// A case as from `turning`, for a mechanism with Assur groups of any kind.
 /// The case starts at the crank angle `crank` (rad). `group` gives the required start configuration of every group.
 pub fn turning_from(mechanism: Mechanism, crank: f64, group: &StartGroup) -> Case {
     let drives = Drives::from(Drive::prescribed(JointId(0), LinkId(1), 0.0, crank, MotionLaw::ConstantSpeed(1.0)));

@@ -1,6 +1,6 @@
 //! The input: the joint coordinate that moves a mechanism.
-//! This module alone defines what an input measures, how an input is named in files and messages, and how its units
-//! convert.
+//! This module alone defines inputs: the measured quantity, the names in files and messages, and the conversion of
+//! units.
 
 use std::f64::consts::TAU;
 use std::fmt;
@@ -15,8 +15,9 @@ pub enum Input {
     /// Angle of a joint between two moving links: the angle of the joint's second link minus that of its first link.
     /// The angle is counter-clockwise positive and counts whole turns.
     Turn,
-    /// Slide of a prismatic joint: the distance, along the joint's axis, from the joint's point on the first link to
-    /// its point on the second link.
+    /// Slide of a prismatic joint.
+    /// A slide is measured along the joint's axis, from the joint's point on the first link to the joint's point on the
+    /// second link.
     Slide,
 }
 
@@ -125,8 +126,8 @@ impl Input {
         }
     }
 
-    /// Change of the input that moves points by about the size of the mechanism (m).
-    /// The change is one radian, or a slide equal to this size.
+    /// Change of the input that moves points by about the size of the mechanism (m): one radian, or a slide as long as
+    /// the mechanism's size.
     #[inline]
     #[must_use]
     pub const fn span(self, size: f64) -> f64 {

@@ -41,8 +41,8 @@ macro_rules! sentences {
 }
 
 /// Declares an enum whose variants have words in files and reports: `enum Name: method { Variant = "word", }`.
-/// `ALL` lists the variants in this order, `method` returns a variant's word, and `named` returns the variant of a
-/// word.
+/// `ALL` lists the variants in the order of declaration. `method` returns a variant's word.
+/// `named` returns the variant with a given word.
 #[macro_export]
 macro_rules! words {
     ($(#[$about:meta])* $vis:vis enum $name:ident: $method:ident { $($(#[$meaning:meta])* $variant:ident = $word:expr,)* }) => {

@@ -56,7 +56,7 @@ pub fn unit(angle: f64) -> Vec2 {
     Vec2::new(cos, sin)
 }
 
-/// A number below `x`. The difference is a little more than the rounding error of |x| + 1.
+/// A number just below `x`: smaller by a little more than the rounding error of |x| + 1.
 #[must_use]
 pub fn just_below(x: f64) -> f64 {
     if x.is_finite() { x - 16.0 * f64::EPSILON * (x.abs() + 1.0) } else { x }

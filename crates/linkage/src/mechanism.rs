@@ -50,7 +50,7 @@ pub struct Mechanism {
     size: f64,
 }
 
-/// Size of a mechanism (m): the largest extent of a link, 1 if all links are points.
+/// Size of a mechanism (m): the largest extent of a link. The size is 1 m if all links are points.
 fn size_of(links: &[Link]) -> f64 {
     let size = links.iter().map(Link::extent).fold(0.0, f64::larger);
     if size > 0.0 { size } else { 1.0 }
@@ -80,7 +80,7 @@ impl Mechanism {
     }
 
     /// A mechanism from unchecked links and joints.
-    /// Use this function only to look up names in a faulty file, or to draw the parts that exist.
+    /// This function serves only to look up names in a faulty file, or to draw the existing parts of a faulty file.
     #[must_use]
     pub fn unchecked(links: Vec<Link>, joints: Vec<Joint>) -> Self {
         let (links, joints) = (PerLink::from(links), PerJoint::from(joints));
@@ -88,8 +88,8 @@ impl Mechanism {
         let mut on = PerLink::from(vec![Vec::new(); links.len()]);
         for (index, joint) in joints.entries() {
             for side in [joint.first, joint.second] {
-                // A joint that connects a link with itself is added to that link's list like any other joint.
-                // `check_names` rejects the joint later.
+                // A joint that connects a link with itself is also added here.
+                // `check_names` rejects such a joint later.
                 on[side.link].push(index);
             }
         }
@@ -150,7 +150,7 @@ impl Mechanism {
         self.transmissions.iter().map(|own| own.design.clone()).collect()
     }
 
-    /// Index of a transmission's equation in the list of all equations.
+    /// Index of the equation of a transmission in the list of all equations.
     /// The equations of the transmissions come after the equations of the joints.
     #[inline]
     #[must_use]
@@ -207,9 +207,10 @@ impl Mechanism {
     }
 
     /// Guide and block of a sliding joint; `None` for a joint that does not slide.
-    /// The ground is always the guide. A joint that is drawn as a cylinder has its first link as the guide.
-    /// Of two moving links, the link with the larger size is the guide. If the sizes are equal, the joint's first link
-    /// is the guide.
+    /// If a link is the ground, the ground is the guide.
+    /// If the joint is drawn as a cylinder, its first link is the guide.
+    /// In all other cases the larger of the two links is the guide.
+    /// If the sizes are equal, the joint's first link is the guide.
     #[must_use]
     pub fn guide_and_block(&self, joint: &Joint) -> Option<[JointSide; 2]> {
         let size = |side: JointSide| if side.link == GROUND { f64::INFINITY } else { self.links[side.link].size() };
@@ -238,7 +239,7 @@ impl Mechanism {
 
     /// Largest extent of a link (m); for the ground, the extent of its points. Closure gaps are compared with this
     /// size.
-    /// The size is always positive. If no link has an extent, lengths do not matter and the size is 1 m.
+    /// The size is always positive. If no link has an extent, the size is 1 m.
     #[must_use]
     pub fn size(&self) -> f64 {
         self.size
@@ -331,8 +332,8 @@ impl Mechanism {
             for joint in self.joints.iter().filter(|joint| joint.is_pin() && joint.on(link).is_some()) {
                 let other = joint.other(link).link;
                 if !reached.contains(&other) && at(joint.first) && at(joint.second) {
-                    // The search stops as soon as the answer is known.
-                    // On a link with many joints, a visit to all other links would be slow.
+                    // The search stops early, because a visit to all other links would be slow on a link with many
+                    // joints.
                     if other == b {
                         return true;
                     }

@@ -30,7 +30,7 @@ impl CostAxis {
 }
 
 /// Indices of the points on the front of a stage, the cheapest first.
-/// Of points with equal cost and error only one is kept.
+/// Only one of several points with equal cost and error is kept.
 /// An error below the floor is replaced by the floor, because errors below the floor cannot be ranked.
 pub fn front(
     points: &[BenchPoint],
@@ -84,8 +84,7 @@ mod tests {
     }
 
     /// The test compares the front with its definition.
-    /// By definition, no point dominates a point on the front: no point has smaller or equal cost and error with one of
-    /// them smaller.
+    /// By definition, no point dominates a point on the front.
     #[test]
     fn the_front_holds_the_undominated_points() {
         let mut state = 1u64;

@@ -1,6 +1,6 @@
 //! The methods that are measured.
-//! For engines, the methods differ in step, sweeps, extrapolations and the method for reactions; for analytic
-//! sides, in accuracy.
+//! The methods of engines differ in step, sweeps, extrapolations and the way to obtain reactions.
+//! The methods of analytic sides differ in accuracy.
 
 use super::options::BenchOptions;
 use super::peer::Way;
@@ -23,7 +23,7 @@ const ACCURACIES: [f64; 6] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
 const QUICK_ACCURACIES: [f64; 2] = [1e-4, 1e-10];
 /// Accuracies of the analytic sides' integration, in addition to the usual accuracy.
 const SIDES: [f64; 5] = [1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
-/// Numbers of sweeps, as multiples of the smallest number that an engine considers useful.
+/// Numbers of sweeps, as multiples of the engine's smallest useful number.
 const SWEEPS: [usize; 3] = [1, 4, 16];
 /// Extrapolations.
 const TIMES: [usize; 4] = [0, 1, 2, 3];
@@ -99,7 +99,7 @@ pub(super) fn plan(case: &Case, options: &BenchOptions) -> Plan {
         for (rung, resolution) in resolutions(engine, curve.resolution, options).into_iter().enumerate() {
             let settings = Settings { resolution, ..curve };
             spent += work(case, engine, &settings);
-            // The coarsest run of a curve is made even if it exceeds the curve's budget.
+            // The coarsest run of a curve is always made, even beyond the curve's budget.
             if spent > share && rung > 0 {
                 left_out += 1;
                 continue;
@@ -150,8 +150,8 @@ fn curves(engine: &dyn Engine, case: &Case, options: &BenchOptions) -> Vec<Setti
     let mut curves = Vec::new();
     for &route in &routes {
         for &sweeps in &sweeps {
-            // Reactions from probes or impulses are extrapolated at most once, because a second extrapolation of them
-            // gives nothing new.
+            // Reactions from probes or impulses are extrapolated at most once, because a second extrapolation does not
+            // improve these reactions.
             let worth = times.iter().filter(|&&times| route == Route::Differences || times < 2);
             curves.extend(worth.map(|&extrapolated| Settings { sweeps, route, extrapolated, ..own }));
         }

@@ -1,5 +1,5 @@
 //! Runs all methods and measures their times in rounds. Each round runs the methods in turn.
-//! Because of the rounds, the load of other programs on the machine affects all methods alike.
+//! The load of other programs on the machine therefore affects all methods alike.
 
 use super::ladder::{Planned, Runner};
 use super::options::Clock;
@@ -15,16 +15,17 @@ use linkage::solver::{Progress, Solver};
 use linkage::trajectory::{Channel, Stage, Trajectory};
 use linkage::work::{Count, Work, counted};
 
-/// If a run is shorter than `SHORT` (s), it is repeated at most `MOST` times, and the repetitions are timed together.
+/// A run shorter than `SHORT` (s) is repeated at most `MOST` times. The repetitions are timed together.
 const SHORT: f64 = 5e-3;
 const MOST: f64 = 1000.0;
-/// If a run is longer than this (s), an analytic side or an engine is timed at most twice, and a peer once.
+/// A run longer than this time (s) counts as long.
+/// A long run of an analytic side or an engine is timed at most twice, a long run of a peer once.
 const LONG: f64 = 0.2;
-/// Largest number of rounds in which a long run of an analytic side or an engine, or a short run of a peer, takes part.
+/// Largest number of rounds for long runs of analytic sides and engines, and for short runs of peers.
 const FEW: usize = 2;
 /// Largest length of the text that states the reason of a failure, in characters.
 const REASON: usize = 300;
-/// Instants count as equal if their difference divided by the largest instant is at most this.
+/// Two instants count as equal up to this difference, relative to the largest instant.
 const SAME: f64 = 1e-9;
 
 /// Everything needed to measure runs.
@@ -126,7 +127,7 @@ impl Desk<'_> {
         Ok(AnsweredRun { errors, failed: Vec::new(), without: Vec::new(), seconds: vec![seconds], effort })
     }
 
-    /// Converts a peer's answer to a run. A fault in the answer is the reason of a failure.
+    /// Converts a peer's answer to a run. A fault in the answer is returned as the error.
     fn judged(&self, answer: Answer) -> Result<AnsweredRun, String> {
         let column = |name: &str| answer.columns.iter().find(|(own, _)| own == name).map(|(_, values)| values);
         let times = column("t_s").ok_or(sentences::THE_ANSWER_HAS_NO_COLUMN)?;

@@ -5,8 +5,7 @@ use prover::engines::EngineName;
 /// Seconds on a clock, from an arbitrary origin.
 pub type Clock<'a> = &'a dyn Fn() -> f64;
 
-/// If a point's error is below this multiple of the reference's error, the point counts as limited by the reference's
-/// error.
+/// A point whose error is below this multiple of the reference's error counts as limited by the reference.
 pub const CLEAR: f64 = 100.0;
 
 /// What is measured.

@@ -26,7 +26,7 @@ pub struct Answer {
     pub effort: RunEffort,
 }
 
-/// Another program. Errors are in words, because the diagram shows them.
+/// Another program. A peer's errors are texts, which the diagram shows.
 pub trait Peer {
     /// Name.
     fn name(&self) -> &str;

@@ -1,5 +1,5 @@
 //! One method of solving a scenario, and its outcome.
-//! The effort of a run is exact: it is measured by counts that do not depend on a clock.
+//! The effort of a run is exact, because operations are counted and no clock is used.
 
 use linkage::engine::Settings;
 use linkage::math::KeepNan;
@@ -35,11 +35,11 @@ pub struct AnsweredRun {
     /// Errors by stage, in the order of [`Stage::ALL`].
     /// `None` for a stage that was not requested, has failed, or has no channel in the answer of a peer.
     pub errors: [Option<Errors>; Stage::ALL.len()],
-    /// Stages in which a peer's numbers are invalid, and the fault in each of these stages.
+    /// Stages in which a peer's numbers are invalid, each with its fault.
     /// Stages with invalid numbers count as failures.
     pub failed: Vec<(Stage, String)>,
-    /// Stages that are judged without some of their channels, and the channels that are missing in the peer's answer.
-    /// A peer of an older version does not know the newest channels.
+    /// Stages that are judged although channels are missing in the peer's answer, each with the missing channels.
+    /// For example, a peer of an older version does not know the newest channels.
     pub without: Vec<(Stage, String)>,
     /// Times of all rounds (s).
     pub seconds: Vec<f64>,
@@ -69,7 +69,7 @@ pub struct BenchPoint {
     pub resolution: String,
     /// Settings of an engine.
     pub settings: Option<Settings>,
-    /// Whether the settings are the program's defaults. The field is set only for analytic sides.
+    /// Whether the settings are the program's defaults. The value is true only for analytic sides.
     pub is_usual: bool,
     /// Outcome of the method.
     pub outcome: BenchOutcome,
@@ -105,7 +105,7 @@ impl BenchPoint {
         }
     }
 
-    /// Channels that are missing in the peer's answer although the stage is judged, in words.
+    /// Text that lists the channels missing in the peer's answer, for a stage that is judged.
     pub fn without(&self, stage: Stage) -> Option<&str> {
         self.run()?.without.iter().find(|(own, _)| *own == stage).map(|(_, what)| what.as_str())
     }
@@ -123,7 +123,7 @@ pub struct RunEffort(pub Vec<(String, u64)>);
 
 /// Names of counts that give the number of solutions of the whole mechanism, each at one state.
 /// The first entry whose counts have a sum above zero is used.
-/// A step of a multistage method has one evaluation for each stage.
+/// Evaluations come first, because a step of a multistage method has one evaluation for each of its stages.
 const SOLUTIONS: [&[&str]; 3] = [&["evaluations"], &["steps", "probes"], &["poses"]];
 /// Names of counts that give the inner work of the solutions. The first count above zero is used.
 const INNER: [&[&str]; 4] = [&["sweeps"], &["factorisations"], &["iterations"], &["groups"]];

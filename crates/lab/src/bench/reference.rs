@@ -12,10 +12,9 @@ use linkage::solver::Solver;
 use linkage::trajectory::{Stage, Trajectory};
 use prover::bounds::residuals;
 
-/// Estimated error of the reference with tighter accuracy, divided by the difference between this reference and a run
-/// at the usual accuracy.
-/// In every step, the reference with tighter accuracy allows a hundredth of the error that a run at the usual accuracy
-/// allows.
+/// The reference is a run with tighter accuracy.
+/// The estimated error of the reference is this fraction of its difference from a run at the usual accuracy.
+/// In every step, the tighter accuracy allows a hundredth of the usual error.
 /// The constant is this hundredth times a factor of four, the margin `SAFETY` of `prover::run::known`.
 const LEFT: f64 = 0.04;
 
@@ -31,7 +30,7 @@ pub struct Floor {
 }
 
 impl Floor {
-    /// The errors of a point. Errors that are too close to the reference's error are marked.
+    /// The errors of a point. Errors below `CLEAR` times the reference's error are marked as limited.
     pub fn judged(&self, stage: Stage, [max, rms]: [f64; 2]) -> Errors {
         Errors { max, rms, is_limited: !(max >= CLEAR * self.errors[stage as usize]) }
     }

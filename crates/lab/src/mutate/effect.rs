@@ -14,7 +14,7 @@ use prover::bounds::magnitudes;
 
 /// If an exact answer changes by at most this fraction of the quantity's largest number, the change counts as rounding
 /// error.
-/// A change of this size also arises if a case is solved again from mathematically equivalent input numbers.
+/// Rounding errors of this size also appear if the same case is solved from other, mathematically equivalent numbers.
 /// The limit is at most a tenth of the difference allowed between the two analytic sides.
 pub(super) fn rounding(stage: Of) -> f64 {
     match stage {
@@ -29,7 +29,7 @@ pub(super) fn rounding(stage: Of) -> f64 {
 pub(super) enum Effect {
     /// The case lacks the part that the fault affects.
     None,
-    /// Exact answers are the same with and without the fault, up to rounding error.
+    /// The fault changes exact answers by no more than rounding error.
     /// The number is the largest change, relative to the largest number of the quantity.
     Equivalent(f64),
     /// Exact answers change. The number is the largest change, relative to the largest number of the quantity.
@@ -68,7 +68,7 @@ impl Stage<'_> {
         let (mut largest, mut beyond) = (0.0f64, false);
         let known = magnitudes(&self.right).into_iter().zip(&self.integration);
         for ((channel, ours), ((size, error), (_, theirs))) in self.right.iter().zip(known.zip(wrong.iter())) {
-            // A difference of whole turns is not removed, so it counts as a change of the answer.
+            // A difference of whole turns also counts as a change of the answer.
             let change = ours.iter().zip(theirs).fold(0.0f64, |most, (a, b)| most.larger((a - b).abs()));
             let relative = share(change, size);
             largest = largest.larger(relative);

@@ -32,7 +32,7 @@ impl Stage<'_> {
         judged.filter_map(|all| Some(all.first()?.name.as_str())).collect()
     }
 
-    /// Indices of the formulas that claim an exact value, and of the steps of derivation that they use.
+    /// Indices of the formulas that claim an exact value, and of the derivation steps behind these formulas.
     /// A claim with a stated error is left out: a claim with a mistake may still be correct within its stated error.
     /// A formula that is wrong as printed is left out too.
     pub(super) fn formulas(&self) -> Vec<usize> {
@@ -58,12 +58,12 @@ impl Stage<'_> {
         let formulas = &self.scenario.formulas;
         let nodes: Vec<NodeId> = formulas.claims().map(|(formula, _)| formula.id).collect();
         let operations = Program::of(&formulas.graph, &nodes).len() * self.case.grid.len();
-        // Of a formula, the value and two derivatives are evaluated.
-        // Together these evaluations count as six times the operations of the value.
+        // A formula's value and two derivatives are evaluated.
+        // Value and derivatives together need about six times the operations of the value.
         OPERATION * 2.0 * 6.0 * operations as f64
     }
 
-    /// Plants a mistake in a formula; `None` if the formula has no suitable position for it.
+    /// Plants a mistake in a formula; `None` if no position in the formula suits the mistake.
     pub(super) fn planting(&self, kind: &FaultKind, mistake: Mistake, of: usize, size: f64) -> Option<Planting> {
         let formulas = &self.scenario.formulas;
         let own = &formulas.list[of];
@@ -80,8 +80,8 @@ impl Stage<'_> {
             Some(Planting { what, formulas })
         };
         match mistake {
-            // Chooses one of many possible positions.
-            // The choice differs between formulas and between kinds, and is the same in every run.
+            // One of many possible positions is chosen.
+            // The choice depends on the formula and on the kind of fault, but not on the run.
             Mistake::Slip(slip) => {
                 let number = own.name.bytes().chain(kind.name.bytes()).map(usize::from).sum();
                 with_tree(planted(formulas, of, slip, number)?)
@@ -115,7 +115,7 @@ impl Stage<'_> {
         is_named.then(|| Claim::of_channels(&format!("{}.{suffix}", other.subject()), all).ok()).flatten()
     }
 
-    /// Effect of a mistake on the claimed value, or of a claim of another channel.
+    /// Effect of a mistake: the change of the formula's value, or of the claimed channel.
     pub(super) fn formula_effect(&self, own: &Planting) -> Result<Effect> {
         let right = &self.scenario.formulas;
         self.sides.on_course(&self.case, Reference::Assur, |course: &KnownTrajectory| {

@@ -68,10 +68,11 @@ const SHAKING: &str = "shaking force and moment from reactions and from momentum
 const POWERS: &str = "balancing moment from equilibrium and from powers (assur)";
 const BETWEEN: &str = "assur against newton";
 
-/// Faults of analytic side 1. The fields are scenario, fault, number of channels in which the sides differ, and
-/// families of checks that find the fault.
-/// The number 0 means "not counted", because other channels depend on the wrong quantity.
-/// The channels of the link, of its mass centre and of its points depend on the wrong quantity, and so does the power.
+/// Faults of analytic side 1.
+/// The fields are scenario, fault, number of channels in which the sides differ, and families of checks that find the
+/// fault. The number 0 means that the channels are not counted.
+/// Channels are not counted if further channels depend on the wrong quantity: the channels of the link, its mass centre
+/// and its points, and the power.
 /// Orders of magnitude: lengths are tenths of a metre, speeds some rad/s, forces hundreds of newtons.
 static IN_A_SIDE: [(&str, &str, usize, &[&str]); 12] = [
     ("crank_rocker", "a closed loop is open (m)", 0, &["closure of all joints (assur)"]),
@@ -87,7 +88,7 @@ static IN_A_SIDE: [(&str, &str, usize, &[&str]); 12] = [
         &[BETWEEN, SHAKING],
     ),
     ("crank_rocker", "a reaction at the origin: a force without a couple", 0, &[BETWEEN, SHAKING]),
-    // The two channels that differ are one channel of the drive and one channel of the frame.
+    // Two channels differ: one of the drive and one of the frame.
     ("crank_rocker", "the driving moment", 2, &[BETWEEN, POWERS, SHAKING]),
     ("five_bar", "the second drive's moment", 2, &[BETWEEN, POWERS, SHAKING]),
     ("five_bar", "the second drive's moment at the last instant", 2, &[BETWEEN, POWERS, SHAKING]),
@@ -129,8 +130,7 @@ static IN_THE_ENGINE: [InTheEngine; 8] = [
     ("crank_rocker", "an angle at the first instant", 1e-4, &["link.coupler.angle_rad"], &[]),
     ("crank_rocker", "an angle at the last instant", 1e-4, &["link.coupler.angle_rad"], &[]),
     ("crank_rocker", "an angular velocity", 1e-2, &["link.rocker.omega_rad_s"], &[OF_POWERS]),
-    // Forces and powers are computed from the wrong accelerations and therefore agree with them, so no check has to
-    // disagree.
+    // No check has to disagree, because forces and powers are computed from the wrong accelerations.
     ("crank_rocker", "an angular acceleration", 1.0, &["link.rocker.alpha_rad_s2"], &[]),
     ("crank_rocker", "a reaction", 1.0, &["joint.B.fy_N"], &[]),
     ("crank_rocker", "the driving moment", 0.1, &["drive.torque_N_m", "frame.moment_N_m"], &[OF_POWERS]),
@@ -168,7 +168,7 @@ fn a_fixed_error_in_an_engine_decides_its_verdict() {
     }
 }
 
-/// If only the moment is requested, no speed is compared; only the balances of powers and of momentum use the speeds.
+/// If only the moment is requested, speeds are not compared. Only the balances of power and of momentum use the speeds.
 #[test]
 fn the_balance_of_powers_finds_a_wrong_unrequested_speed() {
     let wrong = fault("an angular velocity, by a share");
@@ -188,7 +188,7 @@ fn the_balance_of_powers_finds_a_wrong_unrequested_speed() {
     assert_eq!(powers.verdict.word(), "disagree");
 }
 
-/// A wrong position changes no velocity, but opens a joint of the loop.
+/// A wrong position opens a joint of the loop, while all velocities stay correct.
 /// The closure check alone decides the verdict.
 #[test]
 fn an_open_loop_decides_the_verdict_without_any_channel() {

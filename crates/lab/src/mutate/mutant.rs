@@ -53,7 +53,8 @@ pub struct Mutant {
     /// Largest change of the exact answers by the fault, relative to the largest number of the changed quantity. `None`
     /// if there is no exact answer.
     pub effect: Option<f64>,
-    /// For a detected fault with a size: the smallest size that is still found, to a factor of two.
+    /// Smallest size at which the fault is still found, to a factor of two.
+    /// `None` if the fault has no size or is not detected, and if no search was requested.
     pub smallest: Option<f64>,
 }
 
@@ -74,6 +75,6 @@ pub struct Mutated {
     pub formulas: usize,
     /// Kinds that affect no part of the scenario.
     pub without: Vec<&'static str>,
-    /// If no planted fault changes anything: the families with kinds that would change something in this scenario.
+    /// If no planted fault has an effect: the families with kinds that would have an effect in this scenario.
     pub instead: Vec<&'static str>,
 }

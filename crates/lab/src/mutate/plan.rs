@@ -1,6 +1,6 @@
 //! Chooses faults and parties, and plants every chosen fault in every chosen party.
-//! The parties are the two analytic sides, the engine, the code that they share, and the formulas.
-//! For a fault with a size, a search finds the smallest size at which a proof still finds the fault.
+//! The parties are the two analytic sides, the engine, the code shared by sides and engine, and the formulas.
+//! If a fault has a size, a search determines the smallest size at which a proof still detects the fault.
 
 use super::effect::Effect;
 use super::formulas;
@@ -141,7 +141,7 @@ fn fault(kind: &'static FaultKind) -> Fault {
     Fault { kind, size: kind.size.unwrap_or(1.0) }
 }
 
-/// Every formula with a suitable position for the mistake `mistake`: its number, the planted mistake and the effect.
+/// Every formula in which `mistake` can be planted: number of the formula, planted mistake and effect.
 /// If `only_real` is true, only the first mistake with an effect is returned.
 fn spoiled(
     stage: &Stage,
@@ -211,15 +211,15 @@ fn of_kind(stage: &Stage, kind: &'static FaultKind, asked: &MutationPlan) -> Res
 /// Smallest size that is tried, divided by the first size. Effects of smaller faults are below rounding error.
 const LEAST: f64 = 1e-16;
 /// Largest factor between successive sizes of the search.
-/// Without a margin, the whole size divided by this factor is the first guess.
+/// If the margin is unknown, the first guess is the whole size divided by this factor.
 const STEP: f64 = 10.0;
-/// The search ends if the smallest detected size is at most this multiple of an undetected size.
+/// The search ends if the smallest detected size is at most this factor above an undetected size.
 const FACTOR: f64 = 2.0;
-/// One search makes fewer proofs than this number.
+/// Upper limit of the number of proofs in one search.
 const MOST: usize = 24;
 
 /// The smallest size for which `is_found` returns true, to a factor of two.
-/// At size `whole`, the difference is `margin` times its bound.
+/// At the size `whole`, the difference is `margin` times the bound of the difference.
 pub(super) fn smallest(whole: f64, margin: f64, is_found: &dyn Fn(f64) -> bool) -> f64 {
     let mut left = MOST;
     let mut is_found = |size: f64| {

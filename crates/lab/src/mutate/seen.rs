@@ -1,5 +1,5 @@
-//! Detection of a fault: the channels and checks that exceed their bounds, the first instant at which this happens, and
-//! the margin.
+//! Detection of a fault: the channels and checks that exceed their bounds, the first instant at which a bound is
+//! exceeded, and the margin.
 
 use crate::sentences;
 use linkage::math::statistics::ascending;
@@ -24,17 +24,17 @@ pub struct Sight {
 pub enum FaultyProof {
     /// At least one channel or check disagrees.
     Detected {
-        /// First detection: the detection at the earliest instant; among several at this instant, the detection with
-        /// the largest margin.
+        /// The detection at the earliest instant.
+        /// If several detections have this instant, the detection with the largest margin.
         first: Sight,
-        /// Clearest detection: the one with the largest margin.
+        /// The detection with the largest margin.
         clearest: Sight,
         /// Number of channels that exceed their bounds.
         channels: usize,
         /// Families of checks that disagree.
         checks: Vec<String>,
     },
-    /// A party gives no answer but this message.
+    /// A party gives this message in place of an answer.
     Refused(String),
     /// The proof is inconclusive, for this reason.
     Inconclusive(String),
@@ -57,7 +57,7 @@ impl FaultyProof {
         }
     }
 
-    /// Whether a user learns that something is wrong.
+    /// Whether the fault is found: a channel or check disagrees, or a party gives no answer.
     pub fn is_found(&self) -> bool {
         match self {
             FaultyProof::Detected { .. } | FaultyProof::Refused(_) => true,
@@ -174,7 +174,7 @@ impl Eyes {
         }
     }
 
-    /// Whether something disagrees already.
+    /// Whether one of the collected verdicts is a disagreement.
     pub(super) fn is_decided(&self) -> bool {
         self.verdicts.iter().any(disagrees)
     }

@@ -1,5 +1,5 @@
 //! One scenario with its correct parties, and proofs with a fault in one party.
-//! A fault is planted by a hook, which changes the case or the answers of a solver or an engine.
+//! A fault is planted in a solver or an engine: a hook changes the case or the answers.
 
 use crate::sentences;
 use std::sync::OnceLock;
@@ -59,8 +59,8 @@ impl<'a> Stage<'a> {
         let of_sides = || ObservedSides::of(problem, whole, TRUE_SIDES, options.reference, &mut Ledger::default());
         let (sides, done) = counted(|| limited(allowed, of_sides).0);
         let sides = sides?;
-        // Side 2 does not count the groups that it places.
-        // Side 2 places as many links as side 1, so the groups of side 1 are counted twice.
+        // Only side 1 counts the groups that it places.
+        // The groups of side 1 are counted twice, because side 2 places as many links.
         let placed = PLACED * 2.0 * done.of(Count::Groups) as f64 + done.of(Count::Intervals) as f64;
         let right = AssurSolver.solve(&case)?;
         let integration = sides.integration();
@@ -126,7 +126,8 @@ impl<'a> Stage<'a> {
     }
 
     /// Outcome of the engine's proof with `sides` as reference.
-    /// The engine's own forces (`own_forces`) are requested only if the proof without them finds nothing.
+    /// The engine's own forces (`own_forces`) are requested only if the proof without these forces does not find the
+    /// fault.
     /// A verdict on these forces cannot undo a disagreement.
     fn judged(&self, sides: &ObservedSides, around: Around) -> Result<FaultyProof> {
         let mut last = FaultyProof::Escaped;
@@ -169,14 +170,12 @@ impl<'a> Stage<'a> {
     }
 
     /// The proof with a fault in the code that all parties share.
-    /// With a fault in shared code, the parties agree with each other, so only external reference values can contradict
-    /// the wrong answers.
+    /// With a fault in shared code, all parties agree. Only external reference values can contradict the wrong answers.
     fn in_all(&self, fault: Fault) -> Result<FaultyProof> {
         let case = match fault.kind.plant {
             Plant::Case(change) => match change(&self.case, fault.size) {
                 None => return Ok(FaultyProof::Refused(sentences::THE_CASE_CANNOT_BE_PUT_TOGETHER.into())),
-                // The requested instants stay correct.
-                // Only the instants at which the analytic sides solve are wrong.
+                // The fault is in the instants at which the analytic sides solve. The requested instants are correct.
                 Some(case) if self.is_late(&case) => None,
                 Some(case) => Some(case),
             },
@@ -190,7 +189,7 @@ impl<'a> Stage<'a> {
     }
 }
 
-/// The engine with cached runs. The engine of the first call makes these runs.
+/// The engine of the first call, with its runs cached, and with the settings of `engine`.
 fn kept_in(runs: &OnceLock<CachedEngine>, engine: Box<dyn Engine>) -> Box<dyn Engine> {
     runs.get_or_init(|| CachedEngine::new(engine.as_ref())).with(engine.settings())
 }

@@ -8,7 +8,7 @@ use super::seen::FaultyProof;
 pub struct Share {
     /// Faults for which a channel or check disagrees.
     pub detected: usize,
-    /// Faults that leave a party without an answer.
+    /// Faults because of which a party gives no answer.
     pub refused: usize,
     /// Faults with which the proof is inconclusive.
     pub inconclusive: usize,
@@ -61,15 +61,15 @@ pub struct FaultCounts {
 /// Summary of all planted faults.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FaultTally {
-    /// Every fault with an effect is found, in the parties and in the formulas.
+    /// Every fault that has an effect is found.
     AllFound,
     /// No proof with a fault agrees, but some proofs are inconclusive.
     NoneEscapes,
     /// Some faults are not found.
     SomeEscape,
-    /// Only faults in the shared code have an effect, and some of them are not found.
+    /// Only faults in the shared code have an effect, and some of these faults are not found.
     TrunkOpen,
-    /// No planted fault has an effect: nothing is proven.
+    /// No planted fault has an effect, so the test proves nothing.
     Nothing,
 }
 

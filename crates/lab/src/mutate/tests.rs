@@ -30,7 +30,7 @@ fn kinds_of_faults_have_unique_names_and_descriptions() {
     assert!(all().all(|kind| !names.contains(kind.family.name())));
 }
 
-/// Outcomes and margins from reused runs equal those from new runs, bit for bit.
+/// Reused runs give exactly the same outcomes and margins as new runs.
 #[test]
 fn reused_runs_give_the_same_outcome_as_new_ones() {
     let options = Options::default();
@@ -62,8 +62,8 @@ fn a_fault_without_effect_is_not_counted() {
 }
 
 /// Symptom: the rods of a parallelogram only translate, so their moments of inertia have no effect.
-/// A fault in one of these moments of inertia changed only the integration steps, but was counted as a fault that the
-/// proof misses.
+/// A fault in such a moment of inertia was counted as a fault that the proof misses, although it changed only the
+/// integration steps.
 #[test]
 fn regress_a_change_of_integration_steps_only_is_no_effect() {
     let scenario = scenario("n_four_bar_1");
@@ -96,8 +96,7 @@ fn half_the_smallest_detected_size_is_not_detected() {
     }
 }
 
-/// Symptom: `run` with all shipped scenarios did not find these faults, because no shipped scenario had the features
-/// that the faults affect.
+/// Symptom: the shipped scenarios did not reveal these faults, because no shipped scenario had the affected features.
 /// The features are a slider on a moving guide, the moment of a guide in a higher group, and a slider of the spanning
 /// tree that carries another slider. The three scenarios of this test have these features.
 #[test]
@@ -114,7 +113,7 @@ fn faults_of_sliders_on_moving_guides_are_found_in_every_party() {
 }
 
 /// The fault `load-always` has an effect only if the loaded link reverses.
-/// No shipped crank reverses under a load of this kind, so the moment acts on a rocker.
+/// No shipped scenario has a reversing crank with such a load, so the moment acts on a rocker here.
 #[test]
 fn a_one_sided_moment_that_always_acts_is_found_in_every_party() {
     let mut rocking = scenario("crank_rocker");

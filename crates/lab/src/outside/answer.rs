@@ -15,8 +15,8 @@ const MOST: usize = 200;
 const COUNTED: usize = 50;
 /// Largest number of columns in a peer's table.
 const COLUMNS: usize = 100_000;
-/// Range of plausible run times (s). Clocks cannot resolve times below this range, and nobody waits for times above
-/// this range.
+/// Range of plausible run times (s). Shorter times are below the resolution of clocks.
+/// Longer times are too long for a measurement.
 const TIMES: RangeInclusive<f64> = 1e-12..=1e9;
 
 /// The last line of a program's output, as JSON. The program's libraries may print other lines before the last line.
@@ -30,7 +30,7 @@ fn word(object: &Map<String, Value>, key: &str) -> Option<String> {
     object.get(key).and_then(Value::as_str).map(visible)
 }
 
-/// The reason that the peer gives, if its answer is a refusal.
+/// The peer's reason for refusing to solve; `None` if the peer has not refused.
 fn refused(value: &Value) -> Option<String> {
     value.as_object().and_then(|object| word(object, "refused"))
 }
@@ -76,7 +76,7 @@ pub(super) fn answer(output: &str, table: impl FnOnce() -> Result<String, String
 
 /// Reads a measured time (s); an implausible time is an error.
 fn seconds(value: &Value) -> Result<f64, String> {
-    // A coarse clock may give zero. The caller ignores a time of zero.
+    // Zero is accepted, because a coarse clock may give zero. The caller ignores a time of zero.
     let found = value.as_f64().filter(|seconds| TIMES.contains(seconds) || *seconds == 0.0);
     found.ok_or_else(|| {
         let [least, most] = [TIMES.start(), TIMES.end()];
@@ -157,7 +157,7 @@ mod tests {
             assert!(answer("{\"seconds\": 1}", || Ok(bad.into())).is_err(), "{bad}");
         }
         for (output, reason) in
-            [("[]", "0 ways"), ("[1]", "no name"), ("{}", "is not a JSON array"), ("7\n", "is not a JSON array")]
+            [("[]", "0 settings"), ("[1]", "no name"), ("{}", "is not a JSON array"), ("7\n", "is not a JSON array")]
         {
             let found = ways(output).unwrap_err();
             assert!(found.contains(reason), "{output}: {found}");

@@ -1,4 +1,5 @@
-//! A peer: a command that receives a scenario and answers with a solution. docs/peers.md describes the protocol.
+//! A peer is a command that receives a scenario and answers with a solution.
+//! The document `docs/peers.md` describes the protocol.
 
 use crate::sentences;
 use std::cell::RefCell;
@@ -37,7 +38,7 @@ pub struct Command<'a> {
     limit: f64,
     clock: Clock<'a>,
     /// The peer's directory.
-    /// The directory is created when first needed, and removed when the peer is dropped.
+    /// The first call creates the directory. Dropping the peer removes the directory.
     place: RefCell<Option<TempDir>>,
 }
 
@@ -64,8 +65,7 @@ impl<'a> Command<'a> {
         let table = directory.join("answer.csv");
         let request = directory.join("request.json");
         // Removes the files of an earlier run.
-        // An old table must not be taken as an answer, and a symbolic link at the path of the request must not be
-        // followed.
+        // Without this removal, an old table could be taken as the answer, or an old symbolic link could be followed.
         for old in [&table, &request] {
             let _ = fs::remove_file(old);
         }
@@ -79,7 +79,7 @@ impl<'a> Command<'a> {
         fs::write(&request, value.to_string()).map_err(|error| sentences::the_request_cannot_be_written(&error))?;
         let request = request.to_string_lossy();
         let output = process::run(&self.command, &[what, &request], directory, self.limit, self.clock);
-        // Removes control characters from the message of a failed peer, because users see this message.
+        // Users see the message of a failed peer, so control characters are removed from the message.
         output.and_then(|output| read(&output, directory)).map_err(|reason| visible(&reason))
     }
 

@@ -1,5 +1,5 @@
 //! Runs a program with a time limit.
-//! The program's output goes to files, so that a long output neither blocks the program nor fills the memory.
+//! The program's output goes to files. A long output therefore cannot block the program or fill the memory.
 
 use crate::sentences;
 use std::fs::{self, File};
@@ -10,7 +10,7 @@ use std::time::Duration;
 
 use crate::bench::Clock;
 
-/// Pauses between two checks of a running program, in the first 0.1 s and later.
+/// Pause between two checks of a running program: one value for the first 0.1 s, and one value for the time afterwards.
 /// The first pauses are short, so that the end of a quick program is noticed without delay.
 const PAUSES: [Duration; 2] = [Duration::from_millis(2), Duration::from_millis(20)];
 /// Largest number of bytes read from a program.
@@ -36,7 +36,8 @@ pub(super) fn run(
         File::create_new(path).map_err(|error| format!("{}: {error}", path.display()))
     };
     let mut shell = Command::new("sh");
-    // The first word after the script is the script's name. Arguments are never parsed as a script.
+    // `sh` takes the first word after the script as the script's name.
+    // The other words are arguments, which `sh` never parses as a script.
     shell.arg("-c").arg(format!("exec {command} \"$@\"")).arg("peer").args(arguments);
     shell.stdin(Stdio::null()).stdout(file(&out)?).stderr(file(&err)?);
     #[cfg(unix)]
@@ -97,7 +98,7 @@ fn stop(child: &mut Child) {
 }
 
 /// Text of a file that a program should have written; bytes that are not text are replaced.
-/// Only regular files are read: a pipe or a device might never end, and a link might lead elsewhere.
+/// Only regular files are read. A pipe or a device might never end, and a symbolic link might lead to another file.
 pub(super) fn text(path: &Path) -> Result<String, String> {
     let found = fs::symlink_metadata(path).map_err(|error| sentences::is_not_there(&name(path), &error))?;
     if !found.is_file() {

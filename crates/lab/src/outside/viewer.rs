@@ -1,4 +1,4 @@
-//! Rerun: its recordings, written by Rerun's library for Python, and its viewer.
+//! Writes recordings with Rerun's library for Python, and opens recordings in Rerun's viewer.
 
 use crate::sentences;
 use std::fs;
@@ -21,7 +21,7 @@ const LIMIT: f64 = 120.0;
 pub fn converted(film: &str, python: &str, clock: Clock) -> Result<Vec<u8>, String> {
     let own = tempfile::tempdir().map_err(|error| error.to_string())?;
     let at = |name: &str| own.path().join(name);
-    // The script must not have the name of the library: Python would import it in place of the library.
+    // A script with the library's name would be imported by Python in place of the library.
     for (name, text) in [("show.py", SCRIPT), ("film.json", film)] {
         fs::write(at(name), text).map_err(|error| error.to_string())?;
     }

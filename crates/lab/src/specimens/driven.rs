@@ -1,4 +1,4 @@
-//! Random mechanisms with the drive at a random joint: the input may be a slide or an angle between moving links.
+//! Random mechanisms with the drive at a random joint. The input may be a slide, or an angle between two moving links.
 
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
@@ -22,7 +22,7 @@ pub fn driven_elsewhere(random: &mut RandomSource, case: &Case) -> Option<Case> 
     let share = RISE * random.number(0.1, 1.0) * if random.yes() { 1.0 } else { -1.0 };
     let law = |input: Input| {
         let rise = share * input.span(case.mechanism.size());
-        // Half a period of an oscillation, or a cycloid.
+        // The motion law is half a period of an oscillation, or a cycloid.
         let half = Curve::Harmonic { amplitude: rise / 2.0, period: 2.0, phase: -FRAC_PI_2 };
         if share > 0.0 { MotionLaw::Curve(Arc::new(half)) } else { MotionLaw::Cycloidal { rise, time: 1.0 } }
     };
@@ -41,7 +41,8 @@ mod tests {
     use linkage::trajectory::{Channel, Trajectory};
     use std::collections::BTreeSet;
 
-    /// Largest difference of two trajectories, as a fraction of the largest value among the channels of the same unit.
+    /// Largest difference of two trajectories.
+    /// The difference of a channel is divided by the largest value of all channels with the same unit.
     fn apart(one: &Trajectory, other: &Trajectory) -> f64 {
         let off = |(channel, values): (&Channel, &[f64])| {
             let alike = one.iter().filter(|(own, _)| own.kind.unit == channel.kind.unit);

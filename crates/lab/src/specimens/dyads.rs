@@ -11,7 +11,7 @@ use scenario::Scenario;
 /// Upper limit of the distance of joints and mass centres from the origin (m).
 /// The constant is also used as the scale of link angles (rad).
 pub const REACH: f64 = 4.0;
-/// Smallest sine of a transmission angle: 10 degrees.
+/// Smallest allowed sine of a transmission angle: the sine of 10 degrees.
 pub const DEAD: f64 = 0.17364817766693033;
 /// Smallest distance between the outer pins of an RPR dyad (m): the length of the shortest link.
 const CLOSE: f64 = 0.1;
@@ -22,7 +22,7 @@ const CLOSE: f64 = 0.1;
 pub const SORTS: [[bool; 3]; 5] =
     [[false, false, false], [false, false, true], [false, true, false], [false, true, true], [true, false, true]];
 
-/// A mechanism that can be assembled on its whole grid, away from dead points.
+/// A mechanism that can be assembled at every instant of its grid and stays away from dead points.
 pub struct DyadSpecimen {
     /// The mechanism as data.
     pub spec: Spec,
@@ -37,7 +37,7 @@ pub struct DyadSpecimen {
 pub fn dyad(sketch: &mut SpecimenSketch, slides: [bool; 3], bases: [usize; 2]) -> [usize; 2] {
     let hook = sketch.poses[bases[0]].origin + sketch.random.vector(0.1, 0.6);
     let (mut one, mut two) = (sketch.link(hook), sketch.link(hook));
-    // The two links are exchanged at random, so that either may come first in the mechanism and in its group.
+    // The two links are exchanged at random, so that their order in the mechanism and in the group varies.
     if sketch.random.yes() {
         (one, two) = (two, one);
     }
@@ -83,8 +83,8 @@ pub fn sort(random: &mut RandomSource, allowed: &[[bool; 3]]) -> [bool; 3] {
     slides
 }
 
-/// A crank and `dyads` dyads. One end of each dyad is joined to one of the last two links, the second end to a random
-/// link or the ground.
+/// A crank and `dyads` dyads.
+/// Each dyad has one end on one of the last two links, and the other end on a random link or the ground.
 pub fn chain(random: &mut RandomSource, allowed: &[[bool; 3]], dyads: usize) -> (Spec, Vec<LinkPose>) {
     let mut sketch = SpecimenSketch::new(random, [0.1, 1.0]);
     for _ in 0..dyads {
@@ -103,8 +103,9 @@ pub fn chain(random: &mut RandomSource, allowed: &[[bool; 3]], dyads: usize) -> 
 
 /// Reads a chain.
 /// `None` if, at an instant of the grid, the mechanism leaves `REACH` or comes near a dead point.
-/// The poses come from [`first_pose`]. A solver would also compute the range of the mechanism, which takes longer than
-/// all other work of this function.
+/// The poses come from [`first_pose`].
+/// No solver is used, because a solver also computes the range of the mechanism, which takes longer than the rest of
+/// this function.
 pub fn sample(spec: Spec) -> Option<DyadSpecimen> {
     let scenario = spec.scenario().ok()?;
     let case = &scenario.case;
@@ -133,7 +134,8 @@ pub fn sample(spec: Spec) -> Option<DyadSpecimen> {
         }
         let sine = |pose: &Pose| transmission_sine(mechanism, group, pose).expect("a dyad");
         // The sign of the sine must not change.
-        // Where axes become parallel, a slider goes to infinity and returns from the opposite direction.
+        // At a change of sign, two axes become parallel: a slider goes to infinity and returns from the opposite
+        // direction.
         let sign = sine(&poses[0]).signum();
         let least = poses.iter().map(|pose| sign * sine(pose)).fold(1.0, f64::smaller);
         if !(least >= DEAD) {

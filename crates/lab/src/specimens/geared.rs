@@ -1,5 +1,5 @@
-//! Random mechanisms with a transmission: gears, a belt or a cam between one of the links and an additional wheel or
-//! follower.
+//! Random mechanisms with gears, a belt or a cam.
+//! The transmission connects a link with an additional wheel or follower.
 
 use std::f64::consts::{FRAC_PI_3, PI, TAU};
 
@@ -13,7 +13,7 @@ use linkage::mechanism::{
 
 use super::sketch::RandomSource;
 
-/// Name of the wheel and of its axle.
+/// Name of the additional wheel, and name of the wheel's axle.
 const WHEEL: &str = "wheel";
 
 /// The mechanism of `case` with a wheel on one of its links, the carrier.
@@ -68,8 +68,8 @@ pub fn geared(random: &mut RandomSource, case: &Case) -> Option<Case> {
     restructured(case, parts)
 }
 
-/// The case with changed parts and the structure of the changed mechanism. Groups that also exist in `case` keep their
-/// modes.
+/// The case with changed parts and with the structure of the changed mechanism.
+/// A group that also exists in `case` keeps its assembly mode.
 fn restructured(case: &Case, mut parts: CaseParts) -> Option<Case> {
     parts.structure = Structure::of(&parts.mechanism, &parts.drives.joints()).ok()?;
     let mode = |own: &linkage::mechanism::Group| match own.kind {
@@ -101,7 +101,7 @@ fn kind(random: &mut RandomSource, distance: f64) -> TransmissionKind {
         return TransmissionKind::Cam { law: CamLaw::of(segments).expect("the angles ascend to a turn"), contact };
     }
     let first = 10.0 + random.index(30) as f64;
-    // The two numbers of teeth differ, as an internal pair requires.
+    // The two numbers of teeth differ, because an internal gear pair requires different numbers.
     let second = first * random.number(1.2, 3.0);
     let teeth = if random.yes() { [first, second] } else { [second, first] };
     let signed = |own: f64, other: f64| if own > other { -own } else { own };

@@ -18,7 +18,7 @@ impl RandomSource {
         RandomSource(ChaCha20Rng::from_seed([seed; 32]))
     }
 
-    /// The random numbers of the sample `index`, one of many samples that follow from one seed.
+    /// The random numbers of the sample `index`. Many samples follow from one seed.
     pub fn of_sample(seed: u64, index: u64) -> Self {
         let mut bytes = [0; 32];
         bytes[..8].copy_from_slice(&seed.to_le_bytes());
@@ -61,8 +61,7 @@ impl RandomSource {
 /// A joint of a random mechanism.
 #[derive(Clone, Copy, Debug)]
 pub struct DrawnJoint {
-    /// World positions of the joint on the two links: first on the link passed first to `join`, then on the second
-    /// link.
+    /// World positions of the joint on its two links, in the order of the links passed to `join`.
     /// The two positions coincide for a revolute joint; for a prismatic joint they are two points along the axis.
     pub places: [Vec2; 2],
     /// World direction of a prismatic joint's axis; zero for a revolute joint.
@@ -100,7 +99,7 @@ impl<'a> SpecimenSketch<'a> {
         let crank_link = sketch.link(pivot);
         sketch.poses[crank_link].angle = zero + start;
         sketch.join(false, 0, crank_link, pivot);
-        // A point at the crank's end determines the crank's length.
+        // The crank's length is the distance to a point at its end.
         let end = sketch.random.vector(crank[0], crank[1]);
         sketch.put(crank_link, "E", pivot + end);
         sketch
@@ -173,7 +172,7 @@ impl<'a> SpecimenSketch<'a> {
         DrawnJoint { places, axis, first }
     }
 
-    /// Adds masses whose mass centres are not on lines between joints, and resistances on some of the links that turn.
+    /// Adds masses, and resistances on some of the links that turn. No mass centre is on a line between joints.
     pub fn finish(mut self) -> (Spec, Vec<LinkPose>) {
         for index in 0..self.spec.links.len() {
             let points = &self.spec.links[index].points;

@@ -18,7 +18,7 @@ pub struct SpecimenLink {
     pub mass: Option<(f64, Vec2, f64)>,
 }
 
-/// A revolute joint: its name (the name of its point) and its links.
+/// A revolute joint. The joint has the name of its point.
 #[derive(Clone, Debug)]
 pub struct Pin {
     /// Name of the joint and of its point.
@@ -27,8 +27,7 @@ pub struct Pin {
     pub links: [String; 2],
 }
 
-/// A prismatic joint: its name, its two links, a point on each link, and the angle of its axis in the frame of each
-/// link (rad).
+/// A prismatic joint between two links, with one point and one axis angle (rad) on each link.
 #[derive(Clone, Debug)]
 pub struct Guide {
     /// Name.
@@ -53,16 +52,16 @@ impl Guide {
 /// Start configuration of a group other than an RRR dyad.
 #[derive(Clone, Debug)]
 pub enum Ask {
-    /// The configuration that lies ahead, in the direction of the axis.
+    /// The assembly mode `ahead` of an RRP or RPR dyad.
     Ahead,
-    /// The configuration that lies behind, against the direction of the axis.
+    /// The assembly mode `behind` of an RRP or RPR dyad.
     Behind,
     /// The configuration near these approximate positions of points.
     Near(Vec<(String, Vec2)>),
 }
 
 impl Ask {
-    /// For RRP and RPR: selects the configuration that lies in the opposite direction along the axis.
+    /// Exchanges `Ahead` and `Behind`, for RRP and RPR dyads.
     pub fn reverse(&mut self) {
         match self {
             Ask::Ahead => *self = Ask::Behind,
@@ -72,7 +71,7 @@ impl Ask {
     }
 }
 
-/// A group's links and its start.
+/// The links of a group, and the configuration in which the group starts.
 #[derive(Clone, Debug)]
 pub struct Start {
     /// The links of the group.
@@ -81,8 +80,7 @@ pub struct Start {
     pub ask: Ask,
 }
 
-/// An RRR dyad's links, and whether its inner joint is on the left of the line from the first to the second outer
-/// joint.
+/// The links of an RRR dyad, and its assembly mode.
 #[derive(Clone, Debug)]
 pub struct Dyad {
     /// The links of the dyad.
@@ -116,7 +114,7 @@ pub struct Spec {
     pub loads: Vec<(String, f64)>,
     /// RRR dyads with their assembly modes.
     pub dyads: Vec<Dyad>,
-    /// Start configurations of groups that are not RRR dyads and have more than one configuration.
+    /// Start configurations of the other groups that have more than one configuration.
     pub starts: Vec<Start>,
     /// First crank angle (rad), step (rad) and number of steps of the grid.
     pub grid: (f64, f64, usize),
@@ -135,7 +133,7 @@ pub struct Other {
     pub drive: String,
     /// Further sections, such as a motor or loads.
     pub sections: String,
-    /// Last instant and number of steps of a grid by time. The grid by time replaces the grid by crank angles.
+    /// Last instant (s) and number of steps of a grid in time. A grid in time replaces the grid of crank angles.
     pub times: Option<(f64, usize)>,
 }
 
@@ -221,7 +219,7 @@ impl Spec {
         Scenario::parse(&self.toml(), Path::new("test.toml"))
     }
 
-    /// This mechanism, moved and turned as a whole, including gravity.
+    /// This mechanism moved by `by` and turned by `turn` (rad). Gravity is turned too.
     pub fn moved(&self, by: Vec2, turn: f64) -> Spec {
         let mut other = self.clone();
         let carried = |at: Vec2| by + rotated(unit(turn), at);
@@ -243,13 +241,13 @@ impl Spec {
         (other.grid.0, other.grid.1) = (-self.grid.0, -self.grid.1);
         other.gravity.y = -self.gravity.y;
         other.guides.iter_mut().flat_map(|guide| &mut guide.axes).for_each(|axis| *axis = -*axis);
-        // Left and right of a line are exchanged. The directions along axes are mirrored with the axes and need no
-        // change.
+        // A mirror exchanges left and right of a line.
+        // Directions along axes are mirrored with the axes, so they need no change.
         other.dyads.iter_mut().for_each(|dyad| dyad.left = !dyad.left);
         other
     }
 
-    /// This mechanism with all lengths multiplied by `factor`, and moments of inertia by its square.
+    /// This mechanism with all lengths multiplied by `factor`, and all moments of inertia by the square of `factor`.
     /// Masses and numbers in text sections are unchanged.
     pub fn larger(&self, factor: f64) -> Spec {
         let mut other = self.with_places(|at| at * factor);
@@ -289,7 +287,7 @@ impl Spec {
 }
 
 /// A four-bar O-A-B-C with links along their x axes: crank, coupler and rocker of the given lengths.
-/// Pivots O = (0, 0) and C = (`base`, 0); slender rods of 10 kg/m.
+/// The pivots are O = (0, 0) and C = (`base`, 0). The links are slender rods of 10 kg/m.
 pub fn four_bar([base, crank, coupler, rocker]: [f64; 4], left: bool) -> Spec {
     let rod = |name: &str, [from, to]: [&str; 2], length: f64| SpecimenLink {
         name: name.into(),

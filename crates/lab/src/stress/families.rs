@@ -1,4 +1,4 @@
-//! The table of families. A new family needs one more entry, and a function that makes its case.
+//! The table of families. A new family needs an entry in this table, and a function that makes the family's case.
 
 mod chain;
 mod four_bar;

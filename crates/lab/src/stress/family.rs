@@ -1,4 +1,4 @@
-//! A family: its varied parameter (`dial`), and the solvers and engines that run at each of its points.
+//! A family has a varied parameter (`dial`), and solvers and engines that run at each of its points.
 //! See docs/numerics/laboratory.md.
 
 use linkage::case::Case;
@@ -33,7 +33,7 @@ pub struct Setup {
 }
 
 impl Setup {
-    /// A setup in which a search finds the engines' settings, and the analytic sides are compared with a double-double
+    /// The usual setup: a search finds the engines' settings, and the analytic sides are compared with a double-double
     /// reference.
     pub(super) fn usual(case: Case) -> Setup {
         Setup { case, engines: EngineUse::Found(WORK), precise: true }
@@ -57,7 +57,7 @@ pub struct StressFamily {
     pub points: &'static [f64],
     /// The values of a quick run.
     pub quick: &'static [f64],
-    /// Number of mechanisms at each value; the number is above one only for random mechanisms.
+    /// Number of mechanisms at each value of the varied parameter. Only random mechanisms have more than one.
     pub samples: u64,
     /// The case and settings at a value of the varied parameter. Sample number and seed affect only random mechanisms.
     pub setup: fn(dial: f64, sample: u64, seed: u64) -> Result<Setup>,

@@ -18,13 +18,13 @@ linkage::words! {
 }
 
 linkage::words! {
-    /// Outcome of a solver or an engine at a point, the best first.
+    /// Outcome of a solver or an engine at a point. The best outcome comes first.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
     #[serde(rename_all = "lowercase")]
     pub enum PointEnd: word {
         /// The proof agrees.
         Agree = "agree",
-        /// The proof decides nothing.
+        /// The proof is inconclusive.
         Inconclusive = "inconclusive",
         /// The proof disagrees.
         Disagree = "disagree",
@@ -42,7 +42,7 @@ pub struct WorstOfGroup {
     /// Largest error divided by the channel's scale, which is usually half the channel's range in the run.
     #[serde(deserialize_with = "number")]
     pub error: f64,
-    /// Bound of the channel with the largest error, divided by this channel's scale.
+    /// Bound of the error in the channel with the largest error, divided by the channel's scale.
     #[serde(deserialize_with = "number")]
     pub bound: f64,
     /// The channel with the largest error.
@@ -56,7 +56,7 @@ fn number<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
     Ok(Option::deserialize(from)?.unwrap_or(f64::INFINITY))
 }
 
-/// One solver or engine at a point.
+/// Results of one solver or engine at a point.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PartyAtPoint {
     /// Name.
@@ -90,16 +90,16 @@ pub struct PartyAtPoint {
     /// Work of the engine's search for settings. The unit is a step without sweeps.
     pub work: Option<f64>,
     /// Counted operations, in the order of [`Count::ALL`](linkage::work::Count::ALL).
-    /// For an analytic side, the operations of its single run are counted; for an engine, the operations of all its
-    /// runs together.
+    /// The operations of all runs are counted: one run of an analytic side, several runs of an engine.
     #[serde(default)]
     pub done: Vec<(String, u64)>,
-    /// Number of channels that exceed their bound although the verdict is agreement: wrong numbers without a warning.
+    /// Number of channels with wrong numbers and no warning: the channel exceeds its bound, but the verdict is
+    /// agreement.
     pub silent: usize,
 }
 
 impl PartyAtPoint {
-    /// A solver or engine without numbers, with the reason.
+    /// The results of a solver or engine that gives no numbers, with the reason.
     pub(super) fn failed(name: &str, why: &str) -> PartyAtPoint {
         PartyAtPoint { name: name.into(), why: why.into(), ..PartyAtPoint::default() }
     }
@@ -108,9 +108,9 @@ impl PartyAtPoint {
 /// A point with its outcomes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StressOutcome {
-    /// Value of the dial.
+    /// Value of the varied parameter.
     pub dial: f64,
-    /// Number of the sample.
+    /// Number of the random mechanism at this value.
     pub sample: u64,
     /// Identifies the program, the family's inputs and the case. A stored result with a different key is computed
     /// again.

@@ -39,9 +39,8 @@ pub(super) fn key_of(family: &StressFamily, dial: f64, sample: u64, seed: u64) -
     key(family, (family.setup)(dial, sample, seed).as_ref().ok(), seed)
 }
 
-/// FNV-1a hash of everything that the result depends on.
-/// The hash covers the version and the engines of the program, and the case with the solvers and engines that run on
-/// it.
+/// FNV-1a hash of everything that the result depends on: the program's version and engines, the case, and the solvers
+/// and engines that run on the case.
 fn key(family: &StressFamily, setup: Option<&Setup>, seed: u64) -> String {
     let engines: Vec<String> =
         built().map(|name| engines::with_step(name, 1.0).map_or_else(|_| String::new(), |own| own.version())).collect();
@@ -61,7 +60,7 @@ fn built() -> impl Iterator<Item = EngineName> {
 
 /// An error as one line, with the value of the input at which the error occurred.
 fn told(error: &Error) -> String {
-    // The input value is omitted if the message names the input already.
+    // A message that already names the input gets no input value.
     let at = error.input().filter(|at| !error.message().contains(at.input.noun()));
     format!("{}{}", error.message(), at.map_or_else(String::new, |at| format!(" at {at}")))
 }
@@ -117,7 +116,7 @@ fn of_engine(
 ) -> PartyAtPoint {
     let options = match setup.engines {
         EngineUse::None | EngineUse::Found(_) => Options::default(),
-        // The settings are given and not searched, so the budget is minimal.
+        // The settings are given, so no budget is needed for a search.
         EngineUse::Given { step, sweeps } => Options::default().step(step).sweeps(sweeps).budget(1.0),
     };
     let options = match setup.engines {
@@ -130,8 +129,8 @@ fn of_engine(
     let done = own.map(|what| (what.name().to_string(), work.of(what))).into_iter().filter(|(_, times)| *times > 0);
     let party = match proof {
         Err(error) => PartyAtPoint::failed(name.name(), &told(&error)),
-        // The engine may agree with the reference although the two sides disagree. The verdict of the whole proof is
-        // therefore counted.
+        // An engine may agree with the reference although the two analytic sides disagree.
+        // The verdict of the whole proof is therefore counted.
         Ok(proof) => of_proof(&setup.case, proof.engine(), &proof.verdict, truth),
     };
     PartyAtPoint { done: done.collect(), ..party }
@@ -180,7 +179,7 @@ fn of_proof(case: &Case, proof: &EngineProof, whole: &Verdict, truth: Option<(&T
     }
 }
 
-/// Error of every judged channel of an engine, in the rows that are not left out.
+/// Error of every judged channel of an engine. Rows that the proof leaves out are left out here too.
 fn deviations(truth: &Trajectory, own: &Trajectory, proof: &EngineProof) -> Result<Vec<Deviation>> {
     let (errors, scales) = (difference(truth, own)?, scales(truth));
     let of = |((channel, values), scale): ((&Channel, &[f64]), f64)| {
@@ -222,8 +221,8 @@ fn reached(deviations: &[Deviation]) -> Vec<WorstOfGroup> {
     QuantityGroup::ALL.into_iter().filter_map(of).collect()
 }
 
-/// Converts a verdict to the form that is counted.
-/// An expected disagreement cannot occur, because the families state only correct numbers.
+/// Converts a verdict to the outcome of a point.
+/// An expected disagreement cannot occur, because the families state no wrong numbers.
 fn end(verdict: &Verdict) -> PointEnd {
     match verdict {
         Verdict::Agree { .. } | Verdict::Expected { .. } => PointEnd::Agree,
@@ -232,7 +231,7 @@ fn end(verdict: &Verdict) -> PointEnd {
     }
 }
 
-/// The reason of a verdict. Advice is left out, because it depends on the command.
+/// The reason of a verdict. The reason contains no advice, because advice depends on the command.
 fn reason(verdict: &Verdict) -> String {
     match verdict {
         Verdict::Agree { .. } | Verdict::Expected { .. } => String::new(),

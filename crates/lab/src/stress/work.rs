@@ -12,7 +12,7 @@ use linkage::threads::side_by_side;
 pub struct Job {
     /// The family.
     pub family: &'static StressFamily,
-    /// Value of the family's dial.
+    /// Value of the family's varied parameter.
     pub dial: f64,
     /// Number of the sample.
     pub sample: u64,
@@ -20,7 +20,7 @@ pub struct Job {
     pub outcome: Option<StressOutcome>,
 }
 
-/// The points of a family, with the stored results that are still valid.
+/// The points of a family. Stored results are used if they are still valid.
 /// A quick run contains the points at the family's quick values, and all points with a stored result.
 pub fn jobs(family: &'static StressFamily, quick: bool, seed: u64, kept: &[StressOutcome]) -> Vec<Job> {
     let all = family.points.iter().flat_map(|&dial| (0..family.samples).map(move |sample| (dial, sample)));

@@ -1,4 +1,4 @@
-//! Runs of one engine against the reference, and its cheapest settings.
+//! Runs one engine against the reference, and finds the engine's cheapest settings.
 //! This file lists the settings that are tried, except the step.
 
 use linkage::math::KeepNan;
@@ -17,20 +17,18 @@ use prover::run::Options;
 
 /// Coarsest accuracy that is tried for an engine that controls its error.
 const COARSEST: f64 = 0.1;
-/// If no cost limit is known yet, the first number of sweeps tried is the smallest available number that is at least
-/// this constant.
+/// Smallest number of sweeps that is tried first, while no cost limit is known.
 const ENOUGH: usize = 64;
 /// First step that is tried, as a multiple of the engine's usual or given step.
 /// A coarse step is cheap, and its cost predicts the cost of other steps.
 const COARSE_START: f64 = 4.0;
-/// When the number of sweeps is increased, the first step tried is this multiple of the step found before.
+/// After an increase of the number of sweeps, the search begins at this multiple of the last step found.
 const COARSER: f64 = 1.4;
-/// Settings are of interest only if their cost is less than this fraction of the cost of the cheapest known settings.
+/// New settings must cost less than this fraction of the cheapest known settings.
 const GAIN: f64 = 0.95;
-/// Coarse steps, as rotations of the fastest driving link (rad), from which the lower limit of a run's cost is
-/// measured.
-/// With a step this coarse, reading the results is most of a run's cost.
-/// Of these steps, the first at which the engine runs is used.
+/// Coarse steps for measuring the lower limit of a run's cost, as rotations of the fastest driving link (rad).
+/// With such a coarse step, most of the cost is the reading of results.
+/// The first step at which the engine runs is used.
 const ROUGH: [f64; 3] = [PI / 6.0, PI / 18.0, PI / 54.0];
 
 /// Result of the search with one engine.
@@ -50,8 +48,7 @@ pub(super) struct Bench<'a> {
     pub(super) wanted: &'a [Channel],
     pub(super) price: Price<'a>,
     pub(super) runs: usize,
-    /// Whether the engine has refused the last method.
-    /// The engine would refuse the method again with any step and any number of sweeps.
+    /// Whether the engine has refused the last method. A refusal does not depend on the step or the number of sweeps.
     pub(super) refused: bool,
     /// Work done so far, and total work allowed. The unit is a step without sweeps.
     pub(super) effort: f64,
@@ -60,14 +57,15 @@ pub(super) struct Bench<'a> {
     pub(super) is_spent: bool,
 }
 
-/// Lower limit of a run's cost at any step, as pairs of number of sweeps and cost, in ascending order.
-/// A run cannot cost less than this limit: results are read at every instant, and some methods for reactions do all
-/// sweeps at every instant.
+/// Lower limit of a run's cost at any step: pairs of number of sweeps and cost, in ascending order.
+/// The limit exists because results are read at every instant.
+/// Some methods for reactions also do all sweeps at every instant.
 struct Floor(Vec<(usize, f64)>);
 
 impl Floor {
     /// Lower limit of the cost at this number of sweeps.
-    /// The cost is assumed to be a constant plus a part proportional to the number of sweeps, both at least zero.
+    /// The cost is modelled as a constant plus a term proportional to the number of sweeps.
+    /// Constant and term are not negative.
     fn at(&self, sweeps: usize) -> f64 {
         let sweeps = sweeps.max(1) as f64;
         let of = |&(many, price): &(usize, f64)| price * (sweeps / many.max(1) as f64).smaller(1.0);
@@ -77,12 +75,12 @@ impl Floor {
     }
 }
 
-/// State of the search through the numbers of sweeps of one method.
+/// State of the search with one method, while the number of sweeps increases.
 struct Row {
     /// The first step to try.
     start: f64,
     /// Error with the last number of sweeps, at the lowest known cost.
-    /// `rising` counts how many times in a row this error has risen.
+    /// `rising` is the number of successive increases of this error.
     last: f64,
     rising: usize,
 }
@@ -96,7 +94,7 @@ struct Search<'e> {
     best: Option<Candidate>,
     /// Smallest error among methods that do not meet the request at any step.
     least: f64,
-    /// Whether there are settings that meet, or might meet, the request at too high a cost.
+    /// Whether some settings meet the request, or might meet it, but cost too much.
     dear: bool,
 }
 
@@ -138,8 +136,8 @@ impl Bench<'_> {
         let unlimited = search.limit().is_infinite();
         self.refused = false;
         let floor = if unlimited { Floor(Vec::new()) } else { self.floor(search.engine, way, sweeps, search.limit()) };
-        // Without a cost limit, a search that begins with few sweeps would continue down to the finest steps.
-        // The search therefore begins with many sweeps.
+        // Without a cost limit, the search begins with many sweeps.
+        // With few sweeps, the search would continue down to the finest steps.
         let first = sweeps.iter().copied().find(|&sweeps| sweeps >= ENOUGH && unlimited);
         let start = if search.engine.controls_error() { way.resolution } else { COARSE_START * way.resolution };
         let mut row = Row { start, last: f64::INFINITY, rising: 0 };
@@ -153,7 +151,7 @@ impl Bench<'_> {
             }
             let error = self.largest_step(search, &mut row, Settings { sweeps, ..*way });
             if !search.engine.controls_error() {
-                // More sweeps cost more, so only a larger step stays within the cost limit.
+                // More sweeps cost more. Only a larger step can then stay within the cost limit.
                 row.start *= COARSER;
             }
             row.rising = if error > row.last { row.rising + 1 } else { 0 };
@@ -165,7 +163,7 @@ impl Bench<'_> {
     }
 
     /// Searches for the largest step at which the settings meet the request.
-    /// Returns the error that the settings have, or are expected to have, at the lowest known cost.
+    /// Returns the measured or expected error of the settings at the lowest known cost.
     fn largest_step(&mut self, search: &mut Search, row: &mut Row, settings: Settings) -> f64 {
         let Search { engine, within, .. } = *search;
         let limit = search.limit();
@@ -200,7 +198,8 @@ impl Bench<'_> {
         }
     }
 
-    /// Lower limit of the cost of one method, from runs so coarse that reading the results is most of their cost.
+    /// Lower limit of the cost of one method, measured in runs with a coarse step.
+    /// Most of the cost of such a run is the reading of results.
     /// The measurement stops as soon as the cost is known to exceed `limit`.
     fn floor(&mut self, engine: &dyn Engine, way: &Settings, sweeps: &[usize], limit: f64) -> Floor {
         let rough = match engine.controls_error() {
@@ -266,11 +265,10 @@ impl Bench<'_> {
         let at = |factor: f64| Settings { resolution: settings.resolution * factor, ..settings };
         let mut rungs = vec![at(2.0), settings, at(0.5)];
         // The comparison run has twice the sweeps of the run at `settings`.
-        // The iteration error of the comparison run is small compared with that of the run at `settings`.
+        // The iteration error of the comparison run is comparatively small.
         // The difference of the two runs is therefore the iteration error at `settings`.
-        // (A proof instead compares the run at `settings` with a run that has half of the sweeps.
-        // The run with half of the sweeps costs only a quarter of the run with twice the sweeps, but a comparison with
-        // the cheaper run overestimates the error.)
+        // A proof compares with half the sweeps instead.
+        // Half the sweeps cost only a quarter of twice the sweeps, but the error is then overestimated.
         if settings.sweeps > 0 {
             rungs.push(Settings { sweeps: settings.sweeps * 2, ..settings });
         }
@@ -303,7 +301,7 @@ const SWEEPS: [usize; 11] = [4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096];
 const SUBSTEPS: [usize; 2] = [1, 2];
 
 /// All methods of an engine: its settings except sweeps and resolution.
-/// The methods that are usually cheapest come first, so that methods above the known cost are abandoned early.
+/// The usually cheapest methods come first. More expensive methods can then be abandoned early.
 pub(super) fn ways(engine: &dyn Engine, case: &Case, options: &Options) -> Vec<Settings> {
     let Settings { resolution, sweeps, substeps, route, extrapolated } = engine.settings();
     let forces = case.wanted.deepest() >= Stage::Reactions;

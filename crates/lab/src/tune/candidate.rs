@@ -22,8 +22,8 @@ pub struct Candidate {
     pub is_proven: bool,
 }
 
-/// Measures the cost of a run. The arguments are the engine, and a closure that does the run and must be called at
-/// least once.
+/// Measures the cost of a run. The arguments are the engine and a closure.
+/// The closure does the run and must be called at least once.
 pub type Price<'a> = &'a mut dyn FnMut(&dyn Engine, &mut dyn FnMut() -> Result<()>) -> Result<f64>;
 
 /// Error and cost of one run.

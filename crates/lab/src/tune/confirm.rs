@@ -1,7 +1,7 @@
 //! Settings confirmed by a proof.
-//! The error measured against the reference may be small by chance. It may also be small although the engine's runs
-//! show no order of convergence.
-//! A proof at settings with a small measured error may therefore fail to agree.
+//! The error measured against the reference may be small by chance.
+//! A small error is also possible if the engine's runs show no order of convergence.
+//! A proof at such settings may not agree.
 
 use linkage::engine::Engine;
 use linkage::error::{Advice, Result};
@@ -15,13 +15,13 @@ use scenario::Scenario;
 
 /// Largest number of refinements.
 const MOST: usize = 16;
-/// Factors from one trial to the next: `FINER` for the step, `TIGHTER` for the accuracy of an engine that chooses its
-/// steps itself.
+/// Factor of the step from one trial to the next.
+/// `TIGHTER` is the factor of the accuracy, for an engine that chooses its steps itself.
 const FINER: f64 = 0.7;
 const TIGHTER: f64 = 0.1;
 
 /// Refines the candidate as little as necessary until a proof confirms its settings.
-/// If no proof confirms any refined settings, the original candidate is returned and stays marked as unproven.
+/// If no refined settings are confirmed, the unchanged candidate is returned, marked as unproven.
 ///
 /// # Errors
 /// The errors of [`prove`].
@@ -34,7 +34,7 @@ pub(super) fn confirmed(
 ) -> Result<Candidate> {
     let mut now = candidate.clone();
     for _ in 0..MOST {
-        // No settings are searched, so the budget is minimal.
+        // The settings are given, so no budget is needed for a search.
         let options = Options::exactly(engine.with(now.settings).as_ref());
         let Some(options) = options.map(|options| options.reference(reference).budget(1.0)) else { break };
         let proof = prove(scenario, &options)?;

@@ -1,4 +1,4 @@
-//! The cost of a run, counted as work from its settings, so that the result does not depend on a clock.
+//! The cost of a run. The cost is computed from the settings, so it does not depend on a clock.
 //! See docs/numerics/laboratory.md.
 
 use crate::steps::span;
@@ -34,10 +34,10 @@ struct Costs {
 }
 
 /// The costs were measured once on `crank_rocker` by `cargo bench --bench tune -- prices`.
-/// The costs with one and with two substeps give the part of a step's cost that occurs once and the part that occurs in
-/// every substep.
-/// Simbody's costs are those of its steps and readings, from runs of `bench` on `crank_rocker` at the accuracies 1e-4
-/// and 1e-10.
+/// A step's cost has a part that occurs once and a part that occurs in every substep.
+/// Runs with one and with two substeps give both parts.
+/// The costs of Simbody's steps and readings are from runs of `bench` on `crank_rocker`, at the accuracies 1e-4 and
+/// 1e-10.
 fn costs(engine: EngineName) -> Costs {
     match engine {
         EngineName::Rapier => Costs { step: 0.47, substep: 0.53, sweep: 0.028, instant: 0.26, native: 1.03, tiny: 1.1 },
@@ -55,8 +55,8 @@ fn costs(engine: EngineName) -> Costs {
 }
 
 /// Runs an engine on a case and returns the cost of the run. The unit of cost is a step of `rapier` without its sweeps.
-/// The number of steps follows from the settings. If the engine chooses its steps itself, they are counted in the run
-/// instead.
+/// The number of steps follows from the settings.
+/// If the engine chooses its steps itself, the steps of the run are counted.
 ///
 /// # Errors
 /// The errors of the run.

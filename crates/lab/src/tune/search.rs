@@ -5,15 +5,14 @@ use linkage::math::KeepNan;
 
 /// Largest number of runs in one search.
 const MOST_RUNS: usize = 9;
-/// If the error is at least this fraction of the requested error, the step is large enough.
+/// The step is large enough if the error is at least this fraction of the requested error.
 /// At order 2, a larger step would save less than an eighth of the cost.
 const NEAR_ENOUGH: f64 = 0.8;
 /// The search aims at this fraction of the requested error.
 const AIM: f64 = 0.92;
-/// The search ends if the ratio of the smallest step known to be too large to the largest sufficient step is below this
-/// factor.
+/// The search ends if the smallest step that is too large is less than this factor above the largest sufficient step.
 const CLOSE: f64 = 1.06;
-/// If the observed order is below this, the error counts as independent of the step.
+/// Smallest observed order at which the error counts as dependent on the step.
 const FLAT: f64 = 0.3;
 /// Largest factor from one step to the next.
 const LEAP: f64 = 16.0;
@@ -32,7 +31,7 @@ pub(super) enum Found {
         /// The run with this step.
         measured: Measured,
     },
-    /// The request would cost more than the limit.
+    /// To meet the request would cost more than the limit.
     /// The fields are the finest affordable step, and the measured or expected error at this step.
     TooDear {
         /// The step.
@@ -98,7 +97,7 @@ pub(super) fn largest_step(
         } else {
             missed = Some(missed.map_or(step, |known: f64| known.smaller(step)));
             if met.is_none() && error.is_finite() {
-                // Errors expected at the finest affordable step, with the highest possible order and with the present
+                // Errors expected at the finest affordable step: with the highest possible order, and with the present
                 // order.
                 let [at_best, expected] =
                     [STEEPEST, order].map(|order| error * (affordable / step).smaller(1.0).powf(order));

@@ -1,4 +1,4 @@
-//! Builds a case in code. Links are referred to by name; `CaseBuilder::build` checks the names.
+//! Builds a case in code. The code refers to links by name. `CaseBuilder::build` checks the names.
 
 use crate::sentences;
 use std::f64::consts::TAU;
@@ -23,7 +23,7 @@ struct Wish {
 }
 
 /// A transmission.
-/// The members, the carrier and the joint with a given start coordinate are referred to by name.
+/// The fields name the members, the carrier, and the joint with a given start coordinate.
 #[derive(Clone, Debug)]
 struct Coupling {
     name: String,
@@ -163,8 +163,9 @@ impl CaseBuilder {
         self
     }
 
-    /// Sets the two efficiencies of the transmission added last: for power flow from the first member to the second,
-    /// and for power flow from the second member to the first.
+    /// Sets the two efficiencies of the transmission added last.
+    /// The first efficiency holds if power flows from the first member to the second.
+    /// The second efficiency holds if power flows back.
     pub fn efficiency(mut self, efficiency: [f64; 2]) -> Self {
         if let Some(last) = self.transmissions.last_mut() {
             last.efficiency = efficiency;
@@ -180,8 +181,8 @@ impl CaseBuilder {
     }
 
     /// Adds a driving link that follows a motion law.
-    /// The first drive starts at the input set by [`CaseBuilder::start`], before or after this call.
-    /// A further drive starts at the input that [`CaseBuilder::start`] has set before this call.
+    /// The first drive starts at the input of [`CaseBuilder::start`], which may be called before or after this method.
+    /// For a further drive, [`CaseBuilder::start`] must be called before this method.
     pub fn driven(self, joint: &str, law: MotionLaw) -> Self {
         let start = self.start;
         self.driven_from(joint, start, law)
@@ -194,7 +195,8 @@ impl CaseBuilder {
         self
     }
 
-    /// Adds a driving link in free motion, with its speed at t = 0 and its nominal speed, as in [`DriveMotion::Free`].
+    /// Adds a driving link in free motion, as in [`DriveMotion::Free`].
+    /// The arguments are the link's speed at t = 0 and the link's nominal speed.
     /// Both speeds are in rad/s, counter-clockwise positive; the nominal speed is not zero.
     /// The link is hinged to the ground or to a driving link added before.
     pub fn free(mut self, joint: &str, initial_speed: f64, nominal_speed: f64) -> Self {
@@ -228,8 +230,8 @@ impl CaseBuilder {
         self
     }
 
-    /// Adds a load. In the load, moving links have the numbers 1, 2, ... in the order of the calls to
-    /// [`CaseBuilder::link`].
+    /// Adds a load.
+    /// A load refers to moving links by the numbers 1, 2, ... in the order of the calls to [`CaseBuilder::link`].
     /// The ground has the number 0.
     pub fn load(mut self, load: Load) -> Self {
         self.loads.push(load);
@@ -333,7 +335,7 @@ impl CaseBuilder {
         })
     }
 
-    /// Grid of the given times or, if no times are given, of equal intervals of a turn.
+    /// Grid of the given times. If no times are given, the grid divides a turn into equal intervals.
     fn grid(&self, crank: &Drive) -> Grid {
         let share = |part: usize| part as f64 / self.instants.max(1) as f64;
         let parts = 0..=self.instants;
@@ -463,8 +465,7 @@ mod tests {
     }
 
     /// Regression: the builder chose the instants of a free motion by crank angle.
-    /// A choice by crank angle is impossible, because the time at which a free crank reaches an angle depends on the
-    /// forces.
+    /// Crank angles cannot be used, because the time at which a free crank reaches an angle depends on the forces.
     #[test]
     fn the_instants_of_a_free_motion_are_times() {
         let left = |builder: CaseBuilder| builder.mode(&["coupler", "rocker"], AssemblyMode::Left);

@@ -12,9 +12,9 @@ use crate::math::{KeepNan, unit};
 use crate::mechanism::{AssemblyMode, DrivingLink, GROUND, GroupKind, LinkPose, Mechanism, Structure};
 
 /// If the opening of a joint in a start pose exceeds this fraction of the pose's reach, the case is rejected.
-/// The reach is the mechanism's size or the largest distance of a link's origin from the world's origin, whichever is
-/// larger.
-/// The sine of the angle between the two axes of a prismatic joint is also an opening; its limit is this number itself.
+/// The reach is the larger of two lengths: the mechanism's size, and the largest distance of a link's origin from the
+/// world's origin.
+/// A prismatic joint also opens by rotation: the sine of the angle between its two axes must not exceed this number.
 /// In the first poses of all shipped scenarios, the openings are at most 1e-12 of the reach (`tests/suite/start.rs`).
 /// If the pose belongs to a different mechanism, the opening is far larger.
 const LARGEST_OPENING: f64 = 1e-9;
@@ -109,20 +109,21 @@ fn drives(parts: &CaseParts) -> Result<()> {
 /// A crank counts as a point if its length is below this fraction of the mechanism's size.
 const POINT: f64 = 1e-12;
 
-/// Whether a driving link carries other links but moves none of them.
+/// Whether a driving link carries other links without moving them.
 /// All joints of such a link are revolute and lie on its axis of rotation.
 fn moves_nothing(mechanism: &Mechanism, drive: &Drive) -> bool {
     let own = mechanism.joints()[drive.joint].on(drive.link);
     let others = || mechanism.joints().entries().filter(|&(index, _)| index != drive.joint);
     let mut carried = others().filter_map(|(_, joint)| Some((joint.is_pin(), joint.on(drive.link)?))).peekable();
-    // A prismatic joint moves its link regardless of the positions of the other joints.
+    // A driven prismatic joint always moves the links that its driving link carries.
     mechanism.joints()[drive.joint].is_pin()
         && carried.peek().is_some()
         && carried
             .all(|(is_pin, place)| is_pin && own.is_some_and(|own| (place - own).norm() <= POINT * mechanism.size()))
 }
 
-/// Whether all numbers of a motion are usable. The speed 0 is usable only if the drive `may_hold` its joint.
+/// Whether all numbers of a motion are valid.
+/// The speed 0 is valid only for a drive that may hold its joint (`may_hold`).
 fn motion_is_sound(motion: &DriveMotion, may_hold: bool) -> bool {
     let moves = |value: f64| value.is_finite() && value != 0.0;
     let (moved, motor) = match motion {
@@ -242,7 +243,7 @@ fn start(parts: &CaseParts) -> Result<()> {
         let sides = [joint.first, joint.second];
         let places = sides.map(|side| poses[side.link].point(side.local));
         let (gap, turn) = joint.opening(places, sides.map(|side| unit(poses[side.link].angle)));
-        // The condition is negated, so that NaN is rejected.
+        // The negated condition also rejects NaN.
         if !(gap <= LARGEST_OPENING * reach && turn <= LARGEST_OPENING) {
             let message = sentences::joint_is_open_in_the_start(
                 &joint.name,

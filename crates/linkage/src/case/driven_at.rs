@@ -8,8 +8,7 @@ use crate::mechanism::assembly::transmission_sine;
 use crate::mechanism::{AssemblyMode, DrivenJoint, Group, JointId, Mechanism, Structure};
 
 impl Case {
-    /// Structure of the mechanism if the first drive moves `joint` instead of its present joint.
-    /// All other drives stay.
+    /// Structure of the mechanism with the first drive at `joint`. All other drives stay at their joints.
     ///
     /// # Errors
     /// The errors of [`Structure::of_driven`].
@@ -52,7 +51,7 @@ impl Case {
         })
     }
 
-    /// The mechanism with a different start joint for every transmission whose start joint is `joint`.
+    /// The mechanism after every transmission with the start joint `joint` has got a different start joint.
     fn with_start_beside(&self, joint: JointId) -> Result<Mechanism> {
         let (mut designs, joints) = (self.mechanism.transmission_designs(), self.mechanism.joints());
         for design in designs.iter_mut().filter(|design| design.joint == joint) {

@@ -5,10 +5,11 @@
 //! contacts.
 //! A journal of the radius r has one contact, with the force R of the joint: the moment is mu r |R|.
 //! A guide of the length l carries the force N and the moment M by contacts at its two ends.
-//! The contact forces are N/2 + M/l and N/2 - M/l; the sum of the absolute values is the larger of |N| and 2 |M| / l.
+//! The contact forces are N/2 + M/l and N/2 - M/l. The sum of their absolute values is the larger of |N| and 2 |M| / l.
 //! A transmission with an efficiency loses a fraction of its power. The fraction depends on the sense of the power
 //! flow.
-//! The loss acts like friction: a moment between carrier and first member, in proportion to the transmission's force F.
+//! The loss acts like friction: as a moment between carrier and first member that is proportional to the transmission's
+//! force F.
 //! See docs/numerics/friction.md.
 //! J. L. Meriam, L. G. Kraige, Engineering Mechanics: Statics, 7th ed., Wiley 2012, sections 6/3 and 6/6.
 //! In this source, mu r is the radius of a journal's friction circle. The forces of a guide's two contacts follow from
@@ -23,7 +24,7 @@ use crate::mechanism::{Joint, JointId, LinkId, Losses, Transmission, Transmissio
 #[derive(Clone, Copy, Debug)]
 pub struct Friction<'a> {
     case: &'a Case,
-    /// Index of the friction's sense in [`Case::senses`].
+    /// Index in [`Case::senses`] of the motion that determines the friction's sign.
     pub index: usize,
     /// The joint. For a transmission, the joint whose coordinate shows the sense of the motion.
     pub joint: JointId,
@@ -68,7 +69,7 @@ impl Case {
         in_joints.chain(in_meshes)
     }
 
-    /// For every load, then for every transmission: the motion whose sense determines the sign of the load or loss.
+    /// The motion whose sense determines the sign of a load or loss: for every load, then for every transmission.
     pub fn senses(&self) -> impl Iterator<Item = Senses> {
         let of_mesh = |own: &Transmission| own.losses.map_or(Senses::Nothing, |losses| Senses::Joint(losses.joint));
         self.loads.iter().map(|load| load.nature().senses).chain(self.mechanism.transmissions().iter().map(of_mesh))
@@ -82,7 +83,7 @@ impl Case {
 
     /// Rate of a joint's coordinate (rad/s or m/s).
     /// The result is zero for a joint that cannot move.
-    /// The result is also zero if the rate may be only a rounding error of the mechanism's speeds or of the drives' top
+    /// The result is also zero if the rate is within the rounding error of the mechanism's speeds or the drives' top
     /// speeds.
     #[must_use]
     pub fn joint_rate(&self, motions: &[Motion], joint: JointId) -> f64 {
@@ -130,7 +131,8 @@ impl Friction<'_> {
         matches!(self.seat, FrictionSeat::Mesh { .. })
     }
 
-    /// Name of the joint or transmission, and whether the friction is a force (N) instead of a moment (N m).
+    /// Name of the joint or transmission.
+    /// The flag is true if the friction is a force (N), and false if the friction is a moment (N m).
     #[must_use]
     pub fn name(&self) -> (&str, bool) {
         match self.seat {
@@ -152,8 +154,8 @@ impl Friction<'_> {
         }
     }
 
-    /// Sum of the contacts' normal forces (N), which is a norm of the reaction.
-    /// For a transmission: the magnitude of the force times the lost fraction of the power.
+    /// Sum of the normal forces of a joint's contacts (N). The sum of the normal forces is a norm of the reaction.
+    /// For a transmission, the magnitude of the force times the lost fraction of the power.
     /// The sign of `sense` is the sign of [`rate`](Friction::rate).
     #[must_use]
     pub fn normal(&self, (force, moment): (Vec2, f64), sense: f64) -> f64 {
@@ -177,8 +179,9 @@ impl Friction<'_> {
         }
     }
 
-    /// Friction divided by [`normal`](Friction::normal): mu r in a revolute joint (m), mu in a prismatic joint (1).
-    /// For a transmission: the lever arm of its force, reduced to the joint's coordinate.
+    /// Friction divided by [`normal`](Friction::normal).
+    /// In a revolute joint this ratio is mu r (m), in a prismatic joint mu (1).
+    /// For a transmission the ratio is the lever arm of the force, reduced to the joint's coordinate.
     #[must_use]
     pub fn lever(&self) -> f64 {
         match self.seat {
@@ -188,8 +191,8 @@ impl Friction<'_> {
         }
     }
 
-    /// Sliding speed of the contact divided by the rate of the joint's coordinate: the radius of a journal (m), 1 for a
-    /// guide, 0 for a transmission.
+    /// Sliding speed of the contact divided by the rate of the joint's coordinate.
+    /// The ratio is the radius of a journal (m), 1 for a guide, and 0 for a transmission.
     #[must_use]
     pub fn contact(&self) -> f64 {
         match self.seat {
@@ -215,7 +218,7 @@ impl Friction<'_> {
         self.case.joint_rate(motions, self.joint)
     }
 
-    /// Friction for these reactions (N m or N), positive if it increases the joint's coordinate.
+    /// Friction for these reactions (N m or N). Positive friction acts towards larger values of the joint's coordinate.
     /// For a joint, the result is the friction on the second link. Friction is zero at standstill.
     #[must_use]
     pub fn effort(&self, motions: &[Motion], reactions: JointReactions) -> f64 {
@@ -224,8 +227,8 @@ impl Friction<'_> {
         if rate == 0.0 { 0.0 } else { -rate.signum() * self.lever() * normal }
     }
 
-    /// Actions of the friction on the joint's first link, then on its second link.
-    /// For a transmission: on the carrier, then on the first member.
+    /// Actions of the friction on the joint's first and second link.
+    /// For a transmission, actions on the carrier and on the first member.
     /// `effort` is the result of [`Friction::effort`].
     #[must_use]
     pub fn act(&self, effort: f64, motions: &[Motion]) -> [Action; 2] {
@@ -241,8 +244,8 @@ impl Friction<'_> {
 }
 
 impl Losses {
-    /// Magnitude of the transmission's force (N) times the lost fraction of the power, and the derivative of this
-    /// product with respect to the force.
+    /// Returns two numbers: the magnitude of the transmission's force (N) times the lost fraction of the power, and the
+    /// derivative of this product with respect to the force.
     /// The sign of `sense` is the sense of the joint's coordinate. At standstill both results are zero.
     #[must_use]
     pub fn normal(&self, force: f64, sense: f64) -> [f64; 2] {

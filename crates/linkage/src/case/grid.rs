@@ -48,16 +48,17 @@ impl Grid {
     }
 
     /// Upper limit of the absolute input values of a grid, in turns.
-    /// Solvers follow the branch from the start to every value. An angle above this limit loses its last digits to
-    /// rounding.
+    /// Solvers follow the branch from the start to every value.
+    /// Above this limit, rounding removes the last digits of an angle.
     pub const MOST_TURNS: f64 = 1e5;
 
     /// Checks that all times and angles are finite and that all angles are within [`Grid::MOST_TURNS`].
     /// Also checks that the law of every drive is defined at all times.
     ///
     /// # Errors
-    /// A message that names the fault: the crank is free but the grid consists of crank angles, the law does not reach
-    /// an input at exactly one time, a time is outside the law of a drive, or the inputs are too large or not finite.
+    /// A message that names the fault.
+    /// The faults are: crank angles in the grid of a free crank, an input that the law does not reach at exactly one
+    /// time, a time outside the law of a drive, and inputs that are too large or not finite.
     pub fn check(&self, drives: &Drives) -> std::result::Result<(), String> {
         self.check_crank(drives.crank())?;
         let further = (2..).zip(drives.further()).filter(|(_, drive)| drive.constant_speed().is_none());
@@ -109,7 +110,7 @@ impl Grid {
 /// An instant of the motion at which a value is valid or a picture is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum When {
-    /// At a value of the input: a crank angle, for example (SI unit, as the scenario measures the input).
+    /// At a value of the input, such as a crank angle (SI unit, as the scenario measures the input).
     /// If forces determine the motion, the value is valid for the nominal motion.
     Crank(f64),
     /// At a time (s) of the motion of the scenario.

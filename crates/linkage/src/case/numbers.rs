@@ -1,12 +1,12 @@
-//! Names of the numbers of a case, by which results can be differentiated.
+//! Names of the numbers of a case. Results can be differentiated with respect to these numbers.
 
 use super::Case;
 use crate::drive::{Course, DriveMotion, Load, MotionLaw};
 use crate::math::{Curve, Vec2};
 use crate::mechanism::{JointId, JointSide, LinkId};
 
-/// Name of one number of a case. `axis` is 0 for x and 1 for y; `side` is 0 for the first and 1 for the second link of
-/// a joint.
+/// Name of one number of a case. `axis` is 0 for x and 1 for y.
+/// `side` is 0 for the first link of a joint and 1 for the second link.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum CaseNumber {
     /// Coordinate of a point of a link (m).
@@ -56,8 +56,9 @@ pub enum CaseNumber {
     Zero(usize),
     /// Input of a drive at t = 0 (rad or m).
     Start(usize),
-    /// A number of the law of a drive: its speed; speed and time; rise and time; amplitude, period and phase; or, for a
-    /// free motion, nominal and initial speed.
+    /// A number of a drive's law.
+    /// Depending on the law, the numbers are: speed; speed and time; rise and time; amplitude, period and phase.
+    /// A free motion has nominal and initial speed.
     Law {
         /// Number of the drive.
         drive: usize,
@@ -83,9 +84,11 @@ pub enum CaseNumber {
 }
 
 impl Case {
-    /// All numbers of the case with their names. Plane coordinates and vectors come first (links, joints, gravity,
-    /// loads), then masses and moments of inertia, the numbers of drives and the numbers of loads.
-    /// Not included are tables, formulas, motors and transmissions, and pose and grid, which follow from other numbers.
+    /// All numbers of the case with their names.
+    /// Plane coordinates and vectors come first (links, joints, gravity, loads).
+    /// Masses and moments of inertia, the numbers of drives and the numbers of loads follow.
+    /// Tables, formulas, motors and transmissions are not included.
+    /// Pose and grid are not included, because they follow from other numbers.
     #[must_use]
     pub fn numbers(&self) -> Vec<(CaseNumber, f64)> {
         let mut all = Vec::new();

@@ -23,7 +23,8 @@ impl Case {
         all
     }
 
-    /// All words that [`Case::channels_called`] knows, short ones first, for suggestions.
+    /// All words that [`Case::channels_called`] knows, for suggestions.
+    /// Stages come first, then subjects, then single channels.
     #[must_use]
     pub fn channel_words(&self) -> Vec<String> {
         let all = self.all_channels();

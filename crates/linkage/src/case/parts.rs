@@ -31,8 +31,7 @@ impl Wanted {
         self.0[stage as usize]
     }
 
-    /// Last stage that must be computed.
-    /// The positions are the earliest stage that is returned.
+    /// Last stage that must be computed, at least the positions.
     #[must_use]
     pub fn deepest(&self) -> Stage {
         Stage::ALL.into_iter().rev().find(|&stage| self.has(stage)).unwrap_or(Stage::Positions)

@@ -1,5 +1,4 @@
-//! Reduces a case to the smallest case that has the same values in the requested channels. See docs/skip.md and
-//! docs/numerics/settings.md.
+//! Reduces a case to the parts on which the requested channels depend. See docs/skip.md and docs/numerics/settings.md.
 
 use super::{Case, CaseParts, Seat};
 use crate::drive::{Drive, Drives, Load};
@@ -10,13 +9,13 @@ use crate::mechanism::{
 };
 use crate::trajectory::{Channel, Stage};
 
-/// Maximum number of characters of a point's name that are kept when a number is appended.
+/// Upper limit of the characters that remain of a point's name when a number is appended.
 const SHORT: usize = 80;
 
 /// The part of a case on which its requested channels depend.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
-    /// The needed part as a separate case; the whole case if everything is needed.
+    /// The needed part of the case, as a case; the whole case if everything is needed.
     pub case: Case,
     /// Parts that do not affect any requested channel.
     pub left_out: LeftOut,
@@ -76,7 +75,7 @@ struct Needs<'a> {
     upstream: PerLink<Vec<GroupId>>,
     /// For every link: whether its motion is needed.
     moves: PerLink<bool>,
-    /// For every link: whether the forces on it are needed.
+    /// For every link: whether the forces on the link are needed.
     carries: PerLink<bool>,
 }
 
@@ -119,8 +118,8 @@ impl<'a> Needs<'a> {
         own.min_by_key(|&link| self.upstream[link].len()).expect("a channel of the case")
     }
 
-    /// The later of the joint's two links in the order of solution.
-    /// The joint belongs to this link's group or, for a driven joint, to this driving link.
+    /// Of the joint's two links, the link that is solved later. The joint belongs to the group of this link.
+    /// A driven joint belongs to the driving link.
     fn owner(&self, joint: JointId) -> LinkId {
         let joint = &self.case.mechanism.joints()[joint];
         let place = |link: LinkId| match self.case.structure.leading().find(|(_, driver)| driver.link == link) {
@@ -157,16 +156,15 @@ impl<'a> Needs<'a> {
         for link in self.moves.ids().skip(1) {
             self.moves[link] |= self.carries[link];
         }
-        // The loads on the links marked in `carries` may depend on the motion of further links.
-        // The motion of these further links is therefore needed too.
+        // Loads on the links marked in `carries` may depend on the motion of other links.
+        // The motion of these other links is then needed too.
         for load in &case.loads {
             let links = load.links();
             if links.iter().any(|&link| link != GROUND && self.carries[link]) {
                 links.iter().for_each(|&link| self.moves[link] = true);
             }
         }
-        // A group's motion depends on the motion of the links at its outer joints, so the motion of these links is
-        // needed too.
+        // A group's motion depends on the links at its outer joints, so the motion of these links is needed too.
         for group in structure.groups.iter().rev() {
             if group.links.iter().any(|&link| self.moves[link]) {
                 group.links.iter().for_each(|&link| self.moves[link] = true);
@@ -189,7 +187,7 @@ impl<'a> Needs<'a> {
     /// Whether the reduced case keeps a load.
     /// A load is kept if the reduced case needs any forces and contains all links of the load.
     fn has_load(&self, load: &Load) -> bool {
-        // Friction needs the reaction of its joint.
+        // The friction of a joint depends on the joint's reaction.
         let is_known = !load.is_friction() || load.joint().is_none_or(|joint| self.carries[self.owner(joint)]);
         self.carries.contains(&true) && load.links().iter().all(|&link| self.moves[link]) && is_known
     }
@@ -222,7 +220,7 @@ impl<'a> Needs<'a> {
         let stays = |own: &&Transmission| own.links().into_iter().all(|link| self.moves[link]);
         let own_transmission = |own: &Transmission| {
             let design = own.design.renumbered(|link| link_number[link], |joint| joint_number[joint]);
-            // Losses need the force of the transmission.
+            // The losses of a transmission depend on the transmission's force.
             let is_known = own.links().into_iter().any(|link| link != GROUND && self.carries[link]);
             if is_known { design } else { TransmissionDesign { efficiency: [1.0; 2], ..design } }
         };
@@ -252,9 +250,9 @@ impl<'a> Needs<'a> {
     }
 
     /// The links of the reduced case.
-    /// Two links may share a point's name although the joint that connects them at this point is left out.
-    /// Of these two links, the link that depends on fewer groups keeps the point's name. On the second link, a number
-    /// is added to the name.
+    /// If a joint is left out, its two links still have a point with the joint's name.
+    /// The link that depends on fewer groups keeps the name of the point.
+    /// On the second link, a number is added to the name.
     fn links(&self) -> Vec<Link> {
         let whole = &self.case.mechanism;
         let stays = |index: &LinkId| self.moves[*index];
@@ -279,7 +277,7 @@ impl<'a> Needs<'a> {
                     continue;
                 }
                 let first = *all.iter().min_by_key(|&&own| (self.upstream[own].len(), own)).expect("there are two");
-                // All links that revolute joints of this name connect with the first link.
+                // Finds all links that are connected with the first link by revolute joints of this name.
                 let mut reached = vec![first];
                 let mut next = 0;
                 while let Some(&own) = reached.get(next) {
@@ -298,7 +296,7 @@ impl<'a> Needs<'a> {
         links.into_iter().map(|(_, link)| link).collect()
     }
 
-    /// Assembly mode of a group of the part; `link_number` gives the new numbers of its links.
+    /// Assembly mode of a group of the reduced case. `link_number` gives the new numbers of the links.
     fn mode(&self, group: &Group, link_number: &[LinkId]) -> AssemblyMode {
         let links = |of: &Group| -> Vec<LinkId> { of.links.iter().map(|&link| link_number[link]).collect() };
         let is_same = |own: &Group| self.moves[own.links[0]] && links(own) == group.links;
@@ -307,7 +305,7 @@ impl<'a> Needs<'a> {
     }
 }
 
-/// New numbers of the items that stay, in order. Entries of removed items are placeholders.
+/// New numbers of the items, in order. The entry of a removed item is only a placeholder.
 fn numbers<I: Ordinal>(stays: impl Iterator<Item = bool>) -> Vec<I> {
     let mut next = 0;
     stays

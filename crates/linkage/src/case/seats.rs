@@ -8,8 +8,8 @@ use crate::mechanism::{JointId, JointSide, LinkId, TransmissionId};
 use crate::trajectory::{Channel, ChannelSubject, Stage};
 
 /// Location of a channel's subject in the mechanism.
-/// The location determines what the channel's values depend on and what they describe.
-/// If you add a kind of subject, give the new kind one of these locations in `Case::subjects`.
+/// The location determines on which parts the channel's values depend.
+/// A new kind of subject needs one of these locations in `Case::subjects`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Seat {
     /// The link with this number.

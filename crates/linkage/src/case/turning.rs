@@ -1,18 +1,17 @@
 //! Determines from the joints and the start pose which links can turn, and which links can turn relative to each other.
 //!
 //! Links connected by a prismatic joint have the same angle up to a constant.
-//! Opposite links of a parallelogram also have the same angle up to a constant, and so do all links in a chain of such
-//! pairs.
-//! A link connected with the ground by such pairs only translates: its angular velocity is zero.
+//! The same holds for opposite links of a parallelogram, and for all links in a chain of such pairs of links.
+//! A link that a chain of such pairs connects with the ground only translates: the link's angular velocity is zero.
 //! A nonzero angular velocity that a solver computes for such a link is only rounding error.
-//! Loads must not infer a sense of rotation from this error.
+//! Loads must not take the sign of a rounding error for a sense of rotation.
 
 use super::CaseParts;
 use crate::math::Vec2;
 use crate::mechanism::{Joint, LinkId};
 
-/// If opposite sides of a quadrilateral differ by less than this fraction of the mechanism's size, they count as equal.
-/// The quadrilateral is then a parallelogram.
+/// A quadrilateral counts as a parallelogram if its opposite sides differ by less than this fraction of the mechanism's
+/// size.
 const EQUAL: f64 = 1e-12;
 
 /// A link that connects two other links by revolute joints.
@@ -24,8 +23,8 @@ struct Bridge {
 }
 
 /// For every link, the representative of the link's class.
-/// A class contains the links with the same angle up to a constant, on the branch of the start pose.
-/// All links of a class have the same representative, so equal entries mean that there is no relative rotation.
+/// The angles of all links in a class differ only by constants, on the branch of the start pose.
+/// Two links with the same representative do not turn relative to each other.
 pub(super) fn classes(parts: &CaseParts) -> Vec<LinkId> {
     let mechanism = &parts.mechanism;
     let mut classes: Vec<LinkId> = mechanism.links().ids().collect();
@@ -47,8 +46,8 @@ pub(super) fn classes(parts: &CaseParts) -> Vec<LinkId> {
             }
         }
     }
-    // If one member is at rest relative to the carrier, the other member is at rest relative to the carrier too. For a
-    // cam this holds only if the cam is at rest.
+    // If one member of a transmission is at rest relative to the carrier, the other member is at rest too.
+    // With a cam, the follower is at rest if the cam is at rest, but not vice versa.
     let transmissions = mechanism.transmissions();
     for own in transmissions.iter().flat_map(|_| transmissions).filter(|own| own.slide().is_none()) {
         let ([first, second, carrier], is_cam) = (own.links(), own.cam.is_some());

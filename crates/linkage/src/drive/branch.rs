@@ -1,4 +1,4 @@
-//! One smooth piece of the motor's moment on the crank. The equations of motion are integrated piece by piece.
+//! Smooth pieces of the motor's moment on the crank. The equations of motion are integrated piece by piece.
 
 use crate::math::KeepNan;
 
@@ -43,7 +43,7 @@ impl Curve {
         }
     }
 
-    /// Speed at which the torque equals `torque` and decreases with increasing speed.
+    /// Speed at which the torque is `torque`, on a branch where the torque decreases with increasing speed.
     fn stable_speed(&self, torque: f64) -> Option<f64> {
         match *self {
             Curve::Line { at_rest, slope } if slope < 0.0 => Some((torque - at_rest) / slope),
@@ -64,8 +64,8 @@ impl Curve {
 pub struct MotorBranch {
     curve: Curve,
     ratio: f64,
-    /// Effect of the reducer's losses on the moment: the efficiency if power flows to the crank, the reciprocal of the
-    /// efficiency if power flows back to the motor.
+    /// Factor of the moment due to the reducer's losses. If power flows to the crank, the factor is the efficiency.
+    /// If power flows back to the motor, the factor is the reciprocal of the efficiency.
     factor: f64,
     /// Speeds of the crank (rad/s) between which the piece is valid. Outside this interval the piece continues
     /// smoothly.
@@ -102,11 +102,11 @@ impl MotorBranch {
         self.ratio * self.ratio * self.factor * self.curve.slope(self.ratio * omega)
     }
 
-    /// Speed of the crank (rad/s) on this piece at which the moment equals `resistance` (N m) and decreases with
-    /// increasing speed.
+    /// Speed of the crank (rad/s) at which the moment on this piece is `resistance` (N m) and decreases with increasing
+    /// speed.
     pub(super) fn steady_speed(&self, resistance: f64) -> Option<f64> {
         let speed = self.curve.stable_speed(resistance / (self.ratio * self.factor))? / self.ratio;
-        // The speed may exceed an end of the piece by a rounding error, so the check allows this excess.
+        // The check allows a speed that exceeds an end of the piece by a rounding error.
         let slack = 4.0 * f64::EPSILON * speed.abs();
         (speed >= self.speeds[0] - slack && speed <= self.speeds[1] + slack).then_some(speed)
     }

@@ -5,15 +5,16 @@ use std::sync::Arc;
 
 use crate::math::{Piecewise, just_below};
 
-/// The jumps of a table are moved back by this angle (rad) or slide (m), which is much larger than rounding errors.
-/// At the stated input, all solvers therefore find the value after the jump.
+/// The jumps of a table are moved back by this angle (rad) or slide (m).
+/// The displacement of the jumps is much larger than rounding errors.
+/// At the stated input of a jump, all solvers therefore find the value after the jump.
 const BEFORE: f64 = 4e-9;
 
-/// A table over a slide keeps its end values beyond both ends. It does so over the distance (1 m + |first slide| +
-/// |last slide|) times this number.
+/// Beyond its ends, a table over a slide keeps its end values over a certain distance.
+/// The distance is this number times (1 m + |first slide| + |last slide|).
 const FAR: f64 = 100.0;
 
-/// If the values on both sides of a knot differ relatively by no more than twice this number, there is no jump.
+/// A knot of a table is a jump if the values on its two sides differ relatively by more than twice this number.
 const EQUAL: f64 = 1e-12;
 
 /// A constant, or a table of values against the crank angle or the slide of the first drive.
@@ -36,7 +37,8 @@ impl Course {
     /// After `turns` revolutions the table repeats.
     /// If `smooth` is true, the function is a periodic cubic spline with continuous second derivatives.
     /// If `smooth` is false, straight lines join the points.
-    /// Two points with the same crank angle make a jump, and so does a last point one period after the first point.
+    /// Two points with the same crank angle make a jump.
+    /// A last point that lies one period after the first point also makes a jump.
     /// At the crank angle of a jump, the table has the value after the jump.
     #[must_use]
     pub fn table(points: &[(f64, f64)], turns: u32, smooth: bool) -> Self {
@@ -136,11 +138,11 @@ mod tests {
         let table = Course::table(&points, 1, false);
         let jumps: Vec<[f64; 2]> = table.jumps().collect();
         assert_eq!(jumps, [[turn(90.0) - BEFORE, TAU], [turn(30.0) - BEFORE + TAU, TAU]]);
-        // Moving the jumps does not change the lines between them.
+        // The lines between the jumps are unchanged, although the jumps were moved.
         assert!((table.at(turn(240.0)) - 4.5).abs() < 1e-15 && (table.at(turn(60.0)) - 1.5).abs() < 1e-15);
         for (x, y) in [(90.0, 5.0), (90.0 - 1e-6, 2.0), (30.0, 1.0), (390.0 - 1e-6, 4.0), (-270.0, 5.0)] {
             assert!((table.at(turn(x)) - y).abs() < 1e-7, "{x}");
-            // A rounding error of the crank angle does not lead to the other side of a jump.
+            // Despite a rounding error of the crank angle, the value is on the correct side of the jump.
             assert!((table.at(turn(x) - 1e-12) - y).abs() < 1e-7, "{x}");
         }
         assert_eq!(Course::table(&points[..2], 1, true).jumps().count(), 0);

@@ -12,10 +12,10 @@ pub enum DriveMotion {
         /// The motion law.
         law: MotionLaw,
         /// Motor whose speed under load is to be computed.
-        /// The motor does not affect the motion: the link follows the law even if the motor is too weak for it.
+        /// The motor does not affect the motion. The link follows the law even if the motor is too weak.
         motor: Option<Motor>,
     },
-    /// Free motion, which from t = 0 on follows from the loads, weights, inertia and the motor, if any.
+    /// Free motion from t = 0 on. Loads, weights, inertia and the motor (if there is one) determine the motion.
     Free {
         /// Speed at t = 0 (rad/s), counter-clockwise positive.
         initial_speed: f64,
@@ -49,7 +49,7 @@ pub struct Drive {
     pub joint: JointId,
     /// Link moved by the drive.
     pub link: LinkId,
-    /// Zero of the input: the coordinate at zero input, as in [`Drive::coordinate`] (rad or m).
+    /// Coordinate of the joint at zero input (rad or m): see [`Drive::coordinate`].
     pub zero: f64,
     /// Input at t = 0 (SI unit).
     pub start: f64,
@@ -61,8 +61,8 @@ pub struct Drive {
 }
 
 impl Drive {
-    /// Returns the drive of a crank that follows `law` and has no motor. The other arguments are the fields of the same
-    /// names.
+    /// Returns the drive of a crank that follows `law` and has no motor.
+    /// The other arguments are values of the fields with the same names.
     pub fn prescribed(joint: JointId, link: LinkId, zero: f64, start: f64, law: MotionLaw) -> Self {
         let motion = DriveMotion::Prescribed { law, motor: None };
         Drive { input: Input::Angle, joint, link, zero, start, motion, through: false }
@@ -96,8 +96,8 @@ impl Drive {
         }
     }
 
-    /// Input, rate and acceleration at time `t` (s), as in [`MotionLaw::at`]. For a free link, those of its nominal
-    /// motion.
+    /// Input, rate and acceleration at time `t` (s), as in [`MotionLaw::at`].
+    /// For a free link, the values of its nominal motion.
     #[inline]
     pub fn at(&self, t: f64) -> InputState {
         self.by_law(|law| law.at(self.start, t))
@@ -112,8 +112,8 @@ impl Drive {
     }
 
     /// Constant speed (rad/s) that moves the link from its angle at time `from` to its angle at time `to` (s).
-    /// The duration of the motion is the absolute difference of the two times.
-    /// If `to` is before `from`, the speed is opposite to the law's sense.
+    /// The motion takes the absolute difference of the two times.
+    /// If `to` is before `from`, the speed has the sign opposite to the law's sense.
     #[inline]
     #[must_use]
     pub fn step_speed(&self, from: f64, to: f64) -> f64 {
@@ -213,7 +213,7 @@ impl Drive {
     }
 
     /// Motor that drives the link.
-    /// Only a free link can have a motor that drives it.
+    /// `None` for a link under a law, because only free links are driven by motors.
     #[must_use]
     pub fn moving_motor(&self) -> Option<&Motor> {
         match &self.motion {
@@ -222,7 +222,7 @@ impl Drive {
         }
     }
 
-    /// Moment of inertia of rotor and reducer (kg m^2), referred to the free link with which they turn.
+    /// Moment of inertia of rotor and reducer (kg m^2), referred to the free link that the motor drives.
     /// The result is 0 for a link under a law.
     #[must_use]
     pub fn moving_inertia(&self) -> f64 {
@@ -263,7 +263,7 @@ impl Drive {
         Drive { motion, ..*self }
     }
 
-    /// Coordinate of the driven joint for a value `angle` of the input (rad or m, counted as in the scenario).
+    /// Coordinate of the driven joint at the input `angle` (rad or m, in the scenario's convention).
     /// For [`Input::Angle`]: the world angle of the driving link's x axis (rad).
     /// For [`Input::Turn`]: the angle of the joint's second link minus that of its first link (rad).
     /// For [`Input::Slide`]: the slide (m), as in [`State::slide`](crate::solver::State::slide).
@@ -281,7 +281,7 @@ impl Drive {
     }
 
     /// Angle of the driving link's frame (rad, unwrapped) for a coordinate measured as in [`Drive::coordinate`].
-    /// `None` unless the input is an [`Input::Angle`].
+    /// `None` if the input is not an [`Input::Angle`].
     #[inline]
     #[must_use]
     pub fn link_angle(&self, coordinate: f64) -> Option<f64> {
@@ -326,7 +326,7 @@ mod tests {
                 assert_eq!(drive.coordinate(state.value), 3.0 + state.value);
             }
         }
-        // The table reaches 0.8 three times, 0.6 once, and starts at 0.5.
+        // The table starts at 0.5, and reaches 0.8 three times and 0.6 once.
         let own = drive(table());
         assert!(own.time_of(0.8).is_nan() && own.time_of(1.6).is_nan() && own.time_of(0.5) == 0.0);
         assert!([0.6, 1.2, 1.5].iter().all(|&value| (own.at(own.time_of(value)).value - value).abs() < 1e-15));

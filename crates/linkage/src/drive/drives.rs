@@ -75,7 +75,8 @@ impl Drives {
         std::iter::once(self.crank().coordinate(crank)).chain(further).collect()
     }
 
-    /// Ratios of the driving links' angular velocities to that of the crank at time `t` (s). The crank's ratio is 1.
+    /// Ratios of the driving links' angular velocities to the crank's angular velocity, at time `t` (s).
+    /// The crank's ratio is 1.
     pub fn ratios(&self, t: f64) -> impl Iterator<Item = f64> {
         let omega = self.crank().at(t).rate;
         self.0.iter().enumerate().map(move |(index, drive)| if index == 0 { 1.0 } else { drive.at(t).rate / omega })

@@ -1,7 +1,7 @@
 //! Loads on links, apart from gravity and inertia.
 //! This file alone defines each kind of load.
-//! The definition of a kind consists of a variant, an action on the links ([`Load::act`]), dependencies
-//! ([`Load::nature`]) and numbers ([`Load::parts`]).
+//! Each kind is defined by a variant and three methods.
+//! [`Load::act`] gives the action on the links, [`Load::nature`] the dependencies, [`Load::parts`] the numbers.
 //! Code in other files calls these methods. The scenario reader defines how loads are written in scenario files.
 
 mod change;
@@ -53,7 +53,7 @@ pub enum Load {
         force: f64,
     },
     /// Spring between two points.
-    /// The spring pulls the points together with the force stiffness times (length - free length).
+    /// The spring pulls the points together. The force is stiffness times (length - free length).
     /// If the points coincide, the direction is undefined and the force is zero.
     Spring {
         /// End points.
@@ -64,7 +64,7 @@ pub enum Load {
         free_length: f64,
     },
     /// Damper between two points.
-    /// The damper pulls the points together with the force damping times the rate of change of the points' distance.
+    /// The damper pulls the points together. The force is damping times the rate of change of the points' distance.
     /// If the points coincide, the force is zero.
     Damper {
         /// End points.
@@ -76,7 +76,7 @@ pub enum Load {
     /// The moment on the first link is stiffness times (twist - free twist). The moment on the second link is opposite.
     /// The twist is the angle of the second link's frame minus the angle of the first link's frame.
     /// At t = 0 the twist is in (-pi, pi]. Later the twist counts whole turns.
-    /// If `acts` names one side of the free twist, the spring acts only on this side, as a stop does.
+    /// If `acts` names one side of the free twist, the spring acts only on this side, like a stop.
     TorsionSpring {
         /// The links.
         links: [LinkId; 2],
@@ -96,8 +96,9 @@ pub enum Load {
         /// Damping (N m s/rad).
         damping: f64,
     },
-    /// Force along the axis of a prismatic joint on its second link, positive if it increases the slide. The opposite
-    /// force acts on the first link. The force may be limited to one sense of the sliding.
+    /// Force along the axis of a prismatic joint.
+    /// The force acts on the joint's second link; a positive force pushes towards larger slides.
+    /// The opposite force acts on the first link. The force may be limited to one sense of the sliding.
     SlideForce {
         /// The joint.
         joint: JointId,
@@ -108,8 +109,8 @@ pub enum Load {
         /// Sense of the sliding for which the force acts: [`Acts::CounterClockwise`] means an increasing slide.
         acts: Acts,
     },
-    /// Spring along the axis of a prismatic joint: the force -stiffness (slide - free slide) on the second link.
-    /// If `acts` names one side of the free slide, the spring acts only on this side, as a stop does.
+    /// Spring along the axis of a prismatic joint. The force on the second link is -stiffness (slide - free slide).
+    /// If `acts` names one side of the free slide, the spring acts only on this side, like a stop.
     SlideSpring {
         /// The joint.
         joint: JointId,
@@ -122,7 +123,8 @@ pub enum Load {
         /// Side of the free slide on which the spring acts: [`Acts::CounterClockwise`] means larger slides.
         acts: Acts,
     },
-    /// Damper along the axis of a prismatic joint: the force -damping times the rate of the slide on the second link.
+    /// Damper along the axis of a prismatic joint.
+    /// The force on the second link is -damping times the rate of the slide.
     SlideDamper {
         /// The joint.
         joint: JointId,
@@ -214,7 +216,7 @@ impl Load {
     }
 
     /// Name of the load, its point or link of action, and the quantities on which it depends.
-    /// Where possible, code uses this information instead of the variant to distinguish loads.
+    /// Code should distinguish loads by this information, not by the variant.
     #[inline]
     #[must_use]
     pub fn nature(&self) -> LoadNature<'_> {
@@ -258,7 +260,7 @@ impl Load {
         }
     }
 
-    /// The parts of the load except its joint, for reading or changing; links and points first.
+    /// The parts of the load except its joint, for reading or changing. Links and points come first.
     /// A torsion spring has the part [`LoadPart::Acts`] only if it acts on one side.
     pub fn parts(&mut self) -> Vec<LoadPart<'_>> {
         fn amount<'a>(name: &'static str, value: &'a mut f64) -> LoadPart<'a> {
@@ -393,12 +395,11 @@ impl Load {
         if let Load::ResistingForce { force, .. } = self { way * -force } else { Vec2::zeros() }
     }
 
-    /// Size of the load's jump at the crank angle `crank` (rad), if the motion that determines the load's sense
-    /// reverses there.
+    /// Size of the load's jump at the crank angle `crank` (rad), for a motion that reverses there and determines the
+    /// load's sense.
     /// The jump is in N m, or in N for a force.
     /// For friction, the result is the jump per newton of the normal force.
-    /// The jump is zero for a load that depends on no sense of motion, and for a load that vanishes at this crank
-    /// angle.
+    /// A load that depends on no sense of motion, or is zero at this crank angle, has no jump.
     /// A load without a jump has at most a kink.
     #[must_use]
     pub fn jump(&self, crank: f64) -> f64 {
@@ -432,7 +433,7 @@ impl Load {
         if let &Load::Resistance { link, moment } = self { Some((link, moment)) } else { None }
     }
 
-    /// Whether the load depends on the size of speeds and not only on their signs.
+    /// Whether the load depends on the sizes of speeds, in addition to their signs.
     #[must_use]
     pub fn is_viscous(&self) -> bool {
         self.nature().is_viscous
@@ -480,7 +481,7 @@ fn pull_together(ends: [JointSide; 2], places: [Vec2; 2], pull: Vec2, put: &mut 
     put(Action { link: ends[1].link, force: -pull, place: places[1], moment: 0.0 });
 }
 
-/// Force (N) or moment (N m) of a spring, which may act on one side of its unloaded state only.
+/// Force (N) or moment (N m) of a spring. The spring may act on only one side of its unloaded state.
 #[inline]
 fn spring(stiffness: f64, stretch: f64, acts: Acts) -> f64 {
     if acts.has(stretch) { stiffness * stretch } else { 0.0 }

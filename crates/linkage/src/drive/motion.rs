@@ -15,15 +15,14 @@ pub struct InputState {
     /// Value in the scenario's convention.
     /// An angle is measured counter-clockwise from the drive's zero direction, and whole turns count.
     pub value: f64,
-    /// Rate of the value; of an angle, counter-clockwise positive.
+    /// Rate of the value. The rate of an angle is counter-clockwise positive.
     pub rate: f64,
-    /// Acceleration of the value; of an angle, counter-clockwise positive.
+    /// Acceleration of the value. The acceleration of an angle is counter-clockwise positive.
     pub acceleration: f64,
 }
 
 /// An input as a function of time, from t = 0.
-/// The units stated in this type are the units for an angle.
-/// For a length, read m for rad and m/s for rad/s.
+/// The stated units are for an angle. For a length, the unit is m instead of rad, and m/s instead of rad/s.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MotionLaw {
     /// Constant angular velocity (rad/s), counter-clockwise positive.
@@ -71,7 +70,7 @@ impl MotionLaw {
         }
     }
 
-    /// Whether the law holds its joint.
+    /// Whether the speed is always zero, so that the drive holds its joint.
     #[must_use]
     pub fn holds(&self) -> bool {
         self.constant() == Some(0.0)
@@ -99,7 +98,7 @@ impl MotionLaw {
     }
 
     /// Angle, speed and acceleration at time `t` (s) of a motion with the input `start` (rad) at t = 0.
-    /// Beyond the law's end the formula continues smoothly, for callers that approach the end.
+    /// Beyond the law's end the formula continues smoothly. Callers that approach the end need this continuation.
     #[inline]
     pub fn at(&self, start: f64, t: f64) -> InputState {
         match *self {
@@ -150,7 +149,7 @@ impl MotionLaw {
     }
 
     /// First time (s) at which the driving link has turned by the angle `gone` (rad). For `gone` = 0 the result is 0.
-    /// At constant speed, the time is negative for an angle against the sense of the motion.
+    /// At constant speed, the time is negative if the angle has the sign opposite to the speed.
     /// NaN if the law never reaches the angle.
     /// NaN also if a table or formula reaches the angle more than once, or if a harmonic reaches it more than once
     /// within one period.
@@ -173,14 +172,13 @@ impl MotionLaw {
 /// Number of parts into which each interval of a table is divided, to find where the table reaches a value.
 const PARTS: usize = 32;
 
-/// The time (s) at which a curve reaches `gone`, found by sign changes and bisection, if there is exactly one such
-/// time.
-/// NaN if there is no such time, or if there are several.
+/// The only time (s) at which a curve reaches `gone`, found by sign changes and bisection.
+/// NaN if no time or several times are found.
 fn only_time(curve: &Curve, gone: f64) -> f64 {
     if gone == 0.0 {
         return 0.0;
     }
-    // A difference at the level of rounding errors counts as zero, so that the last value of the curve is reached.
+    // A difference as small as rounding errors counts as zero. The curve can then reach its last value.
     let off =
         |t: f64| Some(curve.at(t)[0] - gone).filter(|off| off.abs() > 4.0 * f64::EPSILON * gone.abs()).unwrap_or(0.0);
     let (places, count) = (curve.places(), if matches!(curve, Curve::Table(_)) { PARTS } else { 1 });
@@ -207,8 +205,7 @@ const HALVINGS: usize = 60;
 /// Fraction s of the duration at which s - sin(2 pi s) / 2 pi equals `gone`.
 /// The fraction is found by bisection, because the function has zero slope at both ends.
 fn cycloid(gone: f64) -> f64 {
-    // Because of rounding errors, the fraction `gone` may lie slightly outside 0 to 1, so an excess of 1e-15 is
-    // allowed.
+    // `gone` may lie outside the range from 0 to 1 by 1e-15, because of rounding errors.
     if !(-1e-15..=1.0 + 1e-15).contains(&gone) {
         return f64::NAN;
     }

@@ -32,7 +32,7 @@ pub enum MotorLaw {
         synchronous_speed: f64,
     },
     /// Straight lines between measured points. Beyond the table, the first and the last line continue.
-    /// Straight lines are used because they cannot overshoot: a decreasing table gives a decreasing law.
+    /// Straight lines cannot overshoot, so a decreasing table gives a decreasing law.
     Table {
         /// Speeds (rad/s), ascending, at least two.
         speeds: Vec<f64>,
@@ -102,7 +102,7 @@ pub struct ShaftInertia {
     /// Intermediate shaft of the reducer, which turns `intermediate_ratio` times as fast as the crank.
     /// The value is 0 if the reducer has no intermediate shaft.
     pub intermediate: f64,
-    /// Ratio of the intermediate shaft's speed to that of the crank; ignored if `intermediate` is 0.
+    /// Speed of the intermediate shaft divided by the speed of the crank; ignored if `intermediate` is 0.
     pub intermediate_ratio: f64,
     /// Output shaft of the reducer, which turns with the crank.
     pub output: f64,
@@ -116,12 +116,13 @@ pub struct Motor {
     /// Ratio of the motor's speed to that of the crank, above 0.
     pub ratio: f64,
     /// Efficiency of the reducer, above 0 and at most 1. The efficiency is the same in both directions of power flow.
-    /// The efficiency applies to the motor's static torque, not to the moments that accelerate the shafts.
+    /// The efficiency reduces the motor's static torque.
+    /// The efficiency does not affect the moments that accelerate the shafts.
     pub efficiency: f64,
     /// Moments of inertia of rotor and reducer.
     pub inertia: ShaftInertia,
-    /// Rated torque (N m), if it is known. A linear law describes an induction motor only up to a multiple of the rated
-    /// torque.
+    /// Rated torque (N m), if it is known.
+    /// For an induction motor, a linear law is valid only up to a multiple of the rated torque.
     pub rated_torque: Option<f64>,
 }
 
@@ -142,8 +143,7 @@ impl Motor {
     }
 
     /// Moment of inertia of rotor and reducer, reduced to the crank (kg m^2).
-    /// The moment of inertia of each part is multiplied by the square of the ratio of the part's speed to the crank's
-    /// speed.
+    /// Each part contributes its moment of inertia times (part's speed / crank's speed)^2.
     #[must_use]
     pub fn inertia_on_crank(&self) -> f64 {
         let own = &self.inertia;
@@ -151,8 +151,8 @@ impl Motor {
     }
 
     /// The smooth piece of the moment on the crank that is valid at the crank's speed `omega` (rad/s).
-    /// If two pieces meet at `omega`, `towards` selects one of these two pieces.
-    /// The piece at higher speeds is returned if `towards` is positive, otherwise the piece at lower speeds.
+    /// If two pieces meet at `omega`, a positive `towards` selects the piece at higher speeds.
+    /// If `towards` is not positive, the piece at lower speeds is returned.
     #[must_use]
     pub fn branch(&self, omega: f64, towards: f64) -> MotorBranch {
         let holds = |branch: &&MotorBranch| match towards > 0.0 {
@@ -167,8 +167,8 @@ impl Motor {
     fn branches(&self) -> Vec<MotorBranch> {
         let mut found = Vec::new();
         for ([from, to], curve) in self.law.curves() {
-            // The effect of the losses changes with the direction of the power flow, which changes with the sign of the
-            // speed or of the torque.
+            // The direction of the power flow changes with the sign of the speed or torque.
+            // The effect of the losses changes with this direction.
             // A piece therefore ends at zero speed and at zero torque.
             let mut ends = vec![from, to];
             if self.efficiency < 1.0 {
@@ -184,8 +184,8 @@ impl Motor {
         found
     }
 
-    /// Speed of the crank (rad/s) at stable equilibrium: the motor's moment equals `resistance` (N m) and decreases
-    /// with increasing speed.
+    /// Speed of the crank (rad/s) at stable equilibrium.
+    /// At stable equilibrium the motor's moment equals `resistance` (N m) and decreases with increasing speed.
     /// If there are several equilibrium speeds, the largest speed is returned. If there is no such speed, the result is
     /// `None`.
     #[must_use]

@@ -1,5 +1,5 @@
-//! Substitute masses and moments of inertia for links that have none. Engines integrate bodies and need both
-//! quantities.
+//! Substitute masses and moments of inertia for links without mass or inertia.
+//! Engines integrate bodies, and every body needs both quantities.
 
 use crate::case::Case;
 use crate::error::{Advice, Error, ErrorKind, Result};
@@ -21,8 +21,7 @@ pub fn stand_in(case: &Case, link: LinkId) -> [f64; 2] {
 }
 
 /// Checks that every link has a mass and a moment of inertia.
-/// A free motion requires that every link has both, because a substitute mass or moment of inertia would change the
-/// motion.
+/// A free motion requires both quantities, because a substitute mass or moment of inertia would change the motion.
 /// `software` is the engine's name as users know it.
 ///
 /// # Errors

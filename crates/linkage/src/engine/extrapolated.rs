@@ -18,7 +18,7 @@ pub struct Extrapolated {
 }
 
 impl Extrapolated {
-    /// Extrapolates an engine of step h `times` times, from runs at h, h / 2, ..., h / 2^times.
+    /// Makes `times` extrapolations of an engine with the step h, from runs at h, h / 2, ..., h / 2^times.
     pub fn new(inner: Box<dyn Engine>, times: usize) -> Self {
         debug_assert!(!inner.controls_error(), "there is no step to be halved");
         let step = inner.settings().resolution;
@@ -41,7 +41,7 @@ impl Extrapolated {
 /// Each run after the first cancels one of these terms.
 /// Neville's scheme, for run k after j extrapolations: T(k, j) = T(k + 1, j - 1) + (T(k + 1, j - 1) - T(k, j - 1)) /
 /// (2^p - 1).
-/// In this step of the scheme, the term with the power p cancels.
+/// The formula of Neville's scheme removes the error term with the power p.
 fn weights(order: f64, runs: usize) -> Vec<f64> {
     let mut rows: Vec<Vec<f64>> =
         (0..runs).map(|run| (0..runs).map(|k| f64::from(u8::from(k == run))).collect()).collect();
@@ -57,7 +57,7 @@ fn weights(order: f64, runs: usize) -> Vec<f64> {
     rows.swap_remove(0)
 }
 
-/// Weights of the runs for those quantities of a state that depend on the step.
+/// Weights of the runs, for the positions, velocities, accelerations and forces of a state.
 struct Weights {
     position: Vec<f64>,
     velocity: Vec<f64>,
@@ -88,7 +88,7 @@ impl Weights {
             weights.iter().zip(states).fold(Vec2::zeros(), |sum, (weight, state)| sum + of(state) * *weight)
         };
         for (index, link) in case.mechanism.links().entries().skip(1) {
-            // Engines integrate the motion of mass centres, so the motions of the mass centres are combined.
+            // The motions of the mass centres are combined, because engines integrate these motions.
             // The origin of the link's frame follows from the combined motion.
             let centre = link.mass_centre;
             let angle = mix(&self.position, &|state| state.angles[index]);
@@ -173,7 +173,7 @@ impl StandIn for Extrapolated {
     }
 
     fn own_order(&self, case: &Case, channel: &ChannelKind) -> f64 {
-        // The errors are proportional to h^p, h^(p+1), ...; the leading errors cancel.
+        // Errors are proportional to h^p, h^(p+1), ... Every extrapolation removes one of these errors.
         self.coarsest().formal_order(case, channel) + self.times() as f64
     }
 
@@ -303,7 +303,7 @@ mod tests {
         case.on(Grid::of_times(case.crank(), vec![0.2, 0.0, 0.1])).unwrap()
     }
 
-    /// Rows and angles in the order in which an engine delivers them, with the result of the run.
+    /// Rows and angles in the engine's order of delivery, with the result of the run.
     /// The function asserts that the progress rises from 0 to 1.
     fn run(engine: &dyn Engine, case: &Case) -> (Vec<(usize, f64)>, Result<()>) {
         let (mut seen, mut far) = (Vec::new(), 0.0);

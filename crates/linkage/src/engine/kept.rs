@@ -38,7 +38,7 @@ struct Run {
 }
 
 impl Store {
-    /// Locks the store. A lock poisoned by a panic is still usable, because runs are stored only after they have ended.
+    /// Locks the store. After a panic the poisoned lock can still be used, because only finished runs are stored.
     fn lock(&self) -> MutexGuard<'_, Runs> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -60,7 +60,7 @@ impl CachedEngine {
         CachedEngine { inner: engine.with(plain), store: Arc::default() }
     }
 
-    /// Settings of the plain runs (without extrapolation) that engines at `settings` need and the store lacks.
+    /// Settings of the plain runs (without extrapolation) that engines at `settings` need and that are not stored yet.
     #[must_use]
     pub fn missing(&self, case: &Case, settings: &[Settings]) -> Vec<Settings> {
         let mut missing: Vec<Settings> = Vec::new();
@@ -76,8 +76,7 @@ impl CachedEngine {
     /// The results do not depend on the number of threads. A failed run is stored with its error.
     /// `progress` receives the completed fraction of all these runs.
     pub fn prepare(&self, case: &Case, mut missing: Vec<Settings>, progress: Progress) {
-        // The run with the most work starts first. If this run started last, the idle cores would have to wait for its
-        // end.
+        // The run with the most work starts first, so that the other cores do not wait for this run at the end.
         missing.sort_by(|a, b| b.work().total_cmp(&a.work()));
         let whole: f64 = missing.iter().map(Settings::work).sum();
         let mut parts = vec![0.0f64; missing.len()];
@@ -89,7 +88,7 @@ impl CachedEngine {
         });
     }
 
-    /// Drops the runs whose settings `wanted` rejects.
+    /// Keeps only the stored runs for whose settings `wanted` returns true.
     pub fn retain(&self, wanted: impl Fn(&Settings) -> bool) {
         self.store.lock().runs.retain(|run| wanted(&run.settings));
     }

@@ -1,7 +1,7 @@
 //! The states of a whole run in one block of memory, reduced to the numbers that the requested channels need.
 //!
 //! A [`State`] has six separate lists, with memory for every stage.
-//! For a run of many instants, separate states would take more memory than the numbers themselves.
+//! In a run of many instants, the overhead of separate states would exceed the memory of the numbers.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -20,7 +20,7 @@ pub struct Rows {
     values: Vec<f64>,
     /// For every row: whether the run has reached the row.
     reached: Vec<bool>,
-    /// [`State::passing`] of the few rows whose `passing` is not `None`.
+    /// [`State::passing`] by row, for the few rows in which this field is not `None`.
     passing: BTreeMap<usize, f64>,
 }
 
@@ -41,7 +41,7 @@ struct Layout {
 
 impl Layout {
     /// Layout of the numbers that the requested channels of a case need.
-    /// Forces depend on the whole motion, so all velocities are stored with the forces.
+    /// All velocities are stored if forces are stored, because forces depend on the whole motion.
     /// Velocities are also stored if a load depends on a sense of motion.
     fn of(case: &Case) -> Self {
         let deepest = case.wanted.deepest();

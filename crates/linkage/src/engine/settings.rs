@@ -9,12 +9,12 @@ crate::words! {
     /// A method for reactions and balancing moment.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum Route: name {
-        /// Newton-Euler equations. The accelerations are centred second differences of the engine's positions.
+        /// Newton-Euler equations, with accelerations from centred second differences of the engine's positions.
         Differences = "differences",
         /// Values that the engine reports during the run, such as impulses or multipliers.
         Native = "native",
-        /// Values that the engine reports for one tiny additional step, started from a state of the engine's
-        /// trajectory.
+        /// Values that the engine reports for a tiny additional step.
+        /// The additional step starts from a state of the engine's trajectory.
         Probe = "probe",
     }
 }
@@ -38,17 +38,17 @@ pub struct Settings {
     /// The method for reactions and balancing moment.
     pub route: Route,
     /// Number of Richardson extrapolations to a vanishing time step; 0 for a plain run.
-    /// `n` extrapolations combine runs at h, h / 2, ..., h / 2^n, so that the `n` leading error terms cancel.
+    /// With `n` extrapolations, runs at h, h / 2, ..., h / 2^n are combined. The `n` leading error terms then cancel.
     pub extrapolated: usize,
 }
 
-/// If a mechanism has at most this number of moving links, a step costs about as much as on a four-bar.
+/// Up to this number of moving links, a step costs about as much as on a four-bar.
 const SMALL: f64 = 6.0;
 
 /// Work of a step on a case, as a multiple of the work of a step on a four-bar.
 /// The work grows with the number of links, because the mass matrix of a multibody is full.
-/// Costs on chains of 21, 61 and 201 moving links were measured, relative to a four-bar.
-/// A step costs 12, 250 and 5000 times as much as on a four-bar, a sweep 12, 100 and 800 times as much.
+/// Costs were measured on chains of 21, 61 and 201 moving links, relative to a four-bar.
+/// A step costs 12, 250 and 5000 times as much. A sweep costs 12, 100 and 800 times as much.
 #[must_use]
 pub fn size_of_step(case: &Case) -> f64 {
     let moving = case.mechanism.links().len().saturating_sub(1) as f64;
@@ -64,7 +64,7 @@ impl Settings {
     /// The work is computed from the settings, not timed.
     #[must_use]
     pub fn work(&self) -> f64 {
-        // Every substep makes all sweeps.
+        // All sweeps are done in every substep.
         self.substeps.max(1) as f64 * (1.0 + SWEEP * self.sweeps as f64) / self.resolution
     }
 }

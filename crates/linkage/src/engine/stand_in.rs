@@ -1,5 +1,5 @@
 //! Solvers that replace an engine.
-//! Only this module forwards calls to the replaced engine, for all methods that the replacement does not change.
+//! This module forwards to the replaced engine all methods that the replacement does not change.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use crate::trajectory::ChannelKind;
 
 /// A solver that replaces an engine and therefore is an engine itself.
 /// A stand-in overrides only the methods that it changes.
-/// If you add a method to [`Engine`], forward the method in this module; otherwise the code does not compile.
+/// A new method of [`Engine`] must be forwarded in this module; otherwise the code does not compile.
 pub trait StandIn: Solver {
     /// The engine that the stand-in replaces.
     fn original(&self) -> &dyn Engine;

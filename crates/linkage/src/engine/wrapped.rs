@@ -1,4 +1,4 @@
-//! A solver or an engine that wraps a second solver or engine and changes its results.
+//! Wraps a solver or an engine, and changes the results of the wrapped solver or engine.
 
 use super::{Engine, Settings, StandIn, Statics};
 use crate::case::Case;
@@ -6,12 +6,12 @@ use crate::error::Result;
 use crate::solver::{Progress, Provision, Solver, State, Visit};
 use crate::trajectory::Channel;
 
-/// The changes that a [`Wrapped`] solver or engine makes to the wrapped solver or engine.
+/// The changes that [`Wrapped`] makes to the input and the results of a solver or an engine.
 pub trait Hook: Clone + Send + Sync + 'static {
-    /// The case to solve instead of `case`; `None` to solve `case` itself.
+    /// The case that is solved in place of `case`; `None` if `case` itself is solved.
     ///
     /// # Errors
-    /// An error if no case can be solved. The solver is then not called.
+    /// An error if there is no case to solve. After an error the solver is not called.
     fn case(&self, case: &Case) -> Result<Option<Case>> {
         let _ = case;
         Ok(None)
@@ -72,9 +72,9 @@ impl<H: Hook> StandIn for Wrapped<H, dyn Engine> {
         let mut inner = self.inner.statics(changed.as_ref().unwrap_or(case))?;
         Some(Box::new(move |case, row, state| {
             inner(changed.as_ref().unwrap_or(case), row, state)?;
-            // The hook changes motion and forces, but an earlier call of the hook has already changed the motion of
-            // this state.
-            // The motion is therefore restored, and only the change of the forces remains.
+            // The hook changes motion and forces.
+            // The motion of this state was already changed by an earlier call of the hook.
+            // The motion is therefore restored, and only the change of the forces is kept.
             let motion = (state.motions.clone(), state.angles.clone());
             hook.answer(case, row, state);
             (state.motions, state.angles) = motion;

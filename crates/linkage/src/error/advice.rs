@@ -1,13 +1,12 @@
 //! The remedy for an error, as data.
-//! The text of a remedy does not mention command-line options. A program that has options adds their names.
+//! The text of a remedy does not mention command-line options. The command line adds the names of its options.
 
 use crate::sentences;
 use std::fmt;
 
 /// One remedy. Several remedies of one error are alternatives.
 ///
-/// [`Advice::Text`] is advice about the text of a scenario, for a person to read. A program can act on every other
-/// variant.
+/// [`Advice::Text`] is advice about a scenario's text, for a person to read. Programs can act on the other variants.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Advice {
     /// Text that is the same for every reader, such as the name of a scenario key.
@@ -72,7 +71,7 @@ pub enum Advice {
     },
     /// A grid within the crank angles that the branch reaches.
     ShortenGrid,
-    /// An analysis of the range of motion, which shows what limits the crank and which links turn fully.
+    /// An analysis of the range of motion. The analysis shows what limits the crank and which links turn fully.
     LookAtRange,
     /// A configuration of an Assur group other than the present configuration.
     Configuration {
@@ -87,7 +86,7 @@ pub enum Advice {
         groups: String,
     },
     /// A weaker request, because no engine meets the present request.
-    /// The request may allow a larger error, ask for different channels or admit more engines.
+    /// A weaker request allows a larger error, asks for different channels or admits more engines.
     WeakerWish,
     /// The complete results instead of an extract.
     AllResults,

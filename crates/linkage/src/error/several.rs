@@ -1,10 +1,10 @@
-//! Several errors found at once: the first error carries all further errors.
+//! Several errors found at once. The first error contains all further errors.
 
 use super::{Advice, Error};
 use crate::sentences;
 use std::collections::BTreeSet;
 
-/// Upper limit of the number of different causes. Errors of further causes are counted but not kept.
+/// Upper limit of the number of different causes. Errors with any further cause are only counted.
 const MOST: usize = 20;
 
 /// Upper limit of the number of errors that are kept.
@@ -44,8 +44,8 @@ impl Error {
         [self].into_iter().chain(&self.0.further)
     }
 
-    /// The text that errors of one cause have in common: the message. If the key at fault ends with a unit, the key in
-    /// the message is replaced by the unit.
+    /// The text that is equal for all errors of one cause: the message, after a replacement.
+    /// In the message, a key that ends with a unit is replaced by the unit.
     fn cause(&self) -> String {
         let key = self.scenario_key().map(|key| key.rsplit('.').next().unwrap_or(key).to_string());
         let Some(key) = key else { return self.message().into() };
@@ -88,8 +88,8 @@ impl Error {
         let left_out = std::mem::take(&mut self.0.left_out);
         let further = std::mem::take(&mut self.0.further);
         let mut all: Vec<Error> = [self].into_iter().chain(further).map(change).collect();
-        // The sort is stable: errors with the same position, or without a position, stay in the order in which they
-        // were found.
+        // The sort is stable: errors with equal positions keep the order in which they were found, and so do errors
+        // without a position.
         all.sort_by_key(|error| error.place().map_or(0, |place| place.span.start));
         let mut first = Error::all(all).expect("one error at least");
         first.0.left_out = left_out;

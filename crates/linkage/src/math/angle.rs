@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-/// The angle congruent to `angle` (modulo one turn) nearest to `near`; both in rad.
+/// `angle` plus the number of whole turns that brings it nearest to `near`. All angles are in rad.
 #[inline]
 fn nearest(angle: f64, near: f64) -> f64 {
     angle + TAU * ((near - angle) / TAU).round()
@@ -16,8 +16,8 @@ pub fn wrapped(angle: f64) -> f64 {
 }
 
 /// Arc tangent (rad).
-/// For small arguments, five terms of the power series give all digits.
-/// The series then replaces the library function, because the series takes a quarter of the function's time.
+/// For small arguments the power series is used: five terms give all digits, in a quarter of the time of the library
+/// function.
 #[inline]
 #[must_use]
 pub fn arc_tangent(x: f64) -> f64 {

@@ -15,8 +15,7 @@ use super::{Motion, Vec2, turned};
 pub enum MotionCentre {
     /// At this world position (m).
     At(Vec2),
-    /// At infinity, in the direction of this unit vector or in the opposite direction. The body translates across this
-    /// direction.
+    /// At infinity, along this unit vector. The body translates perpendicular to the unit vector.
     AtInfinity(Vec2),
     /// Nowhere: all points have the same acceleration, which is not zero.
     Nowhere,
@@ -24,7 +23,7 @@ pub enum MotionCentre {
     Everywhere,
 }
 
-/// Limits below which velocities or accelerations of a motion count as zero.
+/// A velocity or acceleration of a motion below these limits counts as zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MotionNoise {
     /// Angular velocity (rad/s), or angular acceleration and squared angular velocity (rad/s^2).
@@ -78,7 +77,7 @@ impl Motion {
     }
 }
 
-/// Instant centre of two bodies: the place at which both have the same velocity.
+/// Instant centre of two bodies: the place at which the two bodies have the same velocity.
 /// Velocities below `noise` count as zero.
 #[must_use]
 pub fn instant_centre(first: &Motion, second: &Motion, noise: MotionNoise) -> MotionCentre {
@@ -107,7 +106,7 @@ mod tests {
 
     #[test]
     fn a_wheel_rolls_about_its_contact_and_its_hub_has_no_acceleration() {
-        // Radius 0.5 m, hub at (3, 0.5), rolling to the right at 2 m/s.
+        // A wheel of radius 0.5 m rolls to the right at 2 m/s. The wheel's hub is at (3, 0.5).
         let wheel = turning(Vec2::new(3.0, 0.5), Vec2::new(2.0, 0.0), -4.0, Vec2::zeros(), 0.0);
         assert!((place(wheel.velocity_centre(NOISE)) - Vec2::new(3.0, 0.0)).norm() < 1e-15);
         assert_eq!(place(wheel.acceleration_centre(NOISE)), Vec2::new(3.0, 0.5));
@@ -151,7 +150,7 @@ mod tests {
         let relative = body.relative_to(&base);
         let velocity = base.arm((seen(t + h) - seen(t - h)) / (2.0 * h));
         let acceleration = base.arm((seen(t + h) - seen(t) * 2.0 + seen(t - h)) / (h * h));
-        // The truncation error is h^2 times a third or fourth derivative of size 10.
+        // The truncation error is about h^2 times a third or fourth derivative, and these derivatives are about 10.
         assert!((relative.point_velocity(local) - velocity).norm() < 1e-4);
         assert!((relative.point_acceleration(local) - acceleration).norm() < 1e-4);
     }

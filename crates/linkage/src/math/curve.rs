@@ -21,8 +21,8 @@ pub trait Smooth: Debug + Send + Sync {
 pub enum Curve {
     /// A spline through points.
     Table(Piecewise),
-    /// amplitude (sin(2 pi x / period + phase) - sin(phase)), for all x.
-    /// The function is 0 at x = 0.
+    /// The function amplitude (sin(2 pi x / period + phase) - sin(phase)), for all x.
+    /// The value of the function is 0 at x = 0.
     Harmonic {
         /// Amplitude, not zero.
         amplitude: f64,
@@ -70,14 +70,14 @@ impl FormulaCurve {
         FormulaCurve { of, shift, factor: 1.0, end, steepest, sharpest }
     }
 
-    /// The first searched x at which the function or one of its first two derivatives is undefined.
+    /// The first x at which the function or one of its first two derivatives is undefined, among the x of a search.
     #[must_use]
     pub fn undefined_at(&self) -> Option<f64> {
         parts(self.end).into_iter().find(|&x| !self.of.at(x).into_iter().all(f64::is_finite))
     }
 }
 
-/// Equally spaced x from 0 to `end`, at which a search evaluates the formula.
+/// Equally spaced x from 0 to `end`. A search evaluates the formula at these x.
 fn parts(end: f64) -> Vec<f64> {
     (0..=PARTS).map(|part| end * f64::from(part) / f64::from(PARTS)).collect()
 }
@@ -191,7 +191,7 @@ impl Curve {
         values().fold(f64::NEG_INFINITY, f64::larger) - values().fold(f64::INFINITY, f64::smaller)
     }
 
-    /// Whether the numbers of the curve are finite. Of a table, only the knots are tested.
+    /// Whether the numbers of the curve are finite. Only the knots of a table are tested.
     #[must_use]
     pub fn is_finite(&self) -> bool {
         match self {

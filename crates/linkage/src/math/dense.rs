@@ -10,8 +10,8 @@ mod fixed;
 pub struct Lu {
     n: usize,
     a: Vec<f64>,
-    /// For the general elimination: for each row, the row with which it was exchanged.
-    /// For matrices of order 4 and 6: for each row of the factored matrix, its original index.
+    /// Row exchanges. The general elimination stores the row with which each row was exchanged.
+    /// For matrices of order 4 and 6, the original index of each row of the factored matrix is stored.
     pivot: Vec<usize>,
     /// Reciprocals of the diagonal entries of the factored matrix.
     inverse: Vec<f64>,
@@ -65,7 +65,7 @@ impl Lu {
     }
 
     /// Pivots of the factored matrix in the order of elimination.
-    /// The product of the pivots is the determinant up to its sign.
+    /// The product of the pivots is the determinant, except for the sign.
     pub fn pivots(&self) -> impl Iterator<Item = f64> + '_ {
         (0..self.n).map(|k| self.a[k * self.n + k])
     }
@@ -173,8 +173,8 @@ fn solve_transposed(a: &[f64], pivots: &[usize], inverse: &[f64], y: &mut [f64])
 
 /// Solves two equations A x = b by elimination with partial pivoting.
 /// Returns `None` if A is singular to working precision, or not finite.
-/// The method is that of [`Lu`], but written without loops.
-/// This function is called so often that loops would cost more than the arithmetic.
+/// The method is the same as in [`Lu`], but without loops.
+/// This function is called often, and loops would cost more than the arithmetic.
 #[inline]
 #[must_use]
 pub fn solve_pair(a: [[f64; 2]; 2], b: [f64; 2]) -> Option<[f64; 2]> {
@@ -253,7 +253,8 @@ mod tests {
             compare::<4>(&values)?;
             compare::<6>(&values)?;
             // The elimination of fixed order must reject a NaN.
-            // The general elimination is not tested, because it misses a NaN that is multiplied by zero.
+            // The general elimination is not tested with a NaN, because the general elimination misses a NaN that is
+            // multiplied by zero.
             values[7] = f64::NAN;
             let (mut own, mut pivots, mut inverse) = (values[..16].to_vec(), [0; 4], [0.0; 4]);
             prop_assert!(fixed::factor::<4>(&mut own, &mut pivots, &mut inverse).is_none());

@@ -1,15 +1,14 @@
 //! Extremes of a function of one variable between bounds. All searches for extremes in the project use this module.
 
-/// Number of golden section steps of [`greatest`]. These steps shrink the search interval to 1e-9 of the distance
-/// between two samples.
+/// Number of golden section steps of [`greatest`]. The remaining interval is 1e-9 of the distance between two samples.
 /// The largest value is then exact up to rounding error.
 const REFINEMENTS: usize = 44;
 
-/// Encloses the largest value between `low` and `high` by `steps` steps of golden section (Kiefer 1953).
+/// Encloses the position of the largest value between `low` and `high` by `steps` steps of golden section (Kiefer
+/// 1953).
 /// Each step reduces the interval to 0.618 of its length. Returns both ends of the remaining interval.
-/// If the function has several extremes in the interval, the result encloses one of them.
-/// After about 40 steps the interval's length, divided by its original length, is the square root of the rounding
-/// error.
+/// If the function has several extremes in the interval, the remaining interval encloses one extreme.
+/// After about 40 steps the interval's length has fallen by a factor equal to the square root of the rounding error.
 /// Further steps gain little.
 /// NaN counts as less than any number.
 ///
@@ -84,8 +83,8 @@ mod tests {
         let places = [-1.0, 0.0, 1.0, 2.0];
         let samples = places.map(|x| value(x).unwrap());
         let (place, peak) = greatest(&places, &samples, &mut value).unwrap();
-        // The function is flat at the top. The position is therefore accurate to half the digits, the value to all
-        // digits.
+        // A function is flat at its maximum, so the position is accurate to half the digits.
+        // The value is accurate to all digits.
         assert!((place - 0.3).abs() < 1e-7 && (peak - 3.0).abs() < 1e-15, "{place} {peak}");
         assert_eq!(greatest(&places, &samples, &mut |_| Err("cannot be reached")), Err("cannot be reached"));
     }
@@ -107,7 +106,7 @@ mod tests {
     }
 
     proptest! {
-        /// The remaining interval contains the largest value, even if this value is at an end of the original interval.
+        /// The remaining interval contains the maximum, also if the maximum is at an end of the original interval.
         #[test]
         fn golden_section_keeps_the_peak(low in -5.0f64..5.0, width in 0.1f64..10.0, share in 0.0f64..=1.0, sharp in 0.1f64..4.0) {
             let (high, peak) = (low + width, low + share * width);
@@ -127,7 +126,7 @@ mod tests {
             let (place, value) = greatest(&places, &samples, &mut |x| Ok::<f64, ()>(f(x))).unwrap();
             prop_assert!(samples.iter().all(|&sample| value >= sample) && value == f(place));
             let dense = (0..7000).map(|k| f(k as f64 * 1e-3)).fold(f64::NEG_INFINITY, f64::larger);
-            // If two peaks have nearly the same height, the samples may select the wrong peak.
+            // If two maxima are nearly equal, the samples may select the wrong maximum.
             // The error is then at most the height of a parabola between two samples.
             prop_assert!(value >= dense - 5.0 * (7.0 / count as f64).powi(2), "{value} {dense}");
         }

@@ -1,7 +1,7 @@
 //! All zeros of trigonometric polynomials.
 //!
-//! If a function has different signs at two neighbouring extrema, it has one zero between them.
-//! If the function has the same sign at both extrema, it has no zero between them.
+//! If a function has different signs at two neighbouring extrema, one zero lies between the extrema.
+//! If the signs are equal, no zero lies between the extrema.
 //! The extrema are the zeros of the derivative.
 //! The zeros of the derivative are computed from eigenvalues of a matrix.
 //! If two zeros nearly coincide, rounding errors move both zeros by the square root of the rounding error.
@@ -17,21 +17,21 @@ use super::root;
 
 type Coefficients = Vec<Complex<f64>>;
 
-/// If the distance of a root of the derivative from the unit circle exceeds this limit, the root is not used.
-/// A rounding error moves a simple root only by an amount of the error's size.
-/// A nearly double root moves by the square root of the rounding error, 1e-8, times the condition number of the root.
+/// A root of the derivative is used only if its distance from the unit circle is at most this limit.
+/// A rounding error moves a simple root by about the size of the error.
+/// A nearly double root moves by the square root of the rounding error (1e-8), times the root's condition number.
 /// The limit may be generous, because a superfluous root only adds one more candidate.
 const ON_CIRCLE: f64 = 1e-3;
-/// If a value divided by the argument `scale` is below this limit, the value counts as zero.
+/// A value below this fraction of the argument `scale` counts as zero.
 /// The limit is the rounding error of the coefficients, multiplied by a margin of two digits.
 const ZERO: f64 = 1e-14;
-/// If two zeros are closer together than this distance (rad), they count as a single touching zero.
+/// Two zeros closer together than this distance (rad) count as one touching zero.
 /// A parabola of unit curvature and height `ZERO` has about this width.
 const APART: f64 = 1e-7;
 
 /// Real zeros in [0, 2 pi), in ascending order, of the trigonometric polynomial that equals `f`.
 /// The degree of the polynomial is at most `degree` (1 or more).
-/// `scale` is the size of the terms whose sum is `f`; the size of the terms sets the limit for rounding errors.
+/// `scale` is the size of the terms whose sum is `f`. The limit for rounding errors is proportional to `scale`.
 /// A touching zero counts once. Leading coefficients may be zero.
 ///
 /// Returns `None` if `f` is not finite, or zero everywhere up to rounding error.
@@ -43,7 +43,7 @@ pub fn zeros(degree: usize, scale: f64, f: impl Fn(f64) -> f64) -> Option<Vec<f6
         return None;
     }
     let small = ZERO * scale;
-    // Additional equally spaced positions: if an extremum is missed, the zeros next to it are still found.
+    // Additional equally spaced positions. With these positions, the zeros next to a missed extremum are still found.
     let even = (0..4 * degree).map(|k| TAU * (k as f64 + 0.37) / (4 * degree) as f64);
     let mut places: Vec<f64> = extrema(&coefficients)?.into_iter().chain(even).collect();
     places.sort_by(f64::total_cmp);
@@ -53,8 +53,7 @@ pub fn zeros(degree: usize, scale: f64, f: impl Fn(f64) -> f64) -> Option<Vec<f6
         let to = places.get(index + 1).copied().unwrap_or(places[0] + TAU);
         let ends = [value(from), value(to)];
         if ends[0].abs() <= small {
-            // Neighbouring positions with zero values belong to one multiple zero, so only the first position is
-            // recorded.
+            // Neighbouring positions with zero values belong to one multiple zero. Only the first position is recorded.
             let before = places[(index + places.len() - 1) % places.len()];
             if value(before).abs() > small {
                 found.push(from);
@@ -72,14 +71,15 @@ pub fn zeros(degree: usize, scale: f64, f: impl Fn(f64) -> f64) -> Option<Vec<f6
     Some(found)
 }
 
-/// c_k for k from -degree to degree, from 2 `degree` + 2 equally spaced values of `f`.
+/// The Fourier coefficients c_k for k from -`degree` to `degree`, computed from 2 `degree` + 2 equally spaced values of
+/// `f`.
 fn coefficients(degree: usize, f: impl Fn(f64) -> f64) -> Coefficients {
     let count = 2 * degree + 2;
     let values: Vec<f64> = (0..count).map(|j| f(TAU * j as f64 / count as f64)).collect();
     let coefficient = |k: i64| {
         let term = |(j, &value): (usize, &f64)| {
-            // The product k j is reduced modulo one period before it is converted to an angle, so that no digits are
-            // lost.
+            // The product k j is first reduced modulo one period and then converted to an angle.
+            // No digits are lost if the reduction comes first.
             let turn = (k * j as i64).rem_euclid(count as i64) as f64 / count as f64;
             Complex::from_polar(value / count as f64, -TAU * turn)
         };
@@ -112,7 +112,7 @@ fn extrema(coefficients: &[Complex<f64>]) -> Option<Vec<f64>> {
     let polished = near.map(|found| {
         let (mut best, mut least) = (found.arg(), f64::INFINITY);
         // Near a multiple root Newton's method may diverge.
-        // Of the five iterates, the one at which the function has the smallest slope is therefore kept.
+        // The iterate with the smallest slope of the function is therefore kept.
         let Ok(_) = root::polished(found.arg(), 5, f64::INFINITY, |x| {
             let (value, slope) = evaluate(&derivative, x);
             if value.abs() < least && (x - found.arg()).abs() < ON_CIRCLE {
@@ -135,17 +135,18 @@ fn between(coefficients: &[Complex<f64>], from: f64, to: f64) -> f64 {
     found.expect("coefficients are finite, and so are the values")
 }
 
-/// Roots of a polynomial (lowest power first) whose coefficients are mirror-symmetric, up to conjugation and a sign.
+/// Roots of a polynomial (lowest power first) with symmetric coefficients: reversing their order conjugates the
+/// coefficients and may change their sign.
 /// The roots of such a polynomial come in pairs z, 1 / conj(z).
 ///
 /// The map z = (w + a) / (1 + conj(a) w), |a| < 1, preserves the unit circle.
-/// The map moves roots at infinity, which correspond to zero leading coefficients, to -1 / conj(a).
+/// Zero leading coefficients correspond to roots at infinity. The map moves these roots to -1 / conj(a).
 /// The leading coefficient of the mapped polynomial has the size of the original polynomial's value at a.
-/// So a is chosen to make the polynomial's value at a large. The companion matrix is then well scaled.
+/// The number a is chosen so that the polynomial's value at a is large. The companion matrix is then well scaled.
 fn roots(polynomial: &[Complex<f64>]) -> Option<Vec<Complex<f64>>> {
     let n = polynomial.len() - 1;
     let value = |a: Complex<f64>| polynomial.iter().rev().fold(Complex::new(0.0, 0.0), |sum, c| sum * a + c).norm();
-    // There is one more candidate for a than there are roots, so at least one candidate is far from all roots.
+    // The candidates for a outnumber the roots by one, so at least one candidate is far from all roots.
     let candidates = (0..n + 1).map(|k| Complex::from_polar(0.5, TAU * k as f64 / (n + 1) as f64));
     let a = candidates.max_by(|&a, &b| value(a).total_cmp(&value(b)))?;
     let mut mapped = vec![Complex::new(0.0, 0.0); n + 1];
@@ -250,8 +251,8 @@ mod tests {
             let n = 20_000;
             let value = |k: usize| f(TAU * k as f64 / n as f64);
             let changes = (0..n).filter(|&k| value(k) * value(k + 1) < 0.0).count();
-            // The scan misses two sign changes that are closer together than the scan's spacing.
-            // If the method then finds two more zeros than the scan, the scan is at fault.
+            // The scan misses two sign changes that are closer together than its spacing.
+            // The method may then correctly find two more zeros than the scan.
             let close = found.windows(2).any(|pair| pair[1] - pair[0] < TAU / n as f64);
             prop_assert!(found.len() == changes || close && found.len() == changes + 2, "{found:?} against {changes}");
         }

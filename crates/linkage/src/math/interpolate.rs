@@ -3,10 +3,12 @@
 /// Number of samples that one interpolation uses.
 pub const POINTS: usize = 6;
 
-/// Lagrange weights of six equally spaced samples at the position `s`, counted in spacings from the first sample.
+/// Lagrange weights of six equally spaced samples at the position `s`.
+/// The unit of `s` is the spacing, and `s` is 0 at the first sample.
 ///
 /// Between the two middle samples (2 <= s <= 3) the interpolation error is below 0.005 h^6 times the sixth derivative.
-/// At the position of a sample, the weight of this sample is exactly one and all other weights are exactly zero.
+/// If `s` is the position of a sample, this sample has exactly the weight one, and all others have exactly the weight
+/// zero.
 /// Berrut and Trefethen, "Barycentric Lagrange interpolation", SIAM Review 2004.
 #[must_use]
 pub fn lagrange_weights(s: f64) -> [f64; POINTS] {

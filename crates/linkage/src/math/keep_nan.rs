@@ -1,6 +1,7 @@
-//! The larger and the smaller of two numbers, with NaN kept.
+//! The larger and the smaller of two numbers. The result is NaN if a number is NaN.
 //!
-//! `f64::max` and `f64::min` drop NaN: for NaN and 1 both functions return 1, so a later check cannot detect the NaN.
+//! `f64::max` and `f64::min` drop NaN.
+//! For NaN and 1, `f64::max` and `f64::min` return 1, so a later check cannot detect the NaN.
 //! `clippy.toml` therefore forbids these two functions.
 
 /// The larger and the smaller of two numbers.

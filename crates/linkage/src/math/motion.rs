@@ -1,4 +1,4 @@
-//! Plane motion of a rigid body as a field: position, velocity and acceleration of each of its points.
+//! Plane motion of a rigid body: position, velocity and acceleration of every point of the body.
 
 use super::{Vec2, rotated, turned};
 
@@ -53,7 +53,7 @@ impl Motion {
         }
     }
 
-    /// World vector from the origin to the point with body coordinates `local` (m).
+    /// World vector (m) from the origin to the point with the body coordinates `local` (m).
     #[inline]
     #[must_use]
     pub fn arm(&self, local: Vec2) -> Vec2 {
@@ -74,7 +74,7 @@ impl Motion {
         self.velocity_beyond(self.arm(local))
     }
 
-    /// Velocity of the body point at the end of the world vector `arm` from the origin (m/s).
+    /// Velocity (m/s) of the body point at the end of `arm`, a world vector from the origin (m).
     #[inline]
     #[must_use]
     pub fn velocity_beyond(&self, arm: Vec2) -> Vec2 {
@@ -95,7 +95,7 @@ impl Motion {
         self.acceleration_beyond(self.arm(local))
     }
 
-    /// Acceleration of the body point at the end of the world vector `arm` from the origin (m/s^2).
+    /// Acceleration (m/s^2) of the body point at the end of `arm`, a world vector from the origin (m).
     #[inline]
     #[must_use]
     pub fn acceleration_beyond(&self, arm: Vec2) -> Vec2 {

@@ -1,5 +1,5 @@
-//! A function through given points. A cubic polynomial joins neighbouring points: a straight line or a piece of a
-//! spline.
+//! A function through given points.
+//! Between neighbouring points, the function is a cubic polynomial: a straight line or a piece of a spline.
 
 use crate::math::KeepNan;
 
@@ -34,8 +34,8 @@ impl Piecewise {
         Piecewise { knots, pieces, periodic: true }
     }
 
-    /// This function of straight lines, with all jumps moved back by `by`. The line after a jump is extended back to
-    /// the moved jump.
+    /// This function of straight lines, after all jumps are moved back by `by`.
+    /// The line after a jump is extended back to the moved jump.
     pub fn with_jumps_before(mut self, by: f64) -> Self {
         let last = self.pieces.len();
         let period = self.knots[last] - self.knots[0];
@@ -104,7 +104,7 @@ impl Piecewise {
         &self.knots
     }
 
-    /// Smallest and largest value of the first derivative over all positions, not only the knots.
+    /// Smallest and largest value of the first derivative, at the knots and between the knots.
     #[must_use]
     pub fn slopes(&self) -> [f64; 2] {
         let mut found = [f64::INFINITY, f64::NEG_INFINITY];
@@ -157,7 +157,8 @@ fn solve_tridiagonal(rows: &[[f64; 4]]) -> Vec<f64> {
 }
 
 /// Solves a cyclic system by the Sherman-Morrison formula. The rows have the same form as in `solve_tridiagonal`.
-/// The first row's `below` belongs to the last column, the last row's `above` to the first column.
+/// `below` in the first row is the coefficient of the last column.
+/// `above` in the last row is the coefficient of the first column.
 fn solve_cyclic(mut rows: Vec<[f64; 4]>) -> Vec<f64> {
     let n = rows.len();
     if n == 1 {
@@ -241,8 +242,8 @@ mod tests {
         let spline = Piecewise::periodic_spline(&points, std::f64::consts::TAU);
         for k in 0..100 {
             let x = 0.07 * f64::from(k);
-            // The error of a cubic spline is at most 5 / 384 h^4 times the largest fourth derivative. The fourth
-            // derivative of the sine is at most 1.
+            // The error of a cubic spline with the spacing h is at most 5 / 384 h^4 times the largest fourth
+            // derivative. The fourth derivative of the sine is at most 1.
             assert!((spline.at(x)[0] - x.sin()).abs() < 5.0 / 384.0 * 0.196_35f64.powi(4));
         }
         let [least, most] = spline.slopes();

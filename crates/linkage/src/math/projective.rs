@@ -3,7 +3,8 @@
 use super::{Vec2, turned};
 
 /// Smallest sine of the angle between the vectors of two different points, or of two different lines.
-/// Below this sine, both count as the same: their line or intersection would have too few correct digits.
+/// Below this sine, the two points or lines count as equal, because their line or intersection would have too few
+/// correct digits.
 const SAME: f64 = 1e-7;
 /// A point farther from the origin than this (units of length) counts as a point at infinity.
 const FAR: f64 = 1e9;
@@ -11,7 +12,7 @@ const FAR: f64 = 1e9;
 /// A point or a line as a unit vector. Opposite vectors mean the same point or line.
 /// A point (x, y, w) stands for (x / w, y / w); w = 0 for a point at infinity in the direction (x, y).
 /// A line (a, b, c) contains the points with a x + b y + c w = 0.
-/// Coordinates should be of the order of one: the caller chooses origin and unit of length.
+/// The caller chooses the origin and the unit of length so that coordinates are of the order of one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Projective([f64; 3]);
 
@@ -36,7 +37,7 @@ impl Projective {
     }
 
     /// The line through two points, or the intersection of two lines; and the sine of the angle between the vectors.
-    /// `None` if both points or both lines are the same, up to rounding errors.
+    /// `None` if the two points or the two lines are equal, up to rounding errors.
     #[must_use]
     pub fn with(self, other: Self) -> Option<(Self, f64)> {
         let ([a, b, c], [d, e, f]) = (self.0, other.0);

@@ -12,7 +12,8 @@ pub const NODES: usize = 8;
 /// Nodes (between -1 and 1) and weights of Gauss-Legendre quadrature with [`NODES`] nodes.
 /// The rule is exact for polynomials of degree 15.
 ///
-/// The nodes are the zeros of the Legendre polynomial, found by Newton's method from their asymptotic approximations.
+/// The nodes are the zeros of the Legendre polynomial.
+/// Newton's method finds the zeros, starting from an asymptotic approximation of each zero.
 /// The weights are 2 / ((1 - x^2) P'(x)^2). Abramowitz and Stegun 25.4.29.
 #[must_use]
 pub fn gauss_legendre() -> [(f64, f64); NODES] {

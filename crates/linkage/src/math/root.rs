@@ -12,10 +12,11 @@ pub fn changes(a: f64, b: f64) -> bool {
     a <= 0.0 && b >= 0.0 || a >= 0.0 && b <= 0.0
 }
 
-/// Bisects the interval from `low` to `high` `halvings` times, to find the point up to which `before` is true.
+/// Halves the interval from `low` to `high` `halvings` times, to find the position where `before` changes from true to
+/// false.
 /// Returns both ends of the remaining interval.
 /// If `before` is never true, the lower end stays. If `before` is always true, the upper end stays.
-/// After about 52 halvings the ratio of the interval's length to its original length is a rounding error.
+/// After about 52 halvings the interval is as short as a rounding error of its original length.
 ///
 /// # Errors
 /// The first error of `before`.
@@ -40,8 +41,9 @@ pub fn halved<E>(
 pub type PlaceAndValue = (f64, f64);
 
 /// Searches for a sign change, starting at `from`.
-/// The first position is at the distance `width` from `from`; the distance is doubled for each further position. No
-/// position is farther from `from` than `most`.
+/// The first position has the distance `width` from `from`.
+/// Each further position has twice the distance of the previous position.
+/// The search ends before the distance exceeds `most`.
 /// Returns the last two positions, between which the sign changes.
 /// `None` if the sign does not change, if a value or the width is NaN, or if the width is zero.
 /// A negative `width` searches backwards.
@@ -75,13 +77,13 @@ pub fn widened<E>(
 pub struct Close {
     /// Largest absolute value of the function that counts as zero.
     pub value: f64,
-    /// If the distance between the bounds is at most this width, the bounds count as equal.
+    /// Largest distance between two bounds that count as equal.
     /// The width is at least four rounding errors of the larger bound, even if a smaller width is requested.
     pub width: f64,
 }
 
 /// The zero between two positions with different signs, by regula falsi in the Illinois form.
-/// In every step, if one bound does not move, the value at this bound is halved.
+/// If a step does not move a bound, the value at this bound is halved.
 /// Source: Dowell and Jarratt, BIT 11, 1971, 168-174; order 1.44.
 /// `None` if the signs are the same, a value is NaN, or `steps` are not enough.
 ///
@@ -124,8 +126,8 @@ pub fn regula_falsi<E>(
 /// The zero between `bounds` (either may be the larger) of a function that returns its value and slope.
 /// The search uses Newton's method from `start`. If a step leaves the bounds, bisection replaces the step.
 /// `rises` says whether the value is positive at the second bound.
-/// The search ends with the first Newton step of at most `settled`.
-/// Convergence is quadratic, so the remaining error is of the order of the square of that step.
+/// The search ends after the first Newton step that is not longer than `settled`.
+/// Convergence is quadratic, so the remaining error is about the square of the last step.
 /// `None` if a value is NaN.
 ///
 /// # Errors
@@ -138,7 +140,8 @@ pub fn newton<E>(
     settled: f64,
     mut value: impl FnMut(f64) -> Result<(f64, f64), E>,
 ) -> Result<Option<f64>, E> {
-    /// Largest number of steps: one step per bit of a double, for bisection, plus some steps of Newton's method.
+    /// Largest number of steps.
+    /// Bisection needs one step per bit of a double, and some steps of Newton's method are added.
     const MOST: usize = 100;
     let mut at = start;
     for _ in 0..MOST {
@@ -186,13 +189,12 @@ pub fn polished<E>(
     Ok(at)
 }
 
-/// A length at which the value is zero, by at most `steps` secant steps.
-/// The first secant goes through `known` and a `guess`, both positive.
+/// A length at which the value is zero, found by at most `steps` secant steps.
+/// The first secant goes through the lengths of `known` and `guess`, which are positive.
 /// The search ends if the next change would be at most four rounding errors of the length.
 /// The search also ends if the next change would be as large as the length itself.
 /// Returns the length whose value was nearest to zero.
-/// The returned length need not be that of the last step, because a secant between values at the level of rounding
-/// errors is arbitrary.
+/// The last step may give a different length, because a secant between values as small as rounding errors is arbitrary.
 ///
 /// # Errors
 /// The first error of `value`.

@@ -34,9 +34,8 @@ pub fn rms(values: &[f64]) -> f64 {
 
 /// Differences `theirs` minus `ours`.
 /// A `periodic` quantity is an angle (rad).
-/// Whole turns are subtracted from the first difference of a periodic quantity until this difference is within half a
-/// turn.
-/// The same whole turns are subtracted from all differences.
+/// For a periodic quantity, the same number of whole turns is subtracted from all differences.
+/// After the subtraction, the first difference is within half a turn.
 #[must_use]
 pub fn differences(ours: &[f64], theirs: &[f64], periodic: bool) -> Vec<f64> {
     let turns = turns(ours, theirs, periodic);
@@ -72,7 +71,7 @@ pub fn share(part: f64, whole: f64) -> f64 {
 }
 
 /// The smallest and the largest value; NaN if a value is NaN.
-/// For an empty list, the result is plus infinity and minus infinity.
+/// For an empty list, the smallest value is plus infinity and the largest value is minus infinity.
 #[must_use]
 pub fn ends(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
     let none = [f64::INFINITY, f64::NEG_INFINITY];

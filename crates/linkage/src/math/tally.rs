@@ -1,6 +1,6 @@
 //! Statistics of a quantity that is known row by row, eight rows at a time.
 //!
-//! The order of the operations depends on the rows only. The same values give the same bits, whoever computes them.
+//! The order of the operations depends only on the rows. Equal values therefore give bit for bit equal results.
 
 use std::array;
 use std::sync::Arc;
@@ -74,7 +74,7 @@ impl Weighted {
     /// A sum with one weight for each row.
     #[must_use]
     pub fn of(weights: &[f64]) -> Weighted {
-        // Rows beyond the last one have no weight.
+        // Rows after the last row have the weight zero.
         let weight = |row: usize| weights.get(row).copied().unwrap_or(0.0);
         let blocks = (0..weights.len()).step_by(LANES);
         Weighted { weights: blocks.map(|row| array::from_fn(|lane| weight(row + lane))).collect(), sums: [0.0; LANES] }
@@ -104,8 +104,8 @@ impl Tally {
         }
     }
 
-    /// Adds eight rows, the first of which is `row`, a multiple of eight. After the last row, the caller repeats its
-    /// value.
+    /// Adds eight rows, beginning with `row`, a multiple of eight.
+    /// After the last row, the caller repeats the last row's value.
     pub fn add(&mut self, row: usize, values: &[f64; LANES]) {
         match self {
             Tally::Max(peak) => peak.add(row, *values),
@@ -124,21 +124,21 @@ impl Tally {
         }
     }
 
-    /// Leaves only the first `rows` values of a column.
+    /// Shortens a column to its first `rows` values.
     pub fn truncate(&mut self, rows: usize) {
         if let Tally::Column(values) = self {
             values.truncate(rows);
         }
     }
 
-    /// The statistic; of a column, its last value.
+    /// The value of the statistic. For a column, the last value of the column.
     #[must_use]
     pub fn value(&self) -> f64 {
         self.value_as(|value| value)
     }
 
     /// The statistic of the values `shown(value)`. The function `shown` must be odd and grow with the value.
-    /// The bits are those of a statistic whose values were converted one by one.
+    /// The result agrees bit for bit with the statistic of values that were converted one by one.
     /// For a mean, root mean square or column, `shown` is not applied.
     #[must_use]
     pub fn value_as(&self, shown: impl Fn(f64) -> f64) -> f64 {

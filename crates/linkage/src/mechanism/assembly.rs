@@ -5,7 +5,7 @@
 //! group.
 //! Groups of any other kind are placed by Newton's method from a rough drawing.
 //! The formulas of this module are independent of the formulas of the two analytic solvers.
-//! A difference between the results of this module and of a solver therefore shows an error in one of the two codes.
+//! If the results of this module and of a solver differ, one of the two codes is therefore wrong.
 
 mod blame;
 mod choice;
@@ -29,7 +29,7 @@ use crate::error::{Error, Result};
 /// The start pose, and the assembly mode of each group.
 /// The driven joints have the coordinates `drive_angles` (rad or m, in the order of [`Structure::drivers`]).
 /// Each group has the configuration required in `wanted`, in the order of the groups of [`Structure::at_start`].
-/// The assembly modes are those of the groups of `structure`.
+/// The returned assembly modes belong to the groups of `structure`.
 ///
 /// # Errors
 /// The errors of [`first_choices`].
@@ -44,7 +44,7 @@ pub fn first_pose(
     Ok((pose, structure.modes(&modes)))
 }
 
-/// Does the same as [`first_pose`], but returns details of the choice for each group of [`Structure::at_start`].
+/// Like [`first_pose`], but returns details of the choice for each group of [`Structure::at_start`].
 ///
 /// # Errors
 /// [`ErrorKind::Geometry`](crate::ErrorKind::Geometry) if a group's links do not reach each other.
@@ -100,7 +100,7 @@ mod tests {
         let mode = |mode| start(StartGroup { mode: Some(mode), ..StartGroup::default() }).unwrap().0;
         let (left, right) = (mode(AssemblyMode::Left), mode(AssemblyMode::Right));
         assert!(left.closure(&mechanism) < 1e-15 && right.closure(&mechanism) < 1e-15);
-        // A = (0, 1), C = (4, 0). The two modes place B at positions that are mirror images about the line AC.
+        // A = (0, 1), C = (4, 0). The positions of B in the two modes are mirror images about the line AC.
         let (a, axis) = (Vec2::new(0.0, 1.0), Vec2::new(4.0, -1.0).normalize());
         let mirrored = a + axis * (2.0 * axis.dot(&(point_b(&left) - a))) - (point_b(&left) - a);
         assert_relative_eq!(mirrored, point_b(&right), epsilon = 1e-14);

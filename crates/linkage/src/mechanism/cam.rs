@@ -2,11 +2,12 @@
 //!
 //! Relative to the carrier, the cam turns about its axle A by the angle q1, and the follower has the coordinate q2.
 //! With the lift f, q2 - f(q1) is constant.
-//! R(q2) is the centre of the roller, the knife edge, or a point of the flat face. R' = dR / dq2, f' = df / dq1.
+//! R(q2) is the centre of the roller, the knife edge, or a point of the flat face.
+//! The derivatives are R' = dR / dq2 and f' = df / dq1.
 //! Relative to the cam, R has the velocity T = R' f' - z x (R - A) for a unit rate of the cam.
 //! A roller or knife edge touches the cam along the normal of T.
-//! A flat face has a fixed normal n. At the contact, face and cam have the same speed along n, so the contact is at the
-//! distance f' n . R' from the line through A along n.
+//! A flat face has a fixed normal n. At the contact, face and cam have the same speed along n.
+//! The distance of the contact from the line through A along n is therefore f' n . R'.
 //! Norton, Cam Design and Manufacturing Handbook, 2nd ed., Industrial Press 2009, chapter 7.
 
 mod law;
@@ -31,7 +32,8 @@ pub enum CamContact {
         /// Radius of the roller (m), not negative.
         radius: f64,
     },
-    /// A flat face across the axis of a sliding follower, through this point of the follower's frame (m).
+    /// A flat face of a sliding follower, perpendicular to the follower's axis.
+    /// The face goes through this point of the follower's frame (m).
     Flat(Vec2),
 }
 
@@ -93,8 +95,8 @@ pub struct CamFigures {
     pub lift: f64,
     /// Radius of the base circle (m): the least distance of the profile, or of a flat face, from the axle.
     pub base: f64,
-    /// Largest pressure angle (rad), the angle between the force on the follower and the velocity of
-    /// [`CamContact::point`].
+    /// Largest pressure angle (rad).
+    /// The pressure angle is the angle between the force on the follower and the velocity of [`CamContact::point`].
     pub pressure_angle: f64,
     /// Least radius of curvature of the convex parts of the profile (m). If this radius is negative, the profile is
     /// undercut.
@@ -108,7 +110,7 @@ impl Cam {
         self.law.at(angle)
     }
 
-    /// Distance of an angle of the cam from the nearest end of a piece of the cam's law (rad).
+    /// Angular distance (rad) from the given cam angle to the nearest end of a piece of the cam's law.
     #[must_use]
     pub fn to_knot(&self, angle: f64) -> f64 {
         self.law.to_knot(angle)
@@ -195,7 +197,7 @@ mod tests {
     use std::f64::consts::PI;
 
     /// A cam about the origin with a rise up to the angle `to`.
-    /// The follower slides along y at a distance `e` from the axle; its point is at the height q2.
+    /// The follower slides along y at a distance `e` from the axle. The follower's point is at the height q2.
     fn cam(contact: CamContact, e: f64, curve: CamCurve, to: f64) -> Cam {
         let law = vec![CamSegment { to, lift: 0.02, curve }, CamSegment { to: TAU, lift: 0.0, curve }];
         let follower = Follower::Slides { at: Vec2::new(e, 0.0), along: Vec2::new(0.0, 1.0) };
@@ -216,9 +218,9 @@ mod tests {
         }
     }
 
-    /// The profile is the envelope of the follower's positions: the roller's centre is at the distance `radius` from
-    /// the profile, the flat face at the distance zero.
-    /// The radius of curvature agrees with the curvature of the line through the profile's points.
+    /// The profile touches the follower in all positions: the roller's centre is at the distance `radius` from the
+    /// profile, and the flat face is at the distance zero.
+    /// The radius of curvature agrees with the curvature of the polyline through the profile's points.
     #[test]
     fn the_profile_touches_the_follower_in_all_positions() {
         for (contact, e) in [(ROLLER, 0.008), (CamContact::Flat(Vec2::zeros()), 0.0)] {

@@ -15,13 +15,13 @@ pub struct LineOfAction {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[must_use]
 pub struct Contact {
-    /// The lines of action. The first one acts for positive forces, the second one for negative forces.
+    /// The lines of action. The first line is for positive forces, the second line for negative forces.
     pub lines: [LineOfAction; 2],
-    /// Speed of the second member's foot along the first line for a unit rate of the second member's coordinate (m, or
-    /// 1 for a slide).
+    /// Speed of the second member's foot along the first line, divided by the rate of the second member's coordinate
+    /// (m, or 1 for a slide).
     pub factor: f64,
-    /// Angular velocity of the lines relative to the carrier for a unit rate of the first member's coordinate.
+    /// Angular velocity of the lines relative to the carrier, divided by the rate of the first member's coordinate.
     pub turn: f64,
-    /// Velocity of the feet relative to the carrier for a unit rate of the first member's coordinate (m).
+    /// Velocity of the feet relative to the carrier, divided by the rate of the first member's coordinate (m).
     pub drift: Vec2,
 }

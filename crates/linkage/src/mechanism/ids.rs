@@ -1,5 +1,5 @@
 //! Numbers of links, joints, groups and transmissions.
-//! These items have separate number types, so that a joint's number cannot be used for a link.
+//! Each kind of item has its own type of number. A joint's number can therefore not be used for a link.
 
 use std::fmt;
 use std::marker::PhantomData;
@@ -100,8 +100,8 @@ ids! {
 }
 
 /// One value for each link, joint, group or transmission, in the order of their numbers.
-/// A list of this type can be indexed only with the numbers of these items. In all other respects the list behaves like
-/// a slice.
+/// The list can be indexed only with numbers of the matching type.
+/// Apart from the index type, the list behaves like a slice.
 ///
 /// ```
 /// use linkproof_linkage::mechanism::{LinkId, PerLink};
@@ -171,7 +171,7 @@ impl<I, T: Clone> Clone for Per<I, T> {
         Per(self.0.clone(), PhantomData)
     }
 
-    /// Reuses the memory of `self`. The default implementation would allocate new memory.
+    /// Copies `source` into the memory of `self`. The default implementation would allocate new memory.
     fn clone_from(&mut self, source: &Self) {
         self.0.clone_from(&source.0);
     }

@@ -3,7 +3,7 @@
 /// Longest name (characters).
 pub const LONGEST_NAME: usize = 100;
 
-/// Whether a character changes a text without being visible.
+/// Whether a character is invisible, but changes the text.
 /// Such characters are control characters (line breaks included), marks and overrides of the writing direction, line
 /// and paragraph separators, and zero-width characters.
 #[must_use]

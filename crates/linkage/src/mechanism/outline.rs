@@ -2,8 +2,8 @@
 
 use crate::math::{KeepNan, Vec2, cross};
 
-/// The points are collinear if all of them are near the line through the mean point and the farthest point.
-/// The limit of a point's distance from the line is this fraction of the distance between mean point and farthest
+/// Limit for collinear points. All points must be near the line through the mean point and the farthest point.
+/// A point's distance from the line must not exceed this fraction of the distance between mean point and farthest
 /// point.
 const ON_ONE_LINE: f64 = 1e-6;
 

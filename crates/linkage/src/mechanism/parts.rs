@@ -31,8 +31,7 @@ impl Link {
     }
 
     /// The lever arm of forces on the link (m): the largest distance between two points, mass centre included.
-    /// If a link with mass has a single point at its mass centre, as a flywheel has, the lever arm is the radius of
-    /// gyration.
+    /// If a link with mass has a single point at its mass centre (a flywheel), the lever arm is the radius of gyration.
     /// For a link with a single point and no mass, the lever arm is 0.
     #[must_use]
     pub fn extent(&self) -> f64 {
@@ -72,12 +71,12 @@ pub enum JointKind {
 }
 
 /// Properties of the kinds of pair, for all crates.
-/// If you add a kind, extend these methods and all code that writes equations for each kind.
+/// A new kind needs changes in these methods, and in all code that writes equations for each kind.
 impl JointKind {
-    /// Direction of the line through the joint's point on the first link.
-    /// The joint's point on the second link must lie on this line. This condition is one equation.
+    /// Direction of a line that goes through the joint's point on the first link.
+    /// The joint's point on the second link must lie on this line, which is one equation.
     /// The direction is a unit vector in the frame of the first link.
-    /// `None` if the joint's points on both links must coincide. Coincidence is two equations.
+    /// `None` if the joint's points on the two links must coincide, which is two equations.
     #[inline]
     #[must_use]
     pub fn line(self) -> Option<Vec2> {
@@ -87,8 +86,8 @@ impl JointKind {
         }
     }
 
-    /// Axes along which the links slide: a unit vector in the frame of the first link, then one in the frame of the
-    /// second.
+    /// Axis along which the links slide, as two unit vectors: one in the frame of the first link, one in the frame of
+    /// the second link.
     /// `None` if the links do not slide.
     #[inline]
     #[must_use]
@@ -120,7 +119,7 @@ impl JointKind {
         }
     }
 
-    /// Whether the joint is one common point of both links, about which they turn.
+    /// Whether the joint is a common point of the two links, and the links turn about this point.
     #[inline]
     #[must_use]
     pub fn is_pin(self) -> bool {
@@ -130,7 +129,8 @@ impl JointKind {
         }
     }
 
-    /// Whether the links turn together. The angle between them is then constant and the reaction includes a moment.
+    /// Whether the links turn together.
+    /// If the links turn together, the angle between the links is constant, and the reaction includes a moment.
     #[inline]
     #[must_use]
     pub fn keeps_angle(self) -> bool {
@@ -179,8 +179,8 @@ pub struct JointSide {
     pub local: Vec2,
 }
 
-/// Kinematic pair between two links. Its reaction is the action of the first link on the second.
-/// The reaction is a force. In a prismatic pair it also includes a moment about the joint's point on the second link.
+/// Kinematic pair between two links. The reaction of a joint is the force of the first link on the second link.
+/// In a prismatic pair, the reaction also includes a moment about the joint's point on the second link.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Joint {
     /// Name, unique in the mechanism.
@@ -196,7 +196,7 @@ pub struct Joint {
 }
 
 impl Joint {
-    /// The joint's position on `link`; `None` if the joint is not on that link.
+    /// The joint's position on `link`; `None` if the joint is not on this link.
     #[must_use]
     pub fn on(&self, link: LinkId) -> Option<Vec2> {
         [self.first, self.second].into_iter().find(|side| side.link == link).map(|side| side.local)
@@ -219,21 +219,21 @@ impl Joint {
         }
     }
 
-    /// [`JointKind::slides`] of its kind.
+    /// [`JointKind::slides`] of the joint's kind.
     #[inline]
     #[must_use]
     pub fn slides(&self) -> bool {
         self.kind.slides()
     }
 
-    /// [`JointKind::is_pin`] of its kind.
+    /// [`JointKind::is_pin`] of the joint's kind.
     #[inline]
     #[must_use]
     pub fn is_pin(&self) -> bool {
         self.kind.is_pin()
     }
 
-    /// [`JointKind::keeps_angle`] of its kind.
+    /// [`JointKind::keeps_angle`] of the joint's kind.
     #[inline]
     #[must_use]
     pub fn keeps_angle(&self) -> bool {
@@ -274,11 +274,11 @@ impl Joint {
     }
 
     /// The opening of the joint: a distance (m) and the sine of an angle.
-    /// The distance is that between the joint's points on both links. In a prismatic pair, the distance is measured
-    /// perpendicular to the axis.
-    /// The angle is that between the joint's axes on both links (0 in a revolute pair).
-    /// `places` are the joint's points on both links in world coordinates, `directions` the (cos, sin) of both links'
-    /// angles.
+    /// The distance is measured between the joint's points on the two links.
+    /// In a prismatic pair, the distance is measured perpendicular to the axis.
+    /// The angle is measured between the joint's axes on the two links. In a revolute pair the angle is 0.
+    /// `places` are the joint's points on the two links in world coordinates.
+    /// `directions` are the (cos, sin) of the links' angles.
     #[must_use]
     pub fn opening(&self, places: [Vec2; 2], directions: [Vec2; 2]) -> (f64, f64) {
         let gap = places[1] - places[0];
@@ -286,8 +286,8 @@ impl Joint {
             JointKind::Revolute => (gap.norm(), 0.0),
             JointKind::Prismatic { axes } => {
                 let [first, second] = [0, 1].map(|k| rotated(directions[k], axes[k]));
-                // If the axes point in opposite directions, the sine is small although the joint is open. In this case
-                // the largest possible opening is returned.
+                // Axes in opposite directions have a small sine although the joint is open.
+                // For such axes the largest possible opening is returned.
                 let turn = if first.dot(&second) > 0.0 { cross(first, second).abs() } else { 1.0 };
                 (cross(first, gap).abs(), turn)
             }

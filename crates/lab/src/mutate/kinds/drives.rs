@@ -91,8 +91,8 @@ fn initial(case: &Case, to: impl Fn(f64) -> f64) -> Option<Case> {
     })
 }
 
-/// Moves all instants earlier, by the time of a rotation `angle` (rad) at top speed.
-/// If the motion begins at t = 0, instants before t = 0 are set to 0.
+/// Moves all instants earlier, by the time in which the crank turns by `angle` (rad) at top speed.
+/// A motion that begins at t = 0 has no earlier instants: these are set to 0.
 fn shifted(case: &Case, angle: f64) -> Option<Case> {
     let begins = case.is_free() || case.crank().constant_speed().is_none();
     let by = angle / case.crank().top_speed().abs();

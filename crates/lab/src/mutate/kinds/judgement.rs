@@ -1,4 +1,4 @@
-//! Faults that a single comparison finds. If this comparison is missing, no other comparison finds the fault.
+//! Faults that only one comparison can find.
 
 use super::kind::kinds;
 use super::touch::turner;
@@ -30,7 +30,7 @@ kinds! { Judgement, Answer:
             (arm.norm() > 0.0).then_some(())?;
             let across = Vec2::new(-arm.y, arm.x) / arm.norm();
             let force = across * (size * state.forces[first].norm().larger(state.forces[last].norm()));
-            // `forces` are the forces on the second links.
+            // Each of the `forces` acts on the second link of its joint.
             // If the frame is the first link, the force on the frame has the opposite sign.
             let sign = |index: JointId| if joints[index].first.link == GROUND { -1.0 } else { 1.0 };
             state.forces[first] -= force * sign(first);

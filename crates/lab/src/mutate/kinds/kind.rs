@@ -57,13 +57,13 @@ pub enum Plant {
 /// A mistake in a formula that claims an exact value, or in a step of its derivation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mistake {
-    /// One slip in writing the formula, such as a wrong sign.
+    /// A single writing mistake in the formula, such as a wrong sign.
     Slip(Slip),
     /// The value of the whole formula is too large by a relative amount.
     Larger,
-    /// The claim names the correct quantity of a wrong link, point or joint.
+    /// The claim names the right quantity, but the wrong link, point or joint.
     Subject,
-    /// The claim names a wrong quantity with the correct unit.
+    /// The claim names a wrong quantity that has the right unit.
     Quantity,
 }
 
@@ -89,9 +89,10 @@ impl FaultKind {
     }
 }
 
-/// Return value of a function that plants a fault: an `Option`, or nothing if the function always changes something.
+/// Return value of a function that plants a fault: an `Option`, or `()` if the function always changes the case or the
+/// answer.
 pub(in crate::mutate) trait Told<T> {
-    /// The changed value; `None` if there was nothing to change.
+    /// The changed value; `None` if the function has changed nothing.
     fn told(self) -> Option<T>;
 }
 

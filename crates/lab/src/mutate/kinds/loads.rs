@@ -13,7 +13,7 @@ kinds! { Load, Case:
     "load-missing": "the first load is missing", |case, _| times(case, 0, 0.0);
     "last-load-missing": "the last load is missing", |case, _| times(case, case.loads.len().checked_sub(1)?, 0.0);
     "load-size" (1e-2): "the first load is too large by a relative amount", |case, size| times(case, 0, 1.0 + size);
-    // Springs are excluded: a spring that pushes where it should pull drives a free motion to infinity.
+    // Springs are excluded, because a spring of the wrong sign drives a free motion to infinity.
     // No scenario file can describe such a spring.
     "load-sign": "the first reversible load that is not a spring acts in the opposite direction", |case, _| {
         let others = (0..case.loads.len()).filter(|&index| !is_spring(&case.loads[index]));

@@ -106,8 +106,8 @@ fn steiner(case: &Case, link: LinkId) -> f64 {
     place.map_or(0.0, |place| own.mass * (place - own.mass_centre).norm_squared())
 }
 
-/// The wrong mass centre that results if the offset of the mass centre is measured from the opposite end of the link,
-/// in the opposite direction.
+/// A wrong mass centre.
+/// The offset of this mass centre is measured from the opposite end of the link, in the opposite direction.
 /// `None` if the position does not change.
 fn measured(case: &Case, link: LinkId) -> Option<Vec2> {
     let [first, last] = ends(case, link)?;

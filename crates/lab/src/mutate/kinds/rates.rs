@@ -60,7 +60,7 @@ kinds! { Rate, Answer:
         };
 }
 
-/// Velocity of a mass centre due to rotation about the frame's origin, for the last link with a moving frame.
+/// Velocity of a mass centre due to rotation about the origin of the link's frame, for the last link whose frame moves.
 fn about_frame(case: &Case, state: &State) -> Vec2 {
     let link = floating(case);
     let motion = &state.motions[link];

@@ -1,4 +1,4 @@
-//! Helpers that select the part in which a fault is planted, and that change this part.
+//! Helpers for planting faults. A helper selects a part of a case or an answer, and changes this part.
 
 use linkage::case::Case;
 use linkage::math::statistics::distinct;
@@ -110,8 +110,8 @@ pub(super) fn on_arm(case: &Case, state: &mut State, change: impl FnOnce(&mut Mo
     (arm.norm() > 0.0).then(|| change(&mut state.motions[link], arm))
 }
 
-/// World vector from the origin of a link's frame to its last joint position.
-/// If this position is the origin, the vector to the mass centre is returned.
+/// World vector from the origin of a link's frame to the link's last joint position.
+/// If this position is the origin, the vector leads to the mass centre.
 pub(super) fn arm(case: &Case, state: &State, link: LinkId) -> Vec2 {
     let last = places(case, link).last().copied().unwrap_or_else(Vec2::zeros);
     let own = &case.mechanism.links()[link];

@@ -18,8 +18,7 @@ const INSTANTS: usize = 24;
 const MOST_ENGINES: usize = 10;
 
 /// A chain of `count` four-bars that are nearly parallelograms.
-/// The lengths of the bars differ by some thousandths of `BAR`.
-/// Because of the different lengths, no four-bar comes near a dead point.
+/// The bars differ in length by some thousandths of `BAR`, so no four-bar comes near a dead point.
 pub(in crate::stress) fn chain(count: usize, speed: f64) -> Result<Case> {
     let length = |k: usize| BAR * (1.0 + 2e-3 * (k as f64).sin());
     let rod = |length: f64| (10.0 * length, [0.5 * length, 0.05 * length], 10.0 * length.powi(3) / 12.0);
@@ -29,7 +28,7 @@ pub(in crate::stress) fn chain(count: usize, speed: f64) -> Result<Case> {
     let mut builder = Case::builder().ground(&places.collect::<Vec<_>>());
     for k in 0..=count {
         // Points A and B of a bar coincide.
-        // At A the bar is joined to the rod that drives the bar, at B to the rod that the bar drives.
+        // The rod that drives the bar is joined at A. The rod that the bar drives is joined at B.
         let [o, a, b, bar, rod_name] = &names(k);
         let (end, (mass, centre, inertia)) = ([length(k), 0.0], rod(length(k)));
         builder = builder.link(bar, &[(o, [0.0; 2]), (a, end), (b, end)]).mass(bar, mass, centre, inertia);

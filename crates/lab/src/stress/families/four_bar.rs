@@ -84,11 +84,11 @@ pub(super) const TRANSMISSION: StressFamily = StressFamily {
     samples: 1,
     setup: |degrees, _, _| {
         // Coupler and rocker have equal lengths.
-        // If the crank lies on the base line, coupler and rocker are the legs of an isosceles triangle.
-        // The base of the triangle is the distance from the crank's end to the rocker's pivot.
+        // At crank angle zero, coupler and rocker are the equal sides of a triangle.
+        // The third side of this triangle leads from the crank's end to the rocker's pivot.
         let (crank, rod) = (0.1, 0.3);
         let lengths = [crank + 2.0 * rod * (0.5 * degrees.to_radians()).sin(), crank, rod, rod];
-        // The revolution begins at the smallest transmission angle, so that one instant has exactly this angle.
+        // The revolution begins at the smallest transmission angle, so this angle is the angle of an instant.
         let case = builder(lengths, rods(lengths), SPEED_OF_ALL).start(0.0).build()?;
         Ok(Setup::usual(case))
     },

@@ -18,10 +18,10 @@ const SWEEPS_OF_ALL: usize = 16;
 /// If `turns` is below 1, the instants divide the whole motion.
 fn last_turn(turns: f64) -> Result<Case> {
     let span = if turns < 1.0 { turns } else { 1.0 };
-    // The last instant is one interval before the end, so that rounding moves no instant beyond `turns` revolutions.
+    // Rounding must not move an instant beyond `turns` revolutions, so the last instant is one interval before the end.
     let at = |part: usize| TAU / SPEED_OF_ALL * (turns - span * (1.0 - part as f64 / (INSTANTS + 1) as f64));
     let times: Vec<f64> = (0..=INSTANTS).map(at).collect();
-    // Crank angles are measured from 0, so that the last one is not beyond `turns` revolutions.
+    // The start angle is 0, so the last crank angle is below `turns` revolutions.
     builder(LENGTHS, rods(LENGTHS), SPEED_OF_ALL).start(0.0).times(&times).build()
 }
 

@@ -15,7 +15,7 @@ const FOOT: f64 = 0.6;
 const EYE: f64 = 0.4;
 
 /// A boom that a cylinder turns until the cylinder's lever arm is small.
-/// At the end, the angle at the boom's pivot between foot and eye is `gap` (deg) less than a straight angle.
+/// At the boom's pivot, foot and eye form an angle. At the end, this angle is 180 deg minus `gap` (deg).
 fn boom(gap: f64) -> Result<Setup> {
     let length = |angle: f64| (FOOT * FOOT + EYE * EYE - 2.0 * FOOT * EYE * angle.cos()).sqrt();
     let (begin, end) = (length(FRAC_PI_2), length(PI - gap.to_radians()));
@@ -90,7 +90,7 @@ pub(super) const CAM: StressFamily = StressFamily {
 const AXLE: [f64; 2] = [-0.1, 0.15];
 const PRESSURE_ANGLE: f64 = 0.35;
 
-/// A crank-rocker with a wheel on the ground that turns `ratio` times as fast as the crank.
+/// A crank-rocker with a gear wheel on the ground. The wheel turns `ratio` times as fast as the crank.
 fn geared(ratio: f64) -> Result<Setup> {
     let kind = TransmissionKind::Gears { teeth: [ratio, 1.0], pressure_angle: PRESSURE_ANGLE };
     let case = builder(LENGTHS, rods(LENGTHS), SPEED_OF_ALL)

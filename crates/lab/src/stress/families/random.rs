@@ -28,9 +28,9 @@ fn drawn(dyads: usize, number: u64, seed: u64) -> Result<Setup> {
     let mut random = RandomSource::of_sample(seed, 1000 * dyads as u64 + number);
     for _ in 0..MOST_DRAWN {
         let (mut spec, _) = chain(&mut random, &SORTS, dyads);
-        // Moments that jump where a link reverses are excluded, because the double-double reference does not support
-        // them.
-        // `tests/suite/loads/jumps.rs` covers such moments.
+        // The double-double reference does not support moments that jump where a link reverses, so all loads are
+        // removed.
+        // The tests in `tests/suite/loads/jumps.rs` cover moments that jump.
         spec.loads.clear();
         spec.dt = None;
         // The grid begins at the start pose and follows the crank's direction.

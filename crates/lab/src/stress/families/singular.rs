@@ -63,8 +63,8 @@ pub(super) const REDUNDANT: StressFamily = StressFamily {
         let all = all.gravity([0.0, -9.81]).crank("O", SPEED_OF_ALL).start(0.3).instants(36);
         let case = all.mode(&["coupler", "rocker"], AssemblyMode::Left).build()?;
         let case = case.with(|parts| parts.drives.crank_mut().through = true)?;
-        // The double-double reference does not pass change points, so the two analytic sides are compared with each
-        // other.
+        // The double-double reference cannot pass change points.
+        // The two analytic sides are therefore compared with each other.
         Ok(Setup { precise: false, ..Setup::usual(case) })
     },
 };

@@ -1,4 +1,4 @@
-//! Changes loads: puts a load on different links, moves its points or multiplies it by a factor.
+//! Changes loads: puts a load on different links, moves a load's points or multiplies a load by a factor.
 
 use super::{Acts, Load, LoadPart, LoadRole, On};
 use crate::drive::Course;
@@ -6,7 +6,7 @@ use crate::math::Vec2;
 use crate::mechanism::{JointId, JointSide, LinkId};
 
 impl Load {
-    /// Numbers of the links on which the load acts and on whose motion it depends: one or two links.
+    /// Numbers of the one or two links on which the load acts. The load depends on the motion of these links.
     #[must_use]
     pub fn links(&self) -> Vec<LinkId> {
         match self.nature().on {
@@ -62,7 +62,8 @@ impl Load {
         }
     }
 
-    /// Free length, free slide or free angle, with its unit (m or rad); `None` for a load without one.
+    /// Free length, free slide or free angle, with its unit (m or rad); `None` for a load that has no free length,
+    /// slide or angle.
     pub fn rest(&mut self) -> Option<(&mut f64, &'static str)> {
         self.parts().into_iter().find_map(|part| match part {
             LoadPart::Number { role: LoadRole::Rest { unit }, name: _, value } => Some((value, unit)),
@@ -71,7 +72,7 @@ impl Load {
         })
     }
 
-    /// Whether all numbers are finite, and whether the numbers that must not be negative are zero or positive.
+    /// Whether all numbers are valid: finite, and not negative where negative numbers are excluded.
     #[must_use]
     pub fn is_sound(&self) -> bool {
         self.clone().parts().into_iter().all(|part| match part {
@@ -88,7 +89,7 @@ impl Load {
     /// For the factor 0 the list is empty. A negative factor reverses the load.
     /// In a spring or damper the factor multiplies the stiffness or damping, but not the free length or angle.
     /// `None` if no combination of loads has this effect.
-    /// For example, no load acts like a reversed resisting force, which would drive the loaded point.
+    /// For example, a reversed resisting force would drive its point, and no load acts in this way.
     #[must_use]
     pub fn times(&self, factor: f64) -> Option<Vec<Load>> {
         if factor == 0.0 {

@@ -15,7 +15,7 @@ pub enum Acts {
 }
 
 impl Acts {
-    /// Whether the load acts at this rate or, for a spring, at this deflection from the unloaded state.
+    /// Whether the load acts at this rate. For a spring, the argument is the deflection from the unloaded state.
     /// At zero, a load that is limited to one sense does not act.
     #[inline]
     #[must_use]
@@ -30,7 +30,7 @@ impl Acts {
 
 /// The motion whose sense a load depends on.
 /// The law of the load changes when this motion reverses, so integration stops at the instant of reversal.
-/// The load need not jump at this instant: see [`Load::jump`](super::Load::jump).
+/// At this instant the load may have a jump or only a kink: see [`Load::jump`](super::Load::jump).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Senses {
     /// The load does not depend on a sense of motion.
@@ -52,7 +52,7 @@ pub enum On {
     Point(JointSide),
     /// A force between two points. The force pulls the points together or pushes them apart.
     Points([JointSide; 2]),
-    /// A moment between two links. The moment on the second link is opposite to that on the first.
+    /// A moment between two links. The moments on the two links are opposite.
     Links([LinkId; 2]),
     /// A force along the axis of a joint between two links, or the friction of this joint.
     Joint(JointId, [LinkId; 2]),
@@ -67,9 +67,9 @@ pub struct LoadNature<'a> {
     pub on: On,
     /// Motion whose sense the load depends on.
     pub senses: Senses,
-    /// Whether the load depends on the size of speeds and not only on their signs.
+    /// Whether the load depends on the sizes of speeds, in addition to their signs.
     pub is_viscous: bool,
-    /// The two links on whose [`LoadState::twist`](super::LoadState::twist) the load depends.
+    /// The two links between which the load measures the twist: see [`LoadState::twist`](super::LoadState::twist).
     pub twist: Option<[LinkId; 2]>,
     /// Quantities that may depend on the crank angle.
     pub courses: &'a [Course],
@@ -84,7 +84,7 @@ pub enum LoadRole {
     Size,
     /// The number is a length of the joint (m), which must not be negative.
     Extent,
-    /// The number is the free length or slide (m) or the free angle (rad), at which the load vanishes.
+    /// The number is the free length (m), free slide (m) or free angle (rad). At this value the load is zero.
     Rest {
         /// Unit of the number: `m` or `rad`.
         unit: &'static str,

@@ -1,4 +1,4 @@
-//! Input and output of loads: the state on which they depend and their action on links.
+//! Input and output of loads: the state on which a load depends, and the action of a load on its links.
 
 use crate::math::{Motion, Vec2, angle, cross};
 use crate::mechanism::{Joint, Link, LinkId, LinkPose, PerJoint};
@@ -48,8 +48,9 @@ impl Action {
         Action { link, force: Vec2::zeros(), place: Vec2::zeros(), moment }
     }
 
-    /// Actions of a moment (N m) in a revolute joint, or of a force (N) along the axis of a prismatic joint: on the
-    /// joint's first link, then on its second link. `effort` is the moment or force on the second link.
+    /// Actions of a joint's moment or force on the joint's first and second link.
+    /// `effort` acts on the second link: a moment (N m) in a revolute joint, or a force (N) along the axis of a
+    /// prismatic joint.
     #[must_use]
     pub fn pair(joint: &Joint, effort: f64, motions: &[Motion]) -> [Action; 2] {
         let ends = [(joint.first.link, -effort), (joint.second.link, effort)];

@@ -76,7 +76,7 @@ fn a_resisting_force_opposes_the_velocity_of_its_point() {
 
 #[test]
 fn a_spring_pulls_when_it_is_long_and_pushes_when_it_is_short() {
-    // The spring goes from (0, 1) on the ground to (3, 5), a length of 5 m.
+    // The spring connects (0, 1) on the ground with (3, 5), so the spring's length is 5 m.
     for (free_length, pull) in [(3.0, 200.0), (6.0, -100.0), (5.0, 0.0)] {
         let load = Load::Spring {
             ends: [side(LinkId(0), 0.0, 1.0), side(LinkId(1), 5.0, 0.0)],
@@ -110,8 +110,8 @@ fn a_damper_resists_the_rate_of_its_length() {
 #[test]
 fn a_torsion_spring_counts_turns_from_the_start() {
     // At the start the link's angle is 90 degrees.
-    // Two revolutions later the twist is larger by two revolutions. A pose that reports the start angle again must not
-    // change the twist.
+    // Two revolutions later the twist is larger by two revolutions.
+    // The pose has the start angle again, but the twist must keep the two revolutions.
     let load =
         Load::TorsionSpring { links: [LinkId(0), LinkId(1)], stiffness: 2.0, free_angle: 0.5, acts: Acts::Always };
     let still = motions(0.0);
@@ -173,8 +173,7 @@ fn scaled_loads_act_in_proportion() {
     ];
     for load in &loads {
         for omega in [2.0, -1.5] {
-            // Only the moment on the link is compared. The opposite moment on the ground is left out, because the sum
-            // of the two moments would be zero.
+            // Only the moment on the link is compared, because the moments on link and ground cancel in a sum.
             let one = moments(std::slice::from_ref(load), omega);
             for factor in [0.0, 0.5, 3.0, -2.0] {
                 match load.times(factor) {
@@ -195,8 +194,7 @@ fn scaled_loads_act_in_proportion() {
     }
 }
 
-/// A load that vanishes when its link reverses has a kink at most, not a jump.
-/// A load of size zero has no jump either.
+/// A load that is zero where its link reverses has at most a kink, and no jump. A load of size zero has no jump.
 #[test]
 fn the_jump_of_a_load_is_its_difference_between_both_senses() {
     let one_way = |moment, acts| Load::Moment { link: LinkId(1), moment, acts };

@@ -55,8 +55,8 @@ fn regula_falsi_needs_a_sign_change() {
     assert_eq!(regula_falsi([(0.0, -0.3), (2.0, 1.7)], EXACT, 60, |_| Err("fails")), Err("fails"));
 }
 
-/// This example checks that the value at an unmoved bound is halved.
-/// Plain regula falsi would never move one bound and would need 1000 steps or more.
+/// Checks that the value at an unmoved bound is halved.
+/// Without halving, one bound would never move, and the search would need 1000 steps or more.
 #[test]
 fn regula_falsi_moves_both_ends_of_the_bracket() {
     let mut steps = 0;
@@ -147,7 +147,7 @@ proptest! {
         }
         let polish = sure(polished(zero + 1e-3, 5, 1e-2, |x| Ok(f(x))));
         prop_assert!(near(polish) || a * 1e-4 > b, "{polish}");
-        // The search starts at one end and goes towards the zero, however far away the zero is.
+        // The search starts at one end and moves towards the zero. The zero may be far away.
         let wide = sure(widened(ends[0], 1e-3, 100.0, |x| Ok(f(x).0))).unwrap();
         prop_assert!(wide[0].0 <= zero && zero <= wide[1].0 && changes(wide[0].1, wide[1].1));
         let of_length = |length: f64| f(low + length).0;

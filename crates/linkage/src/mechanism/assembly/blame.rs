@@ -1,4 +1,4 @@
-//! If a group cannot be placed, finds the group that is the cause.
+//! Finds the group that is the cause if a group cannot be placed.
 //! The cause may be an earlier group that has the wrong configuration.
 
 use super::{StartGroup, configurations, first_choices};
@@ -11,7 +11,7 @@ use crate::sentences;
 pub struct Blame {
     /// Index of the group to blame in [`Structure::at_start`].
     pub group: GroupId,
-    /// Number of the group's configuration with which the later group can be placed, counted from 1.
+    /// Number of the group's configuration, counted from 1, with which the later group can be placed.
     pub rank: usize,
     /// Assembly mode of this configuration.
     pub mode: AssemblyMode,
@@ -27,9 +27,9 @@ pub fn group_of(mechanism: &Mechanism, structure: &Structure, error: &Error) -> 
 }
 
 /// The earlier group that must change its configuration so that the group of `error` can be placed.
-/// All arguments except `error` must be those of the call to [`first_choices`] that returned the error.
+/// All other arguments must be the arguments of the call to [`first_choices`] that returned `error`.
 ///
-/// If the input gives approximate positions for an earlier group, that group is not blamed.
+/// An earlier group with approximate positions in the input is not blamed.
 #[must_use]
 pub fn blame(
     mechanism: &Mechanism,
@@ -45,8 +45,8 @@ pub fn blame(
     let mut own = wanted.to_vec();
     own[failed].near.clear();
     // If the approximate positions of the failed group are ignored, the failed group may fit the present pose.
-    // In that case an earlier group is blamed only if its change brings the failed group clearly nearer to its
-    // approximate positions.
+    // If the failed group fits without its approximate positions, an earlier group is blamed only if a change of the
+    // earlier group clearly improves the fit. The failed group must come clearly nearer to its approximate positions.
     let stands = first_choices(mechanism, &part, drive_angles, &own).is_ok();
     let earlier = part.groups.entries().rev().filter(|(index, _)| *index < failed && wanted[*index].near.is_empty());
     for (index, group) in earlier {

@@ -107,9 +107,9 @@ pub(super) fn distance(group: &Group, wanted: &StartGroup, one: &Configuration) 
     distances.fold(0.0, f64::larger)
 }
 
-/// The configuration nearest to the approximate positions, and its distance from these positions (m).
-/// The third value is the distance of the second nearest configuration (m).
-/// The distance of a configuration is the largest distance of one of its points from its approximate position.
+/// The configuration nearest to the approximate positions, its distance from these positions (m), and the distance of
+/// the second nearest configuration (m).
+/// The distance of a configuration is the largest distance between a point and the point's approximate position.
 fn nearest<'a>(
     mechanism: &Mechanism,
     group: &Group,
@@ -139,7 +139,7 @@ fn nearest<'a>(
     }
 }
 
-/// The name of a dyad's mode. The configurations of higher groups have no names; for these groups `rank` is returned.
+/// The name of a dyad's mode. The configurations of higher groups have no names. For higher groups, `rank` is returned.
 fn named(mode: AssemblyMode, rank: &'static str) -> &'static str {
     if mode == AssemblyMode::Followed { rank } else { mode.name() }
 }

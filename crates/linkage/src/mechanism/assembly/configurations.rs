@@ -1,4 +1,4 @@
-//! All real configurations of a group, whatever its kind.
+//! All real configurations of a group of any kind.
 
 use super::fused::Fused;
 use super::mode::{AssemblyMode, Configuration};
@@ -8,15 +8,16 @@ use crate::mechanism::{Group, GroupKind, Mechanism, Pose};
 use crate::sentences;
 
 /// All real configurations of a group. `pose` contains the poses of the links of earlier groups.
-/// A group may have given joints, whose coordinates are known. `pose` must then contain the links of every body in the
-/// right pose relative to each other, as in [`Structure::driving_pose`](crate::mechanism::Structure::driving_pose).
+/// If a group has joints with given coordinates, these joints fuse links to bodies.
+/// In `pose`, the links of each body must then have the correct relative pose, as in
+/// [`Structure::driving_pose`](crate::mechanism::Structure::driving_pose).
 /// A driven link must already be placed in `pose`.
 /// A dyad has up to two configurations, a group of four bodies up to six.
 ///
 /// # Errors
 /// [`ErrorKind::Geometry`](crate::ErrorKind::Geometry) if there is no configuration, or if the group can move.
 /// [`ErrorKind::Unsupported`](crate::ErrorKind::Unsupported) for groups of more than four bodies and for groups with
-/// transmissions, whose configurations are not all known.
+/// transmissions, because not all configurations of such groups are known.
 pub fn configurations(mechanism: &Mechanism, group: &Group, pose: &Pose) -> Result<Vec<Configuration>> {
     if group.kind == GroupKind::Driven {
         return Ok(vec![Configuration { mode: AssemblyMode::Only, links: vec![pose.0[group.links[0]]] }]);
@@ -47,8 +48,9 @@ pub fn configurations(mechanism: &Mechanism, group: &Group, pose: &Pose) -> Resu
 /// - RRP: e . r / |r| with the direction e of the guide and r from the outer pin to the inner joint.
 ///   This value is the sine of the angle between the rod and the normal to the guide. The sine is positive in the mode
 ///   [`AssemblyMode::Ahead`](super::AssemblyMode::Ahead).
-/// - RPR: e . d / |d| with the direction e of the guide and d from the outer pin of the pair's first link to the outer
-///   pin of its second link. The sine is positive in the mode [`AssemblyMode::Ahead`](super::AssemblyMode::Ahead).
+/// - RPR: e . d / |d| with the direction e of the guide, and d from the outer pin of the prismatic pair's first link to
+///   the outer pin of the pair's second link. The sine is positive in the mode
+///   [`AssemblyMode::Ahead`](super::AssemblyMode::Ahead).
 /// - RPP: e1 x e2 with the direction e1 of the inner axis and e2 of the outer axis.
 /// - PRP: e1 x e2 with the directions of both outer axes, in the order of the group's links.
 #[must_use]

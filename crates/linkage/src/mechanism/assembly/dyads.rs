@@ -2,7 +2,7 @@
 //!
 //! A dyad has one outer joint on each link and the inner joint between the links. One scalar equation closes the dyad.
 //! An RRR dyad closes at the intersections of two circles.
-//! An RRP dyad, and an RPR dyad seen from its guide, closes at the intersections of a circle and a line.
+//! An RRP dyad closes at the intersections of a circle and a line. An RPR dyad does so in the frame of its guide.
 //! RPP and PRP dyads close at the intersection of two lines.
 //! A prismatic pair fixes the angle between its two links.
 //! A prismatic pair also keeps the joint's point on the second link on a line parallel to the axis.
@@ -17,9 +17,8 @@ use crate::math::{Vec2, cross, rotated, turned, unit};
 use crate::mechanism::{Group, GroupKind, Joint, LinkId, LinkPose, Mechanism, Pose};
 use crate::sentences;
 
-/// If the sine of the angle between two axes is below this limit, the axes count as parallel.
-/// At this angle, rounding errors of the axes' directions move the links by more than a ten-thousandth of the
-/// mechanism's size.
+/// Axes count as parallel if the sine of the angle between them is below this limit.
+/// At this angle, rounding errors of the axes' directions move the links by more than 1e-4 of the mechanism's size.
 const PARALLEL: f64 = 1e-12;
 
 /// Angle (rad) that rotates `from` into the direction of `to`.
@@ -60,7 +59,7 @@ impl<'a> Member<'a> {
         self.inner_place() - self.outer_place()
     }
 
-    /// World position of the outer joint's point on the link to which the dyad is attached (m).
+    /// World position (m) of the outer joint, taken at its point on the link to which the dyad is attached.
     fn hook(&self) -> Vec2 {
         self.base.point(self.outer.other(self.link).local)
     }
@@ -128,12 +127,13 @@ pub(super) fn transmission_sine(mechanism: &Mechanism, group: &Group, pose: &Pos
     }
 }
 
-/// Both links, sorted: first the link with the outer revolute pair, then the link with the outer prismatic pair.
+/// The two links of a dyad.
+/// The link with the outer revolute pair comes first, the link with the outer prismatic pair second.
 fn prismatic_last<'a, 'b>([a, b]: &'b [Member<'a>; 2]) -> [&'b Member<'a>; 2] {
     if a.outer.slides() { [b, a] } else { [a, b] }
 }
 
-/// Both links, sorted in the order of the inner joint: the inner joint's first link, then its second link.
+/// The two links of a dyad in the order of the inner joint: the inner joint's first link comes first.
 fn in_pair_order<'a, 'b>([a, b]: &'b [Member<'a>; 2]) -> [&'b Member<'a>; 2] {
     if a.inner.first.link == a.link { [a, b] } else { [b, a] }
 }
@@ -180,7 +180,7 @@ fn rrr(members: &[Member; 2]) -> Result<Vec<Configuration>> {
     Ok(vec![one(AssemblyMode::Left, across), one(AssemblyMode::Right, -across)])
 }
 
-/// The inner joint lies at an intersection of a line parallel to the guide and the rod's circle about the outer pin.
+/// The inner joint lies on a line parallel to the guide and on the rod's circle about the outer pin.
 fn rrp(members: &[Member; 2]) -> Result<Vec<Configuration>> {
     let [rod, slider] = prismatic_last(members);
     let (axis, pin, length) = (slider.guide(), rod.hook(), rod.span().norm());
@@ -202,8 +202,9 @@ fn rrp(members: &[Member; 2]) -> Result<Vec<Configuration>> {
     Ok(vec![one(AssemblyMode::Ahead, along), one(AssemblyMode::Behind, -along)])
 }
 
-/// The offsets of both links give the distance of the outer pins perpendicular to the axis e: e x d = h.
-/// Along the axis, the distance of the outer pins is +sqrt(d^2 - h^2) or -sqrt(d^2 - h^2).
+/// The vector d leads from one outer pin to the other.
+/// The component h of d perpendicular to the axis e follows from the offsets of the links: e x d = h.
+/// The component along the axis is +sqrt(d^2 - h^2) or -sqrt(d^2 - h^2).
 /// The direction e follows from d and these two components.
 fn rpr(members: &[Member; 2]) -> Result<Vec<Configuration>> {
     let [first, second] = in_pair_order(members);
@@ -227,9 +228,9 @@ fn rpr(members: &[Member; 2]) -> Result<Vec<Configuration>> {
     Ok(vec![one(AssemblyMode::Ahead, along), one(AssemblyMode::Behind, -along)])
 }
 
-/// The guides give the angles of both links.
-/// The slider is then moved along the outer axis until the line through the inner joint's two points is parallel to the
-/// inner axis.
+/// The guides determine the angles of the two links.
+/// The slider is then moved along the outer axis until the inner joint closes: the line through the joint's two points
+/// must be parallel to the inner axis.
 fn rpp(members: &[Member; 2]) -> Result<Vec<Configuration>> {
     let [swivel, slider] = prismatic_last(members);
     let outer = slider.guide();
@@ -248,7 +249,7 @@ fn rpp(members: &[Member; 2]) -> Result<Vec<Configuration>> {
     Ok(vec![configuration(members, AssemblyMode::Only, poses)])
 }
 
-/// The inner pin lies at the intersection of the two lines along which the sliders move it.
+/// The inner pin lies at the intersection of two lines: each slider moves the pin along a line.
 fn prp(members: &[Member; 2]) -> Result<Vec<Configuration>> {
     let axes = members.each_ref().map(Member::guide);
     let sine = cross(axes[0], axes[1]);

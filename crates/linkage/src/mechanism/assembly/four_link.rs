@@ -1,10 +1,10 @@
 //! All real configurations of an Assur group of four links, with any revolute and prismatic pairs.
 //!
 //! Assur groups of four links are of two kinds.
-//! The class III group of order 3 is a base link on three leads.
+//! The class III group of order 3 is a base link that is connected by three leads.
 //! The class IV group of order 2 is a movable quadrilateral of two ternary and two binary links.
-//! A class IV group, seen from one of its ternary links, is also a base on three leads.
 //! In class IV, one ternary link is taken as the frame and the second ternary link as the base.
+//! Relative to the frame, the base is then also connected by three leads.
 //! The three leads are the two binary links and the world (all links before the group, taken as one body).
 
 use super::mode::{AssemblyMode, Configuration};
@@ -26,7 +26,7 @@ enum Body {
     World,
 }
 
-/// The group as a base on three leads.
+/// The group as a base that is connected by three leads.
 #[derive(Clone, Debug)]
 pub(super) struct Layout {
     frame: Body,
@@ -35,7 +35,7 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    /// Assigns the roles of the links; `None` if the group has neither of the two forms.
+    /// Assigns the roles of the links; `None` if the group is of neither kind (class III or class IV).
     pub(super) fn of(mechanism: &Mechanism, group: &Group, pose: &Pose) -> Option<Self> {
         if group.links.len() != 4 {
             return None;
@@ -90,8 +90,8 @@ impl Layout {
             in_frame.push((*body, lead.near.lead.place, lead.pose(base)?));
         }
         let frame = match in_frame.iter().find(|(body, ..)| *body == Body::World) {
-            // Relative to the frame, the world moves as a lead. The position of the frame in the world is computed from
-            // one point of the world.
+            // The world is one of the leads, so its pose relative to the frame is known.
+            // The position of the frame in the world follows from one point of the world.
             Some((_, place, world)) => LinkPose::through(world.point(*place), *place, -world.angle),
             None => LinkPose::GROUND,
         };

@@ -1,4 +1,4 @@
-//! Converts a group that has given joints to a group of rigid bodies, in the shape that the bodies have in a pose.
+//! Converts a group with given joints to a group of rigid bodies. A pose determines the shape of each body.
 //! A given joint has a known coordinate, so its two links belong to one body.
 
 use crate::math::{rotated, unit};
@@ -10,12 +10,12 @@ use crate::mechanism::{Group, JointId, JointKind, JointSide, LinkId, LinkPose, M
 pub(super) struct Fused {
     pub(super) mechanism: Mechanism,
     pub(super) group: Group,
-    /// For every link of the group: the lead of its body, and the link's pose in the frame of the lead.
+    /// Each link of the group, with the lead of its body and with the link's pose in the frame of the lead.
     members: Vec<(LinkId, LinkId, LinkPose)>,
 }
 
 impl Fused {
-    /// Fuses the bodies of `group`. In `pose`, the links of every body have the right pose relative to each other.
+    /// Fuses the bodies of `group`. In `pose`, the links of each body must have the correct relative pose.
     pub(super) fn of(mechanism: &Mechanism, group: &Group, pose: &Pose) -> Self {
         let members: Vec<(LinkId, LinkId, LinkPose)> = group
             .links

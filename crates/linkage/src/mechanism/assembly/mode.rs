@@ -5,22 +5,22 @@ use crate::mechanism::LinkPose;
 use crate::mechanism::pose::SidePoint;
 
 crate::words! {
-    /// The assembly mode of a group: which real configuration it has.
+    /// The assembly mode of a group: the name of one of its real configurations.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum AssemblyMode: name {
-        /// RRR dyad: the inner joint lies to the left of the directed line from the first link's outer joint to the
-        /// second link's outer joint.
+        /// RRR dyad: the inner joint lies to the left of a directed line.
+        /// The line leads from the first link's outer joint to the second link's outer joint.
         Left = "left",
-        /// RRR dyad: the inner joint lies to the right of the directed line from the first link's outer joint to the
-        /// second link's outer joint.
+        /// RRR dyad: the inner joint lies to the right of a directed line.
+        /// The line leads from the first link's outer joint to the second link's outer joint.
         Right = "right",
         /// RRP dyad: along the axis of its prismatic pair, the inner joint lies ahead of the outer pin.
-        /// RPR dyad: along the axis of its prismatic pair, the outer pin of the pair's second link lies ahead of
-        /// the outer pin of the pair's first link.
+        /// RPR dyad: the prismatic pair has a first and a second link.
+        /// Along the pair's axis, the outer pin of the second link lies ahead of the outer pin of the first link.
         Ahead = "ahead",
         /// RRP dyad: along the axis of its prismatic pair, the inner joint lies behind the outer pin.
-        /// RPR dyad: along the axis of its prismatic pair, the outer pin of the pair's second link lies behind
-        /// the outer pin of the pair's first link.
+        /// RPR dyad: the prismatic pair has a first and a second link.
+        /// Along the pair's axis, the outer pin of the second link lies behind the outer pin of the first link.
         Behind = "behind",
         /// RPP or PRP dyad, or driven link: there is only one configuration.
         Only = "only",
@@ -30,7 +30,7 @@ crate::words! {
 }
 
 impl AssemblyMode {
-    /// The mode of this configuration if the two links of the dyad are listed in reverse order.
+    /// The mode of the same configuration if the dyad's two links are listed in reverse order.
     #[must_use]
     pub fn swapped(self) -> Self {
         match self {
@@ -63,13 +63,14 @@ pub struct StartGroup {
 }
 
 /// The configuration chosen for a group at the start.
-/// Two distances show how clearly the chosen configuration is nearer to the approximate positions than the second
-/// nearest configuration.
+/// Two distances from the approximate positions show how clear the choice is: the distance of the chosen configuration
+/// and the distance of the second nearest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ConfigurationChoice {
     /// Assembly mode of the configuration.
     pub mode: AssemblyMode,
-    /// Largest distance of the configuration's points from their approximate positions (m), if any were used.
+    /// Largest distance of the configuration's points from their approximate positions (m).
+    /// `None` if no approximate positions were used.
     pub nearest_m: Option<f64>,
     /// Largest distance of the second nearest configuration's points from their approximate positions (m).
     /// `None` if there is only one configuration, if not all configurations are known, or if no approximate positions

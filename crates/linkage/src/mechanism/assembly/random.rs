@@ -42,7 +42,7 @@ impl Lcg {
     }
 
     /// Moves the second side of a joint so that the joint is closed in `pose`.
-    /// A revolute joint gets a new position, a prismatic joint a new position and axis.
+    /// A revolute joint gets a new position. A prismatic joint gets a new position and a new axis.
     pub fn fitted(&mut self, mut joint: Joint, pose: &Pose) -> Joint {
         let (first, second) = (pose.0[joint.first.link], pose.0[joint.second.link]);
         let back = |v: Vec2| rotated(unit(-second.angle), v);
@@ -78,7 +78,7 @@ pub fn mechanism(count: usize, joints: Vec<Joint>) -> Mechanism {
     Mechanism::new(links, joints).unwrap()
 }
 
-/// The group of `links`, as the structural analysis would find it if all links outside the group were known.
+/// The group of `links` as found by structural analysis, if the poses of all other links are known.
 pub fn group(mechanism: &Mechanism, links: &[LinkId], kind: GroupKind) -> Group {
     let inside = |joint: JointId| {
         let joint = &mechanism.joints()[joint];
@@ -98,8 +98,9 @@ pub fn group(mechanism: &Mechanism, links: &[LinkId], kind: GroupKind) -> Group 
     }
 }
 
-/// Reference length for errors (m): the mechanism's size or the largest distance of a link's origin from the world's
-/// origin, whichever is larger.
+/// Reference length for errors (m).
+/// The reference length is the mechanism's size, or the largest distance of a link's origin from the world's origin if
+/// this distance is larger.
 pub fn size(mechanism: &Mechanism, pose: &Pose) -> f64 {
     let bases = pose.0.iter().map(|link| link.origin.norm()).fold(0.0, f64::larger);
     mechanism.size().larger(bases)

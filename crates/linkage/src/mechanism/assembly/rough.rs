@@ -1,4 +1,4 @@
-//! First pose of a group whose configurations are not all known, from a rough drawing.
+//! First pose of a group from a rough drawing, for groups whose configurations are not all known.
 //!
 //! Each link is first placed by the approximate positions of its points, and by its joints with links already placed.
 //! Then a Newton method with Levenberg-Marquardt damping closes all joints of the group at once:
@@ -20,7 +20,7 @@ mod tests;
 
 type Near = [(SidePoint, Vec2)];
 
-/// If the gap of a joint is at most this fraction of the mechanism's size, the joint counts as closed.
+/// A joint counts as closed if its gap is at most this fraction of the mechanism's size.
 /// The limit is at the level of rounding errors.
 const CLOSED: f64 = 1e-13;
 /// Largest number of steps of the damped iteration.
@@ -51,7 +51,7 @@ pub(super) fn place(mechanism: &Mechanism, group: &Group, near: &Near, pose: &mu
     Ok(ConfigurationChoice { mode: AssemblyMode::Followed, nearest_m: Some(farthest), next_m: None })
 }
 
-/// Half the length of the shortest link of the group that carries the point and has a length.
+/// Half the length of the shortest link that carries the point, among the links of the group that have a length.
 /// If there is no such link, the result is half the mechanism's size.
 fn half_link(mechanism: &Mechanism, group: &Group, point: &str) -> f64 {
     let links = group.links.iter().map(|&link| &mechanism.links()[link]);
@@ -60,8 +60,8 @@ fn half_link(mechanism: &Mechanism, group: &Group, point: &str) -> f64 {
     0.5 * if least.is_finite() { least } else { mechanism.size() }
 }
 
-/// Gives every link of the group an approximate pose, from the approximate positions of the link's points and the links
-/// already placed.
+/// Gives every link of the group an approximate pose.
+/// The pose follows from the approximate positions of the link's points, and from links that are already placed.
 fn lay_out(mechanism: &Mechanism, group: &Group, near: &Near, pose: &mut Pose) -> Result<()> {
     let mut left = group.links.clone();
     while !left.is_empty() {
@@ -100,7 +100,8 @@ fn lay(mechanism: &Mechanism, link: LinkId, near: &Near, hooks: &[&Joint], pose:
         Some(turn(joint.axis_on(link)?, axis))
     });
     // The rotation that best fits the link to its approximate positions.
-    // The rotation is the direction of the sum of the products conj(local) world, with vectors as complex numbers.
+    // As complex numbers, the local and world vectors of each point give the product conj(local) world.
+    // The sum of these products has the direction of the rotation.
     let fit: Vec2 = places
         .iter()
         .map(|place| (place.0 - local, place.1 - world))
@@ -111,7 +112,7 @@ fn lay(mechanism: &Mechanism, link: LinkId, near: &Near, hooks: &[&Joint], pose:
     Some(LinkPose::through(local, world, guided.or(fitted)?))
 }
 
-/// The gaps of a group's joints as functions of the unknowns: x, y and size * angle of each link.
+/// The gaps of a group's joints as functions of the unknowns. The unknowns are x, y and size * angle of each link.
 struct System<'a> {
     mechanism: &'a Mechanism,
     group: &'a Group,
@@ -152,8 +153,8 @@ impl System<'_> {
             let places = sides.map(|side| pose.0[side.link].point(side.local));
             for (k, sign) in [(0, -1.0), (1, 1.0)] {
                 let Some(at) = self.group.links.iter().position(|&link| link == sides[k].link) else { continue };
-                // The displacement of the joint's point is (dx, dy), plus the rotation of the vector from the link's
-                // origin to the point.
+                // The displacement of the joint's point is (dx, dy) plus a rotation: the rotation of the vector from
+                // the link's origin to the point.
                 let arm = turned(places[k] - pose.0[sides[k].link].origin) / self.size;
                 let moves = [Vec2::new(1.0, 0.0), Vec2::new(0.0, 1.0), arm];
                 for (column, by) in moves.into_iter().enumerate() {
@@ -168,7 +169,7 @@ impl System<'_> {
                     if column % 3 != 2 {
                         continue;
                     }
-                    // The direction of the line rotates with the first link, so this rotation also changes the gap.
+                    // The line rotates with the first link, so a rotation of the first link also changes the gap.
                     if k == 0 {
                         rows[row][column] -= e.dot(&(places[1] - places[0])) / self.size;
                     }
@@ -233,7 +234,7 @@ impl System<'_> {
         self.polish(pose)
     }
 
-    /// Makes a few undamped Newton steps. The normal equations lose digits, and these steps recover the lost digits.
+    /// Makes a few undamped Newton steps. These steps recover the digits that are lost in the normal equations.
     fn polish(&self, pose: &mut Pose) -> Option<()> {
         let n = self.unknowns();
         for _ in 0..4 {
@@ -248,7 +249,7 @@ impl System<'_> {
             jacobian.solve(&mut step);
             *pose = self.moved(pose, &step);
         }
-        // The opening is measured by `Joint::opening`, so that opposite axes count as open.
+        // `Joint::opening` is used here, because it also recognises axes in opposite directions as open.
         let open = |joint: &Joint| {
             let sides = [joint.first, joint.second];
             let places = sides.map(|side| pose.0[side.link].point(side.local));

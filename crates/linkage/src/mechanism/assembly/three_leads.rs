@@ -1,4 +1,4 @@
-//! All poses of a base link that three leads (links between frame and base) connect with the frame.
+//! All poses of a base link that is connected with the frame by three leads. A lead is a link between frame and base.
 //!
 //! Each lead has one pair with the frame (near) and one pair with the base (far). The lead imposes one condition on the
 //! base.
@@ -9,16 +9,17 @@
 //! - both prismatic: the base's angle is given.
 //!
 //! For a given beta all conditions are circles and lines for O.
-//! Let X = O - c, measured from the centre c of one circle of radius l.
+//! Let X = O - c, where c is the centre and l the radius of one of the circles.
 //! The remaining two conditions are then linear in X: p1 + q1 . X = 0 and p2 + q2 . X = 0.
-//! A second or third circle is replaced by its radical line with the first circle.
+//! If the second or third condition is a circle, its radical line with the first circle takes the place of the circle.
 //! With |X| = l this leaves |q2 p1 - q1 p2|^2 = l^2 (q1 x q2)^2.
 //! As a polynomial in e^(i beta), p has the powers -1 to 1.
-//! The powers of q are 0 to 1 for a circle, 0 for a line of the frame and 1 for a line of the base.
+//! The vector q has the powers 0 to 1 for a circle, the power 0 for a line of the frame, and the power 1 for a line of
+//! the base.
 //! The vector q2 p1 - q1 p2 therefore has the powers -1 to 2, and its square has the powers -3 to 3.
-//! The square is a trigonometric polynomial of degree 3. The polynomial has at most six zeros, and all zeros can be
-//! found.
-//! If all conditions are lines, a determinant of degree 2 must be zero, so that the three lines meet in one point.
+//! The equation for beta is therefore a trigonometric polynomial of degree 3.
+//! This polynomial has at most six zeros, and all zeros can be found.
+//! If all conditions are lines, the three lines must meet in one point. A determinant of degree 2 is then zero.
 
 mod condition;
 
@@ -64,8 +65,8 @@ impl Conditions {
             [] if self.all.iter().any(|one| matches!(one, Condition::Circle { .. })) => self.by_circle()?,
             [] => self.by_lines()?,
             [beta] => self.at_angle(beta)?,
-            // Two of the three leads have two prismatic pairs each, so each of the two fixes the base's angle. The base
-            // can then slide.
+            // Two or three leads have two prismatic pairs each.
+            // Each of these leads fixes the base's angle, and the base can slide.
             _ => return None,
         };
         if found.iter().any(|&one| self.is_loose(one)) {
@@ -74,8 +75,8 @@ impl Conditions {
         Some(found.into_iter().map(|(o, beta)| LinkPose::through(self.base, self.frame + o, beta)).collect())
     }
 
-    /// p and q of two conditions, measured from the centre of the circle of the third condition.
-    /// The third condition is that of the longest lead. Also returns centre and radius of this circle.
+    /// p and q of two conditions, and centre and radius of a circle.
+    /// The circle is the condition of the longest lead. p and q are measured from the centre of the circle.
     fn reduced(&self, b: Vec2) -> ([(f64, Vec2); 2], Vec2, f64) {
         let length = |one: &Condition| if let Condition::Circle { length, .. } = one { *length } else { -1.0 };
         let pivot = (0..3).max_by(|&i, &j| length(&self.all[i]).total_cmp(&length(&self.all[j]))).unwrap_or(0);
@@ -108,7 +109,7 @@ impl Conditions {
         for beta in harmonic::zeros(3, self.most(terms), eliminant)? {
             let ([(p1, q1), (p2, q2)], centre, radius) = self.reduced(unit(beta));
             let met = turned(q2 * p1 - q1 * p2) / cross(q1, q2);
-            // If the two lines coincide, the solutions are the intersections of that line with the circle.
+            // If the two lines coincide, the solutions are the intersections of this line with the circle.
             // The intersections with the circle are computed in every case, because they cost little.
             // A candidate counts only if it satisfies all conditions.
             let (p, q) = if q1.norm() > q2.norm() { (p1, q1) } else { (p2, q2) };
@@ -201,7 +202,8 @@ impl Conditions {
         }
     }
 
-    /// Rows of the Jacobian with respect to x / size, y / size and beta, each row with the gap of its condition.
+    /// Rows of the Jacobian with respect to x / size, y / size and beta.
+    /// Each row is paired with the residual of its condition.
     fn rows(&self, (o, beta): Found) -> [([f64; 3], f64); 3] {
         self.all.each_ref().map(|one| {
             let (gap, by_place, by_angle) = one.residual(o, beta, self.size);
@@ -224,8 +226,8 @@ impl Conditions {
         let free = products.into_iter().fold([0.0; 3], |best, one| if norm(one) > norm(best) { one } else { best });
         let volume: f64 = (0..3).map(|k| rows[0][k] * products[0][k]).sum();
         // The determinant of the normalised rows tends to zero at a double root.
-        // A double root is accurate to half the digits, 1e-7 of the size, so the limit of the determinant is larger
-        // than 1e-7.
+        // A double root is accurate only to half the digits, 1e-7 of the size.
+        // The limit of the determinant is therefore larger than 1e-7.
         if volume.abs() > 1e-5 * rows.map(norm).iter().product::<f64>() {
             return false;
         }
@@ -284,14 +286,13 @@ impl Conditions {
             at = (at.0 - Vec2::new(step[0], step[1]) * self.size, at.1 - step[2]);
         }
         // Lines may intersect far away.
-        // Rounding errors grow in proportion to the distance of the intersection, so the limits also grow in proportion
-        // to this distance.
+        // Rounding errors grow with the distance of the intersection, so the limits also grow with this distance.
         let reach = self.size + best.0.norm();
         let near = (best.0 - start.0).norm() <= 0.1 * reach && (best.1 - start.1).abs() <= 0.1;
         (least <= CLOSED * reach && near).then_some(best)
     }
 }
 
-/// If the residual of a condition exceeds this fraction of the size plus the base's distance, the pose is not valid.
-/// The limit is rounding error with a margin for double roots, for which Newton's method finds only half the digits.
+/// Largest residual of a condition in a valid pose, as a fraction of the size plus the base's distance.
+/// The limit is the rounding error, with a margin for double roots: there Newton's method finds only half the digits.
 const CLOSED: f64 = 1e-13;

@@ -1,6 +1,7 @@
 //! Laws of cams: lift of the follower as a function of the cam's angle, in pieces or as one curve.
 //!
-//! The curve of a piece is normalised: it rises from 0 to 1 while x goes from 0 to 1, and rests at both ends.
+//! The curve of a piece is normalised.
+//! The normalised curve rises from 0 to 1 while x goes from 0 to 1. Its slope is zero at both ends.
 //! Equations: Norton, Cam Design and Manufacturing Handbook, 2nd ed., Industrial Press 2009, chapters 2 and 3.
 
 use std::f64::consts::{PI, TAU};
@@ -93,7 +94,8 @@ pub enum CamLaw {
 
 impl CamLaw {
     /// The law with these pieces.
-    /// `None` unless the ends of the pieces ascend, from an angle above 0 to a full turn, and the last lift is 0.
+    /// `None` if the pieces are not valid.
+    /// The ends of the pieces must ascend, from an angle above 0 to a full turn, and the last lift must be 0.
     #[must_use]
     pub fn of(segments: Vec<CamSegment>) -> Option<Self> {
         let ends = std::iter::once(0.0).chain(segments.iter().map(|own| own.to));
@@ -132,7 +134,8 @@ impl CamLaw {
         }
     }
 
-    /// Distance of an angle of the cam (rad) from the nearest end of a piece, at which the third derivative jumps.
+    /// Angular distance (rad) from the given cam angle to the nearest end of a piece.
+    /// At the end of a piece the third derivative jumps.
     /// The distance is pi for a law without pieces.
     #[must_use]
     pub fn to_knot(&self, angle: f64) -> f64 {
@@ -178,7 +181,7 @@ mod tests {
                 assert_relative_eq!((later - rate) / (2.0 * h), second, epsilon = 1e-6);
             }
         }
-        // Published peaks: velocity and acceleration factors, Norton, table 3-3 and figure 3-19.
+        // Published peak factors of velocity and acceleration: Norton, table 3-3 and figure 3-19.
         let peak = |curve: CamCurve, k: usize| {
             (0..=4000).map(|i| curve.at(f64::from(i) / 4000.0)[k]).fold(0.0, KeepNan::larger)
         };

@@ -42,8 +42,8 @@ impl Case {
         rotated(unit(pose.0[joint.first.link].angle), joint.axis_on(joint.first.link).unwrap())
     }
 
-    /// Rotates `link` until the axis of the prismatic `joint` on `link` agrees with the axis of this joint on the
-    /// joint's other link.
+    /// Rotates `link` until the two axes of the prismatic `joint` agree: the axis on `link` and the axis on the joint's
+    /// other link.
     fn with_turned(&self, mut pose: Pose, joint: JointId, link: LinkId) -> Pose {
         let other = self.joint(joint).other(link).link;
         let angle = |axis: Vec2| axis.y.atan2(axis.x);
@@ -52,8 +52,8 @@ impl Case {
         pose
     }
 
-    /// Distance of the second link's point of a prismatic `joint` from the line along the axis through the first link's
-    /// point.
+    /// Opening of a prismatic `joint`. The axis through the joint's point on the first link is a line.
+    /// The opening is the distance of the joint's point on the second link from this line.
     fn off_line(&self, pose: &Pose, joint: JointId) -> f64 {
         let own = self.joint(joint);
         cross(
@@ -63,7 +63,7 @@ impl Case {
     }
 
     /// Margin to the limit of assembly: positive if the dyad has configurations, negative otherwise.
-    /// The margin comes from the triangle inequality or from samples of a function, not from the formulas under test.
+    /// The margin is computed without the tested formulas, from the triangle inequality or from samples of a function.
     fn reach(&self) -> f64 {
         let outer_pin =
             |joint: JointId, link: LinkId| self.place(&self.pose, joint, self.joint(joint).other(link).link);
@@ -78,9 +78,8 @@ impl Case {
                 (a + b - c).smaller(a + c - b).smaller(b + c - a)
             }
             GroupKind::Rrp => {
-                // The function is the squared distance of the inner joint from the outer pin, as a function of the
-                // slide.
-                // This function is a parabola, which three values determine.
+                // The squared distance of the inner joint from the outer pin is a function of the slide.
+                // This function is a parabola, so three values determine it.
                 let (slider, outer, rod, pin) =
                     if self.joint(JointId(0)).slides() { (3, 0, 4, 2) } else { (4, 2, 3, 0) };
                 let ([slider, rod], [outer, pin]) = ([slider, rod].map(LinkId), [outer, pin].map(JointId));
@@ -101,9 +100,8 @@ impl Case {
                 rod.norm() - least.larger(0.0).sqrt()
             }
             GroupKind::Rpr => {
-                // The function is the distance from the line, as a function of the angle that both links have in
-                // common.
-                // This function is a sinusoid plus a constant, which three values determine.
+                // The distance from the line is a function of the links' common angle.
+                // This function is a sinusoid plus a constant, so three values determine it.
                 let off = |angle: f64| {
                     let mut pose = self.pose.clone();
                     pose.0[LinkId(3)].angle = angle;
@@ -148,7 +146,7 @@ impl Case {
 /// Every configuration closes and has the mode that it reports.
 /// The sign of a configuration's transmission sine agrees with its mode.
 /// The two configurations of a dyad differ from each other.
-/// An independent criterion agrees on whether a configuration exists.
+/// An independent criterion confirms whether a configuration exists.
 #[test]
 fn random_dyads_of_every_kind() {
     let kinds = [GroupKind::Rrr, GroupKind::Rrp, GroupKind::Rpr, GroupKind::Rpp, GroupKind::Prp];
@@ -179,12 +177,11 @@ fn random_dyads_of_every_kind() {
                 })
                 .collect();
             for (one, pose) in all.iter().zip(&poses) {
-                // If two axes are nearly parallel, they intersect far away. The size therefore includes the assembled
-                // dyad.
+                // Nearly parallel axes intersect far away, so the size includes the assembled dyad.
                 let size = size(&case.mechanism, pose);
                 let sine = transmission_sine(&case.mechanism, &case.group, pose).unwrap();
                 worst = worst.larger(pose.closure(&case.mechanism) / size);
-                // At the dead point the two modes are the same.
+                // The two modes coincide at the dead point.
                 if sine.abs() > 1e-12 {
                     assert_eq!(case.mode(pose), one.mode, "{kind:?} {sine}");
                     if one.mode != AssemblyMode::Only {
@@ -201,7 +198,7 @@ fn random_dyads_of_every_kind() {
         }
         println!("{kind:?}: {some} of {CASES} assembled, closure at worst {worst:.1e} of the size");
         assert!(some > CASES / 5, "{kind:?}: {some}");
-        // The closure error, as a fraction of the size, has the bound 1e-12 in all tests of closure.
+        // All tests of closure have this bound: the closure error is at most 1e-12 of the size.
         assert!(worst <= 1e-12, "{kind:?}: {worst}");
     }
 }

@@ -19,7 +19,7 @@ struct Case {
     pose: Pose,
 }
 
-/// A random case. If `fitted`, the joints are closed in the pose of the case.
+/// A random case. The joints are closed in the pose of the case if `fitted` is true.
 fn case(random: &mut Lcg, pairs: Pairs, triad: bool, fitted: bool) -> Case {
     let hook = |random: &mut Lcg| usize::from(random.yes());
     let ends = if triad {
@@ -57,7 +57,7 @@ struct Tally {
     /// Largest closure error, as a fraction of the size.
     closure: f64,
     /// Number of cases in which the scan finds a double root, up to 1e-9.
-    /// For such a root neither the scan nor the module can decide between two zeros and a near miss.
+    /// A root that looks double may be two zeros or a near miss. Scan and module cannot distinguish these two cases.
     double: usize,
 }
 
@@ -99,15 +99,14 @@ fn compare(random: &mut Lcg, pairs: Pairs, triad: bool, cases: usize, tally: &mu
 }
 
 /// Asserts two bounds of a tally: a bound on the closure error and a bound on the number of double roots.
-/// The bound on the closure error is that of all tests of closure.
-/// The probability of a double root is some tens times 1e-9^(1/2) per root.
+/// The bound on the closure error is the same in all tests of closure.
+/// A root is double with a probability of some tens times 1e-9^(1/2).
 fn check(tally: &Tally, cases: usize) {
     assert!(tally.closure <= 1e-12, "{tally:?}");
     assert!(tally.double <= 1 + cases / 200, "{tally:?}");
 }
 
-/// Whether to test a larger number of groups than usual. The larger test takes minutes, so only `.ci/nightly` requests
-/// it.
+/// Whether to test more groups than usual. This test takes minutes, so only `.ci/nightly` requests the larger number.
 fn many() -> bool {
     std::env::var_os("LINKPROOF_DRAWS").is_some()
 }
@@ -150,8 +149,7 @@ fn as_many_configurations_as_a_scan_finds_with_prismatic_pairs() {
     assert_eq!(patterns, 2 * 53);
 }
 
-/// Three parallel leads of equal length let the base move on circles, so every angle of the leads gives a
-/// configuration.
+/// Three parallel leads of equal length let the base move. Every angle of the leads then gives a configuration.
 #[test]
 fn a_group_that_can_move_is_refused() {
     let mut random = Lcg(3);
@@ -159,8 +157,8 @@ fn a_group_that_can_move_is_refused() {
         let mut case = case(&mut random, REVOLUTE, triad, true);
         let mut joints = case.mechanism.joints().to_vec();
         for pair in joints.chunks_mut(2) {
-            // All leads are parallel and equally long: the world vector between the two joints of a lead is the same
-            // for all leads.
+            // The world vector between the two joints of a lead is the same for all leads, so the leads are parallel
+            // and equally long.
             let Some(lead) =
                 [pair[0].first.link, pair[0].second.link].into_iter().find(|&link| pair[1].on(link).is_some())
             else {
@@ -215,7 +213,7 @@ fn val_fourth_class_configurations_at_70_degrees() {
             assert!(pose.closure(&mechanism) < 1e-15 && pose.0[GROUND] == LinkPose::GROUND);
         }
         total += all.len();
-        // The printed configuration: angles (deg) of AC, BD, CE, KE.
+        // The angles (deg) of AC, BD, CE and KE in the printed configuration.
         let printed = [-53.70258, 2.58635, 20.59796, 151.55247];
         let is_printed = |one: &&Configuration| {
             one.links.iter().zip(printed).all(|(place, angle)| (place.angle.to_degrees() - angle).abs() < 0.5e-5)

@@ -3,7 +3,7 @@ use super::*;
 use crate::math::KeepNan;
 use crate::mechanism::{GroupKind, JointSide, LinkId};
 
-/// Two base links 6 and 5, pinned to each other, each on two leads.
+/// The base links 6 and 5 are pinned to each other. Each base link has two leads.
 /// Bases and leads form a group of six links and nine joints. All joints are closed in the pose.
 fn case(random: &mut Lcg, slides: impl Fn(&mut Lcg) -> bool) -> (Mechanism, Group, Pose) {
     let mut pose = Pose((0..7).map(|_| random.pose()).collect());
@@ -20,7 +20,7 @@ fn case(random: &mut Lcg, slides: impl Fn(&mut Lcg) -> bool) -> (Mechanism, Grou
     (mechanism, group, pose)
 }
 
-/// All points of the group's links, moved at random by at most `by` in each coordinate.
+/// All points of the group's links, after a random displacement of at most `by` in each coordinate.
 fn drawing(random: &mut Lcg, mechanism: &Mechanism, group: &Group, pose: &Pose, by: f64) -> Vec<(SidePoint, Vec2)> {
     let mut near = Vec::new();
     for &link in &group.links {
@@ -40,7 +40,7 @@ fn the_jacobian_is_the_derivative_of_the_gaps() {
     let mut random = Lcg(21);
     for _ in 0..20 {
         let (mechanism, group, mut pose) = case(&mut random, |random| random.yes());
-        // The poses are random, because far from the closed pose all terms of the Jacobian contribute.
+        // Random poses are used, because all terms of the Jacobian contribute far from the closed pose.
         pose.0[1..].iter_mut().for_each(|link| *link = random.pose());
         let system = System { mechanism: &mechanism, group: &group, size: mechanism.size() };
         let rows = system.jacobian(&pose);
@@ -53,8 +53,8 @@ fn the_jacobian_is_the_derivative_of_the_gaps() {
             let back = system.gaps(&system.moved(&pose, &step));
             for row in 0..18 {
                 let slope = (ahead[row] - back[row]) / (2.0 * h);
-                // The bound is the error of central differences: h^2 times third derivatives, plus rounding error
-                // divided by h.
+                // The bound allows for the error of central differences: h^2 times third derivatives, plus rounding
+                // error divided by h.
                 assert!((slope - rows[row][column]).abs() < 1e-8, "{row} {column}: {slope} {}", rows[row][column]);
             }
         }
@@ -62,7 +62,7 @@ fn the_jacobian_is_the_derivative_of_the_gaps() {
 }
 
 /// The approximate positions have errors of at most 0.02 m in each coordinate.
-/// The method usually finds the original pose again. Every pose that it returns is closed.
+/// The method usually finds the original pose again. Every returned pose is closed.
 #[test]
 fn a_rough_drawing_finds_its_configuration() {
     let mut random = Lcg(22);

@@ -1,11 +1,11 @@
-//! The condition that a lead imposes on the base, and the pose of the lead after the base is placed.
+//! The condition that a lead imposes on the base, and the lead's pose for a given pose of the base.
 
 use super::super::dyads::turn;
 use crate::math::angle::wrapped;
 use crate::math::{KeepNan, Vec2, cross, rotated, turned, unit};
 use crate::mechanism::LinkPose;
 
-/// One side of a pair: its position and, if the pair slides, its axis, both in the body's frame.
+/// One side of a pair, in the frame of its body: the position and, if the pair slides, the axis.
 #[derive(Clone, Copy, Debug)]
 pub struct PairEnd {
     pub place: Vec2,
@@ -38,7 +38,7 @@ pub enum Condition {
     Angle(f64),
 }
 
-/// A condition at a given angle of the base: the possible positions of O.
+/// The possible positions of O that satisfy a condition at a given angle of the base.
 #[derive(Clone, Copy, Debug)]
 pub enum Locus {
     Circle {

@@ -1,14 +1,14 @@
 //! Counts the configurations of a base on three leads by a scan.
-//! The method uses no polynomial, so it is an independent check for the tests of this module.
+//! The scan uses no polynomial, so it checks the module under test independently.
 //!
-//! For every angle of the base, two leads allow at most two positions of the base's reference point.
-//! The third lead's condition is a function of the angle. The condition is satisfied where the function changes sign.
-//! The scan follows the position through all angles at which the position exists: forwards on one branch, backwards on
-//! the second branch.
+//! At a given angle of the base, two leads allow at most two positions of the base's reference point.
+//! The third lead's condition is then a function of the angle, which changes sign at a configuration.
+//! The two positions form two branches.
+//! The scan runs through the angles forwards on one branch and backwards on the other branch.
 //! Along this path the function is smooth and periodic.
 //! Samples are closer together where the position changes fast.
-//! Between neighbouring samples of equal sign, the extremum is computed. The sign at the extremum distinguishes a pair
-//! of zeros from a near miss.
+//! If two neighbouring samples have equal signs, the extremum between them is computed.
+//! The sign at the extremum distinguishes a pair of zeros from a near miss.
 
 use crate::math::KeepNan;
 use std::convert::Infallible;
@@ -17,12 +17,12 @@ use std::f64::consts::{PI, TAU};
 use crate::math::{Vec2, cross, extremum, root, rotated, turned, unit};
 use crate::mechanism::assembly::three_leads::{LeadPair, PlatformLead};
 
-/// Number of bisections of an interval with a zero, and number of golden section steps for an extremum.
+/// Number of bisections for a zero, and number of golden section steps for an extremum.
 /// After 60 steps the remaining interval is as small as a rounding error of the angle.
 const STEPS: usize = 60;
 
-/// If an extremum divided by the function's largest value is below this limit, the extremum counts as a double root.
-/// For a double root neither the scan nor the module under test can decide between two zeros and a near miss.
+/// An extremum below this fraction of the function's largest value counts as a double root.
+/// A root that looks double may be two zeros or a near miss. Scan and module cannot distinguish these two cases.
 const DOUBLE: f64 = 1e-9;
 
 /// Result of a scan.
@@ -47,7 +47,7 @@ fn locus(lead: &PlatformLead, b: Vec2) -> Option<Locus> {
     let (near, far) = (lead.near, lead.far);
     let span = far.lead.place - near.lead.place;
     let arm = rotated(b, far.body.place);
-    // Direction of the lead's frame for which the pair's axis on the lead points along `axis`.
+    // Direction of the lead's frame at which the pair's axis on the lead has the world direction `axis`.
     let onto = |pair: LeadPair, axis: Vec2| rotated(Vec2::new(pair.lead.axis.x, -pair.lead.axis.y), axis);
     match (near.slides, far.slides) {
         (false, false) => Some(Locus::Circle(near.body.place - arm, span.norm())),
@@ -63,7 +63,7 @@ fn locus(lead: &PlatformLead, b: Vec2) -> Option<Locus> {
     }
 }
 
-/// A function of a point: zero on the locus, with opposite signs on its two sides.
+/// A function of a point that is zero on the locus and has opposite signs on the two sides of the locus.
 fn off(locus: Locus, o: Vec2) -> f64 {
     match locus {
         Locus::Circle(centre, radius) => (o - centre).norm_squared() - radius * radius,
@@ -154,7 +154,7 @@ pub fn scanned(leads: &[PlatformLead; 3]) -> Option<Scan> {
     let still = |_: f64| Vec2::zeros();
     let Some(circle) = circle else {
         // Lines 1 and 2 intersect at p1 + d1 (p2 - p1) x d2 / d1 x d2.
-        // The function is the distance of that intersection from line 3, multiplied by the denominator d1 x d2.
+        // The function is d1 x d2 times the distance of the intersection from line 3.
         let f = |beta: f64| {
             let [Locus::Line(p1, d1), Locus::Line(p2, d2), Locus::Line(p3, d3)] = at(beta) else { return f64::NAN };
             cross(d1, d2) * cross(d3, p1 - p3) + cross(d3, d1) * cross(p2 - p1, d2)
@@ -191,7 +191,7 @@ pub fn scanned(leads: &[PlatformLead; 3]) -> Option<Scan> {
         let to = ends.get(index + 1).copied().unwrap_or(ends[0] + TAU);
         let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
         if both(middle, 1.0).0 > 0.0 {
-            // The path runs forwards on one branch and backwards on the second branch.
+            // The path runs forwards on one branch and backwards on the other branch.
             let on = |turn: f64| both(middle - half * turn.cos(), if turn < PI { 1.0 } else { -1.0 });
             add(&|turn| on(turn).2, &|turn| on(turn).1);
         }
