@@ -1,4 +1,4 @@
-//! Masses of links in Rapier: those of the case, and the additions that Rapier needs.
+//! Masses of links in Rapier: the masses of the case, and the additions that Rapier needs.
 
 use super::tree::SpanningTree;
 use linkage::case::Case;
