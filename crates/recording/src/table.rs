@@ -78,7 +78,7 @@ impl<'a> ChannelTable<'a> {
     }
 }
 
-/// Topic of a subject's values on a side. The side "error" gives the topic of the errors of these values.
+/// Topic of a subject's values on a side. For the side "error", the topic is the topic of the errors.
 pub fn topic_name(side: &str, subject: ChannelSubject, of: &str) -> String {
     let word = subject.word();
     if of.is_empty() { format!("/{side}/{word}") } else { format!("/{side}/{word}/{of}") }

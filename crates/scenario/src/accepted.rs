@@ -1,4 +1,5 @@
-//! Accepted figures: a file beside the scenario. People review the file, and later runs are compared with it.
+//! Accepted figures, in a file beside the scenario. People review this file, and later runs are compared with the
+//! figures.
 //!
 //! The file is TOML but does not end in `.toml`, because `*.toml` files are scenarios.
 
