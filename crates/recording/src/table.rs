@@ -53,7 +53,7 @@ impl<'a> ChannelTable<'a> {
         ChannelTable::of(sink, side, trajectory, MessageContent::Values, vec![Topic { id, fields }])
     }
 
-    /// The errors, in small units.
+    /// The errors of a recording, in small units such as um.
     pub fn errors(sink: &mut impl Sink, errors: &'a Trajectory) -> McapResult<Self> {
         ChannelTable::of(sink, "error", errors, MessageContent::Errors, Vec::new())
     }

@@ -1,7 +1,7 @@
 //! Messages that viewers of the Foxglove family can draw: scenes, frames and log lines.
 //! The messages have only the fields used here.
 //! Names and numbers of the fields are taken from Foxglove's schemas (foxglove/schemas, Protobuf).
-//! The descriptors beside this file are also Foxglove's.
+//! The descriptors in the directory `viewers` also come from Foxglove.
 //! Tests compare messages and descriptors with Foxglove's SDK.
 
 use prost::{Enumeration, Message};

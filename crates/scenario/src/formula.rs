@@ -158,7 +158,7 @@ impl Formulas {
 
     /// The first operation outside its domain and the index of its formula, if the formula `of` has no value at
     /// `inputs`.
-    /// The index is that of `of` or of a formula that `of` uses.
+    /// The index belongs to the formula `of` or to a formula that `of` uses.
     /// `inputs` are the input of the first drive (rad or m) and the time (s).
     #[must_use]
     pub fn undefined(&self, of: usize, inputs: [Rounded; 2]) -> Option<(usize, FormulaFault)> {
