@@ -304,8 +304,8 @@ pub(super) fn read(parameters: Vec<Parameter>, tables: Vec<TomlTable>, case: &Ca
     let mut formulas = Formulas::over(parameters);
     for mut table in tables {
         let read = faults.read(&mut table, |table| formula(table, &mut formulas, case));
-        // Later formulas may use a formula that is left out. After a mistake in a formula, the file therefore does not
-        // count as whole.
+        // Later formulas may use a formula that is left out. After a mistake in a formula, errors that may follow from
+        // it are therefore not reported (see `Faults::whole`).
         faults.whole &= read.is_some();
     }
     formulas

@@ -14,8 +14,8 @@ const MOST: usize = 20;
 #[derive(Debug)]
 pub struct Faults {
     all: Vec<Error>,
-    /// Whether all parts on which other parts of the file depend could be read.
-    /// If one of these parts could not be read, only errors about the keys and values of a table are reported.
+    /// Whether all parts could be read on which other parts of the file depend. If not, only errors about the keys and
+    /// values of a table are reported.
     pub whole: bool,
     /// Whether all links and their points could be read. Errors about unknown names are reported only if all links and
     /// points could be read.
@@ -71,10 +71,11 @@ impl<'a> TomlTable<'a> {
         }
     }
 
-    /// The result of `read` for the table in spite of mistakes, and the mistakes that `read` notes.
+    /// Reads the table in spite of mistakes. Returns the result of `read`, and the mistakes that `read` notes.
     ///
     /// # Errors
-    /// The noted mistakes if the reading ends early. If no mistake was noted, the error that ends the reading.
+    /// If the reading ends early: the noted mistakes or, if there are no noted mistakes, the error that ends the
+    /// reading.
     pub fn read_on<T>(&mut self, read: impl FnOnce(&mut Self) -> Result<T>) -> Result<(T, Option<Error>)> {
         self.goes_on = true;
         let found = read(self);
