@@ -30,7 +30,7 @@
 //!
 //! A recording by a program other than linkproof can also be read.
 //! Such a recording needs `/<side>/grid` in protobuf. The side's other topics are read if they are in protobuf. Each of
-//! them needs a value for every sample of the grid.
+//! these topics needs a value for every sample of the grid.
 //! The names of the protobuf fields must be the suffixes of [`CHANNELS`](linkage::trajectory::CHANNELS).
 //! The field numbers are looked up in the file.
 

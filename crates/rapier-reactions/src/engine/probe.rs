@@ -15,10 +15,11 @@ use crate::plane::{Placement, Vec2, larger};
 use crate::rows::{JointType, ROTATION};
 use crate::tiny::{TinyStep, tiny_steps};
 
-/// Frequency of the joints' softness (Hz). It is so high that the joints are rigid up to rounding.
+/// Frequency of the joints' softness (Hz). The frequency is so high that the joints are rigid up to rounding.
 const JOINT_FREQUENCY: f64 = 1e12;
 
-/// Damping of a velocity motor (N m s/rad or N s/m). It is so high that the motor keeps its speed up to rounding.
+/// Damping of a velocity motor (N m s/rad or N s/m). The damping is so high that the motor keeps its speed up to
+/// rounding.
 const RIGID_MOTOR: f64 = 1e30;
 
 /// The three coordinates of a joint.

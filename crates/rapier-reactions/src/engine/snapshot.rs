@@ -188,7 +188,7 @@ impl Snapshot {
     }
 }
 
-/// The joints and the motion at the middle one of three successive poses. `snapshot` gives masses and loads.
+/// The joints and the motion at the middle pose of three successive poses. `snapshot` gives masses and loads.
 pub(super) struct Middle<'a> {
     pub(super) snapshot: &'a Snapshot,
     pub(super) stances: Vec<Stance>,

@@ -12,11 +12,12 @@ use linkage::input::Input;
 use linkage::math::Vec2;
 use linkage::mechanism::{GROUND, Joint, JointKind, Link, LinkId};
 
-/// Frequency of the joints' softness (Hz). It is so high that the joints are rigid up to rounding.
+/// Frequency of the joints' softness (Hz). The frequency is so high that the joints are rigid up to rounding.
 /// Rapier's default, 1e6 Hz, adds 6 % to the closure gap at a step of 1e-5 s.
 const JOINT_FREQUENCY: f64 = 1e12;
 
-/// Damping of a velocity motor (N m s/rad). It is so high that the motor keeps its prescribed speed up to rounding.
+/// Damping of a velocity motor (N m s/rad). The damping is so high that the motor keeps its prescribed speed up to
+/// rounding.
 pub(super) const RIGID_MOTOR: f64 = 1e30;
 
 /// Rapier's vector.
@@ -63,8 +64,8 @@ pub(super) fn between(joint: &Joint, links: [LinkId; 2]) -> GenericJoint {
 }
 
 /// Index of the free coordinate of a joint made by [`between`].
-/// The free coordinate of a prismatic joint is the first one (along the axis). The free coordinate of a revolute joint
-/// is the last one (the angle).
+/// The free coordinate of a prismatic joint is the first coordinate (along the axis). The free coordinate of a revolute
+/// joint is the last coordinate (the angle).
 pub(super) fn free_coordinate(joint: &Joint) -> usize {
     if joint.slides() { 0 } else { 2 }
 }

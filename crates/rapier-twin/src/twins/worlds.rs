@@ -46,7 +46,7 @@ struct Cut {
     index: JointId,
     handle: ImpulseJointHandle,
     /// The link that is Rapier's first body, and the direction of the first row in that link's frame.
-    /// `None` if both are as in the joint itself.
+    /// `None` if Rapier's first body is the joint's first link and the direction is not changed.
     steered: Option<(LinkId, Vec2)>,
     /// Rows of the joint at the start of the last substep.
     start: JointRows,
