@@ -164,7 +164,7 @@ linkage::sentences! {
     SOLVED_AT_THEIR_OWN_INSTANTS = "solved at the instants of these numbers";
     THERE_ARE_NONE_OF_WANTED = "no published number belongs to a requested channel";
     THERE_IS_NO_TRIAD_OF_CLASS = "there is no triad of class III";
-    OTHERS_THAN_OURS_FOR_ITS_TRIAD = "check the triad by published methods that the solvers do not use";
+    OTHERS_THAN_OURS_FOR_ITS_TRIAD = "checks the triad by published methods that the solvers do not use";
     THE_SIDES_DIFFER_BY_USUAL = "the sides differ by usual rounding error only";
     CONDITION_OF_EVERY_POSE = "condition of every pose";
     THE_SIDES_DIFFER_BY_MORE = "the sides differ by more than usual rounding error";
