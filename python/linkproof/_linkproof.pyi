@@ -156,7 +156,7 @@ class Picture:
 
 @final
 class Sweep:
-    """The cases of a sweep, which lie in a directory."""
+    """The cases of a sweep, stored in a directory."""
 
     @property
     def directory(self) -> str: ...

@@ -283,7 +283,7 @@ fn links_and_joints() {
         bad!("type = \"revolute\"" => "type = \"prismatic\"\naxis_deg = 0", INPUT, at "[[joints]]", key "joints.O",
             ["`points`"]),
         bad!("type = \"revolute\"" => "type = \"prismatic\"\naxis_deg = 0\npoints = [\"O\"]", INPUT, at "[\"O\"]", key "joints.O.points",
-            ["found 1 points", "slides along it"]),
+            ["found 1 points", "slides along this line"]),
         bad!("type = \"revolute\"" => "type = \"prismatic\"\naxis_deg = 0\npoints = [\"O\", \"Z\"]", INPUT, at "[\"O\", \"Z\"]",
             key "joints.O.points", ["no point \"Z\""]),
         bad!("type = \"revolute\"" => "type = \"prismatic\"\naxis_deg = 0\npoints = [\"O\", \"O\"]", INPUT,

@@ -4,17 +4,17 @@ linkage::sentences! {
     // run.rs
     NOTHING_IS_COMPARED_YET = "nothing is compared yet";
     // accept.rs
-    TOO_LITTLE_IS_KNOWN_NOW_OR_WHEN = "agreement with the accepted figures proves nothing: a bound is too wide, one of the two proofs does not agree, or there is no channel";
+    TOO_LITTLE_IS_KNOWN_NOW_OR_WHEN = "agreement with the accepted figures proves nothing: a bound has changed too much, one of the two proofs does not agree, or the run has no channel";
     NOT_AS_ACCEPTED = "differs from the accepted figures";
     // check/cause.rs
     THE_SEARCH_ENDED_AT_ITS_LIMIT = "the search reached its work limit before all slips and terms were tried";
     for_the_most_part_with_that_of_the_difference(cause, left) = "for the most part {cause}; {left:.2} % of the difference remains";
-    no_single_slip_or_term_it_is_right(significant, significant_2) = "no single slip or missing term explains the difference; the formula is right to {significant} % of the largest value, as an approximation or a formula with rounded numbers would be; for such a formula, state `error = {significant_2}`";
+    no_single_slip_or_term_it_is_right(significant, significant_2) = "no single slip or missing term explains the difference; the formula is right to {significant} % of the largest value; if it is an approximation or has rounded numbers, state `error = {significant_2}`";
     IT_IS_A_CONSTANT_AND_WHAT = "the formula is constant, but the claimed quantity changes with the crank";
     another_quantity_is_claimed_it_is(channel) = "the formula gives another quantity: {channel}";
     or_more(more) = "; or {more} more";
-    one_of_several_that_fit_equally(told) = "one of several that fit equally: {told}";
-    another_branch_it_is_right(after, before) = "another branch: the formula is right up to {after}, but wrong at {before}; atan2 instead of acos, asin or atan follows the branch";
+    one_of_several_that_fit_equally(told) = "one of several causes that fit equally well: {told}";
+    another_branch_it_is_right(after, before) = "another branch: the formula is right up to {after}, but wrong at {before}; replace acos, asin or atan by atan2, which follows the branch";
     A_MISSING_TERM = "a missing term";
     a_missing_in(noun, formula, what, beside) = "a missing {noun}, in {formula}: `{what}`{beside}";
     DIVISOR_OR_A_FACTOR_TOO_MANY = "divisor, or a factor too many";
@@ -30,7 +30,7 @@ linkage::sentences! {
     was_not_asked_for(what) = "{what} was not requested";
     // check/judged.rs
     WRITE_IT_SO_THAT_NO_DIGITS = "write it so that no digits cancel, for example with atan2 instead of acos";
-    rounding_leaves_the_formula_less(lost, all) = "rounding error leaves the formula fewer than six digits at {lost} of {all} instants";
+    rounding_leaves_the_formula_less(lost, all) = "because of rounding error, the formula has fewer than six digits at {lost} of {all} instants";
     LET_THE_GRID_COME_TO_THEM = "extend the grid to the crank angles of the claim, or claim the formula for crank angles in the grid";
     NO_INSTANT_LIES_BETWEEN_THE_CRANK = "no instant lies between the crank angles for which the formula is claimed";
     CLAIM_IT_WHERE_THE_CRANK = "claim it for instants at which the crank turns";
@@ -50,13 +50,13 @@ linkage::sentences! {
     neither_the_printed_number_nor(finding, place) = "the printed number and the correction in finding \"{finding}\" are both wrong: {place}";
     the_finding_calls_the_formula(finding) = "the finding \"{finding}\" says that the formula is wrong, but the formula agrees with the mechanism: correct the finding or the formula";
     the_finding_says_that_the_printed(finding) = "the finding \"{finding}\" says that the printed number is wrong, but the number agrees with the mechanism: correct the finding or the number";
-    MOST_OF_IT_IS_THE_REFERENCE = "; most of it is the error of the reference";
-    MOST_OF_IT_IS_LEFT_BY_THE_SWEEPS = "; most of it is iteration error: too few sweeps";
-    MOST_OF_IT_IS_ROUNDING = "; most of it is rounding error";
+    MOST_OF_IT_IS_THE_REFERENCE = "; the largest part is the error of the reference";
+    MOST_OF_IT_IS_LEFT_BY_THE_SWEEPS = "; the largest part is iteration error: too few sweeps";
+    MOST_OF_IT_IS_ROUNDING = "; the largest part is rounding error";
     the_engine_error_may_reach(reached, proves) = "the engine's error may reach {reached} of the channel's scale; more than {proves} is inconclusive";
     the_engine_converges_with_order(observed, formal) = "the engine converges with order {observed:.2} instead of {formal:.0} here: its error cannot be estimated";
     THE_SWEEPS_HAVE_HARDLY_BEGUN = "the sweeps have hardly begun to converge here: the error cannot be estimated";
-    THE_REFERENCE_IS_ZERO_THROUGHOUT = "the reference is zero throughout, so there is no scale for the error; masses, loads or more instants would give one";
+    THE_REFERENCE_IS_ZERO_THROUGHOUT = "the reference is zero throughout, so there is no scale for the error; add masses, loads or instants";
     is_beyond_the_bound_at(error, bound, t, at) = "{error} is beyond the bound {bound} at t = {t} s, {at}";
     expected_see(place) = "expected, see {place}";
     // diagnosis/knobs.rs
@@ -124,16 +124,16 @@ linkage::sentences! {
     extent_of_the_path_of(point, axis) = "extent of the path of {point} along {axis}";
     // run/checks.rs
     REACTIONS_AND_SPEEDS_COME_FROM_THE_ENGINE = "reactions and speeds are read from the engine independently";
-    BOTH_FROM_THE_SAME_ACCELERATIONS = "the moments from reactions and from powers use the same accelerations, so this checks the equations of motion and the loop velocities, but not the accelerations";
+    BOTH_FROM_THE_SAME_ACCELERATIONS = "the moments from reactions and from powers use the same accelerations, so their agreement checks the equations of motion and the loop velocities, but not the accelerations";
     driving_moment_from_reactions_and_from_powers(engine) = "driving moment from reactions and from powers ({engine})";
     AN_OPENING_IS_ALL_ERROR_IT_MUST = "the gap of an open joint is pure error: it must vanish with the observed order of convergence";
     closure_of_all_joints(engine) = "closure of all joints ({engine})";
     in_at(channel, reference) = "in {channel} at {reference:.3}";
-    TWO_SOLVERS_WITHOUT_A_COMMON = "two solvers without a common equation, each accurate to the rounding error of its poses and to the integration error that a tighter run shows";
+    TWO_SOLVERS_WITHOUT_A_COMMON = "two solvers without a common equation; the error of each is its rounding error plus the integration error found by a run with a smaller tolerance";
     SHAKING_FORCE_AND_MOMENT_FROM_REACTIONS = "shaking force and moment from reactions and from momentum";
-    SUMS_OF_AS_MANY_FORCES_AS_THERE = "sums with one force per link";
+    SUMS_OF_AS_MANY_FORCES_AS_THERE = "the rounding error of sums with one force per link";
     BALANCING_MOMENT_FROM_EQUILIBRIUM_AND_FROM_POWERS = "balancing moment from equilibrium and from powers";
-    SUMS_OF_A_FEW_FORCES_AND_POWERS = "sums of a few forces and powers";
+    SUMS_OF_A_FEW_FORCES_AND_POWERS = "the rounding error of sums of a few forces and powers";
     CLOSURE_OF_ALL_JOINTS_2 = "closure of all joints";
     POSITIONS_ARE_GOOD_TO_A_FEW = "positions are accurate to a few units in the last place of the largest coordinate";
     // run/dial.rs
@@ -142,7 +142,7 @@ linkage::sentences! {
     a_millionth_more_of_gravity(share) = "; increasing gravity and motor torque by a millionth changes the channel by {share:.2} millionths of its scale";
     AT_THE_PACE_OF_ITS_ROUNDS = "at this rate of progress the work limit would not be enough";
     THE_WORK_THAT_WAS_ALLOWED = "the work limit was reached";
-    A_FINER_STEP_ADDS_MORE_ROUNDING = "a finer step adds more rounding error than it removes truncation error";
+    A_FINER_STEP_ADDS_MORE_ROUNDING = "a finer step adds more rounding error than the truncation error that it removes";
     // run/engines.rs
     leave_the_step_to_the_proof(error, sweeps, combined, outcome) = "let the proof choose the step: it chooses {error} s and {sweeps} sweeps, {combined}, and {outcome}";
     extrapolated_times(times) = "extrapolated {times} times";
@@ -150,7 +150,7 @@ linkage::sentences! {
     NOTHING_IS_PROVEN_THERE_EITHER = "the result with these settings is inconclusive too";
     THE_WORK_ALLOWED_IS_NOT_ENOUGH = "the result with these settings is inconclusive too, because the work limit is reached";
     A_RUN_WITH_A_QUARTER_OF_THE_SWEEPS = "a run with a quarter of the sweeps fails, so the iteration error is unknown";
-    NO_FORCE_IS_WANTED_OR_ITS_FORCES = "no force is requested, a method is given, or the default method already gives these forces";
+    NO_FORCE_IS_WANTED_OR_ITS_FORCES = "no force is requested, a method is given, or the default method already gives the engine's own forces";
     WHAT_IT_EXERTS_ITSELF_BESIDE = "the forces that the engine itself exerts, besides those computed from its motion";
     own_forces(engine) = "{engine}, own forces";
     other_settings(engine) = "{engine}, other settings";
@@ -159,12 +159,12 @@ linkage::sentences! {
     ITS_ERROR_FROM_ITS_OWN_RUNS = "estimates its error from its own runs";
     FINDS_ITS_SETTINGS_AND_ITS_ERROR = "chooses its settings and estimates its error from its own runs";
     // run/entrants.rs
-    BY_VALUE_AND_BY_DERIVATIVE = "by value and by derivative, on both sides";
+    BY_VALUE_AND_BY_DERIVATIVE = "judged by value and by derivative, against both sides";
     NONE_CLAIMS_A_WANTED_CHANNEL = "no formula claims a requested channel";
     SOLVED_AT_THEIR_OWN_INSTANTS = "solved at the instants of these numbers";
     THERE_ARE_NONE_OF_WANTED = "no published number belongs to a requested channel";
     THERE_IS_NO_TRIAD_OF_CLASS = "there is no triad of class III";
-    OTHERS_THAN_OURS_FOR_ITS_TRIAD = "published methods that the solvers do not use, for the triad";
+    OTHERS_THAN_OURS_FOR_ITS_TRIAD = "checks the triad by published methods that the solvers do not use";
     THE_SIDES_DIFFER_BY_USUAL = "the sides differ by usual rounding error only";
     CONDITION_OF_EVERY_POSE = "condition of every pose";
     THE_SIDES_DIFFER_BY_MORE = "the sides differ by more than usual rounding error";
@@ -207,7 +207,7 @@ linkage::sentences! {
     PRINT_THE_INSTANTS_WITH_MORE = "print the instants with more digits, including trailing zeros";
     at_the_rounding_of_the_instant(at) = "at {at} the number deviates by more than a hundredth of the channel's scale; this deviation is within the bound only because the instant is rounded";
     // run/order.rs
-    the_runs_converge_with_order(order, error, error_2, formal) = "the runs converge with order {order:.2} at all five steps from {error} to {error_2} s, but the method has order {formal}: the values read or computed are not those of the method";
+    the_runs_converge_with_order(order, error, error_2, formal) = "the runs converge with order {order:.2} at all five steps from {error} to {error_2} s, but the method has order {formal}: the values that were read or computed do not come from this method";
     // run/own_forces.rs
     the_motion_has_taken_the_work(error, error_2) = "the motion cost {error} steps; the forces that the engine exerts need at least as many steps, but the limit for these forces is {error_2} steps";
     // run/planted.rs
@@ -242,9 +242,9 @@ linkage::sentences! {
     // tables.rs
     GIVE_A_TABLE_WITH_A_HEADER = "give a table with a header and one row per instant";
     has_no_rows_of_numbers(path) = "{path} has no rows of numbers";
-    WRITE_IT_TO_A_FILE_FIRST = "write it to a file first: a Parquet file is read from its end";
+    WRITE_IT_TO_A_FILE_FIRST = "write the table to a file first, because a Parquet file is read from its end";
     the_table_is_a_parquet_file(path) = "the table {path} is a Parquet file that comes through a pipe";
-    BUILD_WITH_THE_FEATURE_PARQUET = "build with the feature `parquet`, or write it as CSV";
+    BUILD_WITH_THE_FEATURE_PARQUET = "build with the feature `parquet`, or write the table as CSV";
     the_table_is_a_parquet_file_which_this_build(path) = "the table {path} is a Parquet file, which this build does not read";
     // tables/held.rs
     its_columns_are_backquotes_hold(some) = "its columns are {some}; put a name with blanks or signs in backquotes";
@@ -265,12 +265,12 @@ linkage::sentences! {
     // tables/parquet_file.rs
     A_COLUMN_HAS_FEWER_VALUES = "a column has fewer values than it announces";
     A_COLUMN_HAS_FEWER_VALUES_THAN_THERE = "a column has fewer values than there are rows";
-    it_has_values_more_than(values, most) = "it has {values} values, more than {most}";
+    it_has_values_more_than(values, most) = "it has {values} values, but the limit is {most}";
     ITS_GROUPS_HAVE_OTHER_ROWS = "the row groups have a different number of rows than the file announces";
     its_columns_are_compressed_with_which_is_not_read(name) = "its columns are compressed with {name}, which is not read here";
     the_table(path, message) = "the table {path}: {message}";
-    ITS_PARTS_CONTRADICT_EACH_OTHER = "its parts contradict each other";
-    WRITE_IT_AGAIN_AS_PARQUET = "write it again, as Parquet or as CSV";
+    ITS_PARTS_CONTRADICT_EACH_OTHER = "the parts of the file contradict each other";
+    WRITE_IT_AGAIN_AS_PARQUET = "write the table again, as Parquet or as CSV";
     the_table_is_cut_off_or_damaged(path, error) = "the table {path} is cut off or damaged: {error}";
     // tables/parquet_file/announced.rs
     a_page_holds_more_than_the_bytes(held) = "a page holds more than the {held} bytes that it announces";
@@ -281,20 +281,20 @@ linkage::sentences! {
     A_PAGE_HAS_NO_SIZE = "a page has no size";
     THE_SIZE_OF_A_PAGE_IS_NO_NUMBER = "the size of a page is not a number";
     a_page_announces_bytes(number) = "invalid page header: {number}";
-    more_than_of_its_columns(deepest) = "its columns are nested more than {deepest} deep";
-    IT_ANNOUNCES_COLUMNS_THAT_ARE_NOT_THERE = "it announces columns that do not exist";
-    ITS_END_IS_NOT_THAT_OF_A_PARQUET = "its end is not that of a Parquet file";
+    more_than_of_its_columns(deepest) = "the columns are nested more than {deepest} levels deep";
+    IT_ANNOUNCES_COLUMNS_THAT_ARE_NOT_THERE = "the file announces columns that do not exist";
+    ITS_END_IS_NOT_THAT_OF_A_PARQUET = "the file does not end like a Parquet file";
     // tables/parquet_file/thrift.rs
-    IT_HAS_A_NUMBER_WITHOUT_AN_END = "it has an unterminated number";
-    it_is_described_by_more_than_parts(most) = "it is described by more than {most} parts";
-    it_has_a_part_of_the_unknown(kind) = "it has a part of the unknown kind {kind}";
-    more_than_of_its_parts_are_within(deepest) = "its parts are nested more than {deepest} deep";
+    IT_HAS_A_NUMBER_WITHOUT_AN_END = "the file has an unterminated number";
+    it_is_described_by_more_than_parts(most) = "the description of the file has more than {most} parts";
+    it_has_a_part_of_the_unknown(kind) = "the file has a part of the unknown kind {kind}";
+    more_than_of_its_parts_are_within(deepest) = "the parts of the file are nested more than {deepest} levels deep";
     // tables/source.rs
     GIVE_A_SCENARIO_TOML_A_RECORDING = "give a scenario (.toml), a recording (.mcap), a table of text (.csv) or a Parquet file";
     the_table_cannot_be_read(path, error) = "the table {path} cannot be read: {error}";
     // tolerance.rs
     rounding_passed_through_its_operations(origin, error) = "{origin}: {error} rounding error, propagated through its operations, and the uncertainty of the side";
-    THE_ERROR_THAT_THE_FORMULA = "the error that the formula claims, its";
+    THE_ERROR_THAT_THE_FORMULA = "the error that the formula claims, the formula's";
     of_the_bound_for_the_rounding(instant) = "; {instant} of the bound covers the rounding of the instant";
     with_decimals(origin, digits, source) = "{origin} with {digits} decimals: {source}";
     truncation_at_resolutions_and_safety(origin, order, resolution, resolution_2, resolution_3, safety, discretisation, iteration, rounding, noise, reference) = "{origin}: truncation, {order} at resolutions {resolution}, {resolution_2} and {resolution_3}, safety factor {safety}; discretisation {discretisation}, iteration {iteration}, rounding {rounding} ({noise}), reference {reference}";
@@ -308,7 +308,7 @@ linkage::sentences! {
     // compare/align.rs
     ALLOW_INTERPOLATION_OR_GIVE_BOTH = "allow interpolation, or give both parties the same instants; check the units of the instants";
     of_the_second_party_is_one_of_the_first(which, what) = "{which} {what} of the second party is also in the first party";
-    the_rows_of_the_parties_have_different_inputs(one, other) = "the rows of one party have a {one}, those of the other a {other}";
+    the_rows_of_the_parties_have_different_inputs(one, other) = "the rows of one party have a {one}, the rows of the other party a {other}";
     MAP_THE_INSTANTS_OF_BOTH_TO_THE_SAME_INPUT = "map the instants of both parties to the same input, or to times";
     MAP_THE_COLUMNS_OF_BOTH_TO_THE_SAME = "map the columns of both parties to the same channels";
     the_two_have_no_channel_in_common(some, some_2) = "the two parties have no channel in common: {some} against {some_2}";
@@ -337,7 +337,7 @@ linkage::sentences! {
     AT_NO_INSTANT_DO_BOTH_HAVE_A_NUMBER = "there is no instant at which both parties have a number";
     // compare/pair.rs
     the_inputs_differ_and_neither(noun) = "the {noun}s differ, but neither party is analytic: state the allowed difference of the channel crank";
-    BOTH_ARE_SAID_TO_COUNT_THE_CRANK = "both parties are declared to measure the crank angle alike; digits, rounding error and integration error allow this difference";
+    BOTH_ARE_SAID_TO_COUNT_THE_CRANK = "both parties are declared to measure the crank angle alike; the bound allows for digits, rounding error and integration error";
     // mark/answers.rs
     in_the_file(file, message) = "{file}: {message}";
     the_answers_belong_to_another_sheet(file, found, expected) = "{file} has the answers to sheet {found}; expected sheet {expected}";

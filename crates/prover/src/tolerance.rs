@@ -15,7 +15,7 @@ pub enum BoundOrigin {
     Estimated,
     /// Measured on similar cases, with a margin added.
     Measured,
-    /// Chosen: a limit that the number is required to keep.
+    /// Chosen: a limit that the number must not exceed.
     Wanted,
     /// Recomputed by this project's solvers from data that others published.
     Recomputed,

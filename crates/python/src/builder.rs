@@ -77,7 +77,8 @@ impl Builder {
         Ok(slf)
     }
 
-    /// Set a link's mass (kg), mass centre in the link's frame (m) and moment of inertia about it (kg m^2).
+    /// Set a link's mass (kg), mass centre in the link's frame (m) and moment of inertia about the mass centre (kg
+    /// m^2).
     #[pyo3(signature = (link, mass, centre, inertia))]
     fn mass<'py>(
         mut slf: PyRefMut<'py, Self>,
@@ -97,7 +98,8 @@ impl Builder {
         slf
     }
 
-    /// Add a prismatic joint: its point on each of the two links, and the angle (rad) of its axis in each link's frame.
+    /// Add a prismatic joint. `first` and `second` give a link and a point of this link. `axes` gives the angle (rad)
+    /// of the joint's axis in the frame of each link.
     #[pyo3(signature = (name, first, second, axes=[0.0, 0.0]))]
     fn slider<'py>(
         mut slf: PyRefMut<'py, Self>,
@@ -125,7 +127,8 @@ impl Builder {
         slf
     }
 
-    /// Let a joint move freely, with its speed at t = 0 and a nominal speed (rad/s).
+    /// Let a joint move freely. `initial_speed` (rad/s) is its speed at t = 0. `nominal_speed` (rad/s) is its speed in
+    /// the nominal motion, to which crank angles refer.
     #[pyo3(signature = (joint, initial_speed, nominal_speed))]
     fn free<'py>(
         mut slf: PyRefMut<'py, Self>,
@@ -137,7 +140,7 @@ impl Builder {
         slf
     }
 
-    /// Set the input at t = 0 (rad or m).
+    /// Set the input at t = 0: the crank angle (rad) or the slide (m) of the first driven joint.
     #[pyo3(signature = (input, /))]
     fn start(mut slf: PyRefMut<'_, Self>, input: f64) -> PyRefMut<'_, Self> {
         slf.changed(|inner| inner.start(input));

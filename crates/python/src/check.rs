@@ -16,10 +16,10 @@ use crate::table::{Table, TableColumn};
 use crate::task::released;
 use crate::{html, sentences};
 
-/// The formula to check; `None` for those of the file.
+/// The formula to check; `None` for all formulas of the scenario file.
 pub(crate) struct Question(Option<FormulaQuestion>);
 
-/// A formula as text: a text, or an expression of SymPy.
+/// Text of a formula that is given as a text or as an expression of SymPy.
 fn text(expression: &Bound<'_, PyAny>) -> PyResult<String> {
     match expression.extract::<String>() {
         Ok(text) => Ok(text),
@@ -92,7 +92,7 @@ impl FormulaCheck {
         self.inner.verdict.word()
     }
 
-    /// Smallest ratio of a bound to its difference; `None` unless the verdict is `agree`.
+    /// Smallest ratio of a bound to the difference that it limits; `None` unless the verdict is `agree`.
     #[getter]
     fn margin(&self) -> Option<f64> {
         margin(&self.inner.verdict)
@@ -104,7 +104,8 @@ impl FormulaCheck {
         reason(&self.inner.verdict)
     }
 
-    /// The wrong formulas: name and cause of the error. The cause is `None` if no simple cause was found.
+    /// A dictionary from the names of the wrong formulas to the causes of their errors. A cause is `None` if no simple
+    /// cause was found.
     #[getter]
     fn causes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let causes = PyDict::new(py);
@@ -114,10 +115,10 @@ impl FormulaCheck {
         Ok(causes)
     }
 
-    /// One row per side, formula and order of the derivative, at the worst instant.
+    /// One row for each side, formula and order of the derivative. The values of a row are those at the worst instant.
     ///
-    /// `t_s` is in s, `input` in rad or m. `value`, `mechanism`, `difference` and `bound` are in the unit of the row;
-    /// for derivatives, in this unit per s or per s^2.
+    /// `t_s` is in s, `input` in rad or m. `value`, `mechanism`, `difference` and `bound` are in the unit of the row.
+    /// For a derivative, they are in this unit per s or per s^2.
     #[getter]
     fn formulas(&self) -> Table {
         let all = self.judged();
@@ -161,12 +162,13 @@ impl FormulaCheck {
 impl Scenario {
     /// Judge whether a formula equals a channel over the whole motion, by value and by derivative.
     ///
-    /// expression: a text such as "r*cos(phi)", or an expression of SymPy. It may contain the crank angle `phi` in rad,
-    /// the time `t` in s, and the parameters of the scenario: `r_mm` is the number in the file, `r` the value in SI
-    /// units.
-    /// channel: the claimed quantity in its unit, such as "link.rocker.angle_deg", or an expression of channels.
-    /// steps: formulas by name that the expression may use.
-    /// valid: first and last crank angle in rad of the claim. error: claimed error in the unit of the channel.
+    /// `expression`: a text such as "r*cos(phi)", or an expression of SymPy.
+    /// The expression may contain the crank angle `phi` in rad, the time `t` in s, and the parameters of the scenario.
+    /// For the parameter `r_mm` of the file, `r_mm` is the number in the file and `r` the value in SI units.
+    /// `channel`: the claimed quantity in its unit, such as "link.rocker.angle_deg", or an expression of channels.
+    /// `steps`: a dictionary of named formulas that the expression may use.
+    /// `valid`: the first and the last crank angle in rad for which the claim holds.
+    /// `error`: claimed error in the unit of the channel.
     ///
     /// Without an expression, the formulas of the file are judged.
     #[pyo3(signature = (expression=None, channel=None, *, steps=None, valid=(None, None), error=None))]

@@ -4,7 +4,7 @@ use std::ffi::OsString;
 
 use pyo3::prelude::*;
 
-/// Run the command with its arguments, the name of the program first, and return its exit code.
+/// Run the command line and return its exit code. The first of `arguments` is the name of the program.
 #[pyfunction]
 #[pyo3(signature = (arguments, /))]
 pub(crate) fn run_command(py: Python<'_>, arguments: Vec<OsString>) -> u8 {

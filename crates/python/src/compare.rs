@@ -87,7 +87,7 @@ impl ComparisonWish {
     }
 }
 
-/// The mapping in a dictionary from channels to columns, or in a mapping file.
+/// Reads a mapping from a dictionary of channels and columns, or from a mapping file.
 fn mapping(map: &Bound<'_, PyAny>, other: &Other) -> PyResult<Mapping> {
     let py = map.py();
     let Ok(lines) = map.cast::<PyDict>() else {
@@ -96,7 +96,7 @@ fn mapping(map: &Bound<'_, PyAny>, other: &Other) -> PyResult<Mapping> {
     let mut mapping = Mapping::default();
     for (channel, column) in lines {
         let (channel, column): (String, String) = (channel.extract()?, column.extract()?);
-        // Backquotes, so that a column name with operators, such as `a-b`, is not read as an expression.
+        // In backquotes, a column name with operators, such as `a-b`, is not read as an expression.
         let is_column = match other {
             Other::Table(table) => table.names.contains(&column),
             Other::Scenario(_) | Other::Path(_) => false,
@@ -161,7 +161,7 @@ impl Comparison {
         self.verdict.word()
     }
 
-    /// Smallest ratio of a bound to its difference; `None` unless the verdict is `agree`.
+    /// Smallest ratio of a bound to the difference that it limits; `None` unless the verdict is `agree`.
     #[getter]
     fn margin(&self) -> Option<f64> {
         margin(&self.verdict)
@@ -173,7 +173,8 @@ impl Comparison {
         reason(&self.verdict)
     }
 
-    /// Causes of the differences: the affected channels, and the cause, or a description of the difference, in words.
+    /// Causes of the differences. Each entry has the affected channels, and a text with the cause. If no cause was
+    /// found, the text describes the difference.
     #[getter]
     fn causes(&self) -> Vec<(Vec<String>, Option<String>)> {
         self.causes.clone()
@@ -181,8 +182,9 @@ impl Comparison {
 
     /// One row per channel: the worst instant, the difference there and its bound.
     ///
-    /// `first` is the value of the scenario, `second` that of the other party, `difference` the second minus the first.
-    /// These values, `bound`, `rms` and `scale` are in the unit of the row, `t_s` is in s, `input` in rad or m.
+    /// `first` is the value of the scenario, `second` is the value of the other party, and `difference` is `second`
+    /// minus `first`. These values, `bound`, `rms` and `scale` are in the unit of the row. `t_s` is in s, `input` in
+    /// rad or m.
     #[getter]
     fn channels(&self) -> Table {
         let all = &self.channels;
@@ -228,15 +230,19 @@ impl Comparison {
 impl Scenario {
     /// Compare another party with this scenario, channel by channel.
     ///
-    /// other: a data frame, an Arrow table or any object with `__arrow_c_stream__`, a dictionary of columns, a
+    /// `other`: a data frame, an Arrow table or any object with `__arrow_c_stream__`, a dictionary of columns, a
     /// solution, another scenario, or the path of a CSV or Parquet file. Every column has one number per instant.
-    /// map: a dictionary from channels or instants ("time_s", "time_ms", "crank_rad", "crank_deg", ...) to columns or
-    /// to arithmetic expressions of columns, or the path of a mapping file. A column named like a channel needs no
-    /// entry.
-    /// absolute: allowed difference in the unit of the channel. relative: as a fraction of its scale. of_value: as a
-    /// fraction of each value. Each is one number for all channels, or a dictionary by channel.
-    /// by: "time" or "input". interpolate: whether the table is interpolated between its rows.
-    /// only: words that select the compared channels.
+    /// `map`: a dictionary, or the path of a mapping file.
+    /// The keys of the dictionary are channels or instants ("time_s", "time_ms", "crank_rad", "crank_deg", ...).
+    /// The values of the dictionary are columns or arithmetic expressions of columns.
+    /// A column named like a channel needs no entry.
+    /// `absolute`: allowed difference in the unit of the channel.
+    /// `relative`: allowed difference as a fraction of the channel's scale.
+    /// `of_value`: allowed difference as a fraction of each value.
+    /// Each of these three is one number for all channels, or a dictionary from channels to numbers.
+    /// `by`: whether rows are matched by "time" or by "input".
+    /// `interpolate`: whether the table is interpolated between its rows.
+    /// `only`: words that select the compared channels.
     #[pyo3(signature = (other, map=None, *, absolute=None, relative=None, of_value=None, by=None, interpolate=false, only=Vec::new()))]
     #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn compare(

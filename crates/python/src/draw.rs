@@ -13,7 +13,7 @@ use crate::scenario_class::Scenario;
 use crate::task::released;
 use crate::{html, sentences};
 
-/// Width of the moving picture of a notebook (pixels), and its frames.
+/// Width (pixels) and number of frames of the moving picture in a notebook.
 const WIDTH: u32 = 560;
 const FRAMES: usize = 36;
 
@@ -124,13 +124,17 @@ impl Picture {
 impl Scenario {
     /// Draw the mechanism.
     ///
-    /// medium: "svg", "pdf", "png" or "dxf" for a still picture, "gif" or "webp" for a moving one.
-    /// input: crank angle in rad (or joint angle in rad, slide in m) of the picture. time: its time in s.
-    /// each_mode, loads, dimensions, all_traces, groups: whether to draw all assembly modes, the loads, the dimensions,
-    /// the paths of all points, or the groups apart.
-    /// traces: names of points whose paths are drawn. enlarged: names of points whose paths are also drawn enlarged.
-    /// positions: number of positions. width: pixels of a bitmap. frames: number of frames. seconds: time of a turn
-    /// in s.
+    /// `medium`: "svg", "pdf", "png" or "dxf" for a still picture, "gif" or "webp" for a moving picture.
+    /// `input`: crank angle in rad (or joint angle in rad, slide in m) of the picture.
+    /// `time`: time of the picture in s.
+    /// `each_mode`, `loads`, `dimensions`, `all_traces`, `groups`: whether to draw all assembly modes, the loads, the
+    /// dimensions, the paths of all points, or the groups apart.
+    /// `traces`: names of points whose paths are drawn.
+    /// `enlarged`: names of points whose paths are also drawn enlarged.
+    /// `positions`: number of positions.
+    /// `width`: width of a bitmap in pixels.
+    /// `frames`: number of frames.
+    /// `seconds`: duration of a turn in s.
     #[pyo3(signature = (medium="svg", **options))]
     fn draw(&self, py: Python<'_>, medium: &str, options: Option<Bound<'_, PyDict>>) -> PyResult<Picture> {
         let wish = Wish::of_python(py, medium, options)?;

@@ -19,7 +19,7 @@ const fn class(kind: ErrorKind) -> &'static str {
     }
 }
 
-/// The exception for an error. Its `found` contains the exceptions for all errors that were found together.
+/// The exception for an error. The attribute `found` contains the exceptions for all errors that were found together.
 pub(crate) fn raised(py: Python<'_>, error: &Error) -> PyErr {
     exception(py, error).map_or_else(|fault| fault, PyErr::from_value)
 }

@@ -34,8 +34,8 @@ pub(crate) fn taken_over(table: &Bound<'_, PyAny>) -> PyResult<TextTable> {
     made(columns).or_raised(py)
 }
 
-/// The columns of an object with an Arrow stream. `None` if it has no stream, or if its stream needs a package that is
-/// not installed: pandas needs pyarrow.
+/// The columns of an object with an Arrow stream. `None` if the object has no stream, or if the stream needs a package
+/// that is not installed. For example, pandas needs pyarrow.
 fn streamed(table: &Bound<'_, PyAny>) -> PyResult<Option<Parts>> {
     if !table.hasattr("__arrow_c_stream__")? {
         return Ok(None);

@@ -1,4 +1,4 @@
-//! HTML for notebooks. All text in it is escaped.
+//! HTML for notebooks. All text in the HTML is escaped.
 
 use linkproof::Verdict;
 

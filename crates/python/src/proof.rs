@@ -89,7 +89,7 @@ impl ProofWish {
     }
 }
 
-/// Bound divided by residual of an agreement.
+/// Smallest ratio of a bound to its residual; `None` unless the verdict is `agree`.
 pub(crate) fn margin(verdict: &Verdict) -> Option<f64> {
     match verdict {
         Verdict::Agree { margin } => Some(*margin),
@@ -135,7 +135,7 @@ impl Proof {
         self.inner.verdict.word()
     }
 
-    /// Whether the verdict is `agree`. Known findings do not count against it.
+    /// Whether the verdict is `agree`, or all disagreements are known findings.
     #[getter]
     fn is_proven(&self) -> bool {
         match self.inner.verdict {
@@ -240,12 +240,15 @@ impl Proof {
 impl Scenario {
     /// Prove the scenario: solve it with both analytic sides and with engines, and judge whether the results agree.
     ///
-    /// engine: name of an engine, or a list of names: "rapier" (the default) or "impulse".
-    /// reference: analytic side whose motion is the reference: "assur" (the default) or "newton".
-    /// step: time step of the engine in s. accuracy: relative accuracy of an engine that controls its error.
-    /// sweeps, substeps, extrapolated: whole numbers. route: "differences", "native" or "probe".
-    /// budget: work allowed for the search of settings, in steps. memory: bytes allowed.
-    /// tolerance: largest conclusive bound as a fraction of a channel's scale, between 0 and 1.
+    /// `engine`: name of an engine, or a list of names: "rapier" (the default) or "impulse".
+    /// `reference`: analytic side whose motion is the reference: "assur" (the default) or "newton".
+    /// `step`: time step of the engine in s.
+    /// `accuracy`: relative accuracy of an engine that controls its error.
+    /// `sweeps`, `substeps`, `extrapolated`: whole numbers.
+    /// `route`: "differences", "native" or "probe".
+    /// `budget`: work allowed for the search of settings, in steps.
+    /// `memory`: bytes allowed.
+    /// `tolerance`: largest conclusive bound as a fraction of a channel's scale, between 0 and 1.
     ///
     /// Settings that are not given are taken from the scenario, or chosen by the proof.
     #[pyo3(signature = (**options))]

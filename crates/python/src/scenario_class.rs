@@ -16,7 +16,7 @@ use crate::errors::{OrRaised, argument};
 use crate::sentences;
 use crate::task::released;
 
-/// The instants of a grid that replaces the grid of the file: values, and the function that makes the grid.
+/// Instants that replace the grid of the file: their values, and the function that makes a grid of them.
 #[derive(Clone)]
 struct Instants {
     key: &'static str,
@@ -24,7 +24,7 @@ struct Instants {
     grid: fn(&linkage::drive::Drive, Vec<f64>) -> Grid,
 }
 
-/// Name of the argument with inputs as instants.
+/// Name of the argument that gives the instants as inputs.
 const INPUT: &str = "input";
 
 /// The changes that were requested of a scenario.
@@ -164,8 +164,9 @@ impl Scenario {
 
     /// This scenario with other instants, which replace the grid of the file.
     ///
-    /// input: sequence of crank angles or joint angles in rad, or of slides in m. time: sequence of times in s.
-    /// Give one of the two.
+    /// `input`: sequence of crank angles or joint angles in rad, or of slides in m.
+    /// `time`: sequence of times in s.
+    /// Give either `input` or `time`.
     #[pyo3(signature = (*, input=None, time=None))]
     fn at(
         &self,
@@ -189,8 +190,8 @@ impl Scenario {
 
     /// This scenario with another start.
     ///
-    /// modes: assembly modes of groups as "LINK,LINK=MODE". input: crank angle or joint angle in rad, or slide in m,
-    /// at t = 0.
+    /// `modes`: assembly modes of groups as "LINK,LINK=MODE".
+    /// `input`: crank angle or joint angle in rad, or slide in m, at t = 0.
     #[pyo3(signature = (*modes, input=None))]
     fn start(&self, py: Python<'_>, modes: Vec<String>, input: Option<f64>) -> PyResult<Scenario> {
         let mut changes = self.changes.clone();
@@ -199,7 +200,7 @@ impl Scenario {
         self.with(changes).or_raised(py)
     }
 
-    /// Name, from which names of output files are made.
+    /// Name of the scenario. The names of output files are made from it.
     #[getter]
     fn name(&self) -> &str {
         &self.inner.name

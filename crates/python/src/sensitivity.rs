@@ -69,8 +69,8 @@ impl Sensitivity {
         ])
     }
 
-    /// One row for each figure: its value in the unit of the row, the instants on which it rests, another instant with
-    /// an equal extreme, and whether the figure has a kink ("yes" or "no").
+    /// One row for each figure. The columns are its value in the unit of the row, the instants that determine the
+    /// value, another instant with an equal extreme, and whether the figure has a kink ("yes" or "no").
     #[getter]
     fn figures(&self) -> Table {
         let all = &self.found.figures;
@@ -86,14 +86,21 @@ impl Sensitivity {
         ])
     }
 
-    /// One row for each figure: its tolerance stack, in the unit of the row; no rows without tolerances.
+    /// One row for each figure: its tolerance stack, in the unit of the row. The table has no rows if no tolerances are
+    /// given.
     ///
-    /// `worst`: sum of the sizes of derivative times tolerance. `root_sum_square`: root of the sum of their squares.
-    /// `linear_deviation`, `sampled_deviation`: standard deviation by the derivatives, and of the sample.
-    /// `sampled_shift`, `sampled_least`, `sampled_most`: mean, smallest and largest value of the sample minus the
-    /// nominal value. `unsolved`: number of samples without a solution. `multiple`: multiple of all tolerances.
-    /// `linear`: linear theory does not hold from this multiple on ("from"); holds below it, where a mechanism cannot
-    /// be solved ("until_unsolved"); or holds up to it, the largest multiple tried ("beyond").
+    /// `worst`: sum of the absolute values of derivative times tolerance.
+    /// `root_sum_square`: root of the sum of the squares of derivative times tolerance.
+    /// `linear_deviation`: standard deviation by linear theory.
+    /// `sampled_deviation`: standard deviation of the sample.
+    /// `sampled_shift`, `sampled_least`, `sampled_most`: mean, smallest and largest value of the sample, each minus the
+    /// nominal value.
+    /// `unsolved`: number of samples without a solution.
+    /// `multiple`: the factor on all tolerances at which the range of linear theory ends.
+    /// `linear`: the reason for this end.
+    /// With "from", linear theory fails from this factor on.
+    /// With "until_unsolved", a random mechanism cannot be solved at this factor.
+    /// With "beyond", linear theory holds up to this factor, which is the largest that is tried.
     #[getter]
     fn stacks(&self) -> Table {
         let all = || self.found.figures.iter().zip(&self.stacks);
@@ -122,7 +129,7 @@ impl Sensitivity {
         self.found.left_out.iter().cloned().collect()
     }
 
-    /// The tornado diagrams: the effects of the largest keys or tolerances on every figure, as an SVG picture.
+    /// The tornado diagrams: the keys or tolerances with the largest effects on every figure, as an SVG picture.
     fn draw(&self) -> Picture {
         Picture::of_svg(tornado(&self.found, &self.tolerances, &self.title).svg(), &self.name)
     }
@@ -138,14 +145,16 @@ impl Sensitivity {
 
 #[pymethods]
 impl Scenario {
-    /// Differentiate figures by numbers of the file, and stack tolerances. The derivatives are exact: no step width
-    /// enters.
+    /// Differentiate figures by numbers of the file, and stack tolerances. The derivatives are exact, not difference
+    /// quotients.
     ///
-    /// figures: a statistic of a quantity each, such as "max:joint.A.f_N" or "rms:drive.torque_N_m".
-    /// by: keys, such as "crank_mm" or "links.crank.mass_kg". By default the parameters that the mechanism uses, or
-    /// else its dimensions, masses, laws and loads.
-    /// tolerances: a dictionary from keys to the largest deviation in either sense, in the unit of the key.
-    /// samples: number of random mechanisms within the tolerances, from 10 to 100000. seed: seed of the samples.
+    /// `figures`: statistics of quantities, such as "max:joint.A.f_N" or "rms:drive.torque_N_m".
+    /// `by`: keys, such as "crank_mm" or "links.crank.mass_kg".
+    /// By default, the keys are the parameters that the mechanism uses.
+    /// A mechanism without parameters is differentiated by its dimensions, masses, laws and loads.
+    /// `tolerances`: a dictionary from keys to the largest deviation in either sense, in the unit of the key.
+    /// `samples`: number of random mechanisms within the tolerances, from 10 to 100000.
+    /// `seed`: seed of the samples.
     #[pyo3(signature = (figures, by=None, *, tolerances=None, samples=300, seed=1))]
     fn sensitivity(
         &self,
@@ -159,7 +168,7 @@ impl Scenario {
         let figure = |text: String| text.parse::<TurnFigure>().map_err(|error| error.key("figures"));
         let figures = texts(figures)?.into_iter().map(figure).collect::<Result<Vec<_>, _>>().or_raised(py)?;
         let keys = by.map_or_else(|| Ok(Vec::new()), |by| texts(&by))?;
-        // In the order of the dictionary, in which the sample is drawn.
+        // The tolerances keep the order of the dictionary, because the sample is drawn in this order.
         let tolerances: Vec<KeyTolerance> =
             numbers(tolerances)?.into_iter().map(|(key, limit)| KeyTolerance { key, limit }).collect();
         if let Some(own) = tolerances.iter().find(|own| !(own.limit > 0.0)) {

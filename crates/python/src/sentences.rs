@@ -4,7 +4,7 @@ linkage::sentences! {
     // task.rs
     no_thread_begins(error) = "no thread can be started: {error}";
     THIS_IS_A_FAULT_OF_THE_PROGRAM = "this is a bug in the program: it panicked";
-    REPORT_IT_WITH_THE_SCENARIO = "report it with the scenario";
+    REPORT_IT_WITH_THE_SCENARIO = "report the bug, with the scenario";
     // table.rs
     and_more_rows(left) = "and {left} more rows";
     there_is_no_column(name, near) = "there is no column \"{name}\"; {near}";
@@ -13,7 +13,7 @@ linkage::sentences! {
     a_solution_of(rows, channels) = "<linkproof.Solution: {rows} instants, {channels} channels>";
     // scenario_class.rs
     the_scenario_was_built_in_code(name) = "the scenario \"{name}\" was built in code, so it has no parameters and no other start";
-    BUILD_IT_AGAIN_OR_READ_IT_FROM_A_FILE = "build it again with the other numbers, or read it from a file";
+    BUILD_IT_AGAIN_OR_READ_IT_FROM_A_FILE = "build the scenario again with the other numbers, or read it from a file";
     GIVE_EVERY_INSTANT_ONCE = "give every instant only once, and only instants that the drive reaches";
     INSTANTS_ARE_INPUTS_OR_TIMES = "expected instants either as values of the input or as times";
     GIVE_ONE_OF_THE_TWO = "give `input` or `time`, for example `at(time=[0.0, 0.1])`";
@@ -32,7 +32,7 @@ linkage::sentences! {
     a_proof_of(name, verdict) = "<linkproof.Proof of {name}: {verdict}>";
     // check.rs
     A_FORMULA_NEEDS_A_CHANNEL = "a formula needs a channel, and a channel needs a formula";
-    GIVE_BOTH_OR_NEITHER = "give both, or leave both out to check the formulas of the file";
+    GIVE_BOTH_OR_NEITHER = "give both the formula and the channel, or leave out both to check the formulas of the file";
     a_check_against(name, verdict) = "<linkproof.FormulaCheck against {name}: {verdict}>";
     NO_SIMPLE_CAUSE = "no simple cause was found";
     // foreign.rs
@@ -54,17 +54,17 @@ linkage::sentences! {
     these_are_no_values(key) = "the values of `{key}` are neither a text nor a tuple of two or three numbers";
     SAMPLES_ARE_TAKEN_IN_ONE_WAY = "found several kinds of samples";
     GIVE_ONE_OF_RANDOM_LATIN_SOBOL = "give one of `random`, `latin` and `sobol`, or none of them for a grid";
-    a_sweep_takes_its_start_from_the_file(name) = "a sweep of \"{name}\" takes start and instants from the file";
+    a_sweep_takes_its_start_from_the_file(name) = "a sweep of \"{name}\" takes the start and the instants only from the file";
     WRITE_THEM_IN_THE_FILE = "write `[start]` and `[grid]` in the text of the scenario, or vary a number of them, such as \"grid.step_deg\"";
-    this_is_no_shard(number, count) = "found the share {number} of {count}";
+    this_is_no_shard(number, count) = "there is no share {number} of {count}";
     GIVE_A_SHARE_OF_ALL = "give the number of the share, from 1, and the number of all shares, such as (2, 8)";
     THIS_NUMBER_IS_0 = "found 0";
     GIVE_A_WHOLE_NUMBER_ABOVE_0 = "give a whole number above 0";
     NO_DIRECTORY_IS_NAMED = "no directory is named";
     NAME_THE_DIRECTORIES_OF_SHARDS = "name the directories that the shards have written";
-    A_SHARE_NEEDS_A_DIRECTORY = "a share of the cases or a plan needs a directory";
+    A_SHARE_NEEDS_A_DIRECTORY = "a share of the cases, or a plan alone, needs a directory";
     NAME_A_DIRECTORY_WITH_OUT = "name a directory with `out`";
-    the_proof_of_a_case_disagrees(case) = "the proof of case {case} disagrees, which has stopped the sweep";
+    the_proof_of_a_case_disagrees(case) = "the sweep has stopped, because the proof of case {case} disagrees";
     prove_the_case(setting) = "read the report: `scenario.set({setting}).prove().report()`";
     // swept.rs
     a_sweep_of(cases, keys, figures, state) = "<linkproof.Sweep: {cases} cases, {keys} varied numbers, {figures} figures, {state}>";

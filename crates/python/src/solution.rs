@@ -18,7 +18,7 @@ const TIME: &str = "t_s";
 ///
 /// The names are those in the CSV file of `linkproof solve`, units included: `t_s`, `crank_rad` (or `joint_rad`,
 /// `slide_m`), then the channels, such as `link.crank.angle_rad`. Every array has the shape (rows,) and the type
-/// float64. It shares the memory of the solution and is read-only; `array.copy()` gives a writable copy.
+/// float64. An array shares the memory of the solution and is read-only; `array.copy()` gives a writable copy.
 /// `units` contains the unit of every column.
 #[pyclass(module = "linkproof", extends = Table, frozen)]
 pub(crate) struct Solution {
@@ -47,7 +47,8 @@ impl Solution {
         slf.get_item(TIME)
     }
 
-    /// Values of the input: shape (rows,); crank angle in rad, angle of the driven joint in rad, or its slide in m.
+    /// Values of the input, shape (rows,): crank angle in rad, angle of the driven joint in rad, or slide of the driven
+    /// joint in m.
     #[getter]
     fn input<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         slf.get_item(slf.get().input)
@@ -67,10 +68,11 @@ impl Solution {
 
 #[pymethods]
 impl Scenario {
-    /// Solve the scenario analytically, accurate to rounding; a free motion, to its integration error.
+    /// Solve the scenario analytically. The result is accurate to rounding error; in a free motion, to integration
+    /// error.
     ///
-    /// Returns a `Solution`: an array of the shape (rows,) for every name, in the unit with which the name ends.
-    /// The numbers equal those of `linkproof solve`, bit by bit. Other Python threads can run meanwhile.
+    /// Returns a `Solution`: an array of the shape (rows,) for every name. The name ends with the unit of the array.
+    /// The numbers equal those of `linkproof solve`, bit by bit. Other Python threads can run during the computation.
     fn solve(&self, py: Python<'_>) -> PyResult<Py<Solution>> {
         let own = self.inner.clone();
         let trajectory = released(py, move || solved(&own))?;

@@ -16,7 +16,8 @@ use crate::sentences;
 use crate::swept::Sweep;
 use crate::task::{released, told};
 
-/// Which part of a sweep is solved, where and how.
+/// What is to be done for a sweep: the directory, the share of the cases, the number of threads, and whether only the
+/// plan is written.
 struct SweepWish {
     out: PathBuf,
     shard: Option<Shard>,
@@ -25,8 +26,8 @@ struct SweepWish {
 }
 
 impl SweepWish {
-    /// Solves what is not stored yet, and joins the whole. `tell` receives the number of cases that are done, and of
-    /// all.
+    /// Solves the cases that are not stored yet, and joins all parts to one table. `tell` receives the number of
+    /// finished cases and the number of all cases.
     fn carried_out(self, plan: SweepPlan, tell: &mut dyn FnMut((u64, u64)) -> ControlFlow<()>) -> Result<Sweep, Error> {
         let store = SweepStore::open(&self.out, &plan).map_err(|error| error.key("out"))?;
         let shard = self.shard.unwrap_or(Shard::WHOLE);
@@ -49,7 +50,7 @@ impl SweepWish {
         Ok(Sweep { plan, store, shard, tally })
     }
 
-    /// Does the same without Python's lock.
+    /// Calls `carried_out` without Python's lock.
     fn released(
         self,
         py: Python<'_>,
@@ -61,13 +62,13 @@ impl SweepWish {
     }
 }
 
-/// Numbers by their keys as Python writes them.
+/// A dictionary from keys to numbers, as Python writes it.
 fn dictionary(numbers: &[(String, f64)]) -> String {
     let all: Vec<String> = numbers.iter().map(|(key, value)| format!("{key:?}: {value:?}")).collect();
     format!("{{{}}}", all.join(", "))
 }
 
-/// The share that a pair of numbers means.
+/// The share of the cases for the pair (number of the share, number of all shares).
 fn share(given: Option<(u64, u64)>) -> Result<Option<Shard>, Error> {
     match given {
         Some((number, count)) if !(1..=count).contains(&number) => {
@@ -109,7 +110,7 @@ fn axes(vary: &Bound<'_, PyAny>) -> PyResult<Vec<SweepAxis>> {
     Ok(axes)
 }
 
-/// How the values are combined.
+/// How the varied values are combined: as a grid, or as one kind of samples.
 fn kind(samples: [Option<u64>; 3], seed: u64) -> Result<DesignKind, Error> {
     Ok(match samples {
         [None, None, None] => DesignKind::Grid,
@@ -123,7 +124,7 @@ fn kind(samples: [Option<u64>; 3], seed: u64) -> Result<DesignKind, Error> {
     })
 }
 
-/// One text or several.
+/// Reads one text or a list of texts.
 pub(crate) fn texts(given: &Bound<'_, PyAny>) -> PyResult<Vec<String>> {
     given.extract::<String>().map(|one| vec![one]).or_else(|_| given.extract())
 }
@@ -132,21 +133,24 @@ pub(crate) fn texts(given: &Bound<'_, PyAny>) -> PyResult<Vec<String>> {
 impl Scenario {
     /// Solve many cases of this scenario: numbers are varied, and every case gives some figures.
     ///
-    /// vary: a dictionary from keys to values in the unit of the key. A key is a parameter ("crank_mm") or the path of
-    /// a number ("links.crank.mass_kg"). Values are "20:60:41" or (20, 60, 41) for a grid; "20:60" or (20, 60),
-    /// "normal(40, 0.02)" or "normal(40, 0.02, 39.9, 40.1)" for samples.
-    /// figures: names of figures, such as "max:joint.A.f_N" or "transmission_angle_deg".
-    /// random, latin, sobol: number of samples; without one of them, the grid. seed: seed of the samples.
-    /// prove_every: proves each case whose index is a multiple of this number. A proof that disagrees stops the sweep
+    /// `vary`: a dictionary from keys to values in the unit of the key.
+    /// A key is a parameter ("crank_mm") or the path of a number ("links.crank.mass_kg").
+    /// For a grid, values are "20:60:41" or (20, 60, 41).
+    /// For samples, values are "20:60" or (20, 60), "normal(40, 0.02)" or "normal(40, 0.02, 39.9, 40.1)".
+    /// `figures`: names of figures, such as "max:joint.A.f_N" or "transmission_angle_deg".
+    /// `random`, `latin`, `sobol`: number of samples of this kind. If all three are missing, the cases form a grid.
+    /// `seed`: seed of the samples.
+    /// `prove_every`: proves each case whose index is a multiple of this number. A proof that disagrees stops the sweep
     /// and is raised as `NumericError`.
-    /// out: directory of the results. A sweep that was stopped continues there. Without it, a temporary directory is
-    /// used, which is removed with the returned object.
-    /// shard: (i, n) solves the share i, from 1, of n equal shares. part: number of cases that are stored together.
-    /// plan_only: whether only the plan is written into `out`, for `linkproof.resume` in other processes.
-    /// jobs: number of threads, all cores by default. progress: a function of the number of cases that are done, and
-    /// of all.
+    /// `out`: directory of the results. A sweep that was stopped continues in this directory.
+    /// Without `out`, the results are in a temporary directory that is removed with the returned object.
+    /// `shard`: (i, n) solves the share i of n equal shares; i counts from 1.
+    /// `part`: number of cases that are stored together.
+    /// `plan_only`: whether only the plan is written into `out`, for `linkproof.resume` in other processes.
+    /// `jobs`: number of threads, all cores by default.
+    /// `progress`: a function that receives the number of finished cases and the number of all cases.
     ///
-    /// Other threads of Python run meanwhile. Ctrl-C stops the sweep; parts that are done stay in `out`.
+    /// Other threads of Python run during the sweep. Ctrl-C stops the sweep; finished parts stay in `out`.
     #[pyo3(signature = (
         vary, figures, *, random=None, latin=None, sobol=None, seed=1, prove_every=None, out=None, shard=None, part=None,
         plan_only=false, jobs=None, progress=None
@@ -207,13 +211,13 @@ impl Scenario {
     }
 }
 
-/// Continue the sweep of a directory: solve what is not stored yet, and join the whole. A complete sweep is only
-/// opened.
+/// Continue the sweep of a directory: solve the cases that are not stored yet, and join all parts to one table.
+/// A complete sweep is only opened.
 ///
-/// shard: (i, n) solves the share i, from 1, of n equal shares, and joins nothing. jobs: number of threads, all cores
-/// by default.
-/// path: path of the scenario, if it names files beside it. progress: a function of the number of cases that are done,
-/// and of all.
+/// `shard`: (i, n) solves the share i of n equal shares, and joins nothing; i counts from 1.
+/// `jobs`: number of threads, all cores by default.
+/// `path`: path of the scenario file, needed if the scenario names other files relative to this path.
+/// `progress`: a function that receives the number of finished cases and the number of all cases.
 #[pyfunction]
 #[pyo3(signature = (directory, /, *, shard=None, jobs=None, path=PathBuf::new(), progress=None))]
 pub(crate) fn resume(
@@ -230,9 +234,9 @@ pub(crate) fn resume(
     wish.released(py, plan, progress)
 }
 
-/// Join the shares of a sweep, which lie in one or several directories, to one table.
+/// Join the shares of a sweep from one or several directories to one table.
 ///
-/// out: directory of the table, the first directory by default.
+/// `out`: directory of the table, by default the first of the directories.
 #[pyfunction]
 #[pyo3(signature = (*directories, out=None))]
 pub(crate) fn merge(py: Python<'_>, directories: Vec<PathBuf>, out: Option<PathBuf>) -> PyResult<Sweep> {

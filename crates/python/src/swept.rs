@@ -12,11 +12,12 @@ use crate::table::{Table, TableColumn, streamed};
 use crate::task::released;
 use crate::{html, sentences};
 
-/// The cases of a sweep, which lie in a directory.
+/// The cases of a sweep, stored in a directory.
 ///
-/// The table has the columns `case`, the varied numbers by their keys and the figures by their names, each in the unit
-/// that its name ends with, `state` ("solved" or "refused"), `reason`, and `proof` if cases are proven. Data frames
-/// take it by `__arrow_c_stream__`, part by part, so that memory stays small; `table()` has it as NumPy arrays.
+/// The table has the columns `case`, the varied numbers by their keys, the figures by their names, `state` ("solved" or
+/// "refused"), `reason`, and `proof` if cases are proven. The name of a number ends with its unit.
+/// Data frames read the table part by part by `__arrow_c_stream__`, so that memory stays small.
+/// `table()` returns the whole table as NumPy arrays.
 #[pyclass(module = "linkproof", frozen, weakref)]
 pub(crate) struct Sweep {
     pub(crate) plan: SweepPlan,
@@ -65,7 +66,7 @@ fn whole(plan: &SweepPlan, groups: SweepGroups) -> Result<Table, Error> {
 }
 
 impl Sweep {
-    /// Whether all cases are solved and joined, or why not.
+    /// An error if some cases are not solved yet, or the parts are not joined.
     fn complete(&self) -> Result<(), Error> {
         if self.store.is_complete() {
             return Ok(());
@@ -79,7 +80,7 @@ impl Sweep {
         SweepGroups::of(&self.plan, &self.store.table())
     }
 
-    /// One pass over the table.
+    /// The summary of the figures, made in one pass over the table.
     fn summary(&self, py: Python<'_>, goal: Goal) -> PyResult<SweepSummary> {
         self.complete().or_raised(py)?;
         let (plan, table) = (self.plan.clone(), self.store.table());
@@ -87,9 +88,9 @@ impl Sweep {
     }
 }
 
-/// Largest number of cases of which a notebook shows the spread.
+/// A notebook shows the spread of the figures up to this number of cases.
 const SHOWN: u64 = 1_000_000;
-/// The figure of a pass over the table that seeks no best cases.
+/// Goal of a pass over the table whose best cases are not used.
 const FIRST: Goal = Goal { figure: 0, is_largest: false };
 
 #[pymethods]
@@ -125,13 +126,13 @@ impl Sweep {
         self.plan.parts()
     }
 
-    /// Paths of the parts of this share of the cases. They exist until they are joined.
+    /// Paths of the files with the parts of this share of the cases. The files exist until they are joined.
     #[getter]
     fn part_files(&self) -> Vec<String> {
         self.shard.parts(&self.plan).map(|part| self.store.part(part).display().to_string()).collect()
     }
 
-    /// Numbers of cases that this call has `solved` and `refused`, and of those `stored` by an earlier call.
+    /// Numbers of cases: `solved` and `refused` in this call, and `stored` by an earlier call.
     #[getter]
     fn counts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let counts = PyDict::new(py);
@@ -171,13 +172,14 @@ impl Sweep {
 
     /// The whole table in memory: a mapping from names to arrays of the shape (cases,).
     ///
-    /// A missing figure is NaN. Units are those of `units`.
+    /// A missing figure is NaN. The property `units` has the units.
     fn table(&self, py: Python<'_>) -> PyResult<Table> {
         let (plan, groups) = (self.plan.clone(), self.groups().or_raised(py)?);
         released(py, move || whole(&plan, groups))
     }
 
-    /// One row for each figure: its number of cases, its ends with their cases, mean and standard deviation.
+    /// One row for each figure: number of cases with a value, smallest and largest value with their cases, mean and
+    /// standard deviation.
     ///
     /// `least`, `most`, `mean` and `deviation` are in the unit of the row.
     fn spread(&self, py: Python<'_>) -> PyResult<Table> {
@@ -200,8 +202,8 @@ impl Sweep {
 
     /// The ten best cases, the best one first: those with the smallest values of a figure, or with the largest ones.
     ///
-    /// figure: name of the figure, the first one by default. The columns are `case`, the varied numbers and the
-    /// figures, each in its unit.
+    /// `figure`: name of the figure, by default the first figure.
+    /// The columns of the table are `case`, the varied numbers and the figures, each in its unit.
     #[pyo3(signature = (figure=None, *, largest=false))]
     fn best(&self, py: Python<'_>, figure: Option<&str>, largest: bool) -> PyResult<Table> {
         let names = || self.plan.figures.iter().map(|own| own.text.as_str());
@@ -218,12 +220,13 @@ impl Sweep {
         Ok(Table::of(columns))
     }
 
-    /// Why cases were refused, and how many for each reason. Reasons that differ only in numbers are one.
+    /// The reasons for which cases were refused, each with its number of cases. Reasons that differ only in numbers
+    /// count as one reason.
     fn reasons(&self, py: Python<'_>) -> PyResult<std::collections::BTreeMap<String, u64>> {
         Ok(self.summary(py, FIRST)?.reasons.into_values().collect())
     }
 
-    /// Verdicts of the proven cases, and how many of each.
+    /// Verdicts of the proven cases, each with its number of cases.
     fn verdicts(&self, py: Python<'_>) -> PyResult<std::collections::BTreeMap<String, u64>> {
         Ok(self.summary(py, FIRST)?.verdicts)
     }
@@ -256,7 +259,7 @@ impl Sweep {
 
     fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {
         let told = html::paragraph(&self.__repr__());
-        // A look at a notebook should not wait for a pass over a long table.
+        // A pass over a long table would delay the display in a notebook.
         let is_short = self.is_complete() && self.cases() <= SHOWN;
         Ok(if is_short { told + &self.spread(py)?.html() } else { told })
     }

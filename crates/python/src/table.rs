@@ -60,8 +60,8 @@ impl TableColumn {
 
 /// Named columns of equal length: a mapping from names to columns.
 ///
-/// A column of numbers is a NumPy array of float64 (int64 for whole numbers) that shares the memory of the table; it is
-/// read-only.
+/// A column of numbers is a read-only NumPy array of float64 (int64 for whole numbers). The array shares the memory of
+/// the table.
 /// A column of texts is a list. Data frames read the table through `__arrow_c_stream__`.
 #[pyclass(module = "linkproof", subclass, frozen)]
 pub(crate) struct Table {
@@ -138,7 +138,8 @@ fn shared<'py>(py: Python<'py>, values: Buffer, kind: &str) -> PyResult<Bound<'p
     py.import("numpy")?.call_method1("frombuffer", (owner, kind))
 }
 
-/// Tables with equal columns as one stream of Arrow. `first` has these columns; its rows are not in the stream.
+/// Tables with equal columns as one stream of Arrow. `first` only gives the columns; the stream does not contain its
+/// rows.
 pub(crate) fn streamed<'py>(
     py: Python<'py>,
     first: &Table,

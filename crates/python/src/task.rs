@@ -13,10 +13,10 @@ use crate::sentences;
 
 /// Time between two checks for Ctrl-C.
 const PATIENCE: Duration = Duration::from_millis(50);
-/// Stack size of the thread (bytes), as of the main thread of a program.
+/// Stack size of the thread (bytes). The main thread of a program usually has a stack of this size.
 const STACK: usize = 8 << 20;
 
-/// What the working thread sends.
+/// What the working thread sends: a report of its progress, or its result.
 enum Message<M, T> {
     Told(M),
     Done(Result<T, Error>),
@@ -34,8 +34,8 @@ pub(crate) fn released<T: Send + 'static>(
     told(py, |_: &mut dyn FnMut(()) -> ControlFlow<()>| work(), |()| Ok(()))
 }
 
-/// Does the same as [`released`], with reports on the way: `hear` receives them on the calling thread, with Python's
-/// lock.
+/// Like [`released`], but `work` can report its progress. `hear` receives the reports on the calling thread, with
+/// Python's lock.
 /// After Ctrl-C or an exception of `hear`, the report function of `work` returns a break.
 ///
 /// # Errors
@@ -51,7 +51,7 @@ pub(crate) fn told<T: Send + 'static, M: Send + 'static>(
             Ok(()) => ControlFlow::Continue(()),
             Err(_) => ControlFlow::Break(()),
         });
-        // Nobody receives the result after Ctrl-C.
+        // After Ctrl-C the channel is closed and nobody receives the result, so a failure to send is ignored.
         let _ = give.send(Message::Done(done));
     });
     thread.map_err(|error| Error::new(ErrorKind::Io, sentences::no_thread_begins(&error))).or_raised(py)?;

@@ -1,34 +1,37 @@
 //! Newton-Euler equations of all bodies of a world, with the forces of their joints as unknowns.
 //!
-//! For every dynamic body, m a = sum of joint forces + loads, and J alpha = sum of their moments about the mass centre.
+//! For every dynamic body, m a is the sum of joint forces and loads, and J alpha is the sum of the moments of these
+//! joint forces and loads about the mass centre.
 //! A joint has one unknown for each locked coordinate, and for each free coordinate along which it may exert a force.
 //! Where bodies can move freely, there are more equations than unknowns.
-//! The unknowns are then those of Gauss's principle of least constraint (1829): the sum of squares of the equations,
-//! divided by mass or moment of inertia, is as small as possible.
-//! They reproduce the accelerations along the locked coordinates exactly.
-//! What remains is the acceleration along the free coordinates that the loads do not explain.
+//! The forces are then those of Gauss's principle of least constraint (1829). They minimise the sum of the squared
+//! residuals of the equations, each divided by mass or moment of inertia. These forces reproduce the accelerations
+//! along the locked coordinates exactly. The residual is the acceleration along the free coordinates that the loads do
+//! not explain.
 
 use crate::model::{Group, Model, Stance};
 use crate::motion::Motion;
 use crate::plane::larger;
 use nalgebra::{DMatrix, DVector};
 
-/// Smallest singular value of the unit columns that counts as independent, apart from the gaps of the joints.
+/// Columns, scaled to unit length, count as dependent if a singular value is not above this limit. The gaps of the
+/// joints increase the limit.
 const SINGULAR: f64 = 1e-9;
 
-/// A gap of a joint changes the directions of its columns by about the gap divided by the size of the mechanism.
-/// Columns that depend on each other therefore have singular values up to a few times this ratio.
+/// A gap of a joint changes the directions of the joint's columns by about the ratio of the gap to the size of the
+/// mechanism. Dependent columns therefore have singular values up to a few times this ratio.
 const GAP_SHARE: f64 = 10.0;
 
 /// A joint takes part in a dependence if its share in the singular vector exceeds this fraction.
 const SHARE: f64 = 0.1;
 
-/// What the joints transmit.
+/// Forces and moments that the joints transmit, and the part of the motion that the forces do not explain.
 #[derive(Clone, Debug)]
 pub(crate) struct Transmitted {
     /// For every joint, force on body 2 along x and y of joint frame 1 (N), and moment (N m).
     pub(crate) components: Vec<[f64; 3]>,
-    /// Part of m a - loads that no joint explains, in the metric of the inverse masses, relative to the whole.
+    /// Part of m a - loads that no joint force explains, as a fraction of m a - loads. Both are root sums of squares,
+    /// each square divided by the mass or moment of inertia.
     pub(crate) residual: f64,
 }
 
@@ -120,7 +123,8 @@ impl<'a> Equations<'a> {
         found
     }
 
-    /// The unknowns, and two sums of squares in the metric of the inverse masses: of the rest, and of m a - loads.
+    /// The unknowns, and two sums of squares: of the residual, and of m a - loads. Each square is divided by the mass
+    /// or moment of inertia.
     fn solve(&self, model: &Model, motions: &[Motion]) -> (DVector<f64>, [f64; 2]) {
         let (mut columns, mut right) = (self.columns.clone(), DVector::zeros(self.columns.nrows()));
         for (number, &body) in self.group.bodies.iter().enumerate() {

@@ -3,19 +3,19 @@
 use crate::sentences;
 use std::fmt;
 
-/// A reason why reactions cannot be read. Its text names what was found and the way out.
+/// A reason why reactions cannot be read. The text of the error says what was found and what to do.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ReactionError {
-    /// A joint or a body has a property that this crate does not support. It holds the name and the property.
+    /// A joint or a body has a property that this crate does not support. The fields are the name and the property.
     Unsupported(String, &'static str),
-    /// Fewer than three poses have been pushed since the joints last changed. It holds the number of poses.
+    /// Fewer than three poses have been pushed since the joints last changed. The field is the number of poses.
     TooFewPoses(usize),
     /// Bodies or joints were added, removed or switched between the two calls.
     Changed,
     /// The equations do not determine the forces of these joints.
     NotDetermined(Vec<String>),
-    /// The sweeps of a probe did not converge. It holds the number of sweeps and the last relative change.
+    /// The sweeps of a probe did not converge. The fields are the number of sweeps and the last relative change.
     NotConverged(usize, f64),
     /// The time step is not a positive number (s).
     Step(f64),

@@ -26,7 +26,7 @@ pub(crate) struct ModelJoint {
     /// Indices of the two bodies.
     pub(crate) bodies: [usize; 2],
     pub(crate) joint_type: JointType,
-    /// Joint frames in the frames of the bodies.
+    /// The two joint frames, each in the frame of its body.
     pub(crate) frames: [Placement; 2],
     /// The free coordinates along which the joint may exert a force: by a motor, a damper, a spring or dry friction.
     pub(crate) efforts: [bool; 3],
@@ -57,9 +57,10 @@ impl ModelJoint {
         self.joint_type.locked().contains(&coordinate) || self.efforts[coordinate]
     }
 
-    /// The joint where the bodies have these placements.
+    /// Where the joint is and acts if the bodies have these placements.
     ///
-    /// As in Rapier, the rows act on body 1 at the origin of joint frame 2, moved back along the locked axes.
+    /// As in Rapier, the constraint rows act on body 1 at the origin of joint frame 2, moved back along the locked
+    /// axes.
     pub(crate) fn stance(&self, bodies: &[ModelBody], placements: &[Placement]) -> Stance {
         let of = self.bodies.map(|body| placements[body]);
         let [first, second] = [0, 1].map(|k| of[k].placed(&self.frames[k]));
@@ -89,7 +90,7 @@ impl Stance {
         (axis * components[0] + turned(axis) * components[1], components[ROTATION])
     }
 
-    /// The stance between this one (`share` 0) and `end` (`share` 1).
+    /// Interpolates between this stance (`share` 0) and the stance `end` (`share` 1).
     pub(crate) fn towards(self, end: Stance, share: f64) -> Stance {
         if share == 0.0 {
             return self;
@@ -98,14 +99,14 @@ impl Stance {
         Stance { rows: self.rows.towards(end.rows, share), point, ..end }
     }
 
-    /// Violation of the locked coordinates (m); a twist counts at the distance `size` (m).
+    /// Violation of the locked coordinates (m). A violated rotation counts as a gap at the distance `size` (m).
     pub(crate) fn violation(&self, size: f64) -> f64 {
         larger(self.gap, self.twist * size)
     }
 }
 
 impl Model {
-    /// The joints of the model where the bodies have these placements.
+    /// The stances of all joints if the bodies have these placements.
     pub(crate) fn stances(&self, placements: &[Placement]) -> Vec<Stance> {
         self.joints.iter().map(|joint| joint.stance(&self.bodies, placements)).collect()
     }

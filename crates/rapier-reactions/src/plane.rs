@@ -38,7 +38,7 @@ impl Placement {
         self.origin + rotated(self.direction, local)
     }
 
-    /// The frame that has the placement `inner` in this frame.
+    /// World placement of a frame that has the placement `inner` in this frame.
     pub(crate) fn placed(&self, inner: &Placement) -> Placement {
         Placement { origin: self.point(inner.origin), direction: rotated(self.direction, inner.direction) }
     }

@@ -3,7 +3,7 @@
 
 use crate::plane::{Vec2, cross, turned};
 
-/// Index of the rotation among the three coordinates of a joint: along x, along y, rotation.
+/// Index of the rotation among the three coordinates of a joint. The order is: along x, along y, rotation.
 pub(crate) const ROTATION: usize = 2;
 
 /// The joints of Rapier 2D that this crate reads.
@@ -15,7 +15,7 @@ pub enum JointType {
     Prismatic,
     /// Locks everything.
     Fixed,
-    /// Locks nothing: a motor alone, or a floating link of a multibody.
+    /// Locks nothing: a joint that has only a motor, or a floating link of a multibody.
     Free,
 }
 
@@ -39,14 +39,14 @@ pub struct JointRows {
     pub axis: Vec2,
     /// Vectors from the mass centres of both bodies to the rows (m, world axes).
     /// The row acts on body 2 at the origin of joint frame 2.
-    /// It acts on body 1 at the same point, moved along the locked axes by the gap of the joint.
+    /// The row acts on body 1 at the same point, moved along the locked axes by the gap of the joint.
     pub arms: [Vec2; 2],
 }
 
 impl JointRows {
-    /// Rows between these rows (`share` 0) and the rows `end` (`share` 1).
+    /// Interpolates between these rows (`share` 0) and the rows `end` (`share` 1).
     ///
-    /// With several substeps, the last one starts between two poses that can be read.
+    /// With several substeps, the last substep starts between two poses that can be read.
     /// The rows are assumed to move along a straight line between these poses.
     /// The error is of second order in the step.
     pub fn towards(self, end: JointRows, share: f64) -> JointRows {
@@ -61,7 +61,8 @@ impl JointRows {
     /// `separate` is `None` if one of the bodies is a link of a multibody.
     /// Otherwise it has the inverses of mass (1/kg) and moment of inertia (1/(kg m^2)) of both bodies.
     /// The inverses of a body that is not dynamic are 0.
-    /// Between two separate bodies, Rapier makes the rows of a joint orthogonal, and the raw numbers are not a force.
+    /// Between two separate bodies, Rapier makes the rows of a joint orthogonal. The impulses of the orthogonal rows
+    /// are not components of a force.
     /// This function undoes the orthogonalisation.
     pub fn impulse(&self, joint_type: JointType, rows: [f64; 3], separate: Option<[[f64; 2]; 2]>) -> (Vec2, f64) {
         let rows = separate.map_or(rows, |inverse| self.undone(joint_type, rows, inverse));
@@ -112,7 +113,8 @@ impl JointRows {
 
     /// Effect of a unit force along a coordinate, or of a unit moment, on a body.
     /// The result is a force, and a moment about the mass centre.
-    /// Side 1 is the second body, on which the unit force acts with its sign; on the first body it acts reversed.
+    /// Side 1 is the second body, on which the unit force acts with its sign. On the first body, the unit force acts in
+    /// the opposite direction.
     pub(crate) fn unit(&self, coordinate: usize, side: usize) -> [f64; 3] {
         let sign = if side == 1 { 1.0 } else { -1.0 };
         let along = [self.axis, turned(self.axis), Vec2::zeros()][coordinate];

@@ -1,4 +1,4 @@
-//! Masses that Rapier needs for a free motion but that the case does not have, and the loads that compensate them.
+//! Masses that Rapier needs for a free motion but that the case does not have. Loads compensate these added masses.
 //!
 //! Rapier divides by the mass and by the moment of inertia of a separate body, so a point mass cannot be a separate
 //! body.
@@ -7,9 +7,8 @@
 //! The link also gets the load m a + J alpha - m g of the added part.
 //! With the true accelerations, the motion is that of the case: (M + M') a = f + M' a reduces to M a = f.
 //! The load in a step uses the accelerations of the step before.
-//! The resulting error is of first order, as is the error of the engine's step.
-//! This error decays from step to step, because the added mass M' is smaller than the total mass: M' / (M + M') is
-//! below 1.
+//! The resulting error is of first order, as is the error of the engine's step. An error of the accelerations decays
+//! from step to step, because the added mass M' is smaller than the total mass: M' / (M + M') is below 1.
 //! See docs/numerics/twins.md.
 
 use super::masses::added;
@@ -65,7 +64,7 @@ impl Added {
         if all > 0.0 { change / all } else { 0.0 }
     }
 
-    /// Writes to `relieved` the loads plus the loads that compensate the added masses.
+    /// Writes to `relieved` the sum of `loads` and the loads that compensate the added masses.
     pub(super) fn relieve(&self, case: &Case, loads: &[Wrench], relieved: &mut [Wrench]) {
         relieved.copy_from_slice(loads);
         for ((load, [mass, inertia]), [x, y, alpha]) in relieved.iter_mut().zip(&self.masses).zip(&self.accelerations) {

@@ -12,11 +12,9 @@ use linkage::math::{KeepNan, Motion, Vec2, cross, turned, unit};
 use linkage::mechanism::{GROUND, GroupId, LinkPose};
 use linkage::solver::State;
 
-/// Threshold, as a fraction of a group's largest determinant.
-/// If a determinant of the opposite sign exceeds this threshold, the group is on another branch than its start branch.
-/// If the determinant of the opposite sign is smaller than this threshold, the small opening of the engine's loops at a
-/// dead point explains the sign.
-/// The group then counts as being on its start branch.
+/// Threshold for determinants of the wrong sign, as a fraction of a group's largest determinant.
+/// Above this threshold, the group is on another branch than its start branch. Below this threshold, the small opening
+/// of the engine's loops at a dead point explains the wrong sign, and the group counts as being on its start branch.
 const BEYOND: f64 = 0.02;
 
 /// The supervised groups of a case. In a free motion, no group is supervised.
@@ -60,8 +58,8 @@ impl Branches {
         Branches { groups: case.structure.groups.ids().map(of).collect() }
     }
 
-    /// Checks that all groups of a state at `t` (s) are on their start branches or, if the crank passes change points,
-    /// that they have passed these smoothly. Free motions are not checked.
+    /// Checks that all groups of a state at `t` (s) are on their start branches. If the crank passes change points, it
+    /// checks instead that the groups have passed these points smoothly. Free motions are not checked.
     ///
     /// # Errors
     /// [`ErrorKind::Numeric`] if a group has changed its branch.
@@ -187,7 +185,7 @@ mod tests {
     use super::*;
     use linkage::fixtures::{four_bar, turning};
 
-    /// The rocker and coupler of a four-bar are mirrored about the line between their outer pins: all loops stay
+    /// The rocker and coupler of a four-bar are mirrored about the line between their outer pins. All loops stay
     /// closed.
     #[test]
     fn the_mirrored_dyad_is_another_branch() {

@@ -60,7 +60,8 @@ impl Engine for Rapier {
         let reports = self.settings.route == Route::Native;
         let begins = case.is_free() && case.drives.iter().any(|drive| drive.initial_speed() != 0.0);
         match self.build {
-            // At least two sweeps are needed here, because the worlds that report the forces of a tree have cut joints.
+            // A tree whose forces are read needs at least two sweeps, because the worlds that report these forces have
+            // cut joints.
             // With one sweep, the links would not get their start velocities, and later steps would not correct this
             // error.
             Build::Multibody if alone && reports && begins => Some([2, MOST_SWEEPS]),

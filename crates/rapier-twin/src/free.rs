@@ -25,7 +25,7 @@ const SETTLING_TURN: f64 = 1e-4;
 /// If a link's initial speed is below this fraction of the fastest link's speed, the link counts as being at rest.
 const STANDSTILL: f64 = 1e-9;
 
-/// Number of tiny steps that undo a trial.
+/// Number of tiny steps that undo a trial of the first step.
 const UNDOING: usize = 8;
 /// Largest number of trials of the first step.
 /// The trials end earlier if two relative changes are at most `GUESSED`: the change of the compensating loads, and the
@@ -120,8 +120,8 @@ impl Acting {
             }
             own
         };
-        // If a force opposes the motion of a point and this motion reverses within the step, the force is also a mean.
-        // The forces before and after the reversal are weighted by their durations.
+        // If a force opposes the motion of a point and this motion reverses within the step, the force is the mean of
+        // the forces before and after the reversal, weighted by their durations.
         let swept = &self.swept;
         let way = |index: usize, now: Vec2| {
             let next = 2.0 * now - swept[index];
@@ -182,8 +182,8 @@ impl Acting {
         }
     }
 
-    /// Whether a link at rest at the start has a load or reducer losses that depend on its sense of rotation.
-    /// Also true if a joint with friction is at rest at the start.
+    /// Whether a trial step is needed. It is needed if a link is at rest at the start and has a load or reducer losses
+    /// that depend on its sense of rotation, or if a joint with friction is at rest at the start.
     fn must_try(&self, case: &Case) -> bool {
         let losses = case.crank().moving_motor().is_some_and(|motor| motor.efficiency < 1.0);
         let mut sensed = case
@@ -196,8 +196,9 @@ impl Acting {
             || case.frictions().any(|friction| friction.rate(&self.state.motions) == 0.0)
     }
 
-    /// Target speed and damping of a motor that has the law's moment and slope at the crank's speed.
-    /// If the moment rises with the speed or does not depend on it, the moment is applied as a load instead.
+    /// Target speed and damping of Rapier's motor. At the crank's speed, Rapier's motor then has the moment and the
+    /// slope of the motor's law. If the moment rises with the speed or does not depend on the speed, the moment is
+    /// applied as a load instead.
     fn motor(&mut self, case: &Case) -> [f64; 2] {
         self.direct = 0.0;
         let Some(motor) = case.crank().moving_motor() else { return [0.0; 2] };
@@ -248,8 +249,8 @@ impl Acting {
 /// - A load or the losses of a reducer depend on the sense of rotation of a link at rest.
 /// - A joint with friction is at rest.
 ///
-/// In the trial step, loads that depend on the sense of rotation of a link at rest do not act, nor does the friction of
-/// joints at rest. The power is assumed to flow from the motor.
+/// In the trial step, loads that depend on the sense of rotation of a link at rest do not act. The friction of joints
+/// at rest does not act either. The power is assumed to flow from the motor.
 ///
 /// # Errors
 /// The errors of [`Guard::step`].

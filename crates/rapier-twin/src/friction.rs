@@ -29,19 +29,19 @@ const PROBE: f64 = 1e-4;
 /// Smallest step in which the friction is increased, as a fraction of the friction.
 const LEAST: f64 = 1e-3;
 
-/// Computes the reactions of a known motion, with friction.
-/// The force of each transmission acts in the line of action that carries the force.
+/// Computes the reactions of a known motion, with friction. The force of a transmission acts in the line of action that
+/// belongs to the sign of the force.
 #[derive(Debug)]
 pub(super) struct InverseDynamics {
     equations: NewtonEuler,
     lines: Option<Lines>,
-    /// Normal forces from which the friction is computed.
+    /// Assumed normal forces, from which the friction is computed.
     normals: Vec<f64>,
-    /// Normal forces of the present reactions.
+    /// Normal forces of the reactions under this friction.
     now: Vec<f64>,
-    /// Normal forces of the reactions after a change of one entry of `normals`.
+    /// Normal forces of the reactions if one entry of `normals` is changed.
     beside: Vec<f64>,
-    /// The entries of `normals` before the present increase of the friction.
+    /// The entries of `normals` before the friction was last increased.
     before: Vec<f64>,
     matrix: Lu,
     efforts: Vec<f64>,
@@ -243,7 +243,7 @@ impl Braking {
     }
 
     /// Stores the accelerations of a trial step from the start of the motion.
-    /// Returns their largest change divided by the largest acceleration.
+    /// Returns the largest change of an acceleration, divided by the largest acceleration.
     pub(super) fn guess(&mut self, case: &Case, mut of: impl FnMut(usize) -> [f64; 3]) -> f64 {
         let size = case.mechanism.size();
         let length = |own: [f64; 3]| Vec2::new(own[0], own[1]).norm().larger(own[2].abs() * size);

@@ -15,8 +15,9 @@ use linkage::input::Input;
 use linkage::solver::State;
 
 /// The differences between the engine's world and the case, called stand-ins.
-/// They are masses and moments of inertia added to links (except in free motion, where loads compensate them),
-/// flywheels (on cranks only in accelerated motion), and the loads of the case, if the engine's world lacks them.
+/// One kind of stand-in is the masses and moments of inertia added to links, except in free motion, where loads
+/// compensate them. Flywheels are stand-ins too; the flywheels of cranks only count in accelerated motion. The loads of
+/// the case are stand-ins if the engine's world lacks these loads.
 #[derive(Debug)]
 pub(super) struct Ghost {
     statics: NewtonEuler,
@@ -28,7 +29,8 @@ impl Ghost {
     /// too.
     /// `None` if nothing has to be subtracted.
     pub(super) fn of(case: &Case, unloaded: bool) -> Option<Self> {
-        // The flywheel of a crank adds a moment only while accelerated. A flywheel of a slide is a mass with weight.
+        // The flywheel of a crank adds a moment only in accelerated motion. A flywheel of a slide is a mass with
+        // weight.
         let tree = SpanningTree::none(&case.mechanism);
         let only_cranks = case.drives.iter().all(|drive| drive.input == Input::Angle);
         let flywheels_idle = case.is_steady() && only_cranks;

@@ -32,8 +32,8 @@ const LARGEST_GAP: f64 = 0.05;
 const LARGEST_TURN: f64 = std::f64::consts::FRAC_PI_2;
 /// If the kinetic energy grows by more than this factor in one step, the run has diverged and is stopped.
 /// The factor corresponds to a factor of ten in the speeds.
-/// In a prescribed motion, the drives enforce their speeds, so energy is not conserved.
-/// In a prescribed motion, however, the kinetic energy depends only on the pose, and the pose changes little in a step.
+/// In a prescribed motion, the drives enforce their speeds and energy is not conserved. But the kinetic energy of a
+/// prescribed motion changes little in a step, because it depends only on the pose.
 const LARGEST_GROWTH: f64 = 100.0;
 
 /// A world and the quantities that are supervised.
@@ -262,7 +262,7 @@ pub(super) fn guards<'a>(
     trees.into_iter().map(world).collect()
 }
 
-/// When and where a step failed.
+/// Time and input at which a step failed.
 #[derive(Clone, Copy)]
 struct Moment {
     /// Time (s).
@@ -438,7 +438,7 @@ mod tests {
 
     /// All links move away together, as sliders can: no link turns and no loop opens.
     /// The links reach 5 m from the origin, and the drive turns at 1 rad/s.
-    /// In a step of a millisecond, a point at 5 m travels 5 mm. The limit of ten times the speed is thus near 5 cm per
+    /// In a step of a millisecond, a point at 5 m travels 5 mm. The limit of ten times this speed is near 5 cm per
     /// step.
     #[test]
     fn spurious_energy_stops_the_run() {

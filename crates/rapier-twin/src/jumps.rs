@@ -1,4 +1,4 @@
-//! Jumps of tables of loads within a step of a free motion.
+//! Jumps of the values in load tables within a step of a free motion.
 //!
 //! If a table jumps within a step, the load of the step is the mean of the values before and after the jump, weighted
 //! by the fractions of the step.

@@ -2,7 +2,7 @@
 //!
 //! The engine and the Newton-Euler equations apply the force of a transmission in the first line of action, whatever
 //! the sign of the force.
-//! But a negative force belongs in the second line of action.
+//! A negative force, however, acts in the second line of action.
 //! In a drive with two strands, the slack strand also has a tension.
 //! The corrections for both effects do not change the motion; they change only the reactions of the axles.
 

@@ -1,4 +1,4 @@
-//! Masses of links in Rapier: those of the case, and the additions that Rapier needs.
+//! Masses of links in Rapier: the masses of the case, and the additions that Rapier needs.
 
 use super::tree::SpanningTree;
 use linkage::case::Case;
@@ -123,8 +123,8 @@ fn with_flywheels(case: &Case, mut masses: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     masses
 }
 
-/// Mass (kg) and moment of inertia (kg m^2) that are added to a link in a free motion. If no addition is needed, they
-/// are 0.
+/// Mass (kg) and moment of inertia (kg m^2) that are added to a link in a free motion. A value is 0 if no addition is
+/// needed.
 /// The values depend on whether the link is in the tree of the world.
 pub(super) fn added(case: &Case, link: LinkId, tree: &SpanningTree) -> [f64; 2] {
     if link == GROUND {

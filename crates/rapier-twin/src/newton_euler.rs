@@ -16,8 +16,8 @@
 //! Each joint of the tree therefore gives one equation.
 //! The links beyond a joint form a composite body: Featherstone, "Rigid Body Dynamics Algorithms", 2008, ch. 8.
 //! Driven joints are in the tree, and the residual of a driven joint's equation is the driving moment or force.
-//! The driving moment of a crank is supported by the frame. The reaction to any other driving moment or force acts on
-//! the inner link of the driven joint.
+//! The frame takes the reaction to the driving moment of a crank. The reaction to any other driving moment or force
+//! acts on the inner link of the driven joint.
 //! The equations of the other tree joints determine the components in the cut joints: there are as many equations as
 //! components.
 //! For a four-bar, two equations determine the components, while all its links together have nine equations of motion.
@@ -54,7 +54,7 @@ pub struct NewtonEuler {
     /// The joints of the tree, then the cut joints, in the present pose.
     stands: Vec<Stand>,
     /// Force and moment that the joint carrying a link must transmit to the link, for every link of the tree.
-    /// Each component of a cut joint has one term. One further term is constant.
+    /// The force and moment are a sum of terms: one term for each component of the cut joints, and one constant term.
     needs: Vec<Term>,
     stages: Vec<Stage>,
     /// The components in the cut joints.
@@ -215,7 +215,8 @@ impl NewtonEuler {
         true
     }
 
-    /// Adds the force and moment of every link in `needs` to those of the link that carries it. The leaves come first.
+    /// Adds the force and moment of every link in `needs` to the force and moment of the link that carries this link.
+    /// The order is from the leaves of the tree to the ground.
     fn pass_on(&mut self) {
         let width = self.components.len() + 1;
         for (number, limb) in self.tree.iter().enumerate().rev() {

@@ -17,7 +17,7 @@ const SPEED_ULPS: f64 = 20.0;
 /// A second difference of the crank angle has two such units: 12.6 epsilon for a full turn (measured: 11.7).
 /// The constant is twice as large, to cover the links that the crank moves.
 const DIFFERENCE_ULPS: f64 = 4.0;
-/// Smallest angle (rad) for [`DIFFERENCE_ULPS`].
+/// Smallest angle (rad) that is multiplied by [`DIFFERENCE_ULPS`].
 /// A smaller angle has no smaller error, because unit vectors and positions are rounded at any angle.
 /// For a quarter turn and for half a turn, 12.6 epsilon were measured on the crank-rocker and on `quick_return`.
 /// On `ov7_base`, 26 epsilon were measured; 37 epsilon are allowed.
@@ -83,8 +83,8 @@ pub(super) fn bound(case: &Case, engine: &Rapier, channel: &ChannelKind) -> f64 
         Unit::Newton => linear * mass,
         Unit::NewtonMetre => match engine.settings.route {
             Route::Differences => linear * mass * lever(case, reach, channel.subject),
-            // An impulse corresponds to the difference of the speeds at two successive steps. Its lever arm here is
-            // `reach`.
+            // An impulse corresponds to the difference of the speeds at two successive steps. The lever arm of the
+            // impulse is `reach`.
             Route::Native | Route::Probe => linear * mass * reach,
         },
     }
@@ -92,7 +92,8 @@ pub(super) fn bound(case: &Case, engine: &Rapier, channel: &ChannelKind) -> f64 
 
 /// Lever arm (m) of the forces in a moment.
 /// For a driving moment, the arm extends to the far end of the driving link.
-/// A prismatic joint may transmit its force anywhere in the mechanism, so its arm is the mechanism's size.
+/// A prismatic joint may transmit its force anywhere in the mechanism, so the arm of this force is the mechanism's
+/// size.
 /// The mechanism's size is also the arm of a driving moment if the driving link has a prismatic joint.
 /// For the frame, moments are those about the origin, so the arm is `reach`.
 fn lever(case: &Case, reach: f64, subject: ChannelSubject) -> f64 {

@@ -71,8 +71,7 @@ impl Rapier {
         Rapier { settings: Settings { extrapolated: 0, ..settings }, ..*self }
     }
 
-    /// Both builds in double precision. If the feature `f32` is on, both builds in single precision follow. The default
-    /// is first.
+    /// Engines of both builds in every precision, the default engine first. Single precision needs the feature `f32`.
     pub fn all(step: f64) -> Vec<Self> {
         let of = |(build, precision)| Rapier::new(build, precision, step);
         let kinds = [

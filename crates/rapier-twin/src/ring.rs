@@ -4,12 +4,13 @@ use std::ops::Range;
 
 use linkage::math::interpolate::{POINTS, lagrange_weights};
 
-/// Number of stored steps: six for the interpolation, one more at either end for second differences, and the rest for
-/// reactions that the engine reports up to two steps late and for the first steps of a free motion.
+/// Number of stored steps. The interpolation needs six steps, and second differences need one more step at either end.
+/// The other steps are for reactions that the engine reports up to two steps late, and for the first steps of a free
+/// motion.
 pub(super) const NODES: usize = POINTS + 8;
 
-/// An instant closer to a step than this fraction of the step size counts as that step, because rounding separates
-/// instants of the grid slightly from steps.
+/// An instant closer to a step than this fraction of the step size counts as that step. Rounding separates the instants
+/// of the grid slightly from the steps.
 const ON_A_STEP: f64 = 1e-9;
 
 /// An instant, as a step and the fraction of a step since then.
@@ -54,7 +55,7 @@ pub(super) struct Ring {
 }
 
 impl Ring {
-    /// An empty ring of rows of `width` numbers. The first row that is pushed is that of step `start`.
+    /// An empty ring of rows of `width` numbers. The first row that is pushed belongs to step `start`.
     pub(super) fn new(width: usize, start: i64) -> Self {
         Ring { width, newest: start - 1, rows: vec![f64::NAN; NODES * width] }
     }

@@ -5,7 +5,7 @@ linkage::sentences! {
     LET_THE_GRID_END_BEFORE_THE_CHANGE = "end the grid before the change point";
     the_engine_has_not_gone_on_smoothly(names, t, at) = "the engine did not continue smoothly at the change point of the group ({names}) before t = {t:.6} s, {at}: velocities jumped to the other branch";
     KEEP_THE_GRID_FARTHER_FROM_THE_DEAD = "keep the grid farther from the dead point";
-    the_engine_has_slipped_into(names, t, at) = "the engine slipped into another assembly mode of the group ({names}) before t = {t:.6} s, {at}: it has passed a dead point";
+    the_engine_has_slipped_into(names, t, at) = "the engine slipped into another assembly mode of the group ({names}) before t = {t:.6} s, {at}: the engine has passed a dead point";
     // engine.rs
     CENTRED_SECOND_DIFFERENCES_OF_THE_ENGINE = "centred second differences of the engine's positions";
     READ_AS_THE_BODIES_VELOCITIES = "read as the bodies' velocities, one step old; omega from the rotation in a step; where a drive's speed changes, centred differences of positions";
@@ -24,16 +24,16 @@ linkage::sentences! {
     RAPIER_IN_SINGLE_PRECISION = "Rapier in single precision";
     // guard.rs
     the_engine_has_panicked(words, place) = "the engine has panicked (\"{words}\"), {place}";
-    CHECK_THAT_THE_POSE_CAN_BE_ASSEMBLED = "check that the pose can be assembled there";
+    CHECK_THAT_THE_POSE_CAN_BE_ASSEMBLED = "check that the mechanism can be assembled in this pose";
     BEGIN_THE_GRID_FARTHER_FROM_THE_DEAD = "begin the grid farther from the dead point";
-    the_engine_ran_up_from_a_few(at, link, far) = "the engine started a few steps before the grid and arrived at the start of the grid, {at}, with link \"{link}\" {far} m off: it has passed a dead point";
+    the_engine_ran_up_from_a_few(at, link, far) = "the engine started a few steps before the grid and arrived at the start of the grid, {at}, with link \"{link}\" {far} m off: the engine has passed a dead point";
     the_engine_loop_has_opened(gap, name, place) = "the engine's loop has opened by {gap} m at joint \"{name}\", {place}";
     the_engine_kinetic_energy_has_grown(growth, place) = "the engine's kinetic energy has grown {growth} times in one step, {place}";
     the_engine_link_has_turned(name, degrees, place) = "the engine's link \"{name}\" has turned by {degrees:.1} deg in one step, {place}";
     // newton_euler.rs
     SHORTEN_THE_GRID_TO_THE_CRANK = "shorten the grid to the inputs before the dead point";
     // friction.rs
-    friction_has_no_equilibrium(t) = "friction locks the mechanism at t = {t:.6} s; no forces in the joints are in equilibrium with their friction";
+    friction_has_no_equilibrium(t) = "friction locks the mechanism at t = {t:.6} s; the joint forces cannot be in equilibrium with the friction";
     LOWER_A_COEFFICIENT_OF_FRICTION = "lower a coefficient of friction or the radius of a journal, or end the grid before this instant";
     THE_ROUTE_KNOWS_NO_FRICTION = "Rapier's joints report no friction and no losses of transmissions";
     the_reactions_are_not_determined(t) = "the reactions are not determined at t = {t:.6} s (dead point)";

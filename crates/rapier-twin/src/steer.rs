@@ -1,7 +1,8 @@
 //! Directions of the rows that close a loop, chosen so that few sweeps are enough.
 //!
 //! A pin that the tree cuts has two rows.
-//! Gauss-Seidel solves the two rows one after the other, and their coupling determines the rate of convergence.
+//! Gauss-Seidel iteration solves the two rows one after the other. The coupling of the rows determines the rate of
+//! convergence.
 //! Consider the line from a link's pin in the tree to its cut pin.
 //! Rotation of the link moves the cut pin across this line, not along it.
 //! The rows are therefore laid along and across the line on the more mobile of the two links.

@@ -15,12 +15,13 @@ use linkage::trajectory::Stage;
 /// A row has the positions and angles of all links, then the rates of all links.
 const WIDTH: usize = 3;
 
-/// Number of steps at the beginning of a free motion in which the engine's accelerations are not those of the motion.
+/// Number of steps at the beginning of a free motion in which the engine's accelerations differ from the true
+/// accelerations.
 /// The causes are:
 /// - Separate bodies (`plain`) close the gaps of the first step in the second step.
 /// - In a multibody with loops, the first sweeps start without impulses. Later sweeps start from the impulses of the
 ///   last step.
-/// - For links with an initial speed, the step before the first step is only a straight line.
+/// - For links with an initial speed, the artificial step before the first step is only a motion along a straight line.
 /// - The first step ignores the change of the transfer functions.
 pub(super) fn first_steps(case: &Case, plain: bool) -> i64 {
     let moving = case.drives.iter().any(|drive| drive.initial_speed() != 0.0);
@@ -62,7 +63,7 @@ impl Window {
     /// Number of steps that a sample needs after the step that lies at or before the sample's instant.
     pub(super) const AHEAD: i64 = 4;
 
-    /// An empty window of a run. The first state that is pushed is that of step `start`.
+    /// An empty window of a run. The first state that is pushed belongs to step `start`.
     pub(super) fn new(case: &Case, settings: &Settings, start: i64) -> Self {
         let links = case.mechanism.links().len();
         let (steady, deepest) = (case.is_steady(), case.wanted.deepest());
@@ -123,10 +124,8 @@ impl Window {
         [before - Self::BEHIND - Self::extra(self.substeps), before + Self::AHEAD]
     }
 
-    /// Stores the state after a step.
-    /// The stored poses are those of this step.
-    /// The stored velocities are those at the start of the step's last substep. Without substeps, these are the
-    /// velocities of the previous step.
+    /// Stores the state after a step. The stored poses belong to the end of this step. The stored velocities belong to
+    /// the start of the step's last substep. Without substeps, this is the end of the previous step.
     pub(super) fn push(&mut self, guard: &Guard, case: &Case) {
         let (row, _) = self.ring.push().as_chunks_mut();
         for (own, (centre, frame)) in row.iter_mut().zip(guard.centres().iter().zip(guard.frames())).skip(1) {

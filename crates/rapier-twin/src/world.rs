@@ -35,8 +35,7 @@ impl LinkFrame {
     pub const GROUND: LinkFrame =
         LinkFrame { origin: Vec2::new(0.0, 0.0), direction: Vec2::new(1.0, 0.0), angle: LinkAngle::Whole(0.0) };
 
-    /// If the chord between two directions is shorter than this (rad), the chord is used in place of the rotation
-    /// angle.
+    /// A chord between two directions that is shorter than this constant (rad) replaces the rotation angle.
     /// The relative error of the chord is the square of the rotation divided by 24.
     const SMALL: f64 = 0.1;
 
@@ -96,7 +95,7 @@ impl LinkFrame {
     }
 }
 
-/// Angle of a direction (rad), from -pi to pi. Along -x it is pi, whatever the sign of the zero y component.
+/// Angle of a direction (rad), from -pi to pi. Along -x, the angle is pi, whatever the sign of the zero y component.
 fn own_angle(direction: Vec2) -> f64 {
     (direction.y + 0.0).atan2(direction.x)
 }
@@ -161,16 +160,16 @@ pub trait World {
 
     /// Speed of the joint of branch `index` of the tree at the START of the last step.
     /// (Rapier reports velocities one step late.)
-    /// For a revolute joint, the speed is the angular velocity of the child minus that of its parent (rad/s).
-    /// For a prismatic joint, the speed is that of the child along the parent's axis (m/s).
+    /// For a revolute joint, the speed is the angular velocity of the child minus the angular velocity of its parent
+    /// (rad/s). For a prismatic joint, the speed is the speed of the child along the parent's axis (m/s).
     fn relative_speed(&self, index: usize) -> f64;
 
     /// Velocity of the mass centre (m/s) and angular velocity (rad/s) of a link outside the tree.
-    /// Like the joint speeds, these velocities are those at the START of the last step. `None` for links of the tree.
+    /// Like the joint speeds, these velocities belong to the START of the last step. `None` for links of the tree.
     fn velocity(&self, link: LinkId) -> Option<(Vec2, f64)>;
 
     /// Reaction in a joint that the tree cuts, from the impulses of the last step.
-    /// The force is that of the first link on the second link (N).
+    /// The force (N) acts from the first link on the second link.
     /// The moment is about the point on the second link (N m).
     /// `None` for joints of the tree, which report no reaction.
     /// The world must have been built for reading reactions.

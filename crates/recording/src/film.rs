@@ -197,7 +197,8 @@ fn part(entity: &SceneEntity) -> DrawnLink {
 pub struct Numbers {
     /// Topics of the sides and of their errors.
     pub topics: Vec<String>,
-    /// Plots, the most interesting first: the values of all sides, then their errors.
+    /// Plots in order of importance. For each quantity, a plot of the values of all sides comes before the plot of the
+    /// errors.
     pub plots: Vec<Plot>,
 }
 

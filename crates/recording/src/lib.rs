@@ -18,7 +18,7 @@
 //! | `/log` | `foxglove.Log` | verdicts and warnings |
 //!
 //! A message type declares only the fields that are computed.
-//! If it lacks fields, its name contains the numbers of the fields that it has, such as `linkproof.Point_1_2`.
+//! If a message type lacks fields, its name contains the numbers of the present fields, such as `linkproof.Point_1_2`.
 //!
 //! Log times are nanoseconds from the first instant of the recording.
 //! A simulated second takes [`Show::slow`] seconds of log time. The messages of the grid contain the simulated times.
@@ -29,8 +29,8 @@
 //! The metadata record `linkproof` contains versions, settings and the scales of time and of force arrows.
 //!
 //! A recording by a program other than linkproof can also be read.
-//! Such a recording needs `/<side>/grid` in protobuf. Of the side's other topics, those in protobuf are read; each needs
-//! a value for every sample of the grid.
+//! Such a recording needs `/<side>/grid` in protobuf. The side's other topics are read if they are in protobuf. Each of
+//! these topics needs a value for every sample of the grid.
 //! The names of the protobuf fields must be the suffixes of [`CHANNELS`](linkage::trajectory::CHANNELS).
 //! The field numbers are looked up in the file.
 

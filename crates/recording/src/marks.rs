@@ -9,7 +9,7 @@ use linkage::math::Vec2;
 
 /// Opacity of filled areas, out of 255. Shapes beneath these areas remain visible.
 const TINT: u8 = 70;
-/// Colour of the holes in pins, on light and dark backgrounds, and radius of a hole divided by that of the pin.
+/// Colour of the holes in pins, for light and dark backgrounds, and radius of a hole divided by the radius of the pin.
 const HOLE: ([u8; 4], f64) = ([40, 40, 40, 255], 0.5);
 
 /// How marks are drawn.
@@ -19,7 +19,7 @@ pub struct Brush {
     pub unit: f64,
     /// Red, green, blue, opacity.
     pub rgba: [u8; 4],
-    /// Thickness divided by that of the first side.
+    /// Thickness divided by the thickness of the first side.
     pub broad: f64,
     /// Height above the plane of motion (m).
     pub z: f64,

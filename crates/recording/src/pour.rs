@@ -16,7 +16,7 @@ use prost::Message;
 /// Nanoseconds in a second.
 pub const SECOND: u64 = 1_000_000_000;
 
-/// Something to be written at a given time.
+/// A frame, a sample or a log line that is written at a given time.
 enum Event<'a> {
     Frame(f64),
     Sample { table: usize, row: usize, sequence: u32 },

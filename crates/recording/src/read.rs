@@ -13,7 +13,7 @@ use std::fmt::Display;
 use std::path::Path;
 use std::{fs, io};
 
-/// Values with the sequence numbers of their samples.
+/// Values, each with the sequence number of its sample.
 type Numbered = Vec<(u32, f64)>;
 
 /// Use of one MCAP channel: its side, and the meaning of each message field, by the field's number.
@@ -30,7 +30,7 @@ enum Field {
     Value(Channel),
 }
 
-/// Data of one side. The order of the keys is the order of recording: MCAP channel, then field.
+/// Data of one side. The columns are in the order of recording: by MCAP channel, then by field.
 #[derive(Default)]
 struct Found {
     grid: BTreeMap<String, Numbered>,
@@ -65,8 +65,7 @@ pub(super) fn bytes(path: &Path) -> Result<Vec<u8>> {
     })
 }
 
-/// Refuses a file before decompression if its chunks expand far more than the chunks of a recording of the same file
-/// size.
+/// Refuses a file before decompression if its chunks would expand far more than the chunks of a usual recording.
 fn bounded(bytes: &[u8], path: &Path) -> Result<()> {
     let [told, most] = raw::expanded(bytes);
     if told <= most {

@@ -12,8 +12,8 @@ use linkage::trajectory::{Channel, Trajectory};
 
 /// Usual upper limit of the number of frames. For a long recording, [`FRAMES_PER_SECOND`] is the upper limit.
 const FRAMES: f64 = 400.0;
-/// Upper limit of the number of frames per second of log time. At least half as many frames remain if there are enough
-/// samples.
+/// Upper limit of the number of frames per second of log time. If there are enough samples, at least half of this
+/// number of frames remains.
 const FRAMES_PER_SECOND: f64 = 50.0;
 
 /// Everything that can be drawn of a recording.
@@ -60,7 +60,7 @@ impl<'a> ViewerScene<'a> {
     }
 
     /// Distance, perpendicular to the plane of motion, between the pictures of two successive sides (m).
-    /// The height is enough for a viewer's depth test but too small to be seen: a visible gap would look like a
+    /// The distance is enough for a viewer's depth test but too small to be seen. A visible gap would look like a
     /// disagreement.
     pub fn layer(&self) -> f64 {
         0.002 * self.size

@@ -8,12 +8,13 @@ use linkage::math::Vec2;
 /// Paint of one side.
 /// The sides are drawn on top of each other.
 /// The first side is broad and pale. Each later side is in front of the previous side and, up to the fourth, thinner.
-/// Where two sides agree, both colours are visible; where the sides differ, their colours separate.
+/// Where two sides agree, the thinner line lies on the broader line and both colours are visible. Where the sides
+/// differ, the lines lie apart.
 #[derive(Clone, Copy)]
 pub struct SidePaint {
     /// Red, green, blue, opacity, each 0 to 255.
     pub rgba: [u8; 4],
-    /// Thickness divided by that of the first side.
+    /// Thickness divided by the thickness of the first side.
     pub broad: f64,
     /// Height above the plane of motion, in layers.
     pub layer: f64,

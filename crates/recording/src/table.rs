@@ -53,7 +53,7 @@ impl<'a> ChannelTable<'a> {
         ChannelTable::of(sink, side, trajectory, MessageContent::Values, vec![Topic { id, fields }])
     }
 
-    /// The errors, in small units.
+    /// The errors of a recording, in small units such as um.
     pub fn errors(sink: &mut impl Sink, errors: &'a Trajectory) -> McapResult<Self> {
         ChannelTable::of(sink, "error", errors, MessageContent::Errors, Vec::new())
     }
@@ -78,7 +78,8 @@ impl<'a> ChannelTable<'a> {
     }
 }
 
-/// Topic of a subject's values on a side. The side "error" gives the topic of the errors of these values.
+/// Topic of a subject's values on a side. With "error" in place of a side, the result is the topic of the errors of
+/// these values.
 pub fn topic_name(side: &str, subject: ChannelSubject, of: &str) -> String {
     let word = subject.word();
     if of.is_empty() { format!("/{side}/{word}") } else { format!("/{side}/{word}/{of}") }

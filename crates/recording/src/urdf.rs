@@ -6,7 +6,8 @@ use crate::viewers::{Color, LinePrimitive, LineType, Pose, SceneEntity, SceneUpd
 use linkage::math::Vec2;
 use std::fmt::Write;
 
-/// Height of a box divided by the line's thickness in the plane of motion. Seen from above, this height is not visible.
+/// Height of a line's box, divided by the thickness of the line in the plane of motion. The height is not visible from
+/// above.
 const FLAT: f64 = 0.1;
 
 /// The description of the links of a scene, with the ground as the root.

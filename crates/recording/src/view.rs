@@ -31,7 +31,8 @@ pub struct View {
     /// Log time of one revolution of the crank (s). If the recording is shorter than a revolution, its duration is
     /// used.
     pub turn: f64,
-    /// Plots, the most interesting first: the values of all sides, then their errors.
+    /// Plots in order of importance. For each quantity, a plot of the values of all sides comes before the plot of the
+    /// errors.
     pub plots: Vec<Plot>,
 }
 

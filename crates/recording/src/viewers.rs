@@ -1,7 +1,7 @@
 //! Messages that viewers of the Foxglove family can draw: scenes, frames and log lines.
 //! The messages have only the fields used here.
-//! Names and numbers of the fields are those of Foxglove's schemas (foxglove/schemas, Protobuf).
-//! The descriptors beside this file are also Foxglove's.
+//! Names and numbers of the fields are taken from Foxglove's schemas (foxglove/schemas, Protobuf).
+//! The descriptors in the directory `viewers` also come from Foxglove.
 //! Tests compare messages and descriptors with Foxglove's SDK.
 
 use prost::{Enumeration, Message};
@@ -59,7 +59,7 @@ messages! {
         orientation: Option<Quaternion> = 2 (message, optional),
     }
 
-    /// A colour. Each of its components is from 0 to 1.
+    /// A colour. Each component of the colour is from 0 to 1.
     #[derive(Copy)]
     Color {
         r: f64 = 1 (double),

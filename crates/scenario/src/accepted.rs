@@ -1,4 +1,5 @@
-//! Accepted figures: a file beside the scenario. People review the file, and later runs are compared with it.
+//! Accepted figures, in a file beside the scenario. People review this file, and later runs are compared with the
+//! figures.
 //!
 //! The file is TOML but does not end in `.toml`, because `*.toml` files are scenarios.
 
@@ -54,7 +55,7 @@ pub fn beside(scenario: &Path) -> PathBuf {
     scenario.with_extension(ENDING)
 }
 
-/// Reads the accepted figures in the file at `path`. The figures must be those of the scenario called `name`.
+/// Reads the accepted figures in the file at `path`. The file must belong to the scenario called `name`.
 /// `None` if the file does not exist.
 ///
 /// # Errors
@@ -182,8 +183,8 @@ fn number(value: f64, bound: f64) -> String {
     }
     let decimals = -(bound / 10.0).log10().floor();
     let magnitude = |value: f64| value.abs().log10().floor();
-    // The first rounding may carry over into a further digit. The number is therefore rounded a second time.
-    // The second rounding cannot carry over again.
+    // The first rounding may carry over and add a digit, as from 9.96 to 10.0. The number is therefore rounded a second
+    // time, which cannot carry over again.
     let rounded = digits(value, magnitude(value) + decimals).parse().unwrap_or(value);
     if rounded == 0.0 {
         return "0.0".into();

@@ -19,14 +19,14 @@ pub struct StartRequest {
     /// NUMBER is the position in the list of [`configurations`](linkage::mechanism::assembly::configurations) at the
     /// start, counted from 1.
     pub modes: Vec<String>,
-    /// Input at t = 0 (rad or m), in place of `crank` in `[start]` or of `start` of the first drive.
+    /// Input at t = 0 (rad or m). It replaces `crank` in `[start]`, or `start` of the first drive.
     /// Modes of the file also apply at the requested input.
     /// Approximate positions (`near`) apply at the file's input only. These positions choose a configuration at the
     /// file's input.
     /// The chosen configuration is followed to the requested input.
     pub crank: Option<f64>,
-    /// Whether `crank` is in the unit in which people write the input (deg or mm), because the caller does not know
-    /// what the input measures.
+    /// Whether `crank` is in deg or mm instead of rad or m. A caller that does not know what the input measures passes
+    /// the number in the unit in which people write it.
     pub is_shown: bool,
     /// Whether the caller defines a grid in place of the file's grid.
     /// If the caller defines a grid, the case has no instants, and the drive need not reach the instants of the file's
@@ -148,7 +148,7 @@ impl Start<'_> {
 
     /// Places all groups by the starts `starts`. `crank` is the input of the first drive (rad or m).
     /// If the caller lists undecided groups, each of them starts in one of its configurations.
-    /// If all groups are decided, the pose counts as lying on the file's branch.
+    /// If no group is undecided, the pose counts as lying on the branch of the file's start.
     fn settled(&self, crank: f64, mut starts: Vec<StartGroup>) -> Result<Placed> {
         let angles = self.angles(crank);
         let mut undecided: Vec<Undecided> = Vec::new();

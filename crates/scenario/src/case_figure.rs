@@ -20,11 +20,11 @@ pub const SECTIONS: &[Section] = &[Section::at("report")
 pub struct CaseFigure {
     /// The figure as the user writes it; also the name of its column in tables.
     pub text: String,
-    /// What the text asks for.
+    /// What the figure is.
     pub kind: FigureKind,
 }
 
-/// What a [`CaseFigure`] asks for.
+/// The kinds of a [`CaseFigure`].
 #[derive(Clone, Debug, PartialEq)]
 pub enum FigureKind {
     /// A statistic of a quantity.

@@ -11,8 +11,8 @@ use formula::{FormulaFault, FormulaGraph, FormulaTree, Function, NodeShape, Oper
 use linkage::case::Case;
 use linkage::trajectory::Channel;
 
-/// Endings of the names of velocities and of accelerations: the ending of the magnitude, and the two parts of the
-/// ending of a component, before and after its letter `x` or `y`.
+/// Endings of the names of velocities and of accelerations. The first text is the ending of a magnitude. The other two
+/// texts are the ending of a component, before and after its letter `x` or `y`.
 const MAGNITUDES: [(&str, &str, &str); 2] = [("v_m_s", "v", "_m_s"), ("a_m_s2", "a", "_m_s2")];
 
 /// A channel, a figure, or an arithmetic expression of channels and figures, in the units of their names.
@@ -40,7 +40,7 @@ impl Claim {
         Claim::with_parameters(text, case, &[])
     }
 
-    /// Reads a claim about a case. The names `pi` and those of parameters are replaced by their numbers.
+    /// Reads a claim about a case. The name `pi` and the names of parameters are replaced by their numbers.
     ///
     /// # Errors
     /// The mistake, with its position in the text.

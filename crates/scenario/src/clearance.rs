@@ -65,11 +65,10 @@ const AREA: f64 = 5e-3;
 /// Lower limit of the tolerance of a swept area, divided by the area.
 /// The number of squares grows with the inverse of the tolerance.
 const SMALLEST_AREA: f64 = 1e-5;
-/// Lower limit of a tolerance, divided by the mechanism's size.
-/// `FARTHEST` is the upper limit of an outline's extent, divided by the sum of the mechanism's size and the largest
-/// distance of a ground point from the origin.
-/// Beyond these two limits the results would be rounding errors.
+/// Lower limit of a tolerance, divided by the mechanism's size. A finer tolerance would be below the rounding error.
 const FINEST: f64 = 1e-10;
+/// Upper limit of an outline's extent, divided by the sum of the mechanism's size and the largest distance of a ground
+/// point from the origin. With a larger extent, the results would be rounding errors.
 const FARTHEST: f64 = 1e6;
 /// Upper limit of the number of parts of a housing.
 const MOST_PARTS: usize = 200;

@@ -45,8 +45,8 @@ fn inputs(variable: CurveVariable, x: f64) -> [Rounded; 2] {
     if variable == CurveVariable::Time { [other, own] } else { [own, other] }
 }
 
-/// Reads the key `formula`: a formula of `variable` from 0 to `end`, which gives rad or m and may use the parameters.
-/// Returns the curve, which is the formula minus its value at 0, and this value.
+/// Reads the key `formula`: a formula of `variable` from 0 to `end`. The formula gives rad or m and may use the
+/// parameters. Returns the formula minus its value at 0 as a curve, and the value at 0.
 pub fn formula(table: &mut TomlTable, variable: CurveVariable, end: f64) -> Result<(Curve, f64)> {
     let text = table.string("formula")?;
     let parameters = table.source().parameters.list();
@@ -61,8 +61,8 @@ pub fn formula(table: &mut TomlTable, variable: CurveVariable, end: f64) -> Resu
         Err(fault) => Err(fault),
     };
     let program = program.map_err(|fault| table.fault_in("formula", &fault))?;
-    // The text of a formula denotes another function if the parameters change, so the parameters belong to the compared
-    // text.
+    // Two curves count as equal if their texts are equal. The function also depends on the parameters, so the text
+    // includes their values.
     let numbers: Vec<String> = parameters.iter().map(|own| format!("{} = {:e}", own.key, own.given)).collect();
     let stated = Stated { text: format!("{text} | {}", numbers.join(", ")), variable, program: Mutex::new(program) };
     let begin = stated.at(0.0)[0];

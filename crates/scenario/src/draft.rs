@@ -48,8 +48,8 @@ impl Draft {
     /// Reads a draft from the text of the file at `path`.
     ///
     /// # Errors
-    /// An error if the text is not TOML, or if the request `asked` is wrong.
-    /// Also an error if the format version of the file is not that of this program.
+    /// An error if the text is not TOML, if the request `asked` is wrong, or if the file has another format version
+    /// than this program.
     pub fn parse(text: &str, path: &Path, asked: &StartRequest) -> Result<Draft> {
         let plain = Source::new(path, text);
         let mut tree = plain.tree()?;

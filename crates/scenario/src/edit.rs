@@ -10,10 +10,10 @@ use linkage::math::Vec2;
 
 /// Coordinates that differ by less than this fraction of the larger one count as equal.
 const EQUAL: f64 = 1e-9;
-/// Significant digits of a written number, after the first one.
+/// Number of significant digits of a written number, not counting the first digit.
 const DIGITS: usize = 5;
 
-/// The text as a document whose comments and order stay.
+/// The text as a document that keeps its comments and its order.
 pub(super) fn document(text: &str) -> Result<DocumentMut> {
     text.parse().map_err(|error| Error::new(ErrorKind::Input, sentences::the_file_is_not_valid_toml(&error)))
 }
@@ -40,8 +40,8 @@ pub fn with_parameter(text: &str, key: &str, value: f64) -> Result<String> {
     Ok(document.to_string())
 }
 
-/// The text in which the point `point` of a link is moved from `from` to `to` (m, in the frame of the link; on the
-/// ground in the world frame).
+/// The text in which the point `point` of a link is moved from `from` to `to`. These coordinates (m) are in the frame
+/// of the link; for the ground, in the world frame.
 /// A coordinate that is a number gets the new number. A coordinate that is the name of a parameter, or minus this name,
 /// changes the parameter. A coordinate that stays the same is not written.
 ///
@@ -92,7 +92,7 @@ pub(super) fn number(item: &Item) -> Option<f64> {
     item.as_float().or_else(|| item.as_integer().map(|whole| whole as f64))
 }
 
-/// Replaces a number. The comment behind it stays.
+/// Replaces a number. The comment after the number stays.
 fn put(item: &mut Item, new: f64) {
     let Some(old) = item.as_value_mut() else { return };
     let rounded = format!("{new:.DIGITS$e}").parse().unwrap_or(new);

@@ -189,7 +189,7 @@ impl EngineSettings {
         }
     }
 
-    /// These settings, prepared for the search for the settings of a motion.
+    /// Prepares these settings for the search for the settings of a motion.
     /// Extrapolation would use steps finer than a given step. If the step is given, extrapolation is therefore off by
     /// default.
     #[must_use]
@@ -262,8 +262,8 @@ pub fn read(table: &mut TomlTable, drive: &Drive) -> Result<EngineSettings> {
     }
 }
 
-/// A whole number within `range`. The end of the range selects the message for a number outside: for `usize::MAX`, an
-/// engine needs at least one; for any other end, the number is one of extrapolations.
+/// A whole number within `range`. If the range has no upper limit, the message for another number says that an engine
+/// needs at least one. Otherwise the message is about the number of extrapolations.
 fn whole(table: &mut TomlTable, key: &str, range: RangeInclusive<usize>) -> Result<EngineSetting<usize>> {
     let Some(number) = table.optional_integer(key)? else { return Ok(EngineSetting::Free) };
     if let Some(count) = usize::try_from(number).ok().filter(|count| range.contains(count)) {

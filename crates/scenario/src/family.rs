@@ -21,7 +21,7 @@ pub struct ScenarioFamily<'a> {
 }
 
 impl<'a> ScenarioFamily<'a> {
-    /// The family of the file at `path` with the text `text`, with the start `asked`.
+    /// The family of the file at `path`, whose text is `text`. `asked` is the start of all scenarios.
     /// If `is_judged` is false, formulas and published numbers are not read.
     ///
     /// # Errors
@@ -42,7 +42,7 @@ impl<'a> ScenarioFamily<'a> {
         self.tree.get_ref()
     }
 
-    /// The numbers that replace those of the file in all scenarios.
+    /// The numbers that replace numbers of the file in all scenarios.
     pub(super) fn set(&self) -> &[(String, f64)] {
         &self.asked.set
     }
@@ -64,7 +64,8 @@ impl<'a> ScenarioFamily<'a> {
         Ok(())
     }
 
-    /// The scenario in which the numbers in `set`, and those of the whole family, replace numbers of the file.
+    /// The scenario in which numbers of the file are replaced: first by the numbers of the whole family, then by the
+    /// numbers in `set`.
     ///
     /// # Errors
     /// The errors of [`Scenario::parse_as`].

@@ -158,7 +158,7 @@ impl Formulas {
 
     /// The first operation outside its domain and the index of its formula, if the formula `of` has no value at
     /// `inputs`.
-    /// The index is that of `of` or of a formula that `of` uses.
+    /// The index belongs to the formula `of` or to a formula that `of` uses.
     /// `inputs` are the input of the first drive (rad or m) and the time (s).
     #[must_use]
     pub fn undefined(&self, of: usize, inputs: [Rounded; 2]) -> Option<(usize, FormulaFault)> {
@@ -304,8 +304,8 @@ pub(super) fn read(parameters: Vec<Parameter>, tables: Vec<TomlTable>, case: &Ca
     let mut formulas = Formulas::over(parameters);
     for mut table in tables {
         let read = faults.read(&mut table, |table| formula(table, &mut formulas, case));
-        // Later formulas may use a formula that is left out. After a mistake in a formula, the file therefore does not
-        // count as whole.
+        // Later formulas may use a formula that is left out. After a mistake in a formula, errors that may follow from
+        // it are therefore not reported (see `Faults::whole`).
         faults.whole &= read.is_some();
     }
     formulas

@@ -48,8 +48,8 @@ pub const SECTIONS: &[Section] = &[Section::at("joints").with(&[
     ),
 ])];
 
-/// The joints, in the order of the file. Joints with mistakes are left out, and so are joints at points whose position
-/// could not be read.
+/// The joints, in the order of the file. Joints with mistakes are left out. Joints at points whose position could not
+/// be read are left out too.
 pub fn read(tables: Vec<TomlTable>, links: &[Link], faults: &mut Faults) -> Vec<Joint> {
     let mut joints: Vec<Joint> = Vec::new();
     let count = tables.len();
@@ -57,8 +57,8 @@ pub fn read(tables: Vec<TomlTable>, links: &[Link], faults: &mut Faults) -> Vec<
         let read = faults.read(&mut table, |table| joint(table, links, &joints));
         joints.extend(read.filter(|joint| [joint.first, joint.second].iter().all(|side| is_somewhere(side.local))));
     }
-    // Drives and the mechanism may need a joint that is left out. If a joint is left out, the file therefore does not
-    // count as whole.
+    // Drives and the mechanism may need a joint that is left out. If a joint is left out, errors that may follow from
+    // this are therefore not reported (see `Faults::whole`).
     faults.whole &= joints.len() == count;
     joints
 }

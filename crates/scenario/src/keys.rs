@@ -1,6 +1,6 @@
 //! Every key of scenario files, with the description that editors show.
 //! Each key is defined beside its reader, which decides what is read.
-//! Tests keep keys and readers consistent, and the format document consistent with keys and readers.
+//! Tests check that keys, readers and the format document are consistent.
 
 pub mod key;
 #[cfg(test)]

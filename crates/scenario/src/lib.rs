@@ -187,8 +187,9 @@ impl Scenario {
     /// published numbers are left out.
     /// Numbers that depend on the input at t = 0 are left out too if this input differs from the input in the file.
     /// These numbers are distances at t = 0 and values at times.
-    /// Values at crank angles or slides depend on the input at t = 0 only in three cases:
-    /// the crank's speed is not constant, there are further drives, or a torsional spring counts turns from the start.
+    /// Values at crank angles or slides are left out too if they depend on the input at t = 0. There are three such
+    /// cases: the crank's speed is not constant, there are further drives, or a torsional spring counts turns from the
+    /// start.
     ///
     /// # Errors
     /// The errors of [`Scenario::load`].
@@ -252,7 +253,8 @@ impl Scenario {
 
     /// This scenario, restricted to the channels that `words` request. The words have the syntax of `want` in
     /// `[channels]`.
-    /// Figures of the whole mechanism, and numbers and claims about channels that are not requested, are left out.
+    /// Figures of the whole mechanism are left out. Numbers and claims about channels that are not requested are left
+    /// out too.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for a word that requests nothing.
@@ -301,7 +303,7 @@ fn parse(text: &str, path: &Path, asked: &StartRequest, lists: Lists) -> Result<
     of_tree(plain, tree, asked, lists)
 }
 
-/// The scenario of a tree, in which requested numbers and parameters replace those of the file.
+/// The scenario of a parsed file. Requested numbers and parameters replace numbers and parameters of the file.
 fn of_tree<'a>(
     plain: Source<'a>,
     mut tree: Spanned<DeTable<'a>>,

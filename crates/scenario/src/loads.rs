@@ -93,7 +93,7 @@ pub const SECTIONS: &[Section] = &[
     ]),
 ];
 
-/// Types of loads, each with its reader. The name of a type is that of [`Load::sort`].
+/// Types of loads, each with its reader. The names of the types are the names that [`Load::sort`] returns.
 const SORTS: Words<fn(&mut TomlTable, &Mechanism) -> Result<Load>> = &[
     ("resistance", resistance),
     ("moment", moment),
@@ -322,8 +322,8 @@ fn check_crank(row: &TomlTable, points: &[(f64, f64)], turns: Option<u32>, smoot
     if !jumps && before(1).is_some_and(|before| !(last > before)) {
         return Err(row.fault(sentences::THE_CRANK_ANGLES_OF_THE_TABLE).help(sentences::WRITE_THE_POINTS_IN_ASCENDING));
     }
-    // Degrees are rounded when they are converted to radians, hence the margin 1e-12.
-    // The last point of a spline lies before the end of the period, that of straight lines may lie at the end.
+    // The margin 1e-12 allows for the rounding of degrees that are converted to radians. The last point of a spline
+    // lies before the end of the period. The last point of a table with straight lines may also lie at the end.
     let Some(turns) = turns else { return Ok(()) };
     let (length, period) = (last - first, TAU * f64::from(turns));
     if length > period * (1.0 - 1e-12) && (smooth || length > period * (1.0 + 1e-12)) {

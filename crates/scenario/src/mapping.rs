@@ -115,7 +115,8 @@ impl Mapped {
         Mapped { name: name.into(), text: text.into(), place, start: 0 }
     }
 
-    /// If the name is one of [`INSTANTS`]: its factor to SI, and the kind of input unless it is a time.
+    /// The factor to SI and the kind of input of a name in [`INSTANTS`]; `None` for any other name. A time has no kind
+    /// of input.
     /// Otherwise `None`.
     #[must_use]
     pub fn instant(&self) -> Option<(f64, Option<Input>)> {
@@ -204,7 +205,7 @@ impl Mapping {
     }
 }
 
-/// Name that denotes all channels among the tolerances.
+/// Word for all channels in the tolerances of a mapping file.
 const ALL: &str = "all";
 
 fn read(root: &mut TomlTable) -> Result<Mapping> {

@@ -96,8 +96,8 @@ pub fn drives(
             Ok(drive)
         };
         drives.extend(faults.read(&mut table, own));
-        // An earlier drive may move the link that carries a later drive. After a mistake in a drive, the file therefore
-        // does not count as whole.
+        // An earlier drive may move the link that carries a later drive. After a mistake in a drive, errors that may
+        // follow from it are therefore not reported (see `Faults::whole`).
         faults.whole &= drives.len() > index;
     }
     let motor = motor.map(|mut motor| {

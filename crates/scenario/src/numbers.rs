@@ -18,7 +18,7 @@ pub(super) fn is_path(key: &str) -> bool {
     key.contains('.')
 }
 
-/// Replaces numbers of a file by those in `set`. Keys of parameters are skipped.
+/// Replaces numbers of a file by the numbers in `set`. Keys of parameters are skipped.
 ///
 /// # Errors
 /// [`ErrorKind::Input`] for a path at which the file has no number.
@@ -31,7 +31,7 @@ pub(super) fn replace(tree: &mut DeTable, set: &[(String, f64)]) -> Result<()> {
             let error = Error::new(ErrorKind::Input, sentences::the_file_has_no_number_at(path));
             return Err(error.key(path.clone()).help(suggestion(path, known, "`")));
         };
-        // As a text, the number is read like an arithmetic expression.
+        // The number is stored as a text, because a text is read like an arithmetic expression.
         *found.as_mut() = DeValue::String(format!("{value:?}").into());
     }
     Ok(())
@@ -114,7 +114,7 @@ fn each(table: &DeTable, path: &mut String, found: &mut Vec<String>) {
         let length = path.len();
         write!(path, "{}{}", if length > 0 { "." } else { "" }, key.get_ref()).expect("a text");
         match value.get_ref() {
-            // An expression, if the key has a unit.
+            // A text under a key with a unit is an arithmetic expression.
             DeValue::String(_) if unit::ending(key.get_ref()).is_some() => found.push(path.clone()),
             other => in_each(other, path, found),
         }

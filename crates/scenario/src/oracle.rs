@@ -94,8 +94,7 @@ pub const SECTIONS: &[Section] = &[
 /// Numbers of one source.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Oracle {
-    /// The name that the scenario states. If the scenario states no name, it is the file name of the table
-    /// (`positions.csv`).
+    /// The name that the scenario states. Without a stated name, the file name of the table (`positions.csv`) is used.
     /// Numbers in the scenario itself are named `inline 1`, `inline 2`, ...
     pub name: String,
     /// Source of the numbers. If the numbers have a known error, the text also states the reason for the error.
@@ -122,13 +121,11 @@ linkage::words! {
 }
 
 impl Oracle {
-    /// The part of the oracle that stays valid if the first drive starts at an input other than that of the file, on
-    /// the branch of the file's start.
-    /// `None` if no part is valid.
+    /// The part of the oracle that stays valid if the first drive starts at another input than in the file. The start
+    /// must lie on the branch of the file's start. `None` if no part is valid.
     pub(super) fn at_another_start(mut self, case: &Case) -> Option<Oracle> {
         self.figures.retain(|figure| !matches!(figure.figure, MechanismFigure::Distance(_)));
-        // If the input at t = 0 differs from that of the file, the motion is a different function of time, so values at
-        // times are removed.
+        // With another input at t = 0, the motion is a different function of time, so values at times are removed.
         self.series.retain(|series| series.instants().all(|at| at.time().is_none()));
         // Values at inputs are removed if they also depend on the time or on the turns since the start.
         // A further drive or a changing speed makes values depend on the time.

@@ -7,8 +7,8 @@ use super::words::suggestion;
 use crate::sentences;
 use linkage::error::{Error, ErrorKind, Result};
 
-/// Reads the section `[parameters]`. Numbers in `set` replace those of the file.
-/// Keys that the file does not have are added if the caller allows this.
+/// Reads the section `[parameters]`. Numbers in `set` replace numbers of the file. If `may_add` is true, keys that the
+/// file does not have are added.
 /// A parameter with a mistake is left out. Only the first mistake in a parameter is returned, because it may cause
 /// later mistakes.
 ///

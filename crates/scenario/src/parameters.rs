@@ -16,12 +16,12 @@ pub struct Parameter {
     unit: Option<&'static NamedUnit>,
 }
 
-/// A conversion of units by a factor. The conversion of 1 is this factor, and the derivative.
+/// A conversion of units by a factor. The conversion of the number 1 gives this factor.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Conversion {
     /// Unit of the given number; `None` if the number is not converted.
     from: Option<&'static NamedUnit>,
-    /// The wanted unit in SI.
+    /// Size of the wanted unit in SI units.
     to: f64,
 }
 
@@ -61,14 +61,14 @@ impl Parameter {
         self.short().unwrap_or(&self.key)
     }
 
-    /// The number that a name of the parameter denotes in an expression for a key with the unit `wanted`.
+    /// The number that `name`, a name of the parameter, denotes in an expression for a key with the unit `wanted`.
     pub(super) fn denoted(&self, name: &str, wanted: Option<&'static NamedUnit>) -> f64 {
         self.conversion(name, wanted).of(self.given)
     }
 
-    /// The conversion from the number of the parameter to the number that its name denotes in a key with the unit
-    /// `wanted`. The short name denotes the value in this unit if parameter and key measure the same quantity,
-    /// otherwise in SI.
+    /// The conversion from the parameter's number to the number that `name` denotes in an expression for a key with the
+    /// unit `wanted`. The short name denotes the value in the key's unit if parameter and key measure the same
+    /// quantity. Otherwise, the short name denotes the value in SI.
     pub(super) fn conversion(&self, name: &str, wanted: Option<&'static NamedUnit>) -> Conversion {
         let unit = self.unit.filter(|_| self.short() == Some(name));
         let wanted = wanted.filter(|wanted| unit.is_some_and(|unit| unit::alike(unit, wanted)));

@@ -20,10 +20,10 @@ pub struct Printed {
 }
 
 impl Printed {
-    /// A number with a given count of decimals, whatever its text.
+    /// A number with a given count of decimals.
     #[must_use]
     pub fn with_digits(value: f64, digits: i32) -> Printed {
-        // The printed decimal number is also rounded to binary. The factor (1 + 1e-9) covers only that rounding.
+        // The decimal number is also rounded to a binary number. The factor (1 + 1e-9) covers only this rounding.
         Printed { value, digits, half_unit: 0.5 * 10f64.powi(-digits) * (1.0 + 1e-9) }
     }
 
@@ -54,7 +54,7 @@ const X_OF_MAGNITUDE: &str = "fx_N";
 /// Ending of the name of the channel of the y component.
 const Y_OF_MAGNITUDE: &str = "fy_N";
 
-/// The units in which a channel may be printed. `None` if it is printed only in its SI unit.
+/// The units in which a channel may be printed. `None` if the channel is printed only in its SI unit.
 fn family(unit: trajectory::Unit) -> Option<&'static UnitFamily> {
     match unit {
         trajectory::Unit::Radian => Some(&ANGLE),
@@ -94,7 +94,7 @@ pub struct PrintedChannel {
 impl PrintedChannel {
     /// The channel called `name`. The ending of the name may be a printed unit: `x_mm` for `x_m`, `angle_deg` for
     /// `angle_rad`.
-    /// If the ending is not a printed unit, the name is that of the channel in SI.
+    /// If the ending is not a printed unit, the name denotes the channel in its SI unit.
     #[must_use]
     pub fn named(name: &str) -> Option<PrintedChannel> {
         if let Some(base) = name.strip_suffix(&format!(".{MAGNITUDE}")) {
@@ -171,7 +171,7 @@ pub(super) struct Correction {
 }
 
 impl Correction {
-    /// Reads the keys `finding` and `right`, which belong together. `None` if both are missing.
+    /// Reads the keys `finding` and `right`, which must occur together. `None` if both keys are missing.
     pub fn read(entry: &mut TomlTable, printed: &Printed) -> Result<Option<Self>> {
         let Some(finding) = finding(entry)? else { return Ok(None) };
         let mut table = entry.table("right")?;

@@ -54,8 +54,7 @@ pub struct TomlTable<'a> {
     settled: Vec<String>,
     /// Spellings of each missing key, and the help for this key.
     missing: Vec<(Vec<String>, Option<&'static str>)>,
-    /// Keys that lead to this table, with `*` for names. These keys are the path of the table's section in the table of
-    /// keys.
+    /// Path of this table's section in the table of keys: the keys that lead to the table, with `*` for names.
     section: String,
     /// Rows of this table's section in the table of keys.
     rows: &'static [FileKey],
@@ -149,7 +148,7 @@ impl<'a> TomlTable<'a> {
         Error::new(kind, message).key(key).at(place)
     }
 
-    /// Refuses the value of `key`. The error is that of [`TomlTable::wrong`], with a help text.
+    /// Refuses the value of `key`: returns the error of [`TomlTable::wrong`] with a help text.
     pub fn refuse<T>(&self, key: &str, message: impl Into<String>, help: impl Into<Advice>) -> Result<T> {
         Err(self.wrong(ErrorKind::Input, key, message).help(help))
     }
@@ -167,7 +166,7 @@ impl<'a> TomlTable<'a> {
         })
     }
 
-    /// Dotted path and position of the value of `key`. If the key is missing, the position is that of the table.
+    /// Dotted path and position of the value of `key`. If the key is missing, the position of the table is returned.
     fn spot(&self, key: &str) -> (String, Place) {
         let with_unit = |entry: &&Entry| {
             self.used.contains(&entry.key) && entry.key.strip_prefix(key).is_some_and(|rest| rest.starts_with('_'))
@@ -247,8 +246,8 @@ impl<'a> TomlTable<'a> {
         self.scalar(key, Needed::Text, None, |value| value.as_str().map(ToString::to_string))
     }
 
-    /// The value in `words` for the word under a key, if present. `wrong` is the end of the message for an
-    /// unknown word, after the word itself, such as "is not an engine".
+    /// The value in `words` for the word under a key, if the key is present. The message for an unknown word consists
+    /// of this word and `wrong`, such as "is not an engine".
     pub fn optional_choice<T: Copy>(&mut self, key: &str, wrong: &str, words: &[(&str, T)]) -> Result<Option<T>> {
         let Some(word) = self.optional_string(key)? else { return Ok(None) };
         let found = words.iter().find(|(own, _)| *own == word).map(|(_, meant)| *meant);
@@ -470,7 +469,7 @@ fn found(source: &Source, value: &Spanned<DeValue>) -> String {
     match value.get_ref() {
         DeValue::Table(_) => "a table".into(),
         DeValue::Array(_) => "an array".into(),
-        // A number that has replaced that of the file.
+        // A text that does not occur at its position in the file is a number that has replaced the number of the file.
         DeValue::String(text) if !source.text.get(value.span()).is_some_and(|own| own.contains(&**text)) => {
             text.to_string()
         }

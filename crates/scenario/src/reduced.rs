@@ -1,7 +1,7 @@
 //! Quantities reduced to the crank, as arithmetic expressions of channels. A claim may also name these quantities.
 //!
-//! The quantities follow from twice the kinetic energy and from the balance of powers of a motion that a solver or
-//! engine has found.
+//! The quantities follow from a motion that a solver or an engine has found: from its kinetic energy, and from its
+//! balance of powers.
 //! Each solver or engine finds velocities, accelerations and the drive's moment by its own equations.
 
 use crate::sentences;
@@ -14,9 +14,9 @@ use linkage::mechanism::{GROUND, Link};
 struct Quantity {
     /// Name of the quantity in a claim, unit included.
     name: &'static str,
-    /// Symbol of its unit.
+    /// Symbol of the quantity's unit.
     unit: &'static str,
-    /// Whether the input to which the quantity is reduced is a slide. If not, the input is an angle.
+    /// Whether the quantity is reduced to a slide. Otherwise it is reduced to an angle.
     of_slide: bool,
     tree: fn(&Case) -> Found,
 }
@@ -26,7 +26,7 @@ pub(super) type Found = Result<FormulaTree, (String, String)>;
 
 /// All reduced quantities. The quantities do not include motor, reducer and flywheel.
 const QUANTITIES: [Quantity; 4] = [
-    // I* = sum of m (v / omega)^2 + J (omega_link / omega)^2.
+    // Reduced moment of inertia I*: the sum of m (v / omega)^2 + J (omega_link / omega)^2 over all links.
     Quantity { name: "drive.reduced_inertia_kg_m2", unit: "kg m^2", of_slide: false, tree: inertia },
     // Moment of gravity and loads reduced to the crank, counter-clockwise positive.
     Quantity { name: "drive.reduced_moment_N_m", unit: "N m", of_slide: false, tree: moment },
@@ -114,7 +114,7 @@ fn moment(case: &Case) -> Found {
     let gained =
         sum(powers).map_or(FormulaTree::number(0.0), |sum| FormulaTree::pair(Operator::Over, sum, input(case, 1)));
     let drive = if case.crank().input == Input::Slide { "drive.force_N" } else { "drive.torque_N_m" };
-    // If the crank has no driving torque, there is no drive moment to subtract.
+    // If the crank has no driving torque, no driving moment is subtracted.
     Ok(match case.drives.with_moment().next() {
         Some(_) => FormulaTree::pair(Operator::Minus, gained, FormulaTree::name(drive)),
         None => gained,

@@ -1,6 +1,6 @@
 //! Points, masses and moments of inertia of links as functions of varied numbers of the file.
 //!
-//! The results equal, bit by bit, those of a scenario that is read with these numbers.
+//! The results are equal, bit by bit, to the results for a scenario that is read with these numbers.
 //! If a varied number has further effects, or is not allowed, the file must be read instead.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -86,11 +86,11 @@ struct LinkNumbers {
 
 /// Computes the numbers of all links of a case from varied numbers of its file.
 pub struct Renumbering {
-    /// Parameters with the numbers of the last case.
+    /// Parameters, with the numbers that were last computed.
     parameters: Vec<Parameter>,
     /// The varied parameters: index of the parameter, and index of the varied number.
     set: Vec<(usize, usize)>,
-    /// Expressions of parameters that depend on varied ones, in the order of the file.
+    /// Expressions of parameters that depend on varied parameters, in the order of the file.
     derived: Vec<(usize, Expression)>,
     links: Vec<LinkNumbers>,
 }
@@ -161,20 +161,20 @@ impl Renumbering {
     }
 
     /// Writes the numbers of links and joints for the varied numbers `values`.
-    /// `false` if a number is not allowed or has no value. Some numbers may already be written then, and the file must
-    /// be read to get the message.
+    /// `false` if a number is not allowed or has no value. In this case some numbers may already be written. The file
+    /// must then be read to get the message.
     #[must_use]
     pub fn write(&mut self, values: &[f64], links: &mut [Link], joints: &mut [Joint]) -> bool {
         self.written(values, links, joints).is_some()
     }
 
-    /// Whether the crank of a case has a length, and the masses and speeds are allowed.
+    /// Whether the crank of a case moves other links, and the masses and speeds are allowed.
     #[must_use]
     pub fn is_sound(case: &Case) -> bool {
         let mechanism: &Mechanism = &case.mechanism;
         let crank = &mechanism.links()[case.crank().link];
         let pivot = mechanism.joints()[case.crank().joint].on(case.crank().link).unwrap_or_default();
-        // A crank without a joint off its axis of rotation moves nothing.
+        // A crank moves no other link if all its joints lie on its axis of rotation.
         let reaches = mechanism.joints().iter().filter_map(|joint| joint.on(case.crank().link));
         let is_crank = reaches.map(|place| (place - pivot).norm()).any(|length| length > 1e-9 * mechanism.size());
         is_crank
@@ -254,7 +254,8 @@ fn in_order<'t, 'a>(table: &'t DeTable<'a>) -> Vec<(&'t str, &'t DeTable<'a>)> {
 }
 
 impl Reading<'_> {
-    /// The expressions of parameters that depend on varied ones. `fixed` are parameters that are set for all cases.
+    /// The expressions of parameters that depend on varied parameters. `fixed` are parameters that are set for all
+    /// cases.
     fn derived(
         &mut self,
         tree: &DeTable,
@@ -285,7 +286,7 @@ impl Reading<'_> {
         words.into_iter().any(|word| self.moved.contains(word))
     }
 
-    /// Whether an expression in the value of a key, or in a table below it, depends on varied numbers.
+    /// Whether the value of a key, or a table below the key, contains an expression that depends on varied numbers.
     #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the TOML parser")]
     fn is_moved_below(&self, key: &str, value: &DeValue) -> bool {
         match value {
@@ -298,7 +299,7 @@ impl Reading<'_> {
         }
     }
 
-    /// The number of a table under one of the spellings of `base`. The inner `None` stands for a missing key.
+    /// The number of a table under one of the spellings of `base`. The result contains `None` if the key is missing.
     fn number(
         &mut self,
         table: &DeTable,
@@ -332,7 +333,7 @@ impl Reading<'_> {
         Some(PlaceNumbers::Coordinates([x, y]))
     }
 
-    /// The numbers of a link; the inner `None` stands for a link whose numbers do not depend on varied numbers.
+    /// The numbers of a link. The result contains `None` if the numbers of the link do not depend on varied numbers.
     fn link(&mut self, index: usize, table: &DeTable, path: &str, case: &Case) -> Option<Option<LinkNumbers>> {
         let below = format!("{path}.");
         let has_varied = self.paths.keys().any(|own| own.starts_with(&below));
@@ -361,7 +362,7 @@ impl Reading<'_> {
         for (joint, own) in case.mechanism.joints().entries() {
             for (is_second, side) in [(false, own.first), (true, own.second)] {
                 if side.link.index() == index {
-                    // Other numbers may separate points that coincide, so the joint needs the name of its point.
+                    // Points that coincide may lie apart for other numbers, so the joint needs the name of its point.
                     let mut at = link.points.iter().enumerate().filter(|(_, point)| point.local == side.local);
                     let named = link.points.iter().position(|point| own.is_pin() && point.name == own.name);
                     let found = named.filter(|at| link.points[*at].local == side.local);

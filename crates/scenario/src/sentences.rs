@@ -7,7 +7,7 @@ linkage::sentences! {
     // lib.rs
     a_table_of_a_load_is_over(sort, over, noun) = "a load of type {sort} is a table over {over}, but the input of the first drive is a {noun}";
     GIVE_THE_LOAD_A_CONSTANT = "give the rows of the table in the unit of the drive: `crank_deg` for an angle, `crank_mm` for a slide";
-    THE_START_OF_TRANSMISSIONS_IS_THAT_OF_THE_FILE = "the starts of the transmissions are valid only at the file's start of the first drive";
+    THE_START_OF_TRANSMISSIONS_IS_THAT_OF_THE_FILE = "the starts of the transmissions are valid only if the first drive has the start of the file";
     CHANGE_THE_STARTS_IN_THE_FILE = "change the starts of the drive and of the transmissions in the file, or keep them and request a grid that begins at the desired input";
     // motion.rs
     a_motor_needs_a_crank(noun) = "the motor drives a crank, but the input of the first drive is a {noun}";
@@ -17,9 +17,9 @@ linkage::sentences! {
     give_the_grid_in(unit) = "give the grid in {unit} (`from_{unit}`, `to_{unit}`, `step_{unit}`) or by time (`from_s`, `to_s`, `step_s`)";
     // stated.rs
     the_first_drive_has_the_input(noun) = "the first drive moves no crank: its input is a {noun}";
-    GIVE_ITS_START_IN_DRIVE = "give its start in `[drive]`, for example `start_mm = 300` or `start_deg = 30`";
+    GIVE_ITS_START_IN_DRIVE = "give the start of the first drive in `[drive]`, for example `start_mm = 300` or `start_deg = 30`";
     // accepted.rs
-    DELETE_ONE_OF_THE_TWO = "delete one of the two";
+    DELETE_ONE_OF_THE_TWO = "delete one of the two entries";
     the_channel_stands_twice(pair) = "the channel {pair} is given twice";
     values_are_kept_for_instants(at, count) = "`at` has {at} values, but there are {count} instants";
     GIVE_ONE_VALUE_FOR_EACH_OF_TIMES = "give one value for each of `times_s`, or accept the figures again";
@@ -35,7 +35,7 @@ linkage::sentences! {
     THE_FILE_HOLDS_NO_ACCEPTED = "the file contains no accepted figures";
     the_accepted_figures_cannot_be_read(path, error) = "the accepted figures {path} cannot be read: {error}";
     // asked.rs
-    an_input_nearer_to_the_file(noun) = "a {noun} nearer to that of the file's start, or the number of a configuration";
+    an_input_nearer_to_the_file(noun) = "a {noun} nearer to the start in the file, or the number of a configuration";
     the_configuration_of_the_group(names, at, to, unit) = "the configuration of the group ({names}) at the start, {at}, cannot be followed to {to:.4} {unit}";
     // case_figure.rs
     A_FIGURE_IS =
@@ -53,7 +53,7 @@ linkage::sentences! {
     ASK_FOR_THE_CHANNEL = "add the channel to `want`, or leave the figure out";
     // claim.rs
     there_is_no_channel_here(name) = "there is no channel {name} here";
-    NAME_ONE_OF_THIS_SCENARIO = "name one of this scenario, such as link.rocker.angle_deg or point.B.x_mm";
+    NAME_ONE_OF_THIS_SCENARIO = "name a channel of this scenario, such as link.rocker.angle_deg or point.B.x_mm";
     did_you_mean(near) = "did you mean `{near}`?";
     THE_CLAIM_NAMES_NO_CHANNEL = "the claim names no channel";
     NAME_A_CHANNEL_SUCH_AS_LINK = "name a channel, such as link.rocker.angle_deg";
@@ -74,7 +74,7 @@ linkage::sentences! {
     found_corners_but_a_polygon(count) = "found {count} corners, but a polygon has three or more";
     ONE_PLACE_IS_A_DISC_TWO_ARE_A_CAPSULE = "one point gives a disc, two give a capsule";
     A_LINE_NEEDS_A_PLACE_OR_MORE = "a line needs at least one point";
-    KEEP_ONE_OF_THE_TWO = "keep one of the two";
+    KEEP_ONE_OF_THE_TWO = "keep one of the two entries";
     CORNERS_AND_LINE_ARE_BOTH = "`corners` and `line` are both given";
     THIS_PART_OF_THE_HOUSING = "this part of the housing has no outline";
     ADD_CORNERS_OF_A_SOLID_PART = "add `corners` of a solid part, or the points of a wall as `line`";
@@ -89,17 +89,17 @@ linkage::sentences! {
     THE_GROUND_HAS_NO_OUTLINE = "the ground has no separate outline";
     give_a_number_from_to_such_as(smallest_area) = "give a number from {smallest_area} to below 1, such as 1e-3";
     found_but_this_is_the_share(share) = "found {share}, but this is the allowed error of a swept area as a fraction of the area";
-    CHECK_THE_UNITS_OF_ITS_CORNERS = "check the units of its corners and its radius";
+    CHECK_THE_UNITS_OF_ITS_CORNERS = "check the units of the outline's corners and radius";
     the_outline_of_extends_to_the_mechanism(far, far_2, size) = "the outline of \"{far}\" extends to {far_2} m, but the mechanism only to {size} m";
     LEAVE_OUT_PARTS_THAT_NO_LINK = "leave out parts that no link comes near";
     found_parts_of_the_housing(housing, most_parts) = "found {housing} parts of the housing, but at most {most_parts} are handled";
-    GIVE_A_LARGER_TOLERANCE_OR_LEAVE = "give a larger tolerance, or leave it out";
+    GIVE_A_LARGER_TOLERANCE_OR_LEAVE = "give a larger tolerance, or leave out the tolerance";
     distances_are_found_to_and_no_better(size, finest) = "distances cannot be found more accurately than {size} m, {finest} of the mechanism's size";
     // edit.rs
     no_plain_number(path) = "`{path}` is not a plain number, so it cannot be changed here";
     no_point(point, link) = "the file has no coordinates x and y of the point \"{point}\" of \"{link}\"";
     not_one_parameter(place) = "`{place}` is an expression, not one parameter: change its parameters";
-    WRITE_IT_AS_ENGINE = "write it as `[engine]`";
+    WRITE_IT_AS_ENGINE = "write the section as `[engine]`";
     ENGINE_IS_NOT_A_SECTION = "`engine` is not a section";
     the_file_is_not_valid_toml(error) = "the file is not valid TOML: {error}";
     // engine.rs
@@ -113,13 +113,13 @@ linkage::sentences! {
     KEEP_EITHER_DT_A_TIME_OR_STEP = "keep either `dt` (a time) or `step` (a crank angle)";
     IS_NO_ROUTE_TO_REACTIONS = "is not a route (method) to the reactions";
     IS_NO_ENGINE = "is not an engine";
-    COMBINE_RUNS_AT_THE_STEP = "Combine runs at the step and at repeatedly halved steps, so that the leading errors cancel: once if no number is given [default: that of the scenario; otherwise `run` chooses it unless the step is given, and other commands do not extrapolate]";
+    COMBINE_RUNS_AT_THE_STEP = "Combine runs at the step and at repeatedly halved steps, so that the leading errors cancel: once if no number is given [default: as in the scenario; otherwise `run` chooses it unless the step is given, and other commands do not extrapolate]";
     ROUTE_BY_WHICH_REACTIONS_AND_BALANCING = "Method by which reactions and balancing moment are computed";
     NUMBER_OF_SUBSTEPS_INTO_WHICH_THE_ENGINE = "Number of substeps into which the engine divides a step";
-    SWEEPS_OF_THE_ENGINE_ITERATION = "Sweeps of the engine's iteration in a step [default: that of the scenario; otherwise `run` chooses it, and other commands use the engine's default]";
-    RELATIVE_ACCURACY_OF_AN_ENGINE = "Relative accuracy of an engine that chooses its own steps [default: that of the engine; simbody: 1e-8]";
-    ENGINE_OR_ALL_TO_RUN_EVERY_ONE_SIDE = "Engine, or `all` to run all of them side by side. May be given several times [default: that of the scenario, otherwise the first]";
-    TIME_STEP_OF_THE_ENGINE_IN_SECONDS = "Time step of the engine in seconds [default: that of the scenario; otherwise `run` chooses it, and other commands use a quarter of a degree of the crank or less]";
+    SWEEPS_OF_THE_ENGINE_ITERATION = "Sweeps of the engine's iteration in a step [default: as in the scenario; otherwise `run` chooses it, and other commands use the engine's default]";
+    RELATIVE_ACCURACY_OF_AN_ENGINE = "Relative accuracy of an engine that chooses its own steps [default: the accuracy of the engine; simbody: 1e-8]";
+    ENGINE_OR_ALL_TO_RUN_EVERY_ONE_SIDE = "Engine, or `all` to run all of them side by side. May be given several times [default: the engine of the scenario, otherwise the first engine]";
+    TIME_STEP_OF_THE_ENGINE_IN_SECONDS = "Time step of the engine in seconds [default: as in the scenario; otherwise `run` chooses it, and other commands use a quarter of a degree of the crank or less]";
     // figure.rs
     the_mechanism_has_no_point(name) = "the mechanism has no point \"{name}\"";
     NAME_POINTS_WHOSE_DISTANCE_FOLLOWS = "name points whose distance depends on the pose of the mechanism";
@@ -132,7 +132,7 @@ linkage::sentences! {
     // formula.rs
     ADD_CHANNEL_OR_TAKE_IT_OUT = "add `channel`, or remove the key";
     belongs_to_a_claim_and_this_formula(key) = "`{key}` belongs to a claim, but this formula has no claim";
-    LEAVE_IT_OUT_IF_THE_FORMULA = "leave it out if the formula is exact";
+    LEAVE_IT_OUT_IF_THE_FORMULA = "leave out `error` if the formula is exact";
     A_CLAIMED_ERROR_MUST_BE_A_POSITIVE = "a claimed error must be a positive number";
     THE_LAST_CRANK_ANGLE_IS_LESS = "the last input is less than the first";
     there_is_no(name) = "there is no `{name}`";
@@ -164,15 +164,15 @@ linkage::sentences! {
     // joints.rs
     IS_NOT_HOW_A_PRISMATIC_PAIR = "is not a way to draw a prismatic joint";
     IS_NO_TYPE_OF_JOINT = "is not a type of joint";
-    POINTS_NAMES_A_POINT_OF_THE_FIRST = "`points` names a point of the first link and one of the second";
-    WRITE_POINTS_A_POINT_OF_THE_FIRST = "write `points = [\"O\", \"B\"]`: a point of the first link on the guide's line, and the point of the second that slides along it";
+    POINTS_NAMES_A_POINT_OF_THE_FIRST = "`points` names a point of the first link and a point of the second link";
+    WRITE_POINTS_A_POINT_OF_THE_FIRST = "write `points = [\"O\", \"B\"]`: a point of the first link on the guide's line, and the point of the second link that slides along this line";
     found_points_but_a_guide(names) = "found {names} points, but a guide takes two";
     A_JOINT_LIES_AT_THE_POINT = "a joint lies at the point of its name, or of its key `point`, on both links";
     link_has_no_point(link, point) = "link \"{link}\" has no point \"{point}\"";
-    MAKE_THE_TWO_ONE_LINK_WITH_ALL = "combine the two into one link with all their points, or join other links";
+    MAKE_THE_TWO_ONE_LINK_WITH_ALL = "combine the two links into one link with all points, or join other links";
     joint_joins_and_already_two(other, first, second) = "joint \"{other}\" already joins \"{first}\" and \"{second}\"; two joints lock two links together";
     NAME_TWO_DIFFERENT_LINKS = "name two different links";
-    it_joins_with_itself(first) = "it joins \"{first}\" with itself";
+    it_joins_with_itself(first) = "the joint joins \"{first}\" with itself";
     found_links_but_a_joint_has_two(pair) = "found {pair} links, but a joint has two";
     GIVE_EVERY_JOINT_ITS_OWN = "give every joint a unique name; two joints on one pin share the point instead: `point = \"...\"`";
     two_joints_are_called(name) = "two joints are called \"{name}\"";
@@ -204,17 +204,17 @@ linkage::sentences! {
     NAME_TWO_POINTS_THAT_MOVE = "name two points that move apart";
     a_joint_holds_the_two_points(first) = "a joint holds the two points \"{first}\" together";
     found_points_but_this_load(points) = "found {points} points, but this load acts between two";
-    WRITE_POINTS_A_POINT_OF_THE_FIRST_LINK = "write `points = [\"S\", \"B\"]`: a point of the first link and one of the second";
-    it_acts_between_and_itself(first) = "it acts between \"{first}\" and itself";
+    WRITE_POINTS_A_POINT_OF_THE_FIRST_LINK = "write `points = [\"S\", \"B\"]`: a point of the first link and a point of the second link";
+    it_acts_between_and_itself(first) = "the load acts between \"{first}\" and itself";
     found_links_but_this_load(names) = "found {names} links, but this load acts between two";
     NAME_A_LINK_THAT_TURNS = "name a link that turns";
     link_does_not_turn_prismatic(name) = "link \"{name}\" does not turn: only prismatic joints connect it with the ground";
     NAME_A_MOVING_LINK = "name a moving link";
     THE_GROUND_DOES_NOT_TURN = "the ground does not turn";
     THE_GROUND_DOES_NOT_MOVE = "the ground does not move, so a load on it has no effect";
-    WRITE_FOR_A_FOUR_STROKE_ENGINE = "write 2 for a four-stroke engine, otherwise leave it out";
+    WRITE_FOR_A_FOUR_STROKE_ENGINE = "write `turns = 2` for a four-stroke engine, otherwise leave out `turns`";
     found_but_a_table_repeats(other, most_turns) = "found {other}, but a table repeats after 1 to {most_turns} turns of the crank";
-    A_TABLE_REPEATS_AFTER_A_TURN = "a table repeats after one turn or after `turns` turns: leave out its last point if it repeats the first";
+    A_TABLE_REPEATS_AFTER_A_TURN = "a table repeats after one turn or after `turns` turns: leave out the last point of the table if this point repeats the first point";
     the_table_is_longer_than_its_period(u64) = "the table is longer than its period, {u64} deg";
     WRITE_THE_POINTS_IN_ASCENDING = "write the points in ascending order of the input; in a table of straight lines, two points with the same input are a jump";
     GIVE_THE_INPUT = "give the crank angle, or the slide of the first drive";
@@ -272,10 +272,10 @@ linkage::sentences! {
     LET_LAW_AND_START_BE_EQUAL = "let the value of the table or formula at t = 0 be equal to the start";
     the_law_does_not_begin(begin, input, input_2) = "the law begins with {begin} {input_2}, but the start is {input} {input_2}";
     THE_TABLE_BEGINS_LATER = "the first point of the table is not at 0 s";
-    GIVE_A_CRANK_ANGLE_OTHER = "give a value other than that of the start";
+    GIVE_A_CRANK_ANGLE_OTHER = "give a value that differs from the start";
     THE_CRANK_IS_TO_STAY_WHERE = "the input would not change";
-    THE_FIRST_DRIVE_HOLDS = "the first drive identifies the instants, but it holds its joint";
-    PUT_A_MOVING_DRIVE_FIRST = "write a drive that moves its joint before this one; if nothing moves, leave out `[drive]` and inspect the structure";
+    THE_FIRST_DRIVE_HOLDS = "the first drive identifies the instants, but does not move its joint";
+    PUT_A_MOVING_DRIVE_FIRST = "write a drive that moves its joint before this drive; if nothing moves, leave out `[drive]` and inspect the structure";
     IS_NO_LAW_OF_MOTION = "is not a law of motion";
     is_no_way_through_a_change(other) = "\"{other}\" is not a way to pass a change point";
     WRITE_THROUGH_SMOOTH_FOR_THE_BRANCH = "write `through = \"smooth\"` for the branch with continuous velocities, or remove the key";
@@ -293,9 +293,9 @@ linkage::sentences! {
     TAKE_THE_KEY_OUT = "remove the key";
     CHANGE_POINTS_ARE_PASSED_WITH_ONE_DRIVE = "change points can be passed with one drive only, but there are several";
     // motor.rs
-    ADD_INTERMEDIATE_RATIO_ITS_SPEED = "add `intermediate_ratio`: the shaft's speed divided by that of the crank";
+    ADD_INTERMEDIATE_RATIO_ITS_SPEED = "add `intermediate_ratio`: the shaft's speed divided by the speed of the crank";
     THE_INTERMEDIATE_SHAFT_HAS_A_MOMENT = "the intermediate shaft has a moment of inertia, but its speed is not known";
-    GIVE_THE_SPEED_OF_THE_INTERMEDIATE = "give the speed of the intermediate shaft divided by that of the crank";
+    GIVE_THE_SPEED_OF_THE_INTERMEDIATE = "give the speed of the intermediate shaft divided by the speed of the crank";
     found_but_a_ratio_of_speeds(ratio) = "found {ratio}, but a ratio of speeds is positive";
     a_table_of_torques_needs(speeds) = "a table of torques needs at least two points, found {speeds}";
     WRITE_THE_POINTS_IN_ASCENDING_ORDER_OF_SPEED = "write the points in ascending order of speed, each speed once";
@@ -308,16 +308,16 @@ linkage::sentences! {
     GIVE_ONE_OF_THE_TWO_BREAKDOWN = "give one of the two: `breakdown_slip`, or `breakdown_speed_rpm` or `breakdown_speed_rad_s`";
     GIVE_A_SHARE_FOR = "give a fraction: 0.92 for 92 %";
     found_but_an_efficiency_lies(efficiency) = "found {efficiency}, but an efficiency is above 0 and at most 1";
-    GIVE_THE_SPEED_OF_THE_MOTOR = "give the speed of the motor divided by that of the crank; 1 without a reducer";
+    GIVE_THE_SPEED_OF_THE_MOTOR = "give the speed of the motor divided by the speed of the crank; 1 without a reducer";
     IS_NO_LAW_OF_A_MOTOR = "is not a law of a motor";
     // oracle.rs
     THERE_IS_NO_VALUE = "no value is given";
-    SPLIT_IT_INTO_SEVERAL_ORACLE = "split it into several [[oracle]] tables";
+    SPLIT_IT_INTO_SEVERAL_ORACLE = "split the oracle into several [[oracle]] tables";
     AN_ORACLE_HAS_EXACTLY_ONE_OF_FILE = "an oracle has exactly one of `file`, `values` and `figures`";
     GIVE_THE_NUMBERS_DOCS_SCENARIO = "give the numbers: docs/scenario.md describes how";
     IS_NO_WAY_TO_KNOW_NUMBERS = "is not a basis of published numbers";
     // parameter_table.rs
-    KEEP_ONE_OF_THE_TWO_OR_CALL = "keep one of the two, or rename one";
+    KEEP_ONE_OF_THE_TWO_OR_CALL = "keep one of the two parameters, or rename one of them";
     would_stand_for_and_for(name, key, key_2) = "`{name}` would mean both `{key}` and `{key_2}`";
     SET_THE_PARAMETER_WITH_THE_UNIT = "set the parameter with the unit that the file gives it";
     the_scenario_has_no_parameter(key) = "the scenario has no parameter `{key}`";
@@ -325,8 +325,8 @@ linkage::sentences! {
     has_a_meaning_in_every_formula(name) = "`{name}` is a reserved name in formulas";
     cannot_be_a_name_in_a_formula(name) = "\"{name}\" cannot be a name in a formula";
     NAMES_BEGIN_WITH_A_LETTER = "names begin with a letter and have letters, digits and `_` only";
-    NOTHING_IS_KNOWN_OF_ITS_VALUE = "its value cannot be determined";
-    CHECK_ITS_UNITS_AND_WHETHER = "check its units, and whether a divisor is zero apart from rounding error";
+    NOTHING_IS_KNOWN_OF_ITS_VALUE = "the value of the expression cannot be determined";
+    CHECK_ITS_UNITS_AND_WHETHER = "check the units of the expression, and whether a divisor is zero apart from rounding error";
     WRITE_A_NUMBER_OR_GIVE_IT_A_NAME = "write a number, or give it a name in a section [parameters]";
     // printed.rs
     found_but_no_number_is_printed(digits) = "found {digits}, but no number is printed with that many decimals";
@@ -377,12 +377,12 @@ linkage::sentences! {
     // series.rs
     is_not_in_the_run_which_goes(time, end) = "{time} s is outside the run, which goes from 0 to {end} s";
     GIVE_A_TIME_WITHIN_THE_RUN = "give a time within the run, or extend the grid";
-    NAME_THE_COLUMN_OF_CRANK = "name the column of crank angles (`crank = \"crank_deg\"`) or that of times (`time = \"t_s\"`)";
+    NAME_THE_COLUMN_OF_CRANK = "name the column of crank angles (`crank = \"crank_deg\"`) or the column of times (`time = \"t_s\"`)";
     column_does_not_say_its_unit(column) = "column \"{column}\" does not state its unit";
     THE_COLUMN_OF_TIMES_ENDS = "the name of the column of times must end in `_s` or `_ms`";
     THE_COLUMN_OF_CRANK_ANGLES = "the name of the column must end in `_deg` or `_rad` for crank angles, in `_m` or `_mm` for slides";
     keep_one_of_the_two_2(help) = "keep one of the two: {help}";
-    A_COLUMN_OF_CRANK_ANGLES = "a column of crank angles and one of times are both named";
+    A_COLUMN_OF_CRANK_ANGLES = "a column of crank angles and a column of times are both named";
     A_CRANK_ANGLE_AND_A_TIME = "a crank angle and a time are both given";
     A_NUMBER_HOLDS_AT_A_CRANK = "a number belongs to a crank angle (of the nominal motion, if forces determine the motion) or to a time";
     CHANNELS_ARE_NAMED_LIKE_POINT = "channels are named like \"point.A.x_mm\", \"link.crank.angle_deg\", \"link.crank.omega_rad_s\", \"joint.A.fx_N\" or \"drive.torque_N_m\"";
@@ -397,17 +397,17 @@ linkage::sentences! {
     ask_for_for_a_subject_such_as_for_its_stage(choice, known, known_2) = "ask for {choice}, for a subject such as \"{known}\", for its stage, \"{known_2}.positions\", or for one channel";
     did_you_mean_2(near) = "did you mean \"{near}\"?";
     NOTHING_IS_WANTED = "no channel is requested";
-    name_at_least_one_or_leave(suggestion) = "name at least one, or leave out the section to get all; {suggestion}";
+    name_at_least_one_or_leave(suggestion) = "name at least one channel, or leave out the section to get all channels; {suggestion}";
     // source.rs
-    DIVIDE_IT_INTO_SEVERAL_FILES = "divide it into several files";
+    DIVIDE_IT_INTO_SEVERAL_FILES = "divide the file into several files";
     the_file_has_more_than_parts(most_parts, parts) = "the file has more than {most_parts} parts ({parts})";
     POINTS_LINKS_JOINTS_LOADS_FORMULAS = "points, links, joints, loads, formulas and other tables";
     the_text_has_more_than_letters(longest_text) = "the text has more than {longest_text} characters";
     THE_TEXT_HOLDS_A_LETTER_THAT_IS_NOT_SEEN = "the text contains an invisible character";
-    GIVE_IT_A_SHORTER_NAME = "give it a shorter name";
+    GIVE_IT_A_SHORTER_NAME = "give the key a shorter name";
     a_key_has_more_than_letters(longest_name) = "a key has more than {longest_name} characters";
     A_KEY_HOLDS_A_LETTER_THAT_IS_NOT_SEEN = "a key contains an invisible character";
-    DIVIDE_IT_OR_TAKE_A_COARSER = "divide it, or use a coarser grid; long columns of published numbers belong in a table (`file`)";
+    DIVIDE_IT_OR_TAKE_A_COARSER = "divide the file, or use a coarser grid; long columns of published numbers belong in a table (`file`)";
     the_file_has_more_than_values(most_values) = "the file has more than {most_values} values (signs `,` `=` `[` `{{` `.`)";
     GIVE_THE_PATH_OF_A_SCENARIO = "give the path of a scenario file, such as four_bar.toml";
     the_scenario_cannot_be_read(path, error) = "the scenario {path} cannot be read: {error}";
@@ -415,17 +415,17 @@ linkage::sentences! {
     // start.rs
     start_groups_links(names, mode) = "[[start.groups]]\nlinks = [{names}]\n{mode}";
     mode_or(one, other) = "mode = \"{one}\" # or \"{other}\"";
-    its_groups_are(ready_to_paste) = "its groups are:\n{ready_to_paste}";
-    IT_HAS_NO_GROUP_AT_ALL_TAKE = "it has no groups: remove the table";
+    its_groups_are(ready_to_paste) = "the groups of the mechanism are:\n{ready_to_paste}";
+    IT_HAS_NO_GROUP_AT_ALL_TAKE = "the mechanism has no groups: remove the table";
     the_mechanism_has_no_assur(names) = "the mechanism has no Assur group ({names})";
     no_link_of_the_group_has_a_point(name) = "no link of the group has a point \"{name}\"";
-    IT_HAS_ONE_CONFIGURATION_LEAVE = "it has one configuration: leave out the mode";
+    IT_HAS_ONE_CONFIGURATION_LEAVE = "the group has one configuration: leave out the mode";
     GIVE_NEAR_INSTEAD = "give `near` instead";
     write_or_2(one, other) = "write \"{one}\" or \"{other}\"";
     mode_does_not_belong_to_a_group(asked, group) = "a group of {group} has no mode \"{asked}\"";
     a_number_from_the_list_of_configurations(names, or) = "{names}{or}a number from the list of configurations";
     is_no_assembly_mode_of_the_group(mode, group) = "\"{mode}\" is not an assembly mode of the group ({group})";
-    ask_for_one_of_its_groups(examples) = "ask for one of its groups: {examples}";
+    ask_for_one_of_its_groups(examples) = "ask for one of the mechanism's groups: {examples}";
     write_the_links_of_a_group(examples) = "write the links of a group, `=`, and a mode or a number: {examples}";
     names_no_group_and_mode(text) = "\"{text}\" does not name a group and a mode";
     THIS_GROUP_IS_GIVEN_TWICE = "this group is given twice";
@@ -448,7 +448,7 @@ linkage::sentences! {
     the_run_lacks(name) = "the run does not contain {name}";
     SOLVE_WITH_THE_CHANNELS_OF_THE_FIGURE = "request the channel in `want` of `[channels]`";
     // table_file.rs
-    WRITE_IT_AS_PRINTED_WITH_A_DECIMAL = "write it as printed, with a decimal point; list a cell known to be wrong under `expect`, with its finding";
+    WRITE_IT_AS_PRINTED_WITH_A_DECIMAL = "write the number as printed, with a decimal point; list a cell known to be wrong under `expect`, with the finding";
     found_but_a_decimal_number(text, comma) = "expected a decimal number{comma}, found \"{text}\"";
     AND_DECIMALS_TAKE_A_POINT = ", written with a decimal point";
     the_table_has_no_column(name) = "the table has no column \"{name}\"";
@@ -466,7 +466,7 @@ linkage::sentences! {
     WHY_EXPLAINS_SLACK_BY_WHICH_ALL = "`why` explains `slack`, by which all numbers of the table may be off";
     GIVE_ONE_VALUE_FOR_EVERY_ROW = "give one value for every row, in the order of the rows";
     found_right_values_for_the_column(values, printed) = "found {values} right values for the column's {printed} rows";
-    SAY_WHICH_FINDING_CALLS_THE_CELL = "name the finding that calls the cell wrong";
+    SAY_WHICH_FINDING_CALLS_THE_CELL = "name the finding that says that the cell is wrong";
     FINDING_IS_MISSING = "`finding` is missing";
     the_table_has_no_row_with_this(what) = "the table has no row with this {what}";
     give_a_that_stands_in_the_table(what) = "give a {what} that is in the table";
@@ -496,7 +496,7 @@ linkage::sentences! {
     the_follower_has_no_point(link, point) = "follower \"{link}\" has no point \"{point}\"";
     GIVE_THE_ROLLER = "give the radius of the roller, or take `follower = \"knife\"`";
     ONLY_A_ROLLER_HAS_A_RADIUS = "only a roller has a radius";
-    TAKE_A_ROLLER = "remove it, or write `follower = \"roller\"`";
+    TAKE_A_ROLLER = "remove the radius, or write `follower = \"roller\"`";
     GIVE_THE_MOTION_OF_THE_FOLLOWER = "write `motion = [{ to_deg = 120, lift_mm = 20 }, { to_deg = 180 }, { to_deg = 300, lift_mm = 0 }, { to_deg = 360 }]`";
     IS_NO_CURVE_OF_A_CAM = "is not a curve of a cam";
     the_cam_angles_do_not_ascend(to, last) = "the piece ends at {to} deg, but must end after {last} deg and not after 360 deg";

@@ -62,7 +62,7 @@ fn laws_and_reducers() {
             format!("{linear}intermediate_inertia_kg_m2 = 1\nintermediate_ratio = 0\n"),
             "intermediate_ratio",
             "motor.intermediate_ratio",
-            &["found 0", "divided by that of the crank"],
+            &["found 0", "divided by the speed of the crank"],
         ),
     ];
     for (text, at, key, words) in cases {

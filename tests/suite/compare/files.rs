@@ -366,6 +366,6 @@ fn regress_a_panic_of_the_parquet_reader_becomes_a_message() {
     fs::write(place.path("x.parquet"), Announced { encoding: 2, ..Announced::zeros(1000) }.file()).unwrap();
     place.refused(
         "compare x.parquet x.parquet",
-        &["x.parquet is cut off or damaged", "its parts contradict each other"],
+        &["x.parquet is cut off or damaged", "the parts of the file contradict each other"],
     );
 }

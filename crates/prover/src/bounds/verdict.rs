@@ -344,7 +344,7 @@ mod tests {
             "{reason}"
         );
         let (reason, advice) = told(Parts { discretisation: 0.1, iteration: 0.1, rounding: 0.5, reference: 0.0 });
-        assert!(reason.ends_with("most of it is rounding error"), "{reason}");
+        assert!(reason.ends_with("the largest part is rounding error"), "{reason}");
         assert_eq!(advice, [Advice::LargerStep { to: None }, Advice::DoublePrecision]);
         let (reason, advice) = told(Parts { discretisation: 0.1, iteration: 0.2, rounding: 0.3, reference: 0.7 });
         assert!(reason.ends_with("the error of the reference") && advice == [Advice::ShortenGrid], "{reason}");

@@ -1,5 +1,5 @@
-//! A scenario solved by both analytic sides without engines: at the instants of another party, or for the claims of
-//! formulas.
+//! Solves a scenario with both analytic sides, without engines. The purpose is a comparison with a table or a
+//! recording, or the judgement of formulas.
 
 use super::dependence::Dependence;
 use super::each_side::Reference;
@@ -18,16 +18,16 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::trajectory::{Channel, Trajectory};
 use scenario::{Claim, Formulas, Scenario};
 
-/// Smallest errors of an analytic side's trajectory: the rounding errors in well-conditioned poses. Each error belongs
-/// to one channel and is in the channel's unit.
+/// Lower limits of the errors of an analytic side's trajectory: the rounding errors in well-conditioned poses. There is
+/// one limit for each channel, in the channel's unit.
 #[must_use]
 pub fn known_at_least(trajectory: &Trajectory) -> Vec<f64> {
     let sizes = magnitudes(trajectory).into_iter().zip(trajectory.channels());
     sizes.map(|(size, channel)| usual(channel.kind.stage) * size).collect()
 }
 
-/// Smallest errors of an analytic side's trajectory that has all channels of a case.
-/// The error of a channel follows from the size of the numbers in the groups on which the channel depends.
+/// Lower limits of the errors of a trajectory that an analytic side solved with all channels of a case. The limit of a
+/// channel follows from the largest numbers in the Assur groups on which the channel depends.
 #[must_use]
 pub fn known_of_complete(case: &Case, trajectory: &Trajectory) -> Vec<f64> {
     let depends = Dependence::of(case, trajectory.channels());
@@ -37,7 +37,7 @@ pub fn known_of_complete(case: &Case, trajectory: &Trajectory) -> Vec<f64> {
 
 /// The channels that are solved for a claim: the channels needed to judge the claim, and the other channels of the
 /// claim's subject.
-/// The other channels determine the error of a component that is zero except for rounding.
+/// If a component is zero except for rounding, its error follows from the other channels of the subject.
 #[must_use]
 pub fn asked(claim: &Claim, case: &Case) -> Vec<Channel> {
     let is_beside = |channel: &Channel| {
@@ -87,10 +87,9 @@ impl Solved {
         Ok(Solved { case, sides, least })
     }
 
-    /// These results, with the lower limits of the channels' errors that `of` returns.
-    /// `of` determines the limits from all channels of the mechanism.
-    /// The reason: if all solved channels are zero except for rounding, their rounding error comes from channels that
-    /// are not solved.
+    /// Returns these results with new lower limits of the errors: for each channel, the limit that `of` returns. `of`
+    /// must take all channels of the mechanism into account: if the solved channels are zero except for rounding, their
+    /// rounding error comes from channels that are not solved.
     #[must_use]
     pub fn known_at_least(mut self, of: &dyn Fn(&Channel) -> f64) -> Self {
         self.least = self.sides.trajectory().channels().iter().map(of).collect();
@@ -122,7 +121,7 @@ impl Solved {
 pub struct Claimed {
     /// The judgement of every claim, against each of the two sides.
     pub judgement: Judgement,
-    /// The checks on both sides.
+    /// The checks of the two analytic sides, without the checks of the formulas.
     pub checks: Vec<Check>,
     /// The overall verdict.
     pub verdict: Verdict,

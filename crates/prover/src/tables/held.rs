@@ -52,7 +52,7 @@ impl RowKey {
         ascending(&self.values.iter().map(|at| at.value).collect::<Vec<f64>>())
     }
 
-    /// The first row (counted from 0) at which the instants reverse the direction of the table's first step.
+    /// The first row (counted from 0) at which the instants turn back, against the direction of the table's first step.
     /// Returns the index of the reversing row, the instant of the row before it, and the instant of the reversing row.
     /// If a time jumps back, a new run has begun.
     #[must_use]
@@ -95,7 +95,7 @@ pub struct Held {
 /// Indices of a party's columns, by the text of the column and by its channel. If several columns match, the first one
 /// counts.
 /// An expression is found only by its text. The magnitude of a vector counts as a separate channel.
-/// The maps are needed for speed: a party has as many columns as a mapping has lines, and each column is looked up.
+/// The maps are needed for speed: every line of a mapping adds a column, and every column is looked up.
 #[derive(Clone, Debug, Default)]
 struct Places {
     texts: BTreeMap<String, usize>,
@@ -147,8 +147,8 @@ impl Held {
             let printed = reader.column(mapped)?;
             let chosen = if mapped.name.ends_with("_deg") { columns::degrees_chosen } else { columns::chosen };
             let is_chosen = chosen(&printed);
-            // Instants that are exact as printed, and not rounded, get only the rounding error of the conversion to SI
-            // units.
+            // An instant may be exact as printed, not rounded. Its only error is then the rounding error of the
+            // conversion to SI units.
             let exact = |own: Rounded| if is_chosen { Rounded::nearly(own.value) } else { own };
             let values: Vec<Rounded> = printed.into_iter().map(|own| exact(scaled(own, factor))).collect();
             if let Some(row) = values.iter().position(|own| !(own.value + own.error).is_finite()) {
@@ -253,7 +253,7 @@ impl Held {
         Some(column.scale? * factor)
     }
 
-    /// The column of a claim, and the ratio of the column's unit to that of the claim.
+    /// The column of a claim, and the ratio of the column's unit to the claim's unit.
     fn column_of(&self, claim: &Claim) -> Option<(&PartyColumn, f64)> {
         if let Some(&index) = self.places.texts.get(&claim.text) {
             return Some((&self.columns[index], 1.0));
@@ -381,8 +381,8 @@ impl<'a> Reader<'a> {
             for &index in &used {
                 inputs[index] = self.raw.columns[index][row];
             }
-            // If a measurement is missing, the result is missing too. If measured values give no number, the mapping is
-            // wrong.
+            // If a measurement is missing, the result of the expression is missing too. If measured values give no
+            // number, the expression in the mapping is wrong.
             if used.iter().any(|&index| is_missing(&inputs[index])) {
                 return Ok(MISSING);
             }

@@ -31,7 +31,7 @@ pub(super) fn read(path: &Path, size: u64, may: May) -> Result<TextTable> {
         Error::new(ErrorKind::Io, sentences::the_table_is_cut_off_or_damaged(&path.display(), &error))
             .help(sentences::WRITE_IT_AGAIN_AS_PARQUET)
     };
-    // A file may claim anything, so panics of the reader are caught.
+    // A damaged file can make the reader panic. The panic is caught and becomes an error.
     match guarded(|| of_file(path, size, may)) {
         Ok(Ok(read)) => read,
         Ok(Err(error)) => Err(damaged(&error)),
@@ -72,7 +72,7 @@ fn of_file(path: &Path, size: u64, may: May) -> std::result::Result<Result<TextT
     if values > MOST {
         return refused(sentences::it_has_values_more_than(&values, &MOST), sentences::GIVE_FEWER_ROWS_OR_FEWER);
     }
-    // The estimate does not include unpacked data, because compressed data is unpacked part by part.
+    // The estimate of the memory leaves out the unpacked data, because compressed data is unpacked part by part.
     if let Err(error) = may(size as f64 + values as f64 * size_of::<Rounded>() as f64, rows as usize) {
         return Ok(Err(error));
     }
@@ -149,8 +149,8 @@ fn values_of(
     }
 }
 
-/// Appends the values of a part of a column that has one type of value. If the level of a row is not `full`, the row
-/// has no value.
+/// Appends the values of a part of a column that has one type of value. `full` is the definition level of a row with a
+/// value. A row with another level has no value.
 fn taken<T: DataType>(
     mut part: ColumnReaderImpl<T>,
     full: i16,
@@ -173,7 +173,7 @@ where
         let mut values = values.iter().map(|&value| number(value));
         let mut next =
             || values.next().ok_or_else(|| ParquetError::General(sentences::A_COLUMN_HAS_FEWER_VALUES.into()));
-        // A column in which every row must have a value has no levels. Every row then counts as `full`.
+        // If every row of a column must have a value, the file stores no levels. Then every row has a value.
         for level in levels.iter().copied().chain(std::iter::repeat(full)).take(read) {
             to.push(if level == full { next()? } else { MISSING });
         }

@@ -1,4 +1,5 @@
-//! Permission to read a table, the error if the table cannot be read, and text with separated columns.
+//! Reads text with separated columns, decides whether memory for a table is allowed, and reports a table that cannot be
+//! read.
 
 use crate::sentences;
 use std::io::{self, Read};

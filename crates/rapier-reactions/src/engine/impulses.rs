@@ -11,16 +11,17 @@ use crate::sentences;
 
 /// With at least this many joints of one colour, Rapier 0.36.1 solves joints in groups, and lays the rows of a group in
 /// another order (`min_color_joints` and `JointConstraint<SimdReal, SIMD_WIDTH>::update`).
-/// The order of the rows of a prismatic or fixed joint between separate bodies is then not known from outside.
+/// The order of the rows of a prismatic or fixed joint between separate bodies cannot then be found out.
 const GROUPED: usize = 64;
 
 /// Reads the reactions of all impulse joints from the impulses of each step.
 ///
 /// Call [`ImpulseReader::before_step`], step the world, call [`ImpulseReader::after_step`].
 /// The reactions belong to the start of the last substep: with one substep, to the poses before the step.
-/// Their error is of first order in the step; [`extrapolated`](super::extrapolated) makes it second order.
+/// The error of the reactions is of first order in the step. After [`extrapolated`](super::extrapolated), it is of
+/// second order.
 /// The first step after a start contains a transient and should be left out.
-/// Joints of a multibody report no impulses and are not in the result.
+/// Joints of a multibody report no impulses, so the result does not contain them.
 #[derive(Clone, Debug, Default)]
 pub struct ImpulseReader {
     before: Option<Snapshot>,
@@ -53,7 +54,8 @@ impl ImpulseReader {
     }
 }
 
-/// The reactions of the impulse joints of a snapshot whose rows had these stances.
+/// The reactions of the impulse joints of a snapshot. `stances` has the place and direction of each joint's constraint
+/// rows in the step.
 pub(super) fn from_impulses(
     world: &WorldRef,
     snapshot: &Snapshot,

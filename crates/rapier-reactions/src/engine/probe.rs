@@ -15,18 +15,19 @@ use crate::plane::{Placement, Vec2, larger};
 use crate::rows::{JointType, ROTATION};
 use crate::tiny::{TinyStep, tiny_steps};
 
-/// Joint frequency (Hz), so high that joints are rigid up to rounding.
+/// Frequency of the joints' softness (Hz). The frequency is so high that the joints are rigid up to rounding.
 const JOINT_FREQUENCY: f64 = 1e12;
 
-/// Damping of a velocity motor (N m s/rad or N s/m), so high that the given speed is kept up to rounding.
+/// Damping of a velocity motor (N m s/rad or N s/m). The damping is so high that the motor keeps its speed up to
+/// rounding.
 const RIGID_MOTOR: f64 = 1e30;
 
 /// The three coordinates of a joint.
 const AXES: [JointAxis; 3] = [JointAxis::LinX, JointAxis::LinY, JointAxis::AngX];
 
-/// Rounding errors of a sweep add up, because Rapier updates the velocities by every change of an impulse.
-/// After n sweeps, the force of a driven pendulum has the relative error 0.9 n epsilon / turn; the bound is twice as
-/// large.
+/// Factor in the bound of the sweeps' rounding error. The rounding errors of the sweeps add up, because Rapier updates
+/// the velocities after every change of an impulse. After n sweeps, the force of a driven pendulum has the relative
+/// error 0.9 n epsilon / turn. The bound is about twice this error.
 const SWEEP_ULPS: f64 = 2.0;
 
 /// Settings of a probe.
@@ -36,7 +37,7 @@ pub struct Probing {
     pub turn: f64,
     /// The sweeps are doubled until no force changes by more than this fraction of the largest force.
     /// A moment counts as a force at the longest arm of a joint.
-    /// The rounding error of the sweeps is allowed in addition.
+    /// A change within the rounding error of the sweeps is allowed in addition.
     pub tolerance: f64,
     /// The first number of sweeps.
     pub sweeps: usize,
@@ -97,7 +98,7 @@ fn change(coarse: &[JointReaction], fine: &[JointReaction], arm: f64) -> f64 {
     larger(part(change, whole), part(turning, moment))
 }
 
-/// The extrapolated reactions of two tiny steps with a number of sweeps.
+/// The reactions extrapolated from two tiny steps. Each tiny step has the same number of sweeps.
 fn probed(middle: &Middle, step: f64, sweeps: usize) -> Result<Vec<JointReaction>, ReactionError> {
     let mut sum: Vec<JointReaction> = Vec::new();
     for tiny in tiny_steps(step) {
@@ -128,7 +129,7 @@ struct Sandbox {
 }
 
 impl Sandbox {
-    /// The world at the pose at t - h, with the velocities of the window there.
+    /// Makes the world, with the velocities that the window has at t - h.
     fn new(middle: &Middle, tiny: &TinyStep, sweeps: usize) -> Sandbox {
         let mut world = PhysicsWorld::new();
         world.gravity = Vector::ZERO;
@@ -164,8 +165,9 @@ impl Sandbox {
     fn step(&mut self, middle: &Middle, tiny: &TinyStep) -> Result<Vec<JointReaction>, ReactionError> {
         let before = placements(middle, -tiny.step);
         self.drive(middle, &middle.snapshot.model.stances(&before), -tiny.step);
-        // The velocities of the window violate the joints only by the errors of second differences, so one step is
-        // enough. In both tiny steps it adds the acceleration of a free coordinate times h to the velocity at t - h.
+        // The velocities of the window violate the joints only by the errors of second differences. One step is
+        // therefore enough to make them consistent. This step also adds the acceleration of each free coordinate times
+        // h to the velocity at t - h, for both tiny steps of the probe.
         self.place(&before);
         self.world.step();
         let now = placements(middle, 0.0);

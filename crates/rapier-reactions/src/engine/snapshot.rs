@@ -14,7 +14,7 @@ use crate::rows::{JointType, ROTATION};
 use crate::sentences;
 use std::collections::BTreeMap;
 
-/// The parts of the user's world from which reactions are read. Nothing is changed.
+/// The parts of the user's world from which reactions are read. The world is not changed.
 #[derive(Clone, Copy)]
 pub struct WorldRef<'a> {
     /// All rigid bodies.
@@ -61,7 +61,7 @@ impl JointHandle {
 }
 
 /// Reaction of a joint: everything that it transmits, with its motor.
-/// All vectors are in world axes. On body 1, force and moment act reversed.
+/// All vectors are in world axes. On body 1, force and moment act in the opposite direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointReaction {
     /// The joint.
@@ -72,18 +72,19 @@ pub struct JointReaction {
     pub force: [f64; 2],
     /// Point where the force acts (m): the origin of joint frame 2.
     pub point: [f64; 2],
-    /// Moment of the joint on body 2 about this point (N m), positive counter-clockwise: of a locked rotation, or of
-    /// a motor, a damper or a spring of a free rotation.
+    /// Moment of the joint on body 2 about `point` (N m), positive counter-clockwise. The moment comes from a locked
+    /// rotation, or from a motor, a damper or a spring of a free rotation.
     pub moment: f64,
-    /// The part of motor, damper or spring: forces along x and y of joint frame 1 (N), moment (N m).
-    /// Locked coordinates are 0.
+    /// The part of the reaction that a motor, a damper or a spring exerts: forces along x and y of joint frame 1 (N),
+    /// and moment (N m). The values of locked coordinates are 0.
     pub efforts: [f64; 3],
 }
 
 /// Extrapolation of the reactions at one instant from runs with the steps h (`coarse`) and h / 2 (`fine`).
 ///
 /// The result is 2 y(h / 2) - y(h), in which the error of first order cancels (Richardson's extrapolation).
-/// It serves for impulses, and for second differences of a free motion. Points are those of the fine run.
+/// The extrapolation serves for reactions from impulses, and for second differences of a free motion. The points are
+/// taken from the fine run.
 /// Both slices must have the same joints in the same order.
 pub fn extrapolated(coarse: &[JointReaction], fine: &[JointReaction]) -> Vec<JointReaction> {
     let of = |coarse: f64, fine: f64| 2.0 * fine - coarse;
@@ -187,7 +188,7 @@ impl Snapshot {
     }
 }
 
-/// The middle of three poses. Masses, joints and loads are those of the snapshot.
+/// The joints and the motion at the middle pose of three successive poses. `snapshot` gives masses and loads.
 pub(super) struct Middle<'a> {
     pub(super) snapshot: &'a Snapshot,
     pub(super) stances: Vec<Stance>,
@@ -200,7 +201,7 @@ struct FoundJoint<'a> {
     data: &'a GenericJoint,
     bodies: [RigidBodyHandle; 2],
     /// For each coordinate, whether it has a damper, a spring, dry friction, the inertia of a rotor, or a given speed.
-    /// An error if a coordinate is coupled with that of another joint.
+    /// An error if a coordinate is coupled with a coordinate of another joint.
     passive: Result<[bool; 3], &'static str>,
 }
 
@@ -285,7 +286,7 @@ fn read_body(
     let weight = vec2(gravity) * (mass * wide(body.gravity_scale()));
     let damping = if is_link { [0.0; 2] } else { [body.linear_damping(), body.angular_damping()].map(wide) };
     Ok(ModelBody {
-        // Only moments about the mass centre of a dynamic body are needed.
+        // Moments are needed about the mass centres of dynamic bodies only, so other bodies need no mass centre.
         centre: if body.is_dynamic() { vec2(properties.local_com) } else { Vec2::zeros() },
         inertia: body.is_dynamic().then_some([mass, inertia]),
         is_link,

@@ -11,12 +11,12 @@ use crate::motion::Motion;
 ///
 /// Push the world after every step; the time step must stay constant.
 /// The reactions are those at the middle pose, one step before the last push.
-/// They need no impulses, so joints of a multibody have reactions like all others.
+/// The reactions do not come from impulses, so the joints of a multibody have reactions too.
 ///
 /// Loads are gravity, and the forces and torques that bodies have (`add_force`, `add_torque`) when they are pushed.
-/// Damping of separate bodies counts as a load. A load that changes from step to step is that of the step which begins
-/// at the middle pose.
-/// Contacts, and impulses applied between steps, are not seen.
+/// Damping of separate bodies counts as a load. If a load changes from step to step, the load of the step that begins
+/// at the middle pose is used.
+/// Contacts, and impulses applied between steps, are not taken into account.
 /// Reset the window ([`PoseWindow::clear`]) after moving a body by hand.
 #[derive(Clone, Debug, Default)]
 pub struct PoseWindow {
@@ -29,10 +29,10 @@ pub struct PoseWindow {
 pub struct BalancedReactions {
     /// The reactions: impulse joints, then joints of multibodies, each in the order of its set.
     pub reactions: Vec<JointReaction>,
-    /// Part of m a - loads that no joint explains, relative to the whole (root of a sum of squares, each divided by the
-    /// mass or moment of inertia).
-    /// It belongs to coordinates that move freely, and shows a load that was not seen, such as a contact.
-    /// It is 0 up to rounding where every coordinate has a motor.
+    /// Part of m a - loads that no joint force explains, as a fraction of m a - loads. Both are root sums of squares,
+    /// each square divided by the mass or moment of inertia. The residual belongs to coordinates that move freely. It
+    /// shows a load that was not taken into account, such as a contact. If every coordinate has a motor, the residual
+    /// is 0 up to rounding.
     pub residual: f64,
 }
 
@@ -65,8 +65,8 @@ impl PoseWindow {
     }
 
     /// The reactions of all joints from second differences of the poses, by the Newton-Euler equations of all bodies.
-    /// The error is of second order in the step under prescribed speeds, and of first order in a free motion, as that
-    /// of the engine's motion.
+    /// Under prescribed speeds, the error is of second order in the step. In a free motion, the error is of first
+    /// order, as is the error of the engine's motion.
     ///
     /// # Errors
     /// [`ReactionError::TooFewPoses`], [`ReactionError::NotDetermined`] with the names of the joints whose forces the
@@ -85,16 +85,16 @@ impl PoseWindow {
         Ok(BalancedReactions { reactions, residual: found.residual })
     }
 
-    /// The reactions of all joints from the impulses of Rapier in tiny steps.
+    /// The reactions of all joints, read from Rapier's impulses in tiny steps.
     ///
     /// A separate world with the same bodies is set to the pose shortly before the middle pose, and one step makes
     /// its velocities consistent with the joints.
-    /// It is then set to the middle pose and makes a tiny step, whose impulses are read.
+    /// The separate world is then set to the middle pose and makes a tiny step, whose impulses are read.
     /// A second tiny step, half as long, extrapolates the result.
     /// In the separate world every joint is an impulse joint, so joints of a multibody are read as well.
     /// Along a coordinate with a motor, a damper or a spring, the bodies move as they do in the window.
     ///
-    /// The error is that of [`PoseWindow::by_differences`], with a smaller constant.
+    /// The error has the same order as the error of [`PoseWindow::by_differences`], and a smaller constant.
     ///
     /// # Errors
     /// [`ReactionError::TooFewPoses`], [`ReactionError::NotConverged`], [`ReactionError::NotFinite`], and

@@ -12,7 +12,7 @@ enum Way {
     Probe,
 }
 
-/// Number of instants per turn that are compared. The first one is left out: there the motion starts.
+/// Number of instants per turn that are compared. The first instant is left out, because the motion starts there.
 const INSTANTS: usize = 20;
 
 /// Time (s) and reactions at the compared instants, of a run with `steps` steps per turn.
@@ -52,7 +52,7 @@ fn errors(four_bar: &FourBar, found: &[(f64, Vec<JointReaction>)]) -> [f64; CHAN
     largest
 }
 
-/// The larger number; NaN is kept.
+/// The larger number, or NaN if one of the numbers is NaN.
 fn most(a: f64, b: f64) -> f64 {
     if a.is_nan() || a > b { a } else { b }
 }
@@ -138,7 +138,7 @@ fn the_closed_form_balances_the_power() {
     }
 }
 
-/// The comparison must notice faults: each of them exceeds a hundred times the error of the route.
+/// The comparison must notice faults: each fault causes an error that is large against the error of the route.
 #[test]
 fn planted_faults_are_noticed() {
     let steps = STEPS[0];
@@ -152,7 +152,7 @@ fn planted_faults_are_noticed() {
         let (four_bar, found) = run(Build::Multibody, way, steps, [0.0, 0.0]);
         let light = worst(errors(&four_bar, &found));
         assert!(light > 100.0 * good, "{way:?} without gravity: {light:.1e}, with gravity {good:.1e}");
-        // These are the reactions of the same mechanism without gravity.
+        // The reactions read without gravity agree with the closed form without gravity.
         let rows = found.iter().map(|(time, own)| (four_bar.channels(own), exact_with(*time, [0.0, 0.0], LOAD)));
         for (read, exact) in rows {
             let wrong = (0..CHANNELS).map(|k| (read[k] - exact[k]).abs() / ranges()[k]).fold(0.0, most);
@@ -165,7 +165,7 @@ fn reversed(of: &JointReaction) -> JointReaction {
     JointReaction { force: of.force.map(|value| -value), moment: -of.moment, ..*of }
 }
 
-/// A load that the window does not see changes the reactions by the effect of this load.
+/// The reactions that are read differ clearly from the closed form without the load.
 #[test]
 fn loads_are_taken_into_account() {
     let (four_bar, found) = run(Build::Impulse, Way::Differences, STEPS[0], GRAVITY);

@@ -1,4 +1,4 @@
-//! A four-bar under a motor of constant speed: closed form, and two worlds of Rapier.
+//! A four-bar that a motor drives at constant speed: its closed form, and two worlds of Rapier.
 //!
 //! The forces of the closed form agree with the power balance of the whole mechanism.
 
@@ -8,7 +8,7 @@ use rapier2d_f64::parry::mass_properties::MassProperties;
 use rapier2d_f64::prelude::*;
 
 /// Crank, coupler and rocker: length (m), mass (kg), moment of inertia (kg m^2), mass centre in the link's frame (m).
-/// The frame's origin is the inner pin; its x axis goes to the outer pin.
+/// The origin of a link's frame is the inner pin; the x axis goes to the outer pin.
 const LINKS: [(f64, f64, f64, Pair); 3] =
     [(0.1, 1.5, 0.002, [0.04, 0.01]), (0.35, 3.0, 0.04, [0.15, 0.05]), (0.25, 2.0, 0.015, [0.1, -0.02])];
 const GROUND: f64 = 0.4;
@@ -18,7 +18,8 @@ pub const GRAVITY: Pair = [0.0, -9.81];
 /// Force (N) at the mass centre of the coupler, and torque (N m) on the coupler.
 pub const LOAD: (Pair, f64) = ([20.0, -35.0], 1.5);
 
-/// Channels of the comparison: force on the second body in O, A, B and C, and the driving moment.
+/// Number of compared channels: two components of the force on the second body in each of O, A, B and C, and the
+/// driving moment.
 pub const CHANNELS: usize = 9;
 
 /// Motion of a link: position of the inner pin, angle, and their derivatives.
@@ -72,7 +73,8 @@ fn start_pins() -> [Pair; 3] {
     motions(0.0).map(|link| link.pin[0])
 }
 
-/// Force and moment about the inner pin that the joints of a link must exert, without `load`.
+/// Force and moment about the inner pin that the joints must exert on a link under `gravity` and `load`, and the vector
+/// from the inner pin to the mass centre.
 fn needed(link: usize, motion: &LinkMotion, gravity: Pair, load: (Pair, f64)) -> (Pair, f64, Pair) {
     let (_, mass, inertia, centre) = LINKS[link];
     let arm = turned(centre, motion.angle[0]);
@@ -89,7 +91,8 @@ pub fn exact_with(time: f64, gravity: Pair, load: (Pair, f64)) -> [f64; CHANNELS
         [(0, none), (1, load), (2, none)].map(|(link, load)| needed(link, &links[link], gravity, load));
     let arm = |link: usize| turned([LINKS[link].0, 0.0], links[link].angle[0]);
     let (oa, ab, cb) = (arm(0), arm(1), arm(2));
-    // Moments about A and C: the force in B acts reversed on the coupler.
+    // Moments of the coupler about A and of the rocker about C. On the coupler, the force in B acts in the opposite
+    // direction.
     let b = solved([ab[1], -cb[1]], [-ab[0], cb[0]], [coupler.1, rocker.1]);
     let a = add(coupler.0, b);
     let c = less(rocker.0, b);
@@ -114,7 +117,7 @@ pub fn ranges() -> [f64; CHANNELS] {
     })
 }
 
-/// Driving power minus the rate of change of all energies minus the power of gravity and load (W): zero.
+/// Power of drive, gravity and load, minus the rate of change of the kinetic energy (W). The difference is zero.
 pub fn power_imbalance(time: f64) -> f64 {
     let links = motions(time);
     let mut sum = exact(time)[8] * SPEED;

@@ -1,10 +1,10 @@
 //! A pendulum, whose pin force is known in closed form.
 //!
-//! With the angle phi from the vertical, the mass centre at the distance l, and moment of inertia J about the mass
-//! centre, the force of the pin on the pendulum is m g cos phi + m l omega^2 towards the pin.
-//! Across the rod it is m g sin phi + m l alpha in the sense of growing phi.
-//! In a free motion, alpha = -m g l sin phi / (J + m l^2); under a constant speed, alpha = 0.
-//! The motor of a constant speed exerts m g l sin phi.
+//! The pendulum has the angle phi from the vertical, its mass centre at the distance l from the pin, and the moment of
+//! inertia J about the mass centre. The force of the pin on the pendulum is m g cos phi + m l omega^2 towards the pin.
+//! Across the rod, this force is m g sin phi + m l alpha in the sense of growing phi.
+//! In a free motion, alpha = -m g l sin phi / (J + m l^2). At constant speed, alpha = 0.
+//! A motor that keeps the speed constant exerts the moment m g l sin phi.
 
 use super::four_bar::{body, driven, empty_world, pin, set_up};
 use super::plane::{Pair, converges};
@@ -135,7 +135,7 @@ fn free_force(phi: f64) -> Pair {
     pin_force(phi, omega, -MASS * G * LENGTH * phi.sin() / about_pin)
 }
 
-/// The energy of a separate body drifts in proportion to the step, so both routes have order 1.
+/// The energy of a separate body drifts in proportion to the step, so the errors of both routes have order 1.
 /// Rapier moves a single joint of a multibody by the leapfrog method, whose energy has an error of order 2.
 #[test]
 fn a_free_pendulum_converges_to_its_closed_form() {
@@ -153,7 +153,7 @@ fn a_free_pendulum_converges_to_its_closed_form() {
     }
 }
 
-/// The equation of the free coordinate has no unknown, so a missing load remains in it.
+/// The equation of the free coordinate contains no unknown force, so a missing load remains as its residual.
 #[test]
 fn the_residual_shows_a_missing_load() {
     let seen = readings(Build::Free, 1e-3, 300, -G).residual;
@@ -176,7 +176,7 @@ fn the_damping_of_a_multibody_is_a_moment_of_its_joint() {
     assert!(read.impulses.is_empty(), "a joint of a multibody has no impulses");
 }
 
-/// A step of two substeps is two steps of half the size; the frames between the poses are interpolated.
+/// A step of two substeps equals two steps of half the size. The frames between the poses are interpolated.
 #[test]
 fn substeps_are_read_like_steps() {
     let step = 2e-3;

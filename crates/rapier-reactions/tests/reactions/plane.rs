@@ -41,8 +41,8 @@ pub fn carried(of: Pair, arm: Pair, omega: f64, alpha: f64) -> Pair {
     add(of, less(times(across, alpha), times(arm, omega * omega)))
 }
 
-/// Whether errors at a step, half of it and a quarter of it have an order of convergence, or are all below `floor`.
-/// A uniform rotation, for example, is interpolated exactly.
+/// Whether the errors at the steps h, h / 2 and h / 4 have the order of convergence `order`, or are all below `floor`.
+/// For example, a uniform rotation is interpolated exactly and leaves only errors below `floor`.
 pub fn converges(errors: [f64; 3], order: f64, floor: f64) -> bool {
     let has_order = errors.windows(2).all(|pair| ((pair[0] / pair[1]).log2() - order).abs() < 0.15);
     has_order || errors.iter().all(|&error| error < floor)

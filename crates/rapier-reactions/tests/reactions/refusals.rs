@@ -1,11 +1,11 @@
-//! What cannot be read is refused by name.
+//! Joints and bodies whose reactions cannot be read are refused, and the error names them.
 
 use super::four_bar::{body, driven, empty_world, pin};
 use rapier_reactions::ReactionError;
 use rapier_reactions::double::{ImpulseReader, PoseWindow, Probing, WorldRef};
 use rapier2d_f64::prelude::*;
 
-/// A bar on the ground, with a joint.
+/// A world with a bar, and with `joint` between the ground and the bar.
 fn bar(joint: impl Into<GenericJoint>) -> PhysicsWorld {
     let mut world = empty_world(1e-3, 64);
     let ground = world.bodies.insert(RigidBodyBuilder::fixed());
@@ -14,7 +14,7 @@ fn bar(joint: impl Into<GenericJoint>) -> PhysicsWorld {
     world
 }
 
-/// Poses of three steps.
+/// A window with the poses after three steps.
 fn window(world: &mut PhysicsWorld) -> Result<PoseWindow, ReactionError> {
     let mut window = PoseWindow::default();
     for _ in 0..3 {
@@ -71,7 +71,7 @@ fn bodies_that_cannot_be_balanced_are_refused() {
     assert!(window(&mut world).unwrap_err().to_string().starts_with("rigid body 1 has no mass"));
 }
 
-/// Two pins hold a bar that one pin and a motor would hold: four unknowns, three equations.
+/// Two pins connect a bar to the ground. Their four force components are unknown, but the bar has only three equations.
 #[test]
 fn a_joint_too_many_is_named() {
     let mut world = bar(pin([0.0; 2], [0.0; 2]));
@@ -83,7 +83,8 @@ fn a_joint_too_many_is_named() {
     assert!(error.to_string().contains("impulse joint 0, impulse joint 1; remove"), "{error}");
 }
 
-/// Three parallel rockers carry a table; the third one repeats the others, whatever the gaps of the loops.
+/// Three parallel rockers carry a table. The third rocker repeats the constraint of the other two, whatever the gaps of
+/// the loops.
 #[test]
 fn a_repeated_rocker_is_named() {
     let mut world = empty_world(2e-3, 256);

@@ -1,7 +1,8 @@
 //! Fixed and prismatic joints between moving bodies, in closed form.
 //!
 //! An arm turns about the origin at constant speed. A block is joined to the arm at a point, fixed or sliding at
-//! constant speed along an inclined line. Its mass centre is off the joint, so all rows of the joint are loaded.
+//! constant speed along an inclined line. The mass centre of the block is not at the joint, so all rows of the joint
+//! are loaded.
 
 use super::four_bar::{GRAVITY, body, driven, empty_world, pin};
 use super::plane::{Pair, add, converges, cross, dot, less, times, turned};
@@ -13,16 +14,16 @@ const SPEED: f64 = 6.0;
 const SLIDE: f64 = 0.8;
 /// Mass (kg), moment of inertia (kg m^2) and mass centre (m) of the block.
 const BLOCK: (f64, f64, Pair) = (1.7, 0.03, [0.12, 0.07]);
-/// Origin of the joint on the arm (m), and angle of its x axis (rad).
+/// Origin of the joint on the arm (m), and angle of the joint's x axis (rad).
 const PLACE: (Pair, f64) = ([0.5, 0.1], 0.7);
 
 /// The joint between arm and block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Link {
     Fixed,
-    /// A slide whose motor holds it.
+    /// A slide whose motor holds the block.
     Held,
-    /// A slide whose motor moves it.
+    /// A slide whose motor moves the block.
     Moved,
 }
 
@@ -125,7 +126,7 @@ fn joints_between_separate_bodies_have_the_orders_of_their_routes() {
 }
 
 /// In every step, the impulse of the only joint of the block explains the change of its momentum and angular momentum.
-/// This holds to rounding, so it tests the undoing of Rapier's orthogonal rows.
+/// The agreement is to rounding error. It tests that the orthogonalisation of Rapier's rows is undone.
 #[test]
 fn impulses_explain_the_momentum_of_a_body() {
     for link in [Link::Fixed, Link::Held, Link::Moved] {
@@ -155,7 +156,8 @@ fn impulses_explain_the_momentum_of_a_body() {
     }
 }
 
-/// A block on a kinematic body that turns at constant speed. No force moves this body, so it has no equation.
+/// A block on a kinematic body that turns at constant speed. No force moves the kinematic body, so this body has no
+/// equation.
 #[test]
 fn a_kinematic_body_carries_a_block() {
     let errors = |steps: usize| {

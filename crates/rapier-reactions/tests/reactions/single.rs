@@ -1,4 +1,4 @@
-//! The same in single precision: a driven pendulum in closed form.
+//! Reactions in single precision, compared with the closed form of a driven pendulum.
 
 use rapier_reactions::single::{ImpulseReader, PoseWindow, Probing, WorldRef};
 use rapier2d::parry::mass_properties::MassProperties;

@@ -37,16 +37,15 @@ pub(super) struct Stand {
     pub(super) normal: Option<Vec2>,
 }
 
-/// Weights of a joint of the tree.
-/// Given are the force and moment that the outer link must receive, the moment about its mass centre.
-/// The weights give the part that the joint cannot transmit.
-/// They also give the force and moment that the inner link must receive in addition, the moment about its mass centre.
-/// Each result is a weighted sum of the three numbers x, y and moment of the outer link.
+/// Weights of a joint of the tree. The outer link must receive a force (x, y) and a moment about its mass centre.
+/// Weighted sums of these three numbers give two results. The first result is the part that the joint cannot transmit.
+/// The second result is the force and the moment, about the inner link's mass centre, that the inner link must receive
+/// in addition.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pass {
     /// The part that the joint cannot transmit: the moment for a revolute joint, the axial force for a prismatic joint.
     left_over: Term,
-    /// Weights of the transmitted force: the weight of x in x, of x in y (equal to that of y in x), and of y in y.
+    /// Entries xx, xy and yy of the symmetric matrix that gives the transmitted force.
     force: Term,
     /// Weights of the moment about the inner link's mass centre.
     moment: Term,
@@ -57,7 +56,7 @@ pub(super) struct Pass {
 pub(super) type Term = [f64; 3];
 
 impl Seam {
-    /// The joint between two links, in the order given.
+    /// A joint, with its links in the order of `links`.
     pub(super) fn new(case: &Case, joint: JointId, links: [LinkId; 2], numbers: &[Option<usize>]) -> Self {
         let found = &case.mechanism.joints()[joint];
         let centres = links.map(|link| case.mechanism.links()[link].mass_centre);
@@ -97,7 +96,7 @@ impl Stand {
         }
     }
 
-    /// Weights of a joint of the tree, from the inner link to the outer one.
+    /// Weights of a joint of the tree. The first arm belongs to the inner link, the second arm to the outer link.
     #[inline]
     pub(super) fn pass(&self) -> Pass {
         let [inner, outer] = self.arms;
@@ -116,15 +115,15 @@ impl Stand {
         }
     }
 
-    /// Weights of a driven joint between moving links, or of a driven prismatic joint. The drive transmits what the
-    /// joint alone does not transmit.
+    /// Weights of a driven joint between moving links, or of a driven prismatic joint. The drive transmits the force or
+    /// moment that the joint alone cannot transmit.
     #[inline]
     pub(super) fn rigid(&self) -> Pass {
         let arm = self.arms[0] - self.arms[1];
         Pass { force: [1.0, 0.0, 1.0], moment: [-arm.y, arm.x, 1.0], ..self.pass() }
     }
 
-    /// Moment of a driving force (N) along the axis of a prismatic joint about the outer link's mass centre (N m).
+    /// Moment about the outer link's mass centre (N m) of a driving force (N) along the axis of a prismatic joint.
     #[inline]
     pub(super) fn moment_of_thrust(&self, thrust: f64) -> f64 {
         self.normal.map_or(0.0, |normal| -cross(self.arms[1], turned(normal)) * thrust)

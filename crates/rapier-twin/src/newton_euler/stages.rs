@@ -11,7 +11,7 @@ pub(super) struct Limb {
     pub(super) seam: Seam,
     /// Index of the drive that drives the joint; `None` if the joint is not driven.
     pub(super) drive: Option<usize>,
-    /// Whether the drive acts on both links of the joint, so that the joint transmits any force and moment.
+    /// Whether the drive acts on both links of the joint. Joint and drive together then transmit any force and moment.
     pub(super) is_rigid: bool,
     /// Components of cut joints on this link and on the links beyond it. No component of any other cut joint acts on
     /// these links.
@@ -21,7 +21,8 @@ pub(super) struct Limb {
 /// Equations that determine some of the components after the components of earlier stages are known.
 #[derive(Debug)]
 pub(super) enum Stage {
-    /// Two equations for two components, usually those of a cut joint. The first field has their indices.
+    /// Two equations for two components, usually the components of one cut joint. The first field has the indices of
+    /// these components.
     Pair([usize; PAIR], [Row; PAIR]),
     /// All remaining components, with workspace for the system.
     All { rows: Vec<Row>, terms: Vec<usize>, values: Vec<f64>, matrix: Lu },

@@ -12,11 +12,12 @@ use linkage::input::Input;
 use linkage::math::Vec2;
 use linkage::mechanism::{GROUND, Joint, JointKind, Link, LinkId};
 
-/// Joint frequency (Hz), so high that joints are rigid up to rounding.
+/// Frequency of the joints' softness (Hz). The frequency is so high that the joints are rigid up to rounding.
 /// Rapier's default, 1e6 Hz, adds 6 % to the closure gap at a step of 1e-5 s.
 const JOINT_FREQUENCY: f64 = 1e12;
 
-/// Damping of a velocity motor (N m s/rad), so high that the prescribed speed is kept up to rounding.
+/// Damping of a velocity motor (N m s/rad). The damping is so high that the motor keeps its prescribed speed up to
+/// rounding.
 pub(super) const RIGID_MOTOR: f64 = 1e30;
 
 /// Rapier's vector.
@@ -51,7 +52,7 @@ fn holding(axes: JointAxesMask, joint: &Joint, links: [LinkId; 2]) -> GenericJoi
 }
 
 /// The joint between `links`, which Rapier calls first and second.
-/// For a prismatic joint, the x axis of both joint frames lies along the axis.
+/// For a prismatic joint, the x axes of both joint frames lie along the joint's axis.
 pub(super) fn between(joint: &Joint, links: [LinkId; 2]) -> GenericJoint {
     match joint.kind {
         JointKind::Revolute => holding(JointAxesMask::LOCKED_REVOLUTE_AXES, joint, links).build(),
@@ -63,8 +64,8 @@ pub(super) fn between(joint: &Joint, links: [LinkId; 2]) -> GenericJoint {
 }
 
 /// Index of the free coordinate of a joint made by [`between`].
-/// For a prismatic joint, the index is that of the first coordinate (along the axis).
-/// For a revolute joint, it is that of the last coordinate (the angle).
+/// The free coordinate of a prismatic joint is the first coordinate (along the axis). The free coordinate of a revolute
+/// joint is the last coordinate (the angle).
 pub(super) fn free_coordinate(joint: &Joint) -> usize {
     if joint.slides() { 0 } else { 2 }
 }

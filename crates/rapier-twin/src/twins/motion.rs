@@ -170,7 +170,8 @@ impl World for Twin {
         }
         let body = &self.world.bodies[self.bodies[link]];
         let (velocity, step) = (body.linvel(), self.substep());
-        // The body turns by the arc tangent in a substep, so the actual angular velocity is computed: see `set_drive`.
+        // In a substep, the body turns by the arc tangent of omega dt (see `set_drive`). The actual angular velocity
+        // follows from this angle.
         let omega = arc_tangent(wide(body.angvel()) * step) / step;
         Some((Vec2::new(wide(velocity.x), wide(velocity.y)), omega))
     }

@@ -46,7 +46,7 @@ struct Cut {
     index: JointId,
     handle: ImpulseJointHandle,
     /// The link that is Rapier's first body, and the direction of the first row in that link's frame.
-    /// `None` if Rapier's first body and the direction are those of the joint itself.
+    /// `None` if Rapier's first body is the joint's first link and the direction is not changed.
     steered: Option<(LinkId, Vec2)>,
     /// Rows of the joint at the start of the last substep.
     start: JointRows,
@@ -108,7 +108,8 @@ pub(crate) struct Twin {
     /// Mass centre of every link, and the inverses of the link's mass and moment of inertia in this world.
     centres: Vec<Vec2>,
     inverse: Vec<[f64; 2]>,
-    /// Angle of the child minus that of its parent (rad), for every branch whose joint keeps this angle constant.
+    /// Angle of the child minus the angle of its parent (rad), for every branch whose joint keeps this difference
+    /// constant.
     twists: Vec<Option<f64>>,
     /// Frames of all links after the last step or placement.
     frames: Vec<LinkFrame>,
@@ -220,8 +221,8 @@ impl Twin {
         Ok(twin)
     }
 
-    /// Prepares the multibodies; `home` gives the multibody of every link.
-    /// The order of calls matters, for the reasons given in the comments.
+    /// Prepares the multibodies; `home` gives the multibody of every link. The order of the calls matters; comments
+    /// give the reasons.
     fn prepare(&mut self, home: &[usize]) {
         if self.multibodies.is_empty() {
             return;

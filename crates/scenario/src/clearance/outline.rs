@@ -4,8 +4,8 @@ use linkage::math::{KeepNan, Vec2, cross, turned};
 use linkage::mechanism::ring;
 use parry2d_f64::transformation::{convex_hull, hertel_mehlhorn_idx};
 
-/// Upper limit of the number of corners of an outline.
-/// The cost is one distance for every pair of parts and one crossing test for every pair of sides.
+/// Upper limit of the number of corners of an outline. The work grows with the square of this number: one distance for
+/// every pair of parts, and one crossing test for every pair of sides.
 pub const MOST_CORNERS: usize = 500;
 /// If the distance of two corners, divided by the outline's extent, is below this limit, the corners coincide.
 /// If the distance of a corner from a side, divided by the outline's extent, is below this limit, the corner lies on
@@ -192,8 +192,7 @@ fn check_simple(corners: &[Vec2]) -> Result<(), Flaw> {
         for j in i + 1..count {
             let is_next = j == i + 1 || (i == 0 && j == count - 1);
             let touch = if is_next {
-                // Neighbouring sides share a corner. If one side folds back onto the other side, the two sides also
-                // touch elsewhere.
+                // Neighbouring sides share a corner. They touch elsewhere only if one side folds back onto the other.
                 // The free end of one side then lies on the other side, so only the free ends are tested.
                 let (one, two) = if j == i + 1 { (side(i), side(j)) } else { (side(j), side(i)) };
                 [(one, two[1]), (two, one[0])].iter().any(|&(own, end)| (end - nearest(end, own)).norm() <= near)

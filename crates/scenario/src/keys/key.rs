@@ -34,7 +34,7 @@ pub struct FileKey {
 pub enum ValueKind {
     /// Text.
     Text,
-    /// One of these words.
+    /// One word of a list of words.
     Choice(fn() -> Vec<&'static str>),
     /// A list of texts.
     Texts,
@@ -50,7 +50,7 @@ pub enum ValueKind {
     Quantity(&'static [&'static UnitFamily], Sign),
     /// A list of numbers whose key ends in a unit of one of these families.
     Quantities(&'static [&'static UnitFamily]),
-    /// A table. The section of the table has the same path as the key.
+    /// A table. Its section has the path of this key.
     Table,
     /// An array of tables.
     Tables,

@@ -10,7 +10,7 @@ use crate::unit::{NamedUnit, UnitFamily, unsupported};
 use crate::words::choice;
 use linkage::error::{Error, ErrorKind, Result};
 
-/// A quantity's family, the index of its entry, and its unit.
+/// Family of a quantity, index of the quantity's entry, and unit of the quantity.
 type Spelled = (&'static UnitFamily, usize, &'static NamedUnit);
 
 /// Lower limit of the magnitude of a quantity in SI.
@@ -79,8 +79,8 @@ impl<'a> TomlTable<'a> {
         let (family, at, unit) = match self.spelled(base, families) {
             Ok(None) => return Ok(None),
             Ok(Some(found)) => found,
-            // If there are several families, it is unknown which family was intended. No value can therefore replace
-            // the wrong value, and the reading ends.
+            // With several families, the intended family is unknown. Therefore no value can replace the wrong value,
+            // and the reading ends.
             Err(error) if families.len() > 1 => return Err(self.noted(error)),
             Err(error) => return self.instead(Some((families[0], sign.stand_in())), error),
         };
@@ -139,7 +139,7 @@ impl<'a> TomlTable<'a> {
         Err(self.wrong_at(key, value.span(), message).help(sentences::CHECK_THE_UNIT_AND_THE_EXPONENT))
     }
 
-    /// The only entry that spells `base` in a unit of the families: the entry's family, index and unit.
+    /// Family, index and unit of the only entry whose key is `base` with a unit of the families.
     /// All spellings are recorded as requested.
     fn spelled(&mut self, base: &str, families: &[&'static UnitFamily]) -> Result<Option<Spelled>> {
         let spellings: Vec<String> = families.iter().flat_map(|family| family.keys(base)).collect();

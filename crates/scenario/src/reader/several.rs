@@ -14,8 +14,8 @@ const MOST: usize = 20;
 #[derive(Debug)]
 pub struct Faults {
     all: Vec<Error>,
-    /// Whether all parts on which other parts of the file depend could be read.
-    /// If one of these parts could not be read, only errors about the keys and values of a table are reported.
+    /// Whether all parts could be read on which other parts of the file depend. If not, only errors about the keys and
+    /// values of a table are reported.
     pub whole: bool,
     /// Whether all links and their points could be read. Errors about unknown names are reported only if all links and
     /// points could be read.
@@ -71,10 +71,11 @@ impl<'a> TomlTable<'a> {
         }
     }
 
-    /// The result of `read` for the table in spite of mistakes, and the mistakes that `read` notes.
+    /// Reads the table in spite of mistakes. Returns the result of `read`, and the mistakes that `read` notes.
     ///
     /// # Errors
-    /// The noted mistakes if the reading ends early. If no mistake was noted, the error that ends the reading.
+    /// If the reading ends early: the noted mistakes or, if there are no noted mistakes, the error that ends the
+    /// reading.
     pub fn read_on<T>(&mut self, read: impl FnOnce(&mut Self) -> Result<T>) -> Result<(T, Option<Error>)> {
         self.goes_on = true;
         let found = read(self);
@@ -132,7 +133,7 @@ impl<'a> TomlTable<'a> {
         Ok(value)
     }
 
-    /// Does the same as `instead`, for a name that no table of the file defines.
+    /// Like `instead`, but for a name that no table of the file defines.
     pub fn unknown_name<T>(&mut self, value: T, error: Error) -> Result<T> {
         if !self.goes_on {
             return Err(error);
@@ -172,8 +173,8 @@ impl<'a> TomlTable<'a> {
     /// The error for a missing key, and the entry whose key is a misspelling of the missing key.
     fn missing_by(&self, spellings: &[String], help: Option<&'static str>) -> (Error, Option<&'a str>) {
         let wanted = choice(spellings.iter().map(String::as_str), "`");
-        // In a named table, the error already names the table, and `key` changes nothing.
-        // The top level has no name, so the error names the missing key.
+        // In a named table, the error already has a name, and `key` does not change it. The top level has no name, so
+        // the error gets the name of the missing key.
         let error = self.fault(sentences::is_missing(&wanted)).key(spellings[0].clone());
         let spelling = |key: &str| nearest(key, spellings.iter().map(String::as_str));
         let unread = self.entries.iter().filter(|entry| self.is_unknown(entry));
@@ -212,7 +213,7 @@ impl<'a> TomlTable<'a> {
     }
 
     /// Ends the reading. Every key that was not requested is an error.
-    /// The error names the nearest known key, or all known keys if none is near.
+    /// The error names the nearest known key. If no known key is near, the error names all known keys.
     pub fn finish(&mut self) -> Result<()> {
         #[cfg(test)]
         asked::put(&self.section, &self.asked);

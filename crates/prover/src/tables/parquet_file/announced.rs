@@ -16,7 +16,7 @@ use crate::tables::source::MAGIC;
 const TAIL: u64 = 8;
 /// Limit of the nesting depth of columns and groups of columns, because the reader is recursive.
 const DEEPEST: usize = 32;
-/// Limit of bytes of a page per value: eight for the value, and eight more for its definition and
+/// Largest number of bytes per value in a page. Eight bytes are for the value. Eight more are for its definition and
 /// repetition levels and for the overhead of delta encoding.
 const WIDEST: u64 = 16;
 /// Bytes allowed for a page in addition to its values, because a block of delta encoding is always complete.
@@ -53,7 +53,7 @@ pub(super) fn check_description(file: &File) -> io::Result<()> {
             return Ok(());
         }
         match (field, found) {
-            // A group cannot have more columns than the description has bytes. A larger number is rejected.
+            // A stated number of columns is rejected if it exceeds the bytes of the description.
             (CHILDREN, Found::Number(count)) if (0..=length.cast_signed()).contains(&count) => own = count,
             (CHILDREN, Found::Number(_) | Found::Other) => {
                 return Err(wrong(sentences::IT_ANNOUNCES_COLUMNS_THAT_ARE_NOT_THERE));

@@ -19,8 +19,8 @@ pub(super) enum Found {
     End,
 }
 
-/// Receives the data of a field: its depth (0 in the outermost structure), the enclosing field, its number in the
-/// structure, and its content.
+/// Receives a field: its depth (0 in the outermost structure), the number of the enclosing field, the number of the
+/// field itself, and its content.
 pub(super) type Tell<'a> = &'a mut dyn FnMut(usize, [i64; 2], Found) -> io::Result<()>;
 
 /// A walk over the data, with the number of bytes read.
