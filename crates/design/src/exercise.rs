@@ -160,7 +160,7 @@ fn ends(values: &[f64]) -> [f64; 2] {
 }
 
 /// The positions of the crank (rad) at which answers are required: the start, then angles evenly spread over the grid.
-/// Each position is rounded to a whole degree from the start: the nearest one at which all determinants reach their
+/// Each position is rounded to the nearest whole degree, counted from the start, at which all determinants reach their
 /// limits.
 /// The limit of a group's determinant is the sine of `transmission` (rad), but at most three quarters of the group's
 /// largest determinant.

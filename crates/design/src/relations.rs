@@ -57,8 +57,8 @@ impl Mimics {
         Ok(own)
     }
 
-    /// The points of joints whose positions depend on relations. They lie on links that are joined to the ground by
-    /// other joints than the driven joint alone.
+    /// The points of joints whose positions depend on relations.
+    /// These points lie on links whose way to the ground in the tree contains a joint other than the driven joint.
     fn placed(&self, model: &RigidModel) -> Vec<PinError> {
         let mut moved = vec![false; model.case.mechanism.links().len()];
         for body in &model.bodies {

@@ -13,7 +13,7 @@ use linkage::solver::State;
 /// docs/mjcf.md states the resulting errors.
 const LIGHT: f64 = 1e-5;
 /// Radius of gyration of a link for which the case gives no moment of inertia, divided by the link's size.
-/// A link counts as at least `SHORTEST` times as large as the mechanism.
+/// A link smaller than `SHORTEST` times the mechanism's size counts as having this size.
 const GYRATION: f64 = 0.3;
 const SHORTEST: f64 = 0.1;
 

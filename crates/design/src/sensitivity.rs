@@ -3,7 +3,8 @@
 //!
 //! Side 1 computes the figure.
 //! At the instants that determine the figure, the equations of the whole mechanism are solved again in dual numbers
-//! ([`precise::Dual`]). Unlike difference quotients, dual numbers have no step width and hence no error from it.
+//! ([`precise::Dual`]).
+//! Unlike difference quotients, dual numbers have no error of a step width.
 //! The derivatives of an extreme are the derivatives of the quantity at the instant of the extreme: a shift of this
 //! instant has no first-order effect.
 //! A mean needs the derivatives at all instants.

@@ -172,7 +172,7 @@ linkage::sentences! {
     no_error_of_the_relations_is_proven(coordinate) = "no bound on the errors of the joint relations can be proven where the driven joint's coordinate is about {coordinate}";
     // export/urdf.rs
     THE_RELATIONS_OF_THE_JOINTS = "Coordinates of the joints as polynomials of the driven joint's coordinate, with proven bounds (docs/formats.md).";
-    URDF_PERMITS_NO_LOOPS = "Joints that close loops. URDF does not permit them, but Gazebo adds them to the tree.";
+    URDF_PERMITS_NO_LOOPS = "Joints that close loops. URDF does not permit such joints, but Gazebo adds them to the tree.";
     // export/mjcf/effects.rs
     ITS_LENGTH_IS_THE_ANGLE_THAT_THE_LOAD = "The tendon's length is the angle that the load depends on.";
     ITS_LENGTH_IS_CONSTANT = "A transmission: the tendon's length is constant.";
@@ -416,7 +416,7 @@ linkage::sentences! {
     drives_a_slide(name) = "the drive of {name} is a slide, but phases are given over the angle of a crank";
     no_output_link_is_called(name, own) = "{name} has no link \"{own}\", and its last group does not have exactly one rocker";
     name_the_output_link(names) = "name the output link; the moving links are {names}";
-    no_output_point_is_called(name, own) = "{name} has no point \"{own}\", and the number of its points without a joint is not one";
+    no_output_point_is_called(name, own) = "{name} has no point \"{own}\", and does not have exactly one point without a joint";
     name_the_output_point(names) = "name the output point; the points of moving links are {names}";
     // synthesize/task_file.rs
     NOTHING_ABOUT_THIS_POINT_VARIES = "no property of this point varies";

@@ -1,5 +1,5 @@
 //! Figures as DXF, for programs of computer-aided design.
-//! The format is that of AutoCAD release 12, which all programs read.
+//! The files have the format of AutoCAD release 12, which all programs read.
 //! The `dxf` crate is not used, because it writes the date: the bytes would differ from run to run.
 
 use std::fmt::Write;

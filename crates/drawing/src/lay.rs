@@ -241,7 +241,8 @@ fn reaches(mechanism: &Mechanism, group: &Group, laid: &Laid) -> Vec<(Vec2, f64)
         let centre = laid.places[base.link].pose()?.point(base.local);
         joint.is_pin().then_some((centre, (pin - own).norm()))
     };
-    // If driven joints join several links to one body, the distance between two pins may be unknown.
+    // If driven joints make one body of several links, the distance between the body's pins is not the length of a
+    // link.
     if !group.is_rigid() {
         return Vec::new();
     }

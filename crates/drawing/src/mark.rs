@@ -124,7 +124,7 @@ roles! {
     TorsionDamper = "torsion-damper": Load, None, 0.4, Stretched;
     /// Revolute pair.
     Pin = "pin": Text, Paper, 0.5, Joints;
-    /// Ring around a pin. Each ring stands for one link more than two that the pin joins.
+    /// Ring around a pin that joins more than two links: one ring for each link after the second.
     CoincidentPin = "coincident-pin": Text, None, 0.35, Joints;
     /// Mass centre: its circle, and the line from the circle to the link.
     MassCentre = "mass-centre": Link, Paper, 0.3, Stretched;

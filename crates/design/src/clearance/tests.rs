@@ -185,7 +185,7 @@ fn the_first_collision_is_the_first_in_motion_order() {
         assert!(found.pairs.iter().all(|pair| pair.collision.is_some()));
         assert_eq!(first.bodies, [0, 4]);
         assert!((meeting.cranks[1].abs() - 0.5 * PI).abs() < 0.1, "{meeting:?}");
-        // The swept areas need fewer further poses than the distances needed before.
+        // The swept areas need fewer additional poses than the search for distances needed.
         assert!(found.work.positions < found.work.poses, "{:?}", found.work);
     }
     // If change points are passed, the next turn may follow another branch than the first turn.

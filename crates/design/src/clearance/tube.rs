@@ -160,7 +160,7 @@ pub struct Tubes<'a> {
     case: &'a Case,
     solver: PoseSolver<'a>,
     centres: Vec<Vec2>,
-    /// Units in the order of solution: links that are solved together, with their equations.
+    /// Units in the order of solution. A unit consists of links that are solved together, and of their equations.
     units: Vec<(&'a [LinkId], Vec<Row<'a>>)>,
     /// Both ends of the range (rad), in the direction of motion.
     pub range: [f64; 2],

@@ -9,7 +9,7 @@ use linkage::mechanism::{LONGEST_NAME, is_sound_name};
 pub(super) struct Names(BTreeSet<String>);
 
 impl Names {
-    /// An empty set of names, except for these names, which are already taken.
+    /// A set of names in which only these names are already taken.
     pub(super) fn with(taken: &[&str]) -> Names {
         Names(taken.iter().map(ToString::to_string).collect())
     }

@@ -166,7 +166,7 @@ impl Parts {
         }
     }
 
-    /// Joins the first link on a pin with each of the others.
+    /// Joins the first link on a pin with each further link on the pin.
     /// The first joint has the name of the pin. Further joints have this name with a number.
     pub(super) fn pin(&mut self, point: &str, links: &[usize]) {
         for &link in links.iter().skip(1) {

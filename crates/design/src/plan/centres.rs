@@ -22,7 +22,8 @@ const ROUNDING: f64 = 1e-12;
 /// A line on which a centre lies.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CentreLine {
-    /// Line through two other centres: those of the first and of the second link, each with this third link.
+    /// Line through two other centres: the centre of the first link and this third link, and the centre of the second
+    /// link and this third link.
     Through(LinkId),
     /// Line of action of a transmission.
     Contact {

@@ -1,5 +1,5 @@
-//! Compares the derivatives with difference quotients. For these, the crate `precise` solves files with changed
-//! numbers.
+//! Compares the derivatives with difference quotients.
+//! For these quotients, the crate `precise` solves files with changed numbers.
 
 use scenario::{CaseKey, KeySort, StartRequest};
 

@@ -156,7 +156,7 @@ impl Achieved {
     }
 
     /// The output at the crank angle `crank` (rad, 0 to a turn), as a fraction of the stroke.
-    /// The value is that of the first measured crank angle at or after `crank`.
+    /// The result is the output at the first measured crank angle that is not before `crank`.
     pub fn share(&self, crank: f64) -> f64 {
         let row = self.turns.partition_point(|&turn| turn < crank - 1e-9);
         self.shares[row.min(self.shares.len() - 1)]

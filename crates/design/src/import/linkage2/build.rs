@@ -20,7 +20,7 @@ pub(super) struct Builder<'a> {
     pub(super) points: Vec<String>,
     /// For each link of the file, its link in the scenario; `None` for a link that is only a point.
     pub(super) bodies: Vec<Option<usize>>,
-    /// For each connector, the scenario's links through it, the ground first.
+    /// For each connector, the links of the scenario that are joined there, the ground first.
     pub(super) members: Vec<Vec<usize>>,
     /// For each actuator, its slide joint, its stroke, and its cycles per minute.
     actuators: Vec<(usize, [f64; 2])>,

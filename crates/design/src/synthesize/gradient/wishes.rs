@@ -127,8 +127,8 @@ impl<'a> Wishes<'a> {
         self.task.variables.len()
     }
 
-    /// The point of the programme for a candidate: the fractions `shares`, the smallest deviation with which the
-    /// candidate keeps all constraints, its levels in dwells, and the free ones of the crank angles `turns` (rad).
+    /// The point of the programme for a candidate. It consists of the fractions `shares`, the smallest deviation with
+    /// which the candidate keeps all constraints, its levels in dwells, and the free crank angles among `turns` (rad).
     pub(super) fn start(&self, found: &Sampled, shares: &[f64], turns: &[f64]) -> Vec<f64> {
         let output = Output::of(&found.rows, self.forward);
         let level = |dwell: &usize| {

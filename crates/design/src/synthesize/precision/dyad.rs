@@ -28,8 +28,8 @@
 //!   A is of degree 1 and B of degree 2 in u_p, so F is a real trigonometric polynomial of degree 3: six roots.
 //!   Two roots are trivial (all u_j = 1, and all u_j = k_j), with infinite X and Y. Up to four dyads remain.
 //!
-//! For five positions, Newton's method makes the dyads more exact. Its equations contain no u_j: `|X + d_j - Y (k_j -
-//! 1)| = |X|`.
+//! For five positions, Newton's method makes the dyads more exact.
+//! Its equations contain no u_j: `|X + d_j - Y (k_j - 1)| = |X|`.
 //! Every dyad is verified by these equations.
 
 use linkage::math::dense::Lu;
