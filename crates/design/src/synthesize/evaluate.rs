@@ -68,8 +68,7 @@ impl<'a> Evaluator<'a> {
     /// Computes the output at the crank angles `turns` into `curve`.
     /// These crank angles (rad) are measured from crank angle zero in the sense of rotation.
     /// They ascend from the first angle to the angle one turn later.
-    /// At crank angle zero, the crank has the world direction `zero`
-    /// (rad).
+    /// At crank angle zero, the crank has the world direction `zero` (rad).
     ///
     /// # Errors
     /// The fraction of poses that are reached, if the mechanism cannot be assembled over the whole turn or if the
