@@ -27,14 +27,15 @@ pub struct VariationWish {
     pub share: f64,
     /// The numbers that are changed.
     pub sorts: Vec<NumberSort>,
-    /// Smallest transmission angle (rad). For groups of more than two links, its sine is the limit of the determinant.
-    /// The limit is reduced to three quarters of the original's smallest determinant if this is less.
+    /// Smallest transmission angle (rad). The sine of this angle is the lower limit of each group's determinant.
+    /// If three quarters of the group's smallest determinant in the original are less than the sine, they are the
+    /// limit.
     pub transmission: f64,
 }
 
 /// Largest number of draws for one student.
 const DRAWS: usize = 400;
-/// The limit of a determinant is at most this fraction of a determinant of the original.
+/// The lower limit of a group's determinant is at most this fraction of a determinant of this group in the original.
 const KEPT: f64 = 0.75;
 
 /// The mechanism from which exercises are made, with the limits that all exercises keep.
@@ -81,7 +82,8 @@ impl ExerciseMechanism {
     }
 
     /// Draws the numbers of the student `student`, counted from 0.
-    /// Draws are repeated until one keeps the limits. Each further draw stays closer to the original.
+    /// The numbers are drawn again until a draw keeps the limits.
+    /// Each further draw stays closer to the original.
     ///
     /// # Errors
     /// [`ErrorKind::Geometry`] if no draw keeps the limits.
@@ -146,7 +148,7 @@ fn smallest(case: &Case, range: &Range) -> Vec<f64> {
     least
 }
 
-/// Whether a crank angle (rad) lies within the grid. If the crank turns fully, all angles count.
+/// Whether a crank angle (rad) lies within the grid. If the crank turns fully, every angle lies within the grid.
 fn is_covered(case: &Case, range: &Range, crank: f64) -> bool {
     let [low, high] = ends(&case.grid.inputs);
     matches!(range.extent, Extent::FullTurn(_)) || (low..=high).contains(&crank)
@@ -158,7 +160,8 @@ fn ends(values: &[f64]) -> [f64; 2] {
 }
 
 /// The positions of the crank (rad) at which answers are required: the start, then angles evenly spread over the grid.
-/// Each position is rounded to the nearest whole degree from the start at which all determinants reach their limits.
+/// Each position is rounded to the nearest whole degree, counted from the start, at which all determinants reach their
+/// limits.
 /// The limit of a group's determinant is the sine of `transmission` (rad), but at most three quarters of the group's
 /// largest determinant.
 ///
@@ -182,7 +185,7 @@ pub fn positions(scenario: &Scenario, count: usize, transmission: f64) -> Result
         let near = range.samples.iter().min_by(|a, b| away(a.crank).total_cmp(&away(b.crank)));
         near.is_some_and(|near| near.groups.iter().zip(&limits).all(|(own, limit)| own.determinant.abs() >= *limit))
     };
-    // The whole degrees of the grid, counted from the start.
+    // The crank angles of the grid that are a whole number of degrees from the start.
     let degree = TAU / 360.0;
     let mut free: Vec<f64> = (((low - start) / degree).ceil() as i64..=((high - start) / degree).floor() as i64)
         .map(|step| (start.to_degrees() + step as f64).to_radians())
@@ -205,7 +208,7 @@ pub fn positions(scenario: &Scenario, count: usize, transmission: f64) -> Result
     Ok(found)
 }
 
-/// The scenario as an exercise with its original numbers, without published numbers and formulas.
+/// The exercise with the original numbers of the scenario. Published numbers and formulas are left out.
 ///
 /// # Errors
 /// The errors of [`check_motion`], of [`with_numbers`] and of reading its result.

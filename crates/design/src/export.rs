@@ -35,7 +35,7 @@ impl ModelFormat {
     /// All formats.
     pub const ALL: [ModelFormat; 4] = [ModelFormat::Mjcf, ModelFormat::Sdf, ModelFormat::Urdf, ModelFormat::Usd];
 
-    /// The usual ending of files.
+    /// The usual file name extension, without the dot.
     pub const fn ending(self) -> &'static str {
         match self {
             ModelFormat::Mjcf => "xml",
@@ -58,7 +58,7 @@ impl ModelFormat {
         }
     }
 
-    /// A model of this format, whose first comment then says that the loads of the scenario are left out.
+    /// Changes the first comment of a model: the comment then says that the scenario's loads are left out of the model.
     #[must_use]
     pub fn noting_no_loads(self, model: &str) -> String {
         let opening = match self {

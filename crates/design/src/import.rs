@@ -1,8 +1,8 @@
-//! Mechanisms of other programs as scenarios: links of PMKS+, models for MuJoCo, files of Linkage.
+//! Mechanisms of other programs as scenarios: share links of PMKS+, models for MuJoCo, files of Linkage.
 //!
 //! A reader turns a source into `Parts`: links in their start pose, joints, drives and loads.
 //! The writer turns these parts into the text of a scenario, and finds the assembly modes of the start pose and a grid.
-//! What a reader does not understand is listed by name.
+//! Parts of the source that a reader does not understand are listed by name.
 
 mod finish;
 mod linkage2;
@@ -19,11 +19,11 @@ use crate::sentences;
 use linkage::error::{ErrorKind, Result};
 use std::path::Path;
 
-/// The scenario of the mechanism in `source`, with the scenario's `name`.
-/// The source is the address of a link, or the text of the file at `path`.
+/// The mechanism in `source` as a scenario called `name`.
+/// The source is a share link of PMKS+ or PMKS, or the text of the file at `path`.
 ///
 /// # Errors
-/// [`ErrorKind::Input`] for a damaged source, with the line or the parameter of the address.
+/// [`ErrorKind::Input`] for a damaged source. The error names the line of the file, or the parameter of the share link.
 /// [`ErrorKind::Unsupported`] for a source that this version does not know, or that has too many parts.
 pub fn import(source: &str, path: &Path, name: &str) -> Result<ImportedScenario> {
     let source = source.trim_start_matches('\u{feff}').trim();

@@ -22,14 +22,15 @@ use linkage::mechanism::GROUND;
 use linkage::trajectory::Stage;
 use range::InputRange;
 
-/// Number of nodes for each coefficient, and least number of nodes.
+/// Number of nodes for each coefficient of a polynomial. `LEAST` is the smallest number of nodes.
 const NODES: usize = 4;
 const LEAST: usize = 256;
-/// Coefficients of degree 2 or more count as rounding errors below this value (rad or m).
+/// If all coefficients of degree 2 or more are below this value (rad or m), they count as rounding errors.
 const NOISE: f64 = 1e-11;
 
 impl Mimics {
-    /// Polynomials of degree `degree` over the range that the case's grid spans, at most one turn if poses repeat.
+    /// Polynomials of degree `degree` over the range that the case's grid spans. If poses repeat after a turn, the
+    /// range is at most one turn.
     ///
     /// # Errors
     /// [`ErrorKind::Unsupported`](linkage::ErrorKind::Unsupported) for several drives.
@@ -56,14 +57,15 @@ impl Mimics {
         Ok(own)
     }
 
-    /// Pins that a relation places: all points of joints on links that more than the driven joint carries.
+    /// The points of joints whose positions depend on relations.
+    /// These points lie on links whose way to the ground in the tree contains a joint other than the driven joint.
     fn placed(&self, model: &RigidModel) -> Vec<PinError> {
         let mut moved = vec![false; model.case.mechanism.links().len()];
         for body in &model.bodies {
             moved[body.branch.link.index()] = moved[body.branch.parent.index()] || body.branch.joint != self.driver;
         }
         let joints = model.bodies.iter().chain(&model.closing).flat_map(|body| {
-            // A hinge of the tree has the same place on both links.
+            // In the tree, the points of a hinge on its two links coincide, so that one of them is enough.
             let twice = body.slides() || model.tree.cut.contains(&body.branch.joint);
             let ends = [(body.branch.parent, true), (body.branch.link, twice)];
             ends.into_iter().filter(|(_, counts)| *counts).map(|(link, _)| (body.branch.joint, link))
@@ -73,10 +75,10 @@ impl Mimics {
     }
 }
 
-/// Fits all joints of the tree but the driven one.
+/// Fits polynomials to the coordinates of all joints of the tree, except the driven joint.
 fn fits(model: &RigidModel, case: &Case, range: InputRange, own: &Mimics) -> Result<Vec<JointRelation>> {
     let mut nodes = chebyshev::nodes(own.domain, LEAST.max(NODES * (own.degree + 1)));
-    // The solver follows the motion from the start.
+    // The solver follows the motion, so the nodes must be in the direction of motion.
     if range.sense * (range.ends[1] - range.ends[0]) < 0.0 {
         nodes.reverse();
     }

@@ -1,4 +1,4 @@
-//! A mechanism as rigid bodies and joints in the start pose: the numbers of every model file.
+//! A mechanism as rigid bodies and joints in the start pose. Every model file is written from these numbers.
 
 use linkage::case::Case;
 use linkage::math::{KeepNan, Vec2, rotated, unit};
@@ -8,12 +8,12 @@ use linkage::mechanism::{
 use linkage::solver::State;
 
 /// Mass of a massless link, divided by the mass of the whole mechanism. Physics engines refuse a mass of zero.
-/// A smaller mass would falsify reactions less, but it would make loops softer.
-/// MuJoCo softens every loop in proportion to the inverse of the masses that the loop connects.
+/// A smaller mass would change the reactions less, but MuJoCo would keep loops closed less exactly: it softens a loop
+/// in inverse proportion to the masses that the loop connects.
 /// docs/mjcf.md states the resulting errors.
 const LIGHT: f64 = 1e-5;
-/// Radius of gyration of a link without inertia, divided by the link's size.
-/// If the link's size is below the fraction `SHORTEST` of the mechanism's size, this fraction replaces the link's size.
+/// Radius of gyration of a link for which the case gives no moment of inertia, divided by the link's size.
+/// A link smaller than `SHORTEST` times the mechanism's size counts as having this size.
 const GYRATION: f64 = 0.3;
 const SHORTEST: f64 = 0.1;
 
@@ -28,8 +28,8 @@ pub struct RigidModel<'a> {
     pub(crate) tree: SpanningTree,
     /// One body for each branch of the tree.
     pub(crate) bodies: Vec<Body>,
-    /// The joints that close loops, as if the joint's second link were a body on its first link.
-    /// If one of the two links is the ground, the ground is the parent.
+    /// The joints that close loops. Each is stored as if its second link were a body on its first link; if the second
+    /// link is the ground, the ground is the parent.
     pub(crate) closing: Vec<Body>,
 }
 
@@ -96,7 +96,7 @@ impl<'a> RigidModel<'a> {
     }
 
     /// Mass (kg) and moment of inertia (kg m^2) of a link for physics engines.
-    /// If the link has no mass or no inertia, the missing value is that of a light rod.
+    /// A missing mass or moment of inertia is replaced by the value of a light rod.
     pub fn inertial(&self, link: LinkId) -> (f64, f64) {
         let link = &self.case.mechanism.links()[link];
         let light = LIGHT * self.mass();
@@ -142,8 +142,8 @@ impl<'a> RigidModel<'a> {
         hinges
     }
 
-    /// Branches whose coordinates a transmission couples, each with a factor.
-    /// The sum of the coordinates times their factors is constant.
+    /// Branches of the tree whose coordinates a transmission couples, each with a factor.
+    /// The transmission keeps the sum of all products of coordinate and factor constant.
     pub(crate) fn coupled(&self, transmission: &Transmission) -> Vec<(usize, f64)> {
         let mut sum: Vec<(usize, f64)> = Vec::new();
         let mut add = |branch: usize, factor: f64| match sum.iter_mut().find(|(own, _)| *own == branch) {
@@ -177,18 +177,18 @@ pub(crate) enum Freedom {
     Slide(Vec2),
 }
 
-/// A link as a body within its parent, or a joint that closes a loop in the same terms.
+/// A link as a body on its parent. A joint that closes a loop is described by the same fields.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Body {
     /// The link, its parent and their joint.
     pub branch: TreeBranch,
     /// Origin of the link's frame in the frame of the parent link, in the start pose (m).
     pub offset: Vec2,
-    /// Angle of the link minus that of its parent in the start pose (rad).
+    /// Angle of the link minus the parent's angle, in the start pose (rad).
     pub turn: f64,
     /// The joint.
     pub freedom: Freedom,
-    /// The joint's coordinate in the start pose: the slide (m), or the angle of the link minus that of its parent
+    /// The joint's coordinate in the start pose: the slide (m), or the angle of the link minus the parent's angle
     /// (rad).
     pub coordinate: f64,
     /// Rate of the joint's coordinate at the start (rad/s, m/s).
@@ -223,7 +223,7 @@ fn slide(joint: &Joint, state: &State) -> [f64; 3] {
     state.slide(joint).expect("the joint slides")
 }
 
-/// The body of a branch. Poses are those of the case at t = 0; rates are those of `start`.
+/// The body of a branch. Poses are taken from the case at t = 0, and rates from `start`.
 fn body(case: &Case, start: &State, branch: &TreeBranch) -> Body {
     let joint = &case.mechanism.joints()[branch.joint];
     let [parent, child] = [branch.parent, branch.link].map(|link| case.start.0[link]);
@@ -233,8 +233,8 @@ fn body(case: &Case, start: &State, branch: &TreeBranch) -> Body {
         JointKind::Revolute => Freedom::Hinge(joint.on(branch.link).expect("a branch's joint is on its link")),
         JointKind::Prismatic { .. } => {
             let axis = joint.axis_on(branch.link).expect("a branch's joint is on its link");
-            // A slide is measured from the first link to the second, so its sign depends on which of the two is the
-            // child.
+            // A slide is measured from the first link to the second. Its sign therefore depends on which of the two
+            // links is the child.
             Freedom::Slide(axis * if branch.link == joint.second.link { 1.0 } else { -1.0 })
         }
     };

@@ -1,10 +1,13 @@
 //! Exact first derivatives of a run's figures with respect to the numbers in its file, and tolerance stacks from these
 //! derivatives.
 //!
-//! Side 1 computes the figure. At the instants that determine the figure, the equations of the whole mechanism are
-//! solved again in dual numbers ([`precise::Dual`]), so that there is no error of a step width.
-//! An extreme over the instants has the derivatives of the quantity at the instant of the extreme, because a shift of
-//! this instant has no first-order effect. A mean needs all instants.
+//! Side 1 computes the figure.
+//! At the instants that determine the figure, the equations of the whole mechanism are solved again in dual numbers
+//! ([`precise::Dual`]).
+//! Unlike difference quotients, dual numbers have no error of a step width.
+//! The derivatives of an extreme are the derivatives of the quantity at the instant of the extreme: a shift of this
+//! instant has no first-order effect.
+//! A mean needs the derivatives at all instants.
 
 mod answer;
 mod instants;
@@ -75,8 +78,8 @@ pub fn sensitivity_by(scenario: &Scenario, slopes: &CaseSlopes, question: &Sensi
     Ok(Sensitivity { keys, figures, left_out, by_input })
 }
 
-/// Indices of the chosen keys, and the names of omitted keys, each with the part of the file that has no derivative by
-/// the key.
+/// Indices of the chosen keys, and the names of the omitted keys.
+/// Each omitted key has the part of the file whose derivative by this key is not known.
 type Chosen = (Vec<usize>, Vec<(String, String)>);
 
 fn chosen(slopes: &CaseSlopes, question: &SensitivityQuestion) -> Result<Chosen> {
@@ -121,7 +124,8 @@ fn claim(figure: &TurnFigure, case: &Case) -> Result<Claim> {
     Ok(claim)
 }
 
-/// The rows that determine the figures, in ascending order: all rows if one figure is a mean or a root mean square.
+/// The rows that determine the figures, in ascending order. If a figure is a mean or a root mean square, these are all
+/// rows.
 fn rows(sampled: &[(SampledFigure, Vec<f64>)], count: usize) -> Vec<usize> {
     if sampled.iter().any(|(found, _)| found.rows.is_empty()) {
         return (0..count).collect();
@@ -135,8 +139,8 @@ fn rows(sampled: &[(SampledFigure, Vec<f64>)], count: usize) -> Vec<usize> {
 /// Largest allowed difference between the values of the two solutions, divided by the largest value.
 const AGREEMENT: f64 = 1e-6;
 
-/// Checks that the solution in dual numbers has the values of side 1. Otherwise its derivatives would be those of
-/// another mechanism.
+/// Checks that the solution in dual numbers has the values of side 1.
+/// If the values differed, the derivatives would belong to another mechanism.
 fn check_agreement(
     figure: &TurnFigure,
     found: &SampledFigure,
@@ -155,7 +159,7 @@ fn check_agreement(
     Ok(())
 }
 
-/// The derivatives of a figure from those of its quantity.
+/// Computes the derivatives of a figure from the derivatives of its quantity.
 fn figure_slopes(
     figure: &TurnFigure,
     found: &SampledFigure,
@@ -181,8 +185,8 @@ fn figure_slopes(
     (0..keys).map(one).collect()
 }
 
-/// Derivative of the mean over time by the trapezoidal rule. If the instants keep their inputs, their times have
-/// derivatives too.
+/// Derivative of the mean over time by the trapezoidal rule.
+/// If the instants keep their inputs when a key changes, the times of the instants change and have derivatives too.
 fn mean_slope(values: &[f64], slope: impl Fn(usize) -> f64, key: usize, derived: &Derived) -> f64 {
     let order = linkage::math::statistics::ascending(&derived.times);
     let (mut sum, mut change) = (0.0, 0.0);

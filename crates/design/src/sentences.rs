@@ -30,7 +30,7 @@ linkage::sentences! {
     NAME_A_KEY = "name a number of the file, such as `links.crank.mass_kg`";
     THE_CASE_DEPENDS_ON_NO_KEY = "no parameter, dimension, mass, or number of a law or load has a known effect on the figures";
     no_number_of_the_file_is_called(name) = "no number of the file is called `{name}`";
-    no_derivative_is_known(name, part) = "no derivative by `{name}` is known, because `{part}` depends on it without a known derivative";
+    no_derivative_is_known(name, part) = "no derivative by `{name}` is known: how `{part}` depends on this number is not known";
     COMPARE_WITH_A_SWEEP = "instead, compare two values of the number in a sweep";
     a_reduced_quantity_is_not_differentiated(text) = "{text} uses masses as plain numbers, so no derivative of it is known";
     the_two_solutions_differ(figure, one, other) = "{figure}: analytic side 1 gives {one}, but the solution in dual numbers gives {other}";
@@ -103,7 +103,7 @@ linkage::sentences! {
     pin(name) = "pin {name}";
     across_the_guide(name) = "across the guide {name}";
     both_centres_with_link_coincide(third) = "both centres with link {third} are this point";
-    FROM_THE_VELOCITIES = "from the velocities: fewer than two lines through it are known";
+    FROM_THE_VELOCITIES = "from the velocities: fewer than two lines through the centre are known";
     line_of_action_of(name) = "line of action of {name}";
     // draw/assur_figure.rs
     acceleration_of_by_its_leads(name, lines) = "Acceleration of the singular point {name} = {lines}";
@@ -169,10 +169,10 @@ linkage::sentences! {
     RELATIONS_WITH_SEVERAL_DRIVES = "a relation of joints that depend on several drives";
     // relations/bound.rs
     WRITE_NO_RELATIONS_OR_STAY_AWAY = "write the file without relations of joints, or choose a range that does not come near a singular pose";
-    no_error_of_the_relations_is_proven(coordinate) = "no bound on the error of the joints' relations can be proven near the driven coordinate {coordinate}";
+    no_error_of_the_relations_is_proven(coordinate) = "no bound on the errors of the joint relations can be proven where the driven joint's coordinate is about {coordinate}";
     // export/urdf.rs
     THE_RELATIONS_OF_THE_JOINTS = "Coordinates of the joints as polynomials of the driven joint's coordinate, with proven bounds (docs/formats.md).";
-    URDF_PERMITS_NO_LOOPS = "Joints that close loops: URDF permits none, but Gazebo adds these to the tree.";
+    URDF_PERMITS_NO_LOOPS = "Joints that close loops. URDF does not permit such joints, but Gazebo adds them to the tree.";
     // export/mjcf/effects.rs
     ITS_LENGTH_IS_THE_ANGLE_THAT_THE_LOAD = "The tendon's length is the angle that the load depends on.";
     ITS_LENGTH_IS_CONSTANT = "A transmission: the tendon's length is constant.";
@@ -205,10 +205,10 @@ linkage::sentences! {
     // import/parts.rs
     imported_from(source) = "Imported from {source}";
     the_source_has_too_many_parts(count, most) = "the source has {count} links, joints and loads, but at most {most} are allowed";
-    IMPORT_A_PART_OF_IT = "remove the parts that do not belong to the mechanism in the other program, and export again";
+    IMPORT_A_PART_OF_IT = "in the other program, remove the parts that do not belong to the mechanism, and export again";
     // import/write.rs
     THE_FRAME_OF_A_LINK_BEGINS_AT = "The frame of a link begins at its first point; its x axis points to the second.";
-    THE_POSE_IS_THAT_OF_THE_SOURCE = "The pose at t = 0 is that of the source.";
+    THE_POSE_IS_THAT_OF_THE_SOURCE = "The pose at t = 0 is the pose in the source.";
     // import/finish.rs
     the_input_reaches_only(noun, from, to, unit) = "the {noun} reaches only from {from:.6} to {to:.6} {unit}: the grid covers a part of the way from the start in the direction of motion";
     // import/xml.rs
@@ -220,7 +220,7 @@ linkage::sentences! {
     it_leaves_the_plane(name, z) = "`{name}` has the third component {z}, but a planar mechanism has 0 there";
     // import/mjcf.rs
     the_element_is_left_out(element, name, line) = "`{element}`{name} in line {line} is not understood: it is left out";
-    IMPORT_MODELS_THAT_EXPORT_WROTE = "only models with the elements of an exported model are read";
+    IMPORT_MODELS_THAT_EXPORT_WROTE = "the import reads only models as `linkproof export` writes them";
     // import/mjcf/bodies.rs
     THE_BODY_TURNS_OUT_OF_THE_PLANE = "`axisangle` is not a rotation about z: the body leaves the plane";
     the_attribute_is_not_understood(name, element) = "`{name}` of a `{element}` is not understood";
@@ -229,16 +229,16 @@ linkage::sentences! {
     // import/mjcf/joints.rs
     the_body_has_so_many_joints(count) = "the body has {count} joints, but expected one hinge or slide";
     the_joint_has_the_type(kind) = "the joint has the type \"{kind}\", but expected \"hinge\" or \"slide\"";
-    THE_LOOP_HAS_NO_SITES = "`connect` names no two sites of the file";
+    THE_LOOP_HAS_NO_SITES = "`connect` does not name two sites of the file";
     // import/mjcf/drives.rs
     the_joint_moves_freely(name) = "joint \"{name}\" has no rotor that keeps its speed: it moves freely, and forces determine its motion";
     // import/mjcf/loads.rs
-    the_transmission_is_left_out(name) = "\"{name}\" couples joints as a transmission: a model does not say of which kind; add a table [[transmissions]]";
+    the_transmission_is_left_out(name) = "\"{name}\" couples joints as a transmission, but the model does not state the kind of transmission; add a table [[transmissions]]";
     the_actuator_is_left_out(name, line) = "actuator \"{name}\" in line {line} is not understood: it is left out";
     // import/linkage2/elements.rs
     LINKAGE_HAS_NO_MASSES = "Linkage has no masses and no forces: the links have no mass";
-    the_scale_is_left_out(factor) = "the scale factor {factor} of the drawing is left out: lengths are those of the drawing, 96 to the inch";
-    the_slider_has_no_path(name, line) = "slider \"{name}\" in line {line} does not name two ends of its path: it is a pin";
+    the_scale_is_left_out(factor) = "the scale factor {factor} of the drawing is ignored: lengths are taken as drawn, with 96 units to the inch";
+    the_slider_has_no_path(name, line) = "slider \"{name}\" in line {line} does not name two ends of its path: it becomes a pin";
     THE_LINK_NAMES_NO_CONNECTOR = "the link names a connector that the file does not have";
     THE_WHEEL_HAS_NO_SIZE = "the wheel has no positive `size`";
     // import/linkage2/build.rs
@@ -246,21 +246,21 @@ linkage::sentences! {
     the_actuator_makes_one_stroke(name, stroke, unit) = "actuator \"{name}\" moves to and fro by {stroke:.6} {unit} in Linkage: here it makes one stroke at the same speed";
     // import/linkage2/sliders.rs
     the_path_is_curved(name) = "the path of slider \"{name}\" is curved: it is left out";
-    the_slider_has_no_guide(name) = "slider \"{name}\" has a path whose ends are not on one link, or is on no link: it is left out";
+    the_slider_has_no_guide(name) = "slider \"{name}\" is left out: no link contains both ends of its path, or the slider itself is on no link";
     // import/linkage2/gears.rs
-    THE_RATIO_NEEDS_TWO_WHEELS = "the ratio has not two wheels";
+    THE_RATIO_NEEDS_TWO_WHEELS = "the ratio does not have exactly two wheels";
     the_wheels_have_no_carrier(line) = "the axles of the wheels in line {line} are not on one link: the ratio is left out";
     // import/pmks.rs
     THE_SOURCE_HAS_SEVERAL_LINES = "the source has several lines, but it is not XML; a share link has one line";
     THE_ADDRESS_HAS_NO_QUERY = "the address has nothing after its `?`: it contains no mechanism";
-    THE_LINK_HAS_ANOTHER_VERSION = "the link has the newer form `pmks2:` of PMKS+, which this version does not read";
+    THE_LINK_HAS_ANOTHER_VERSION = "the share link has the newer form `pmks2:` of PMKS+, which this version does not read";
     // import/pmks/classic.rs
-    THE_LINK_HAS_NO_UNIT = "the link has no units and no masses: coordinates are taken as mm, the speed as rpm, or as mm/s for a slide";
-    THE_RECORD_HAS_NO_KIND = "the record names no links, or no kind of joint behind them";
+    THE_LINK_HAS_NO_UNIT = "the share link has no units and no masses: coordinates are taken as mm, the speed as rpm, or as mm/s for a slide";
+    THE_RECORD_HAS_NO_KIND = "the record names no links, or no kind of joint after the links";
     the_kind_is_not_read(kind) = "joints of the kind {kind} are not read, only R and P";
     DRAW_A_SLIDE_AND_A_PIN = "draw the joint as a slide P and a pin R with a further link between them";
     // import/pmks/token.rs
-    the_last_sign_of_the_link_is_wrong(sign, expected, length) = "the last character of the link is \"{sign}\", but a link of {length} characters before it ends in \"{expected}\": the link is incomplete or changed";
+    the_last_sign_of_the_link_is_wrong(sign, expected, length) = "the last character of the link is \"{sign}\", but after {length} characters it must be \"{expected}\": the link is incomplete or changed";
     COPY_THE_WHOLE_LINK = "copy the whole link again from the share dialog of PMKS+, and put it in quotes";
     the_record_ends_before(what) = "the record ends before {what}";
     is_no_number_of_a_link(text, what) = "found \"{text}\" as {what}, but a number consists of up to 9 of the signs 0-9, A-Z, a-z, _ and -";
@@ -273,16 +273,16 @@ linkage::sentences! {
     THE_NAME_IS_GIVEN_TWICE = "two joints or links have this name";
     the_joint_is_called(wanted, name) = "joint \"{wanted}\" is called \"{name}\" here";
     the_link_is_called(wanted, name) = "link \"{wanted}\" is called \"{name}\" here";
-    the_link_has_no_joint(id) = "it names the joint \"{id}\", but there is no such joint";
+    the_link_has_no_joint(id) = "the joint \"{id}\" is named, but does not exist";
     the_fixed_joint_has_no_link(name) = "joint \"{name}\" is fixed, but no link is there: it is left out";
     the_weld_is_a_pin(name) = "joint \"{name}\" is welded, but joins separate links: it becomes a pin";
     the_input_has_several_links(name) = "input \"{name}\" joins several links: it drives the first of them";
     the_slot_has_no_link(carrier) = "the slot is on the link \"{carrier}\", but there is no such link";
     the_slide_needs_one_block(count) = "the slide joins {count} links, but expected one block with a pin";
     the_slide_is_fixed(name) = "slide \"{name}\" is not fixed and has no slot: its guide is taken as fixed";
-    the_input_joins_nothing(name) = "input \"{name}\" joins no two links: it is left out";
-    its_own_speed_is_left_out(name) = "the speed of the single input \"{name}\" is not understood: it has the speed of the document";
-    the_slide_has_the_speed(name, speed, unit) = "a link has no speed for the slide \"{name}\": it moves at {speed} {unit}/s along its direction";
+    the_input_joins_nothing(name) = "input \"{name}\" does not join two links: it is left out";
+    its_own_speed_is_left_out(name) = "the separate speed of input \"{name}\" is not understood: the input gets the speed of the document";
+    the_slide_has_the_speed(name, speed, unit) = "a share link contains no speed for the slide \"{name}\": it moves at {speed} {unit}/s along its direction";
     the_speed_is_zero(usual) = "the speed of the input is 0: it turns at {usual} rpm, as in a new document";
     the_force_has_no_link(link) = "the force acts on the link \"{link}\", but there is no such link";
     the_force_has_no_direction(name) = "force \"{name}\" has no direction: it is left out";
@@ -295,7 +295,7 @@ linkage::sentences! {
     // drive/motor.rs
     GIVE_A_CATALOGUE_WITH_STRONGER = "use a catalogue with stronger motors, or lower the peak of the resistance; a flywheel on the crank carries the mechanism over a peak";
     the_drive_asks_for_kw_the_strongest(asked, strongest) = "the drive needs {asked:.4} kW, but the strongest motor has {strongest:.4} kW";
-    GIVE_THE_SCENARIO_THE_LOADS = "give the scenario the loads that the drive works against";
+    GIVE_THE_SCENARIO_THE_LOADS = "add the loads against which the drive works to the scenario";
     the_greatest_moment_of_resistance(greatest) = "the greatest moment of resistance is {greatest:.6} N·m: no motor is needed";
     GIVE_A_SHARE_ABOVE_AND_AT_MOST = "give a fraction above 0 and at most 1: 0.92 for 92 %";
     the_efficiency_is(efficiency) = "the efficiency is {efficiency}";
@@ -318,7 +318,7 @@ linkage::sentences! {
     MOVE_A_PIVOT_OR_TURN_THE_EXTREME = "move a pivot, or turn the extreme positions away from the line of the pivots";
     an_extreme_position_lies_on_the_line(told, found) = "{told}: within rounding error, an extreme position lies on the line through the pivots, so the four-bar would not be a crank-rocker but a {found}";
     CHOOSE_A_SMALLER_SWING_OR_PIVOTS = "choose a smaller swing, or pivots whose connecting line leaves both positions of B on one side";
-    THE_LINE_OF_THE_TWO_PIVOTS = "the line through the two pivots passes between the two extreme positions, or through one: no crank can move the rocker between them without taking the dyad apart";
+    THE_LINE_OF_THE_TWO_PIVOTS = "the line through the two pivots passes between the two extreme positions, or through one of them: a crank could move the rocker from one to the other only if the dyad were taken apart";
     MOVE_A_PIVOT_OR_TURN_THE_EXTREME_POSITIONS = "move a pivot, or turn the extreme positions, so that B is farther from the crank's pivot in one extreme position than in the other";
     a_crank_of_no_length_would(told) = "{told}: a crank of zero length would be needed";
     is_from_in_one_extreme_position(distances, distances_2) = "O is {distances:.6} m from B in one extreme position and {distances_2:.6} m in the other";
@@ -340,7 +340,7 @@ linkage::sentences! {
     THE_POSES_ARE_ONE_ROTATION = "all poses are rotations about one point, or translations: no finite dyad is determined";
     TURN_A_POSE_OR_USE_A_PARALLELOGRAM = "change the angle or the point of a pose; one pin guides rotations about one point, a parallelogram guides translations";
     pivots_and_pins_are_given(count, poses) = "{count} pivots and pins are given with {poses} poses";
-    GIVE_TWO_PIVOTS_OR_PINS_WITH_THREE_POSES = "give at most two pivots and pins together, with three poses; four and five poses determine them";
+    GIVE_TWO_PIVOTS_OR_PINS_WITH_THREE_POSES = "give at most two pivots and pins together, and only with three poses: four or five poses determine all pivots and pins";
     the_pin_of_the_pivot_is_at_infinity(x, y) = "seen from the coupler, the pivot ({x:.6}, {y:.6}) m has its three positions on a line: its pin is at infinity";
     the_pivot_of_the_pin_is_at_infinity(x, y) = "the three positions of the pin ({x:.6}, {y:.6}) m of the coupler lie on a line: its pivot is at infinity";
     MOVE_THE_PIVOT_OR_THE_PIN = "move this pivot or pin, or leave it out";
@@ -356,14 +356,14 @@ linkage::sentences! {
     DRAW_MORE_CANDIDATES_NARROW_THE_BOUNDS = "draw more candidates, narrow the bounds around a drawing that turns fully, or relax `limits`";
     none_of_candidates_can_be_assembled(candidates) = "none of {candidates} candidates can be assembled over a whole turn of the crank with the required transmission angle and stroke";
     // synthesize/slider_crank.rs
-    ask_for_less_than_or_choose(most) = "ask for less than {most:.6}, or choose a smaller offset";
+    ask_for_less_than_or_choose(most) = "give a time ratio below {most:.6}, or choose a smaller offset";
     a_time_ratio_of_is_out_of_reach(ratio, stroke, e) = "a time ratio of {ratio} cannot be reached with a stroke of {stroke:.6} m at an offset of {e:.6} m";
     GIVE_THE_LENGTH_OF_THE_ROD = "give the length of the rod instead of the time ratio, or change the offset";
     WITH_AN_OFFSET_THE_TWO_STROKES = "with an offset, the forward and the return stroke never take the same time";
     without_an_offset_both_strokes(ratio) = "without an offset both strokes take the same time, not {ratio} times as long";
     WITHOUT_AN_OFFSET_ANY_ROD = "without an offset any rod gives a time ratio of 1";
     the_time_ratio_is(ratio) = "the time ratio is {ratio}";
-    GIVE_THE_TIME_OF_THE_SLOWER = "give the duration of the slower stroke divided by that of the faster stroke, 1 or more";
+    GIVE_THE_TIME_OF_THE_SLOWER = "give the duration of the slower stroke divided by the duration of the faster stroke: 1 or more";
     give_a_rod_longer_than(shortest) = "give a rod longer than {shortest:.6} m";
     a_rod_of_is_too_short_for_a_stroke(rod, stroke, e) = "a rod of {rod:.6} m is too short for a stroke of {stroke:.6} m at an offset of {e:.6} m: the crank could not turn fully";
     the_rod_length_is(rod) = "the rod's length is {rod} m";
@@ -371,7 +371,7 @@ linkage::sentences! {
     GIVE_A_DECIMAL_NUMBER_FOR_A_CENTRAL = "give a decimal number; 0 for a central slider-crank";
     the_stroke_is(stroke) = "the stroke is {stroke} m";
     // synthesize/task.rs
-    THE_SEARCH_HAS_NO_CANDIDATES = "a count of the search is outside its limits";
+    THE_SEARCH_HAS_NO_CANDIDATES = "a number in the section `search` is outside its limits";
     GIVE_COUNTS_OF_OR_MORE_AND_NO_MORE = "give counts from 1 to 1000000000, and no more refinements than candidates";
     LEAVE_TRANSMISSION_OUT = "leave `transmission` out";
     A_SMALLEST_TRANSMISSION_ANGLE_IS_ASKED = "a smallest transmission angle is required, but higher groups have no transmission angle";
@@ -414,9 +414,9 @@ linkage::sentences! {
     has_several_drives(name) = "{name} has several drives, but a task has one crank";
     TAKE_A_SCENARIO_WITH_A_CRANK = "choose a scenario whose first drive turns a crank";
     drives_a_slide(name) = "the drive of {name} is a slide, but phases are given over the angle of a crank";
-    no_output_link_is_called(name, own) = "{name} has no link \"{own}\", and its last group does not have just one rocker";
+    no_output_link_is_called(name, own) = "{name} has no link \"{own}\", and its last group does not have exactly one rocker";
     name_the_output_link(names) = "name the output link; the moving links are {names}";
-    no_output_point_is_called(name, own) = "{name} has no point \"{own}\", and not just one point without a joint";
+    no_output_point_is_called(name, own) = "{name} has no point \"{own}\", and does not have exactly one point without a joint";
     name_the_output_point(names) = "name the output point; the points of moving links are {names}";
     // synthesize/task_file.rs
     NOTHING_ABOUT_THIS_POINT_VARIES = "no property of this point varies";
@@ -463,9 +463,9 @@ linkage::sentences! {
     the_motion_of_is_not_one_of_a_crank(name) = "{name} does not have exactly one drive whose motion follows from the crank angle alone";
     GIVE_A_SCENARIO_WITH_ONE_PRESCRIBED_DRIVE = "give a scenario with one prescribed drive at constant speed; a motion under forces has no answers by crank angle";
     no_numbers_of_of_this_sort(name, sorts) = "{name} has no {sorts} that can be changed";
-    WRITE_THE_NUMBERS_AS_NUMBERS = "write them as numbers, or name them in `[parameters]`; sheets with the numbers of the files do not change any number";
+    WRITE_THE_NUMBERS_AS_NUMBERS = "write the values as numbers, or name them in `[parameters]`; or make sheets with the original numbers of the files";
     none_of_draws_of_keeps_the_range(draws, name) = "none of {draws} draws of numbers for {name} keeps its range of motion";
     DRAW_CLOSER_TO_THE_NUMBERS = "draw closer to the numbers of the file, or allow a smaller transmission angle; dimensions that must be equal belong in `[parameters]`";
-    has_too_few_poses_for_positions(name, count) = "{name} has fewer than {count} whole degrees whose transmission angles are large enough";
+    has_too_few_poses_for_positions(name, count) = "{name} has large enough transmission angles at fewer than {count} whole degrees of the crank angle";
     ASK_FOR_FEWER_POSITIONS = "ask for fewer positions, or allow a smaller transmission angle";
 }

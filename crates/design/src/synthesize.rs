@@ -1,5 +1,5 @@
-//! Finds the dimensions for a required motion: in closed form where possible, otherwise by a search over lengths and
-//! pivots.
+//! Finds the dimensions of a mechanism for a required motion: in closed form if possible, otherwise by a search over
+//! lengths and pivots.
 
 pub mod achieved;
 mod bars;
@@ -30,7 +30,8 @@ use linkage::error::{Error, ErrorKind};
 use linkage::math::KeepNan;
 use std::f64::consts::PI;
 
-/// Time of the slower stroke divided by that of the faster stroke, at a constant speed of the crank:
+/// Time ratio: the time of the slower stroke divided by the time of the faster stroke, at a constant speed of the
+/// crank:
 /// K = (pi + |theta|) / (pi - |theta|).
 /// `theta` (rad) is the angle between the directions from the crank's pivot to the output's pin in the two extreme
 /// positions.
@@ -39,7 +40,7 @@ fn time_ratio(theta: f64) -> f64 {
 }
 
 /// Transmission angle (rad, at most a right angle) between coupler and rocker at their pin, by the law of cosines.
-/// `distance` is that of the other two pins (m).
+/// `distance` is the distance between the coupler's other pin and the rocker's pivot (m).
 fn transmission_angle(distance: f64, coupler: f64, rocker: f64) -> f64 {
     let cos = (coupler.powi(2) + rocker.powi(2) - distance * distance) / (2.0 * coupler * rocker);
     cos.abs().smaller(1.0).acos()

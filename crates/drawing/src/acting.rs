@@ -19,14 +19,14 @@ pub struct Acting {
 }
 
 /// Forces and moments of all loads that are drawn as arrows.
-/// These are all loads except friction, and except springs and dampers between points or links.
-/// `motions` and `angles` (rad, including full turns) are those of all links.
+/// Friction, and springs and dampers between points or links, are not drawn as arrows.
+/// `motions` and `angles` (rad, including full turns) contain one entry for each link.
 pub fn acting(case: &Case, sketch: &super::Sketch, motions: &[Motion], angles: &[f64]) -> Vec<Acting> {
     let one = |sign: &super::LoadSign| {
         let at = motions[sign.at.link].point(sign.at.local);
         let mut found = Acting { load: sign.load, at, force: Vec2::zeros(), moment: 0.0 };
         case.each_action(sign.load, motions, angles, |action| {
-            // A load along a slide acts on both links of the joint.
+            // A load along a slide acts on both links of the joint. Only its action on the link with the arrow counts.
             if action.link == sign.at.link {
                 found.force += action.force;
                 found.moment += action.moment;
@@ -47,7 +47,7 @@ pub struct Tension {
     pub size: f64,
 }
 
-/// Forces and moments of all springs and dampers. The arguments are those of [`acting`].
+/// Forces and moments of all springs and dampers. The arguments have the same meaning as in [`acting`].
 pub fn tensions(case: &Case, motions: &[Motion], angles: &[f64]) -> Vec<Tension> {
     let of = |(load, own): (usize, &Load)| {
         let first = match own.nature().on {

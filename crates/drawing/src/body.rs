@@ -6,16 +6,15 @@ use super::mark::{Mark, MarkRole};
 use linkage::math::{KeepNan, Vec2, cross, turned, unit};
 use linkage::mechanism::{GROUND, LinkId, Mechanism};
 
-/// Radius of the half disc that marks a bar as continuous, in units of the sketch.
-/// `MASS` is the radius of a mass centre, in the same units. `TRACER` is half the width of a traced point's cross, in
-/// the same units.
+/// Sizes in units of the sketch. `WELD` is the radius of the half disc that marks a bar as continuous.
+/// `MASS` is the radius of a mass centre's circle, and `TRACER` half the width of a traced point's cross.
 const WELD: f64 = 2.0;
 const MASS: f64 = 1.7;
 const TRACER: f64 = 1.1;
-/// Number of corners of a quarter of a circle that is drawn as a line.
+/// Number of straight pieces that represent a quarter of a circle.
 const QUARTER: usize = 6;
 
-/// Positions on a link (m, in its frame): its points, then its joints without a named point.
+/// Positions on a link (m, link frame): first its points, then the positions of joints at which it has no named point.
 pub fn places(mechanism: &Mechanism, link: LinkId) -> Vec<Vec2> {
     let points = mechanism.links()[link].points.iter().map(|point| point.local);
     let all = points.chain(mechanism.joints().iter().filter_map(|joint| joint.on(link)));
@@ -24,12 +23,13 @@ pub fn places(mechanism: &Mechanism, link: LinkId) -> Vec<Vec2> {
     all.filter(|place| seen.insert([place.x, place.y].map(|own| (own + 0.0).to_bits()))).collect()
 }
 
-/// Corners of a link: its hull, or both ends of a bar.
+/// Corners of a link: the corners of its convex hull, or the two ends of a bar.
 pub fn corners(mechanism: &Mechanism, link: LinkId) -> Vec<Vec2> {
     hull(places(mechanism, link))
 }
 
-/// A point on a link where a symbol hides no joint: the middle of a plate, or of the longest piece of a bar.
+/// A point on a link at which a symbol does not hide a joint: the middle of a plate, or the middle of the longest piece
+/// of a bar.
 /// `None` if the plate or the piece is shorter than `least` (m).
 pub fn free(mechanism: &Mechanism, link: LinkId, least: f64) -> Option<Vec2> {
     let (mut places, corners) = (places(mechanism, link), corners(mechanism, link));
@@ -78,7 +78,8 @@ pub fn marks(mechanism: &Mechanism, link: LinkId, unit: f64) -> Vec<Mark> {
     marks
 }
 
-/// The point of a bar or plate nearest to `at`; `at` itself inside a plate or if there are no corners.
+/// The point of a bar or plate that is nearest to `at`.
+/// The result is `at` itself if `at` lies inside a plate, or if there are no corners.
 fn nearest(corners: &[Vec2], at: Vec2) -> Vec2 {
     let edges = || corners.iter().zip(corners.iter().cycle().skip(1)).map(|(&a, &b)| [a, b]);
     // The corners of a plate are counter-clockwise.
@@ -164,7 +165,7 @@ mod tests {
         assert_eq!(at(&[(0.0, 0.0), (2.0, 2.0), (1.0, 1.0)]), 2);
         assert_eq!(at(&[(0.0, 0.0), (2.0, 0.0), (1.0, 1.0), (1.0, 0.2)]), 3);
         assert_eq!((at(&[(0.0, 0.0)]), at(&[])), (1, 0));
-        // A plate far from the frame's origin must not be mistaken for a bar.
+        // A plate must not be mistaken for a bar if it lies far from the origin of its frame.
         assert_eq!(at(&[(1e4, 0.0), (1e4 + 1.0, 0.0), (1e4, 1.0)]), 3);
     }
 }

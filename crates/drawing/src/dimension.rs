@@ -1,8 +1,8 @@
 //! Dimensions: the lengths and angles that define the links of a mechanism and its ground.
 //!
-//! A link with n places has 2 n - 3 lengths, or n - 1 if its places are on one line.
+//! A link with n places has 2 n - 3 lengths. If all places are on one line, it has n - 1 lengths.
 //! The ground has horizontal and vertical distances from its first pivot.
-//! An angle of a guide that is a multiple of 90 degrees, and a distance of zero, are visible without a number.
+//! Guide angles that are multiples of 90 degrees, and distances of zero, are visible without a number.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -12,7 +12,8 @@ use super::pins::pivots;
 use linkage::math::{KeepNan, Vec2, cross};
 use linkage::mechanism::{CamContact, GROUND, JointId, LinkId, Mechanism, TransmissionKind};
 
-/// Two places closer than this fraction of a link's size are one place, and smaller distances are zero.
+/// Two places count as one if their distance is below this fraction of the link's size. Distances below this limit are
+/// zero.
 const SAME: f64 = 1e-9;
 /// Angles below this (rad) are zero.
 const ALIGNED: f64 = 1e-7;
@@ -31,11 +32,12 @@ pub struct Dimension {
 /// What a dimension measures. Places are indices of [`places`](crate::places).
 #[derive(Clone, Debug, PartialEq)]
 pub enum Measure {
-    /// Distance between two places of a link. Each place follows from the places before it.
+    /// Distance between two places of a link. The list of lengths determines one place after another.
     Length {
-        /// A place that is known.
+        /// The place from which the length is measured. Earlier lengths determine this place.
         from: usize,
-        /// The place that the length fixes, alone on a line, otherwise together with the length before or after it.
+        /// The place that the length determines. On a line, the length suffices; otherwise the neighbouring length in
+        /// the list is needed too.
         to: usize,
         /// Where the length is drawn.
         line: DimensionLine,
@@ -46,9 +48,9 @@ pub enum Measure {
         axis: usize,
         /// The first pivot.
         from: usize,
-        /// All places at this distance.
+        /// All places that have this distance from the first pivot.
         to: Vec<usize>,
-        /// Number of shorter distances on the same side.
+        /// Row of the dimension line: the number of shorter distances on the same side.
         row: usize,
     },
     /// Angle between a guide and a line of its link, at most 90 degrees.
@@ -76,7 +78,7 @@ pub enum DimensionLine {
     Edge,
     /// Along a thin line between the two places.
     Across,
-    /// Along a dimension line outside the link, in this row from the link.
+    /// Along a dimension line outside the link. The number is the row of the line; row 0 is nearest to the link.
     Outside(usize),
 }
 
@@ -94,12 +96,12 @@ pub fn dimensions(mechanism: &Mechanism) -> Vec<Dimension> {
     all
 }
 
-/// Largest distance of a place from the first one (m).
+/// Largest distance of a place from the first place (m).
 fn extent(all: &[Vec2]) -> f64 {
     all.iter().map(|at| (at - all[0]).norm()).fold(0.0, f64::larger)
 }
 
-/// Indices of the places of a link that differ from all earlier ones.
+/// Indices of the places of a link that do not coincide with an earlier place.
 fn distinct(all: &[Vec2]) -> Vec<usize> {
     let size = extent(all);
     let is_new = |k: usize| all[..k].iter().all(|other| (other - all[k]).norm() > SAME * size);
@@ -131,7 +133,8 @@ fn lengths(mechanism: &Mechanism, link: LinkId) -> Vec<Dimension> {
     pairs.into_iter().map(of).collect()
 }
 
-/// Lengths from the first place of a bar to all others. Those on one side of the first place are in separate rows.
+/// Lengths from the first place of a bar to all other places.
+/// Lengths on the same side of the first place are drawn in separate rows.
 fn on_a_line(all: &[Vec2], own: &[usize]) -> Vec<(usize, usize, DimensionLine)> {
     let (Some(&first), true) = (own.first(), own.len() > 1) else { return Vec::new() };
     let mut others: Vec<usize> = own[1..].to_vec();
@@ -142,10 +145,10 @@ fn on_a_line(all: &[Vec2], own: &[usize]) -> Vec<(usize, usize, DimensionLine)> 
     (0..others.len()).map(|index| (first, others[index], line(index))).collect()
 }
 
-/// Lengths of triangles over the hull of a plate, then two lengths for every other place.
+/// Lengths that divide the hull of a plate into triangles, followed by two lengths for every other place.
 fn in_a_plane(all: &[Vec2], own: &[usize], hull: &[usize]) -> Vec<(usize, usize, DimensionLine)> {
     let count = hull.len();
-    // The thinnest triangle of the fan from a corner decides how exactly the lengths define the plate.
+    // All triangles have one corner in common. The thinnest triangle decides how exactly the lengths define the plate.
     let corner = |apex: usize, k: usize| hull[(apex + k) % count];
     let worst = |apex: usize| {
         (2..count).map(|k| sine(all, corner(apex, k), corner(apex, 0), corner(apex, k - 1))).fold(1.0, f64::smaller)
@@ -169,8 +172,8 @@ fn in_a_plane(all: &[Vec2], own: &[usize], hull: &[usize]) -> Vec<(usize, usize,
     found
 }
 
-/// Sine of the angle at the place `at` between two other places. The inverse is the factor by which errors of the two
-/// distances grow.
+/// Sine of the angle at the place `at` between two other places.
+/// Its inverse is the factor by which errors of the two distances to `at` grow.
 fn sine(all: &[Vec2], at: usize, a: usize, b: usize) -> f64 {
     let (a, b) = (all[a] - all[at], all[b] - all[at]);
     cross(a, b).abs() / (a.norm() * b.norm())
@@ -201,8 +204,9 @@ fn offsets(mechanism: &Mechanism) -> Vec<Dimension> {
 }
 
 /// Angles of the guides of a link that are not multiples of 90 degrees.
-/// They are measured from the horizontal for the ground, otherwise from the line to the place farthest from the guide.
-/// On a link with a single place they are measured from its first guide.
+/// On the ground, they are measured from the horizontal.
+/// On other links, they are measured from the line between the guide's point and the place farthest from this point.
+/// On a link with a single place, they are measured from the link's first guide.
 fn angles(mechanism: &Mechanism, link: LinkId) -> Vec<Dimension> {
     let all = places(mechanism, link);
     let size = extent(&all);
@@ -231,7 +235,7 @@ fn angles(mechanism: &Mechanism, link: LinkId) -> Vec<Dimension> {
     found
 }
 
-/// The angle between two lines without direction: between -90 and 90 degrees.
+/// Converts the angle between two directions to the angle between two lines: above -90 degrees and at most 90 degrees.
 fn acute(angle: f64) -> f64 {
     let turn = angle.rem_euclid(PI);
     if turn > FRAC_PI_2 { turn - PI } else { turn }
@@ -276,7 +280,7 @@ mod tests {
     fn a_plate_has_two_lengths_for_each_place_after_the_first_two() {
         assert_eq!(counted(&[(0.0, 0.0), (2.0, 0.0), (0.0, 1.0)]), 3);
         assert_eq!(counted(&[(0.0, 0.0), (2.0, 0.0), (0.0, 1.0), (0.4, 0.2), (1.0, 0.0)]), 7);
-        // A place that coincides with an earlier one needs no length.
+        // A place that coincides with an earlier place needs no length.
         assert_eq!(counted(&[(0.0, 0.0), (2.0, 0.0), (0.0, 1.0), (2.0, 1e-12)]), 3);
     }
 

@@ -25,7 +25,7 @@ const ARC: f64 = 9.0;
 const SIDE: f64 = 11.0;
 
 impl Picture<'_> {
-    /// Draws dimensions. The marks must be drawn before, because distances of the ground are outside of them.
+    /// Draws dimensions. The marks must be drawn first, because distances of the ground are drawn outside all marks.
     pub fn draw_dimensions(&mut self, mechanism: &Mechanism, all: &[Dimension]) {
         let bounds = self.figure.bounds();
         self.figure.set_layer("dimensions");
@@ -46,7 +46,7 @@ impl Picture<'_> {
                 }
                 Measure::Angle { at, sides, .. } => self.draw_angle(own, *at, *sides),
                 Measure::Radius { at, radius } => {
-                    // The number is beside the wheel, where its circle leaves the first quadrant.
+                    // The number is beside the wheel, at 45 degrees above the horizontal.
                     let Some(axle) = self.at(own.link, *at) else { continue };
                     let away = unit(std::f64::consts::FRAC_PI_4);
                     self.letters(axle + away * (radius / self.scale), away, 0.6, own.text.clone(), colour(own.link));
@@ -55,7 +55,8 @@ impl Picture<'_> {
         }
     }
 
-    /// The middle of all joints on paper. Dimension lines are on the side of a link that faces away from it.
+    /// The middle of all joints on paper.
+    /// Dimension lines are drawn on the side of a link that faces away from this middle.
     fn middle(&self, mechanism: &Mechanism) -> Vec2 {
         let joints = mechanism.joints().iter().filter_map(|joint| self.at(joint.first.link, joint.first.local));
         let [low, high] = corners(joints);
@@ -91,7 +92,8 @@ impl Picture<'_> {
             0 => Vec2::new(at.x, low.y - level),
             _ => Vec2::new(high.x + level, at.y),
         };
-        // Only the farthest point at a distance needs an extension line, because the line passes the others.
+        // If several points have the same distance, the extension line of the point farthest from the dimension line
+        // passes all others.
         let far = points[1..].iter().max_by(|a, b| (*a - onto(**a)).norm().total_cmp(&(*b - onto(**b)).norm()));
         for at in [Some(&points[0]), far].into_iter().flatten() {
             self.thin_line([at + away * FREE, onto(*at) + away * BEYOND], solid(colour(GROUND), THINNEST));

@@ -1,5 +1,5 @@
 //! Figures as DXF, for programs of computer-aided design.
-//! Format: AutoCAD release 12, which all programs read.
+//! The files have the format of AutoCAD release 12, which all programs read.
 //! The `dxf` crate is not used, because it writes the date: the bytes would differ from run to run.
 
 use std::fmt::Write;
@@ -34,7 +34,7 @@ impl Dxf {
 
     /// A line through points, or a polygon, on a layer.
     pub fn polyline(&mut self, layer: &str, points: impl IntoIterator<Item = Vec2>, closed: bool) {
-        // The flag 66 says that vertices follow. The flag 70 says whether the polyline is closed.
+        // The group code 66 states that vertices follow, and the group code 70 states whether the polyline is closed.
         for (code, value) in [(0, "POLYLINE"), (8, layer), (66, "1"), (70, if closed { "1" } else { "0" })] {
             self.put(code, value);
         }

@@ -1,7 +1,8 @@
 //! Driving links and groups, each drawn separately, in the order in which they are solved.
 //!
-//! A part is one driving link or one group, drawn at its pose. Links that are solved before the part count as ground:
-//! a joint to them has a hatched pivot or hatched rails.
+//! A part is one driving link or one group, drawn at its pose.
+//! Links that are solved before the part are drawn as ground: joints with these links have a hatched pivot or hatched
+//! rails.
 
 use super::mark::{Mark, MarkRole};
 use super::paper::figure::sub;
@@ -20,7 +21,7 @@ use linkage::mechanism::{
 
 /// Largest enlargement of a small part, relative to the scale of the largest part.
 const ENLARGED: f64 = 2.5;
-/// A point nearer to a joint than this (mm on paper) has no name; the joint's name is shown.
+/// If a point is nearer to a joint than this (mm on paper), only the joint's name is shown.
 const SAME: f64 = 1e-6;
 
 /// A driving link outside groups, or a group.
@@ -103,7 +104,7 @@ fn parts(mechanism: &Mechanism, structure: &Structure) -> Vec<Part> {
     parts
 }
 
-/// The side of an outer joint that is not on the part's links `own`, but on a link that is solved before the part.
+/// The side of an outer joint on the link that is solved before the part. `own` are the links of the part.
 fn solved_side(joint: &Joint, own: &[LinkId]) -> JointSide {
     if own.contains(&joint.first.link) { joint.second } else { joint.first }
 }
@@ -152,8 +153,8 @@ impl Whole<'_> {
     }
 
     /// A mechanism with the points, masses and joints of one part. All links keep their numbers.
-    /// Links that are solved before the part are replaced by the ground in its outer joints.
-    /// An outer prismatic joint keeps the link that is solved before if the block is on this link. The link then shows
+    /// In the outer joints of the part, links that are solved before the part are replaced by the ground.
+    /// An exception is an outer prismatic joint whose block is on a link that is solved before: the link stays, to show
     /// the block.
     fn apart(&self, part: &Part) -> Mechanism {
         let mechanism = self.mechanism;
@@ -181,7 +182,7 @@ impl Whole<'_> {
         Mechanism::unchecked(mechanism.links().entries().map(strip).collect(), joints)
     }
 
-    /// A joint whose side on the link `solved` is moved to the ground, at the pose of this link.
+    /// Moves a joint's side on the link `solved` to the ground, at the position that the link's pose gives.
     /// `None` if the link has no pose.
     fn grounded(&self, joint: &Joint, solved: LinkId) -> Option<Joint> {
         let pose = self.places[solved].pose()?;
@@ -201,7 +202,8 @@ impl Whole<'_> {
         Some(Joint { kind, first: moved(joint.first), second: moved(joint.second), ..joint.clone() })
     }
 
-    /// Adds arrows at driven joints. Adds a pivot at each block and each wheel of the links that are solved before.
+    /// Adds arrows at driven joints.
+    /// Adds a pivot at each block and each wheel of links that are solved before the part.
     fn add_signs(&self, part: &Part, sketch: &mut Sketch) {
         let unit = sketch.unit;
         let joints = || part.inner.iter().chain(&part.outer);
@@ -229,7 +231,7 @@ impl Whole<'_> {
 
     /// Marks of wheels, racks, cams and strands of belts, each with its link.
     /// A transmission that the part contains is shown completely, including its marks on links that are solved before.
-    /// Of other transmissions, only the marks on the part's links are shown, without strands.
+    /// For other transmissions, only the marks on the part's links are shown, without strands.
     fn wheels(&self, part: &Part) -> Vec<(LinkId, Mark)> {
         let of = |id: TransmissionId| {
             let is_own = part.trains.contains(&id);

@@ -7,8 +7,9 @@ use super::travel::Travels;
 use linkage::math::{KeepNan, Vec2, cross, turned};
 use linkage::mechanism::{GROUND, Guise, Joint, JointId, JointSide, LinkId, Mechanism};
 
-/// Half length and half width of a block, in units of the sketch: `FIXED` in a fixed guide, `MOVING` on a moving guide.
-/// The two sizes differ so that two blocks at the same joint are both visible.
+/// Half length and half width of a block, in units of the sketch. `FIXED` is for a fixed guide, `MOVING` for a moving
+/// guide.
+/// The sizes differ, so that two blocks at the same point are both visible.
 const FIXED: [f64; 2] = [5.0, 3.2];
 const MOVING: [f64; 2] = [3.8, 2.0];
 /// Clearance between a block and the wall beside it, in units of the sketch.
@@ -18,18 +19,17 @@ const HEAD: f64 = 2.5;
 /// Length of hatching lines, and their spacing along the rail, in units of the sketch.
 const HATCH: f64 = 1.6;
 const PITCH: f64 = 2.0;
-/// A centre line extends at most this far beyond the rail (in units of the sketch), towards a ground point on the
-/// centre line.
+/// Largest length of a centre line beyond the end of the rail (in units of the sketch). Centre lines are extended
+/// towards the guide's point on the ground.
 const AXIS: f64 = 150.0;
-/// No rail is drawn in a box around a pivot.
-/// `BELOW` is the distance of the box's centre below the pin, and `BOX` is half its width and height, in units of the
-/// sketch.
+/// Rails are interrupted within a box around each pivot. Lengths are in units of the sketch.
+/// `BELOW` is the distance of the box's centre below the pin. `BOX` is half the box's width, and half its height.
 const BELOW: f64 = 2.0;
 const BOX: [f64; 2] = [5.2, 5.0];
 /// If one of these words occurs in the name of the joint or of one of its links, the pair is a piston in a cylinder.
 const CYLINDERS: [&str; 4] = ["bore", "cylinder", "piston", "plunger"];
-/// A point lies on an axis if its distance from the axis is below this fraction of the link's largest distance from the
-/// block's point.
+/// A point of a link counts as on the axis if its distance from the axis is at most this fraction of the link's extent.
+/// The extent is the largest distance of the link's points from the block's point.
 const ON_AXIS: f64 = 1e-6;
 
 /// The guide of a joint and the block that slides on it.
@@ -46,7 +46,7 @@ struct Guide {
     unit: f64,
 }
 
-/// All guides and blocks: the link that each mark belongs to, and the mark.
+/// The marks of all guides and blocks, each with its link.
 pub fn marks(mechanism: &Mechanism, travels: &Travels, unit: f64) -> Vec<(LinkId, Mark)> {
     let guide = |(index, joint): (JointId, &Joint)| {
         let [guide, block] = mechanism.guide_and_block(joint)?;
@@ -70,8 +70,8 @@ pub fn marks(mechanism: &Mechanism, travels: &Travels, unit: f64) -> Vec<(LinkId
 
 /// Whether a prismatic pair is drawn as a piston in a cylinder.
 /// If the joint states how it is drawn, this statement decides.
-/// Otherwise the pair is a cylinder if a name contains one of the words [`CYLINDERS`].
-/// The pair is also a cylinder if the guide moves and all points of the block's link lie on the axis.
+/// Otherwise, the pair is a cylinder if the name of the joint or of a link contains one of the words [`CYLINDERS`].
+/// A pair is also a cylinder if the guide moves and all points of the block's link lie on the axis.
 fn is_cylinder(mechanism: &Mechanism, joint: &Joint, guide: JointSide, block: JointSide, axis: Vec2) -> bool {
     if let Some(guise) = joint.drawn {
         return guise == Guise::Cylinder;
@@ -119,13 +119,13 @@ impl Guide {
         marks
     }
 
-    /// The closed end of a cylinder: 1 in the direction of the axis, -1 in the opposite direction.
-    /// The crank is at the guide's point, so the closed end is the end farther from this point.
+    /// Side of a cylinder's closed end: 1 in the direction of the axis, -1 in the opposite direction.
+    /// The closed end is farther from the guide's point than the open end, because the crank is at the guide's point.
     fn head(&self) -> f64 {
         if self.travel[1] + self.travel[0] >= 0.0 { 1.0 } else { -1.0 }
     }
 
-    /// Ends of a cylinder: those of the range that the piston covers, plus a gap at the cylinder's head.
+    /// Ends of a cylinder: the ends of the range that the piston covers, extended by a gap at the cylinder's head.
     fn barrel(&self) -> [f64; 2] {
         let [from, to] = self.covered();
         if self.head() > 0.0 { [from, to + HEAD * self.unit] } else { [from - HEAD * self.unit, to] }
@@ -156,10 +156,10 @@ impl Guide {
         (near != 0.0).then(|| Mark::line(MarkRole::Bar, ends))
     }
 
-    /// Rails or bore of a fixed guide, hatched, and its centre line.
+    /// Marks of a fixed guide: its rails or its bore, with hatching, and its centre line.
     /// Rails are interrupted at pivots.
-    /// Where a rail lies on the line of an earlier rail, the rail is not hatched again.
-    /// A second hatching would fill the gaps between the lines of the first hatching.
+    /// Where a rail lies on an earlier rail, it is not hatched again, because the lines of a second hatching would fill
+    /// the gaps of the first.
     fn fixed(&self, pivots: &[Vec2], drawn: &mut Vec<[Vec2; 2]>) -> Vec<Mark> {
         let u = self.unit;
         let (role, ends) =
@@ -169,7 +169,7 @@ impl Guide {
         let mut marks = vec![Mark::line(MarkRole::Axis, centre.map(|way| self.guide.local + self.axes[0] * way))];
         let [a, b, c, d] = self.open(self.strip(ends, self.gap()));
         // The path along the walls runs from the open end over the head and back.
-        // The outer side of a wall, which is hatched, may be to the left or to the right of this path.
+        // The hatching is on the outer side of a wall. This side may be to the left or to the right of the path.
         let walls = if self.is_cylinder { vec![[a, b], [b, c], [c, d]] } else { vec![[a, b], [c, d]] };
         let middle = (a + b + c + d) / 4.0;
         for wall in walls {

@@ -15,17 +15,18 @@ use linkage::mechanism::{
 /// A joint is open if its gap is larger than this fraction of the mechanism's size.
 const OPEN: f64 = 1e-6;
 /// Gaps smaller than this fraction of the largest gap are ignored.
-/// Such small gaps arise only because the largest gap is distributed among the joints.
+/// They arise only because the least-squares solution spreads the largest gap over the joints.
 const SEEN: f64 = 1e-2;
 
-/// A mechanism at one instant, whole or in part.
+/// A mechanism at one instant, assembled completely or in part.
 #[derive(Clone, Debug)]
 pub struct Laid {
     /// Where every link is.
     pub places: Vec<LinkPlacement>,
     /// Joints that stay open: the joint, and the two world points (m) that should coincide.
     pub gaps: Vec<(JointId, [Vec2; 2])>,
-    /// For dyads that cannot be closed: circles on which the inner pin would lie, as centres and radii (m).
+    /// For dyads that cannot be closed: the circles that the two links allow for the inner pin, as centres and radii
+    /// (m).
     pub reaches: Vec<(Vec2, f64)>,
     /// Reasons why the mechanism cannot be assembled completely, group by group.
     pub faults: Vec<Error>,
@@ -79,7 +80,7 @@ impl Laid {
     }
 
     /// The poses of all links.
-    /// A link without a place has its pose in `shape`; if `shape` is `None`, the link is at the origin.
+    /// For a link without a place, the pose in `shape` is taken. If `shape` is `None`, the link is at the origin.
     fn pose(&self) -> Pose {
         let shape = |link: LinkId| self.shape.as_ref().map_or(LinkPose::GROUND, |shape| shape.0[link]);
         Pose(
@@ -91,8 +92,8 @@ impl Laid {
         )
     }
 
-    /// Start poses of all links for computing the configurations of a group.
-    /// In a driven group, the driven joints have the coordinates `angles`.
+    /// Poses of all links from which the configurations of a group are computed.
+    /// In a group with driven joints, these joints have the coordinates `angles`.
     fn pose_for(&self, mechanism: &Mechanism, structure: &Structure, group: &Group, angles: &[f64]) -> Pose {
         let mut pose = self.pose();
         if group.kind == GroupKind::Driven {
@@ -111,7 +112,7 @@ impl Laid {
 }
 
 /// Assembles a mechanism with this structure.
-/// Driven joints have these coordinates (rad or m), and `starts` selects the mode of every group.
+/// The driven joints have the coordinates `angles` (rad or m), and `starts` selects the assembly mode of every group.
 pub fn lay(mechanism: &Mechanism, structure: &Structure, angles: &[f64], starts: &[StartGroup]) -> Laid {
     let (structure, angles) = (structure.at_start(), &structure.given_at_start(mechanism, angles)[..]);
     let mut laid = Laid::of_structure(mechanism, structure, angles);
@@ -136,8 +137,8 @@ pub fn lay(mechanism: &Mechanism, structure: &Structure, angles: &[f64], starts:
                 done = tried;
             }
             Err(error) => {
-                // If the group cannot be closed, the circles on which its inner pin would lie are listed.
-                // Otherwise the group can be closed, and only the choice of its mode is missing.
+                // If the group cannot be closed, its circles for the inner pin are added. If the group can be closed,
+                // only the choice of its assembly mode has failed.
                 if configurations(mechanism, group, &laid.pose()).is_err() {
                     laid.reaches.extend(reaches(mechanism, group, &laid));
                 }
@@ -163,7 +164,7 @@ pub fn lay_loose(mechanism: &Mechanism, drivers: &[DrivingLink], angles: &[f64],
     close(mechanism, laid)
 }
 
-/// A dyad of links without a pose, between links with a pose.
+/// Finds a dyad of two links without a pose whose outer joints are on links with a pose.
 fn dyad(mechanism: &Mechanism, laid: &Laid) -> Option<Group> {
     let is_placed = |link: LinkId| laid.places[link].pose().is_some();
     let joints = mechanism.joints();
@@ -229,7 +230,8 @@ fn close(mechanism: &Mechanism, mut laid: Laid) -> Laid {
     laid
 }
 
-/// The circles on which the inner pin of a dyad would lie, one for each link with an outer pin.
+/// The circles on which the two links of a dyad allow the inner pin: one circle for each link whose outer joint is a
+/// pin.
 fn reaches(mechanism: &Mechanism, group: &Group, laid: &Laid) -> Vec<(Vec2, f64)> {
     let (GroupKind::Rrr | GroupKind::Rrp, Some(&inner)) = (group.kind, group.inner.first()) else { return Vec::new() };
     let of_link = |(&link, &outer): (&LinkId, &JointId)| {
@@ -239,16 +241,18 @@ fn reaches(mechanism: &Mechanism, group: &Group, laid: &Laid) -> Vec<(Vec2, f64)
         let centre = laid.places[base.link].pose()?.point(base.local);
         joint.is_pin().then_some((centre, (pin - own).norm()))
     };
-    // In a body of several links, the distance of the pins is not the length of a link.
+    // If driven joints make one body of several links, the distance between the body's pins is not the length of a
+    // link.
     if !group.is_rigid() {
         return Vec::new();
     }
     group.links.iter().zip(&group.outer).filter_map(of_link).collect()
 }
 
-/// At most `most` configurations of a mechanism whose driven joints have these coordinates (rad or m).
+/// Returns at most `most` configurations of a mechanism. The driven joints have the coordinates `angles` (rad or m).
 /// Each configuration is assembled as far as possible.
-/// A group whose configurations are not all known is placed in the mode that `starts` selects.
+/// If the configurations of a group cannot all be computed, the group is placed in the assembly mode that `starts`
+/// selects.
 pub fn all_modes(
     mechanism: &Mechanism,
     structure: &Structure,

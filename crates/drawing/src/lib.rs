@@ -1,7 +1,8 @@
 //! Drawings of mechanisms: marks in the frames of the links, by the rules of ISO 3952.
 //!
-//! A [`Sketch`] is made once.
-//! The caller then draws every [`LinkMarks`] at the pose of its link, and every [`Stretched`] between its ends:
+//! The caller makes the [`Sketch`] of a mechanism once.
+//! For each pose, the caller then draws every [`LinkMarks`] at the pose of its link, and every [`Stretched`] between
+//! its ends:
 //!
 //! ```
 //! # use linkage::fixtures::four_bar;

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use linkage::math::{Vec2, unit};
 
-/// Number of corners of a full circle that is drawn as a line.
+/// Number of straight pieces that represent a full circle.
 const CORNERS: f64 = 32.0;
 
 /// A shape in the frame of a link (m).
@@ -39,7 +39,7 @@ pub enum MarkShape {
 
 impl MarkShape {
     /// The shape as a line through points, for output formats that have only lines.
-    /// The line may be [closed](MarkShape::is_closed).
+    /// [`MarkShape::is_closed`] states whether the line is closed.
     pub fn points(&self) -> Vec<Vec2> {
         let arc = |centre: Vec2, radius: f64, from: f64, sweep: f64, count: usize| {
             (0..=count).map(move |k| centre + unit(from + sweep * k as f64 / count as f64) * radius)
@@ -62,7 +62,7 @@ impl MarkShape {
     }
 }
 
-/// The roles in one table: names, ink, fill, line width, layer.
+/// All roles in one table, each with its name, ink, fill, line width and layer.
 macro_rules! roles {
     ($($(#[$meaning:meta])* $role:ident = $name:literal: $ink:ident, $fill:ident, $width:literal, $layer:ident;)*) => {
         linkage::words! {
@@ -85,7 +85,7 @@ macro_rules! roles {
 roles! {
     /// Centre line of a fixed guide.
     Axis = "axis": Quiet, None, 0.2, Ground;
-    /// Hatching: the side of a line that belongs to the ground.
+    /// Hatching, which shows on which side of a line the ground is.
     Hatch = "hatch": Text, None, 0.25, Ground;
     /// Rail of a fixed guide.
     Rail = "rail": Text, None, 0.5, Ground;
@@ -105,8 +105,8 @@ roles! {
     Slot = "slot": Link, Paper, 0.6, Links;
     /// Cylinder of a moving link, in which a piston slides.
     Cylinder = "cylinder": Link, Paper, 0.6, Links;
-    /// Pitch circle of a wheel, with a stroke that turns with the wheel; pitch line of a rack; profile of a cam, and
-    /// the roller or face that touches it.
+    /// Pitch circle of a wheel, with a stroke that turns with the wheel.
+    /// Also the pitch line of a rack, the profile of a cam, and the roller or face that touches the cam.
     Wheel = "wheel": Link, None, 0.45, Links;
     /// Strand of a belt.
     Strand = "strand": Link, None, 0.45, Links;
@@ -124,23 +124,23 @@ roles! {
     TorsionDamper = "torsion-damper": Load, None, 0.4, Stretched;
     /// Revolute pair.
     Pin = "pin": Text, Paper, 0.5, Joints;
-    /// Ring around a pin that joins one more link; two rings mean two more links.
+    /// Ring around a pin that joins more than two links: one ring for each link after the second.
     CoincidentPin = "coincident-pin": Text, None, 0.35, Joints;
-    /// Mass centre: its circle, and the line to its link.
+    /// Mass centre: its circle, and the line from the circle to the link.
     MassCentre = "mass-centre": Link, Paper, 0.3, Stretched;
     /// Mass centre: two opposite quarters of its disc.
     MassQuarter = "mass-quarter": Link, Ink, 0.1, Stretched;
     /// Named point of a link that is not a joint.
     Tracer = "tracer": Link, None, 0.5, Joints;
-    /// Arrow in the direction in which a drive moves its link: the arc, or the line for a slide.
+    /// Line of the arrow that shows in which direction a drive moves its link: an arc, or for a slide a straight line.
     Drive = "drive": Text, None, 0.4, Signs;
-    /// Arrow in the direction in which a drive moves its link: the head.
+    /// Head of the arrow that shows in which direction a drive moves its link.
     DriveHead = "drive-head": Text, Ink, 0.1, Signs;
     /// A motor: a circle, with the letter M beside it as [`Lettering::Motor`](crate::Lettering::Motor).
     Motor = "motor": Text, None, 0.4, Signs;
-    /// Arrow of a force or a moment: its line.
+    /// Line of the arrow of a force or a moment.
     Load = "load": Load, None, 0.6, Signs;
-    /// Arrow of a force or a moment: its head.
+    /// Head of the arrow of a force or a moment.
     LoadHead = "load-head": Load, Ink, 0.1, Signs;
 }
 
@@ -174,7 +174,7 @@ pub enum Fill {
 /// link.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Layer {
-    /// Marks that stand still.
+    /// Marks of the ground, which never move.
     Ground,
     /// Links.
     Links,

@@ -26,9 +26,10 @@ pub const LINKS: [PaletteColour; 7] = [
     PaletteColour { light: "#3b8ea5", dark: "#7fd1e6", hatch_deg: 0.0 },
 ];
 
-/// Colours of the series of a chart: four of Okabe and Ito (2008), and three that are darker than theirs, because lines
-/// of their orange, sky blue and yellow are hardly visible on white paper.
-/// All can be told apart by readers without red or green receptors.
+/// Colours of the curves of a chart: four colours of Okabe and Ito (2008), three darker colours, and the colour of
+/// text.
+/// The darker colours replace orange, sky blue and yellow, because such lines are hardly visible on white paper.
+/// Readers without red or green receptors can distinguish all colours.
 pub const SERIES: [PaletteColour; 8] = [
     LINKS[0],
     LINKS[1],
@@ -49,7 +50,7 @@ pub const LOAD: PaletteColour = PaletteColour { light: "#c1121f", dark: "#ff6b6b
 /// The paper.
 pub const PAPER: PaletteColour = PaletteColour { light: "#ffffff", dark: "#16181c", hatch_deg: 45.0 };
 
-/// Colours of areas, grid lines and faults: on light paper, and on dark paper.
+/// Colours of areas, grid lines and faults. Each entry has the colour on light paper and the colour on dark paper.
 const OTHERS: [[&str; 2]; 12] = [
     ["#ffffff", PAPER.dark],
     ["white", PAPER.dark],
@@ -71,8 +72,10 @@ fn pairs() -> impl Iterator<Item = [&'static str; 2]> {
     named.chain(OTHERS)
 }
 
-/// Rules for an SVG document that is shown alone in a viewer with a dark background: every colour of the document on
-/// light paper becomes its colour on dark paper. Print and a document within a page stay light.
+/// Style rules for the dark mode of an SVG document: each colour on light paper is replaced by its colour on dark
+/// paper.
+/// The rules apply only if a viewer in dark mode shows the document alone. On print and within a page, the document
+/// stays light.
 pub fn dark_rules(document: &str) -> String {
     let mut rules = Vec::new();
     for [light, dark] in pairs() {
@@ -98,7 +101,7 @@ pub fn link(number: LinkId) -> PaletteColour {
 mod tests {
     use super::*;
 
-    /// Red, green and blue of a colour as shares of the light, after WCAG 2.
+    /// Red, green and blue of a colour as linear intensities from 0 to 1, after WCAG 2.
     fn linear(colour: &str) -> [f64; 3] {
         [1, 3, 5].map(|at| {
             let part = f64::from(u8::from_str_radix(&colour[at..at + 2], 16).unwrap()) / 255.0;
@@ -115,8 +118,8 @@ mod tests {
         times([[0.2126, 0.7152, 0.0722]; 3], linear(colour))[0]
     }
 
-    /// Smallest distance of two colours (CIELAB 1976) for usual eyes, and for eyes without green or red receptors
-    /// (Machado, Oliveira and Fernandes 2009).
+    /// Smallest distance of two colours (CIELAB 1976) for three kinds of eyes: usual, without green receptors, and
+    /// without red receptors (Machado, Oliveira and Fernandes 2009).
     fn distance(one: &str, other: &str) -> f64 {
         let eyes = [
             [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
@@ -135,7 +138,7 @@ mod tests {
         eyes.map(apart).into_iter().fold(f64::INFINITY, linkage::math::KeepNan::smaller)
     }
 
-    /// Symptom: pictures stayed white in a dark page, or kept single light colours.
+    /// Symptom: in a dark page, pictures stayed white or kept some light colours.
     #[test]
     fn regress_every_colour_has_one_partner_on_dark_paper() {
         let all: std::collections::BTreeMap<&str, &str> = pairs().map(|[light, dark]| (light, dark)).collect();
@@ -162,7 +165,7 @@ mod tests {
         }
     }
 
-    /// Symptom: two series had nearly the same orange, and two the same blue.
+    /// Symptom: two curves had nearly the same orange, and two other curves the same blue.
     #[test]
     fn regress_the_colours_of_series_differ_for_all_eyes() {
         for (index, one) in SERIES.iter().enumerate() {

@@ -17,7 +17,7 @@ pub(crate) trait Surface {
     /// Fills a path, then strokes it. A width of zero means no stroke.
     fn paint(&mut self, path: Option<Path>, fill: Option<Tint>, style: &Style);
 
-    /// Calls `draw`. All that `draw` paints appears as one element of the opacity `opacity`.
+    /// Calls `draw`. Everything that `draw` paints appears as one element with the opacity `opacity`.
     fn group(&mut self, opacity: f64, draw: &mut dyn FnMut(&mut Self));
 }
 
@@ -27,7 +27,8 @@ pub(crate) fn draw(figure: &DrawnFigure, surface: &mut impl Surface) {
     figure.ink.iter().for_each(|ink| put(ink, glyphs, surface));
 }
 
-/// A warning that names the letters of figures that the font of bitmaps and PDF lacks, and the way out.
+/// A warning with the letters of figures that the font for bitmaps and PDF lacks, and with a remedy. `None` if no
+/// letter is missing.
 pub fn lacking_letters<'a>(figures: impl Iterator<Item = &'a DrawnFigure>) -> Option<Error> {
     let mut found = BTreeSet::new();
     figures.for_each(|figure| collect(&figure.ink, &mut found));

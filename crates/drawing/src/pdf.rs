@@ -25,9 +25,10 @@ pub fn pdf(figure: &DrawnFigure, [width, height]: [f64; 2], title: &str) -> Vec<
 /// The page that is being written.
 struct Sheet {
     content: Content,
-    /// Opacities in thousandths. The name of an opacity in the file is `o` with its index.
+    /// Opacities in thousandths. In the file, an opacity has the name `o` followed by its index.
     opacities: Vec<u32>,
-    /// Contents of the groups that are drawn as one element. The name of a group in the file is `g` with its index.
+    /// Contents of the groups that are drawn as one element. In the file, a group has the name `g` followed by its
+    /// index.
     groups: Vec<Vec<u8>>,
 }
 
@@ -79,7 +80,7 @@ impl Sheet {
             let mut form = pdf.form_xobject(group(index), drawn);
             form.bbox(Rect::new(0.0, 0.0, width as f32, height as f32));
             form.group().transparency().isolated(true);
-            // A group contains only groups with a smaller index.
+            // Groups within a group have smaller indices than the group itself.
             own_resources(&mut form.resources(), index);
         }
         pdf.stream(content, &self.content.finish());
@@ -127,7 +128,8 @@ impl Surface for Sheet {
     }
 }
 
-/// Adds a path to the content. PDF has no quadratic curves, so each one is written as the equal cubic curve.
+/// Adds a path to the content. PDF has no quadratic curves, so each quadratic curve is written as an identical cubic
+/// curve.
 fn follow(content: &mut Content, path: &Path) {
     let round = |own: f32| (own * PARTS).round() / PARTS;
     let mut from = tiny_skia::Point::zero();

@@ -12,7 +12,7 @@ use super::stretched::Stretched;
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{GROUND, LinkId, LinkPose};
 
-/// Radius (mm) of the disc around a link's number, and of the area covered by a pin.
+/// Radius (mm) of the disc around a link's number. `CLEAR` is the radius of the area that a pin covers.
 pub(super) const NUMBER: f64 = 2.3;
 const CLEAR: f64 = 1.4;
 /// Radius (mm) above which a circle has space for labels inside.
@@ -24,17 +24,17 @@ const ONE: f64 = 0.7;
 const FORCE: f64 = 22.0;
 const GRAVITY: f64 = 12.0;
 const MOMENT: f64 = 6.5;
-/// If a force or moment is below `LEAST` times the largest force or moment, or below `NOTHING` (N, N m), it is not
-/// drawn.
-/// Such small values are rounding errors.
+/// A force or moment is not drawn if it is a rounding error: below `LEAST` times the largest force or moment, or below
+/// `NOTHING` (N, N m).
 const LEAST: f64 = 1e-6;
 const NOTHING: f64 = 1e-9;
 /// Dash patterns: `LOOSE` for links whose pose is uncertain, `CONSTRUCTION` for construction lines.
 const LOOSE: &str = "2 1.4";
 const CONSTRUCTION: &str = "4 1 0.5 1";
-/// A circle of reachable points is drawn as an arc. This constant is half the angle of the arc (rad).
+/// Half the angle of the arc that represents a circle of reachable points (rad).
 const REACH: f64 = 0.7;
-/// A path is divided into at most this many pieces, which labels must not touch.
+/// Largest number of straight pieces that represent a path for the placement of labels. Labels must not touch these
+/// pieces.
 const PIECES: usize = 60;
 /// Opacity of tints.
 const TINT: f64 = 0.14;
@@ -152,8 +152,7 @@ impl<'a> Picture<'a> {
         }
     }
 
-    /// Positions on paper and texts of the labels for which `wanted` returns true. These positions and texts are the
-    /// argument of [`Picture::name`].
+    /// Positions on paper and texts of the labels for which `wanted` returns true, as [`Picture::name`] requires them.
     pub fn names(&self, wanted: impl Fn(Lettering) -> bool) -> Vec<(Vec2, String)> {
         let labels = self.sketch.labels.iter().filter(|label| wanted(label.names));
         let one = |label: &SketchLabel| {
@@ -203,13 +202,13 @@ impl<'a> Picture<'a> {
         }
     }
 
-    /// Adds a text at a point on paper, in a preferred direction from the point. If the direction is zero, any
-    /// direction may be chosen.
+    /// Adds a text near a point on paper. `away` is the preferred direction from the point; a zero vector means no
+    /// preference.
     pub fn letters(&mut self, anchor: Vec2, away: Vec2, clear: f64, text: String, paint: &'static str) {
         self.set_letters(anchor, away, clear, text, lettering(paint));
     }
 
-    /// Adds a text at a point on paper like [`Picture::letters`], but in the type `set`.
+    /// Adds a text near a point on paper like [`Picture::letters`], but with the typography `set`.
     pub(super) fn set_letters(&mut self, anchor: Vec2, away: Vec2, clear: f64, text: String, set: Type) {
         let size = label_size(&text, set.size);
         let size = if set.upward { size.yx() } else { size };
@@ -279,8 +278,8 @@ impl<'a> Picture<'a> {
         self.obstacles.segments.extend(coarse.windows(2).map(|pair| [pair[0], pair[1]]));
     }
 
-    /// Draws a part of the circle of points that a point can reach (world, m), as a construction line.
-    /// The part lies around the direction `toward`.
+    /// Draws a part of the circle on which a point can lie (world, m), as a construction line.
+    /// The middle of the part lies in the direction `toward` from the centre.
     pub fn draw_reach(&mut self, centre: Vec2, radius: f64, toward: Vec2) {
         let from = toward.y.atan2(toward.x) - REACH;
         let (centre, radius) = (centre / self.scale, radius / self.scale);
@@ -288,7 +287,7 @@ impl<'a> Picture<'a> {
         self.figure.curve(points, None, Style { colour: GREY, width: 0.3, dash: CONSTRUCTION });
     }
 
-    /// Draws the gap between two points (world, m) that a joint should hold together, and writes the gap's size.
+    /// Draws the gap between two points (world, m) that should coincide in a joint, and writes the size of the gap.
     pub fn draw_gap(&mut self, [from, to]: [Vec2; 2]) {
         let ends = [from, to].map(|at| at / self.scale);
         let style = solid(ALARM, 0.7);
@@ -302,7 +301,8 @@ impl<'a> Picture<'a> {
     }
 
     /// Places all labels and returns the figure.
-    /// `drawings` is the number of figures made together: these figures share the allowed work for placing labels.
+    /// `drawings` is the number of figures that are made together: they share the allowed number of comparisons for
+    /// placing labels.
     pub fn finish(mut self, drawings: usize) -> DrawnFigure {
         self.written.sort_by_key(|own| own.sort);
         let boxes: Vec<labels::PlacedLabel> = self.written.iter().map(|own| own.label).collect();

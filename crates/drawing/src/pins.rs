@@ -8,13 +8,13 @@ use linkage::mechanism::{GROUND, JointSide, LinkId, Mechanism};
 pub const PIN: f64 = 1.2;
 const RING: f64 = 0.9;
 
-/// Revolute joints at one point: the point in the frame of every link at this point, and the number of joints.
+/// Revolute joints at a common point: the point in the frame of each link, and the number of joints.
 struct Place {
     sides: Vec<JointSide>,
     joints: usize,
 }
 
-/// Common points of revolute pairs. Joints that share a point of one link coincide in every pose.
+/// Groups revolute pairs by their common points. Joints at the same point of one link coincide in every pose.
 fn shared(mechanism: &Mechanism) -> Vec<Place> {
     let mut all: Vec<Place> = Vec::new();
     for joint in mechanism.joints().iter().filter(|joint| joint.is_pin()) {
@@ -36,8 +36,7 @@ pub fn pivots(mechanism: &Mechanism) -> Vec<Vec2> {
     shared(mechanism).iter().filter_map(on_ground).collect()
 }
 
-/// All pins and pivots: the link that each mark belongs to, and the mark. A pin is drawn once, on the first of its
-/// links.
+/// The marks of all pins and pivots, each with its link. A pin is drawn once, on the first of its links.
 pub fn marks(mechanism: &Mechanism, unit: f64) -> Vec<(LinkId, Mark)> {
     let mut marks = Vec::new();
     for place in shared(mechanism) {

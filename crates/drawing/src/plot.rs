@@ -1,4 +1,5 @@
-//! Charts for print: curves over axes with names, units and round numbers. The library `plotters` draws the axes.
+//! Charts for print: curves over axes. The axes have names, units and round numbers.
+//! The library `plotters` draws the axes.
 
 mod backend;
 mod chart;

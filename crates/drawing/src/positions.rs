@@ -16,27 +16,27 @@ const PATH: f64 = 0.3;
 const DOT: f64 = 0.5;
 /// Opacity of outlines.
 const PALE: f64 = 0.45;
-/// Font size of the numbers of positions, and the length of path that a number needs (both mm on paper).
+/// Font size of the numbers of positions (mm). `APART` is the length of path that a number needs (mm on paper).
 const NUMBER: f64 = 2.8;
 const APART: f64 = 3.0;
 /// Space for numbers around an enlarged path (mm), on each side.
 const BESIDE: f64 = 6.0;
 /// Positions closer to each other than this (mm on paper) share one label, such as `0,12`.
 const ONE: f64 = 0.5;
-/// Steps between numbered positions that are tried. With the step 3, every third position has a number.
+/// Steps from one numbered position to the next that are tried. With step 3, every third position has a number.
 const STEPS: [usize; 9] = [1, 2, 3, 4, 5, 6, 8, 9, 12];
 
-/// Positions of a mechanism that are drawn with thin lines beside the complete drawing, and paths of points.
+/// Positions of a mechanism that are drawn with thin lines in addition to the complete drawing, and paths of points.
 #[derive(Clone, Debug, Default)]
 pub struct Series {
     /// Positions with thin lines: the placements of all links, and a name.
     /// A viewer shows the name when the mouse points at the lines.
     pub thin: Vec<(Vec<LinkPlacement>, String)>,
-    /// Paths, each with the numbers of all positions.
+    /// Paths of points, on which the positions are numbered.
     pub paths: Vec<NumberedPath>,
 }
 
-/// The path of a point, with its places in the positions of a series.
+/// The path of a point, and where the point lies in each position of a series.
 #[derive(Clone, Debug)]
 pub struct NumberedPath {
     /// Name of the point.
@@ -45,7 +45,7 @@ pub struct NumberedPath {
     pub link: LinkId,
     /// The path in the world (m).
     pub path: Vec<Vec2>,
-    /// Place of the point in the positions 0, 1, 2... (m).
+    /// World position of the point in the positions 0, 1, 2 and so on of the mechanism (m).
     pub places: Vec<Vec2>,
 }
 
@@ -57,7 +57,8 @@ impl NumberedPath {
         high - low
     }
 
-    /// The smallest step between numbered positions at which the numbers fit beside the path, at a scale (m/mm).
+    /// The smallest step from one numbered position to the next at which the numbers have space beside the path, for a
+    /// scale (m/mm).
     /// `None` if the path is too small for numbers.
     fn numbered_every(&self, scale: f64) -> Option<usize> {
         let way: f64 = self.places.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
@@ -82,7 +83,8 @@ impl Picture<'_> {
             let is_drawn = match mark.role {
                 MarkRole::Bar | MarkRole::Plate | MarkRole::Block | MarkRole::Piston | MarkRole::Slot => true,
                 MarkRole::Cylinder => true,
-                // A pitch circle looks the same at each angle, so only the line that shows the wheel's angle is drawn.
+                // The pitch circle looks the same at every angle. Only the stroke that shows the wheel's angle is
+                // therefore drawn.
                 MarkRole::Wheel => !mark.shape.is_closed(),
                 MarkRole::Axis
                 | MarkRole::Hatch
@@ -139,7 +141,7 @@ impl Picture<'_> {
             }
         }
         for (k, text) in numbered {
-            // A number lies on the outer side of its path.
+            // Numbers are placed on the outer side of the path.
             let normal = turned(places[(k + 1) % places.len()] - places[k.checked_sub(1).unwrap_or(places.len() - 1)]);
             let side = if normal.dot(&(places[k] - middle)) < 0.0 { -1.0 } else { 1.0 };
             self.set_letters(places[k], normal * side, DOT, text, set);
@@ -148,7 +150,8 @@ impl Picture<'_> {
     }
 }
 
-/// A cell with one path, at the largest round scale at which path and numbers fit into the size `room` (mm).
+/// A cell with one path. The path is enlarged by a round factor, as far as path and numbers fit into the size `room`
+/// (mm).
 /// The cell has no heading.
 #[must_use]
 pub fn enlarged(own: &NumberedPath, room: Vec2) -> SheetCell {
@@ -190,7 +193,7 @@ mod tests {
     #[test]
     fn an_enlarged_path_has_a_round_scale_and_fits() {
         let cell = enlarged(&path(1e-3, 12), Vec2::new(140.0, 110.0));
-        // Enlarged 10 times, a path of 11 mm fits into 128 mm; enlarged 20 times, the path is too long.
+        // A path of 11 mm that is enlarged 10 times fits into 128 mm. Enlarged 20 times, it would be too long.
         assert_eq!((cell.scale, ratio(cell.scale)), (1e-4, "10 : 1".to_string()));
         let size = cell.bounds[1] - cell.bounds[0];
         assert!(size.x > 110.0 && size.x < 140.0, "{size:?}");

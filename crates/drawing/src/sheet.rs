@@ -17,11 +17,12 @@ const TITLE: f64 = 5.2;
 const HEADING: f64 = 4.2;
 const NOTE: f64 = 3.4;
 const LINE: f64 = 1.45;
-/// Height of the space for the scale bar below a picture, and upper limit of the scale bar's length (mm).
+/// Height of the space for the scale bar below a picture (mm). `LONGEST` is the upper limit of the scale bar's length
+/// (mm).
 const SCALE: f64 = 9.0;
 const LONGEST: f64 = 40.0;
 
-/// Space after an entry of a legend, and height of a row (mm).
+/// Space after an entry of a legend (mm). `ROW` is the height of a row of the legend (mm).
 const AFTER: f64 = 5.0;
 const ROW: f64 = 6.0;
 
@@ -52,12 +53,12 @@ pub fn fit(extent: Vec2, room: Vec2) -> f64 {
     }
     let power = 10f64.powi(least.log10().floor() as i32 - 1);
     let rounded = (least / power * (1.0 - 1e-12)).ceil() * power;
-    // The scale is parsed from text, so that it is printed with its two digits.
+    // The scale is parsed from text with two digits, so that it is also printed with two digits.
     format!("{rounded:.1e}").parse().unwrap_or(rounded)
 }
 
 /// The smallest round scale (m/mm) at which an extent (m) fits into the available size (mm).
-/// The ratio between a length on paper and the length itself is then a round number or the inverse of one.
+/// The enlargement or the reduction of the drawing is then a round number.
 pub fn round_fit(extent: Vec2, room: Vec2) -> f64 {
     let least = (extent.x / room.x).larger(extent.y / room.y);
     if least > 0.0 { 1e-3 * round_up(1e3 * least) } else { 1e-3 }
@@ -166,7 +167,7 @@ fn draw_legend(sheet: &mut DrawnFigure, mut at: Vec2, row: &[(LinkId, String)]) 
     }
 }
 
-/// A scale bar of a round length, labelled with that length.
+/// Draws a scale bar. It represents a round length, which is written beside the bar.
 fn scale(sheet: &mut DrawnFigure, at: Vec2, scale: f64) {
     let long = round_up(LONGEST * scale / 2.0);
     let end = at + Vec2::new(long / scale, 0.0);

@@ -1,10 +1,9 @@
 //! Smallest distances and first meetings of pairs over the range.
 //!
-//! The search halves a part of the range until it proves a lower bound on every distance in the part.
-//! The lower bound is the smallest distance found, minus the tolerance.
+//! The search halves a part of the range until it proves that no distance in the part is below the smallest distance
+//! found, minus the tolerance.
 //! The search ends when every part is proven, so no instant is skipped.
-//! Parts of the smallest size that remain unproven are reported, and so are parts that remain when the budget is used
-//! up.
+//! Parts that remain unproven at the smallest size, or when the budget is used up, are reported.
 
 use linkage::error::Result;
 use linkage::math::extremum::golden;
@@ -13,14 +12,15 @@ use linkage::math::{KeepNan, Vec2};
 use super::gap::{Gap, PlacedSolid, Solid, gap};
 use super::tube::{MOST_HALVINGS, RangePart, Slice, Tubes};
 
-/// Number of golden-section steps that refine the smallest distance found.
-/// `STRIDES` is the upper limit of the number of brackets that are searched one after another.
+/// Number of golden-section steps in a bracket around the smallest distance found.
+/// `STRIDES` is the largest number of brackets. Each bracket after the first lies around the smallest distance of the
+/// bracket before.
 const REFINEMENTS: usize = 30;
 const STRIDES: usize = 8;
-/// Number of halvings beyond [`MOST_HALVINGS`] that are allowed for enclosing a first meeting.
+/// Number of further halvings, after [`MOST_HALVINGS`], that enclose the crank angle of a first meeting more narrowly.
 const FURTHER: u32 = 6;
 
-/// A part of the range, whether its bounds are proven, and the lower bound of each unfinished pair's distance (m).
+/// A part of the range; whether its bounds are proven; the lower bound of each unfinished pair's distance (m).
 type Bounds = (RangePart, bool, Vec<(usize, f64)>);
 
 /// Smallest distance of a pair over the range.
@@ -40,8 +40,8 @@ pub struct Smallest {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Meeting {
     /// Two crank angles (rad), in the direction of motion, that enclose the meeting.
-    /// Up to the first angle, the distance is proven to be larger than the given distance, except in the parts of the
-    /// range that are reported as unproven.
+    /// Up to the first angle, the distance is proven to be larger than the given distance.
+    /// The proof does not cover the parts of the range that are reported as unproven.
     /// At the second angle, the distance is at most the given distance plus the contact distance.
     pub cranks: [f64; 2],
     /// Point of the meeting at the second crank angle (m, world).
@@ -88,8 +88,8 @@ impl DistanceSearch<'_, '_> {
         let mut parts: Vec<(RangePart, Vec<usize>)> =
             self.tubes.parts().map(|part| (part, (0..pairs.len()).collect())).collect();
         while !parts.is_empty() {
-            // All parts of the present size are evaluated before any of them is halved, because a small distance found
-            // in one part makes halvings of other parts unnecessary.
+            // A small distance found in one part makes halvings of other parts unnecessary.
+            // All parts of the present size are therefore evaluated before any part is halved.
             let mut bounds: Vec<Bounds> = Vec::with_capacity(parts.len());
             for (part, alive) in parts {
                 let slice = self.tubes.at(part)?;
@@ -194,7 +194,7 @@ impl DistanceSearch<'_, '_> {
                 clear = Some(to);
                 continue;
             }
-            // If the bounds are proven, a part is halved until the motion within it is smaller than the contact
+            // A part with proven bounds is halved further, until the motion within the part is smaller than the contact
             // distance.
             let narrow = part.halvings >= MOST_HALVINGS + if slice.sound { FURTHER } else { 0 };
             if narrow {

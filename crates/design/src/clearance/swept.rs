@@ -1,11 +1,13 @@
 //! Area that a body sweeps: the union of all its positions over the range.
 //!
-//! The plane is divided into squares. A square that is proven neither covered nor free is divided into four.
+//! The plane is divided into squares.
+//! A square is divided into four if it is neither proven covered nor proven free.
 //! A square is covered if it lies inside the outline at one instant or if a side of the outline passes over it.
 //! A square is free if the outline stays away from it during every part of the range.
-//! `Sweep::least` proves this by a lower bound of the distance, as [`super::gap`] does for two bodies.
+//! `Sweep::least` proves that a square is free, by a lower bound of the outline's distance from the square.
+//! [`super::gap`] computes such a bound for two bodies.
 //! The remaining squares lie on the border of the area and determine the error bound of the area.
-//! The covered fraction of the remaining squares is computed as if the border were straight.
+//! To compute the covered fraction of a remaining square, the border within the square is assumed to be straight.
 
 #[cfg(test)]
 mod tests;
@@ -20,8 +22,10 @@ use scenario::clearance::Outline;
 /// If the outline's border moves farther than this fraction of a square's half diagonal during a part of the range, the
 /// part is halved.
 const SPREAD: f64 = 0.5;
-/// Width of a window divided by the width of the part of the range around which the window lies.
-/// `ANCESTORS` is the number of parts whose windows are tried: the part itself and its ancestors.
+/// Width of a window divided by the width of a part of the range. The window is a wider part of the range around this
+/// part.
+/// `ANCESTORS` is the largest number of windows that are tried: around the part itself, then around the wider parts
+/// from which the part was halved.
 const WINDOW: f64 = 4.0;
 const ANCESTORS: usize = 4;
 /// If the outline's border moves less than this fraction of a square's half diagonal, no window is tried for the
@@ -57,7 +61,7 @@ struct Node {
     sides: Vec<[Track; 2]>,
     parent: Option<u32>,
     halves: Option<u32>,
-    /// Sides of the outline with their motion over a wider part of the range around this part, computed on demand.
+    /// The sides of the outline and their motion over a wider part of the range around this part, computed on demand.
     window: Option<Window>,
 }
 
@@ -186,9 +190,10 @@ impl<'a, 'c> Sweep<'a, 'c> {
         self.outline.sides().map(|side| side.map(|end| tube.point(end))).collect()
     }
 
-    /// Whether a side passes over a disc during a window.
+    /// Whether a side of the outline passes over a whole disc during a window.
     /// A window is a wider part of the range around a node or around one of its ancestors.
-    /// Windows are needed because a node's own part may be so short that no side crosses a whole square within it.
+    /// Windows are needed because the part of a node may be so short that no side crosses a whole square during this
+    /// part.
     fn is_passed(&mut self, node: u32, centre: Vec2, about: f64) -> Result<bool> {
         let mut next = Some(node);
         for _ in 0..ANCESTORS {
@@ -236,7 +241,8 @@ impl<'a, 'c> Sweep<'a, 'c> {
 
     fn judge(&mut self, centre: Vec2, half: f64, near: &[u32]) -> Result<Square> {
         let about = half * std::f64::consts::SQRT_2 + self.rounding;
-        // Coarse parts come first. If a coarse part covers the square, the halves of all other parts are not needed.
+        // Coarse parts are tested first: if the outline covers the square during a coarse part, no other part needs to
+        // be halved.
         let (mut ahead, mut next) = (near.to_vec(), 0);
         let (mut kept, mut crossing, mut lowest) = (Vec::new(), Vec::new(), (f64::INFINITY, Vec2::new(1.0, 0.0)));
         while let Some(&index) = ahead.get(next) {
@@ -334,15 +340,14 @@ fn passes([from, to]: &[Track; 2], half: f64, centre: Vec2, about: f64) -> bool 
         cross(b - a, centre - a) / (b - a).norm()
     };
     let [before, after] = [signed(-half), signed(half)];
-    // The limit contains twice the error of the ends.
+    // The limit of the distance contains twice the position errors of the side's ends.
     // If the ends of a side are hardly farther apart than their errors, the direction of the side is not proven.
     let sure = about + 2.0 * error;
     if !(before.abs() > sure && after.abs() > sure && before * after < 0.0) {
         return false;
     }
-    // (centre - a) . (b - a) is a quadratic function of the crank angle.
-    // The expression with a and b exchanged is quadratic too.
-    // The smallest value of each expression lies at an end of the range part or at the vertex of the parabola.
+    // (centre - a) . (b - a) and (centre - b) . (a - b) are quadratic functions of the crank angle.
+    // Each function has its smallest value at an end of the part of the range, or at the vertex of its parabola.
     let beyond = |a: &Track, b: &Track| {
         let (own, along) = (centre - a.at, b.at - a.at);
         let (moved, turned) = (-a.rate, b.rate - a.rate);

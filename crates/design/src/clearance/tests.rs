@@ -185,7 +185,7 @@ fn the_first_collision_is_the_first_in_motion_order() {
         assert!(found.pairs.iter().all(|pair| pair.collision.is_some()));
         assert_eq!(first.bodies, [0, 4]);
         assert!((meeting.cranks[1].abs() - 0.5 * PI).abs() < 0.1, "{meeting:?}");
-        // Swept areas need fewer additional poses than the distances.
+        // The swept areas need fewer additional poses than the search for distances needed.
         assert!(found.work.positions < found.work.poses, "{:?}", found.work);
     }
     // If change points are passed, the next turn may follow another branch than the first turn.
@@ -224,7 +224,7 @@ fn a_proven_distance_allows_for_rounding() {
 }
 
 /// The corners of a polygon may be given clockwise or counter-clockwise. The corners are stored counter-clockwise.
-/// Both orders give convex parts that cover the same area, and give the same distances.
+/// The outlines from both orders are equal: their convex parts cover the same area and have the same distances.
 #[test]
 fn the_orientation_of_a_polygon_does_not_matter() {
     let angle = [(0.0, 0.0), (0.3, 0.0), (0.3, 0.1), (0.1, 0.1), (0.1, 0.4), (0.0, 0.4)].map(|(x, y)| Vec2::new(x, y));
@@ -244,7 +244,7 @@ fn the_orientation_of_a_polygon_does_not_matter() {
 }
 
 /// The rounding error of a position grows with the distance from the origin, for a body and for a link.
-/// At a distance of 1000 m, the rounding error is above a thousand times the epsilon of a double.
+/// At a distance of 1000 m, the rounding error is above 1000 m times the epsilon of a double.
 #[test]
 fn rounding_grows_with_the_farthest_position() {
     let case = slider_crank();
@@ -306,7 +306,8 @@ fn pairs_that_need_no_check_are_excluded() {
     assert!(!are_joined(&mechanism, [1, 5].map(LinkId)) && !are_joined(&mechanism, [3, 5].map(LinkId)));
 }
 
-/// Without rounding of the outlines, the direction between the nearest points is lost where two corners come close.
+/// Where two sharp corners come close to each other, the direction between the nearest points is lost in rounding
+/// errors.
 /// The normals of the sides at these corners remain usable.
 #[test]
 fn collisions_of_sharp_corners_are_found() {
@@ -337,9 +338,8 @@ fn swept_areas_match_closed_forms() {
     // The crank sweeps a disc. The piston is a disc and sweeps a strip with round ends.
     near(found.swept[0], PI * 0.12 * 0.12);
     near(found.swept[2], 0.2 * 0.04 + PI * 0.02 * 0.02);
-    // Over a crank rotation of 70 deg, the area that the crank sweeps is a sector, a band along the sector's border,
-    // and a disc.
-    // The band is as wide as the rounding radius.
+    // A crank that turns by 70 deg sweeps a sector that is widened by the rounding radius on all sides.
+    // The swept area is the sector's area, the sector's perimeter times the radius, and the area of a disc.
     let part = case.on(linkage::case::Grid::of_inputs(case.crank(), vec![0.3, 0.3 + PI * 70.0 / 180.0])).unwrap();
     let found = find(&part, &question(&case, radius, &[]), &mut |_| ()).unwrap();
     let turn = PI * 70.0 / 180.0;
@@ -354,8 +354,8 @@ fn a_thin_link_sweeps_an_area() {
     let (_, area) = found.swept[0];
     let expected = PI * 0.01;
     assert!((area.least..=area.most).contains(&expected) && area.error() < 6e-3 * expected, "{area:?} {expected}");
-    // Half of the border of the rod's area is an envelope.
-    // With the allowed number of tests, the error bound of the rod's area therefore stays wide.
+    // Half of the border of the rod's swept area is an envelope of the rod's positions.
+    // The allowed number of tests therefore gives only a wide error bound of this area.
     let (_, thin) = found.swept[1];
     assert!(thin.error() < 0.05 * thin.value, "{thin:?}");
 }

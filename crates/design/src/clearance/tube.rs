@@ -1,6 +1,7 @@
 //! Poses of all links over an interval of crank angles: the pose of the analytic solver (side 1) at the middle, a
 //! uniform motion through this pose, and a proven bound on the deviation from the uniform motion.
-//! Where [`RangeVariable`](super::RangeVariable) is the time, read time (s) for crank angle (rad) in this module.
+//! The comments of this module say "crank angle (rad)" also where [`RangeVariable`](super::RangeVariable) is the time
+//! (s).
 //!
 //! Over the interval, a uniform motion approximates the motion of each link.
 //! The link's reference point moves along a straight line, and the link's angle changes in proportion to the crank
@@ -33,13 +34,13 @@ use linkage::math::{KeepNan, Matrix, Vec2, cross, rotated, turned};
 use linkage::mechanism::{Coordinate, GROUND, Joint, JointId, LinkId, TransmissionId};
 use linkage::trajectory::Stage;
 
-/// Upper limit of the width of the first parts, into which the range is divided at the beginning.
+/// Largest width of a first part: the range is divided into first parts before any part is halved.
 /// The limit is an angle (rad) for a crank, or a fraction of the mechanism's size for a slide.
 const FIRST: f64 = std::f64::consts::PI / 24.0;
 /// Upper limit of the number of halvings of a first part.
 /// The width of the smallest part is about 1.5e-8 times the width of the first part.
 pub const MOST_HALVINGS: u32 = 26;
-/// Upper limit of the number of trials to find a box that contains the motion.
+/// Largest number of boxes that are tried in search of a box that provably contains the motion.
 /// `WIDER` is the factor by which each trial widens the box.
 const TRIALS: usize = 12;
 const WIDER: f64 = 1.1;
@@ -159,7 +160,7 @@ pub struct Tubes<'a> {
     case: &'a Case,
     solver: PoseSolver<'a>,
     centres: Vec<Vec2>,
-    /// The links that are solved together, with their equations, in the order of solution.
+    /// Units in the order of solution. A unit consists of links that are solved together, and of their equations.
     units: Vec<(&'a [LinkId], Vec<Row<'a>>)>,
     /// Both ends of the range (rad), in the direction of motion.
     pub range: [f64; 2],
@@ -245,7 +246,8 @@ impl<'a> Tubes<'a> {
     pub fn slice(&mut self, crank: f64, half: f64) -> Result<Slice> {
         self.poses += 1;
         let case = self.case;
-        // The rate of each drive per unit of the variable, and the largest deviation from this rate.
+        // For each drive: the rate of its coordinate per unit of the range's variable, and the largest deviation of the
+        // coordinate from a uniform change at this rate.
         let courses: Vec<[f64; 2]> = match case.goes_by_time() {
             true => {
                 let course = |drive: &Drive| [drive.at(crank).rate, drive.largest_acceleration() * half * half / 2.0];
@@ -284,8 +286,8 @@ impl<'a> Tubes<'a> {
     }
 }
 
-/// The units in the order of solution: the driving links on moving links, and the groups.
-/// Each unit has its equations.
+/// Units of links that are solved together, each with its equations, in the order of solution.
+/// A unit is a driving link whose drive is on a moving link, or a group.
 fn units(case: &Case) -> Vec<(&[LinkId], Vec<Row<'_>>)> {
     let mechanism = &case.mechanism;
     let drivers = case.structure.leading().map(|(_, driver)| driver);
@@ -400,7 +402,8 @@ fn equations(
     rows.iter().enumerate().map(residual).collect()
 }
 
-/// Bounds |F' - F'(middle)| r (docs/clearance.md) over the tubes, for all equations and the box `radii`.
+/// Returns an upper bound of |F' - F'(middle)| r for every equation, over the tubes and with r = `radii`.
+/// docs/clearance.md explains F' and r.
 fn changes(
     rows: &[Row],
     tubes: &[Tube],

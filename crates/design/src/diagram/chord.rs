@@ -77,8 +77,8 @@ mod tests {
         let x = [0.0, 0.1, 0.35, 0.4, 1.0];
         let f = [2.0, -1.0, 0.5, 7.0, 3.0];
         for (back, value) in integral(f[0], &x, &slopes(&x, &f)).iter().zip(f) {
-            // Every interval adds the rounding errors of one division, one product and one sum. The values are at most
-            // 7.
+            // Every interval adds the rounding errors of one division, one product and one sum.
+            // The function's values are at most 7.
             assert!((back - value).abs() <= 7.0 * 12.0 * f64::EPSILON);
         }
     }

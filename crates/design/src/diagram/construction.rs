@@ -39,7 +39,7 @@ linkage::words! {
 }
 
 impl ConstructionSort {
-    /// The two methods of the construction, in their order.
+    /// The methods of the two steps of the construction.
     pub fn methods(self) -> [Method; 2] {
         match self {
             ConstructionSort::Chords => [Method::ChordVelocity, Method::ChordAcceleration],
@@ -103,7 +103,7 @@ impl Construction {
     }
 }
 
-/// The result of a method in a diagram.
+/// Returns the diagram's result for a method.
 pub fn result(diagram: &MotionDiagram, method: Method) -> &MethodResult {
     diagram.found.iter().find(|found| found.method == method).expect("a diagram has all methods")
 }

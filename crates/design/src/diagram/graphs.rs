@@ -24,7 +24,7 @@ pub struct CrankGraph {
     pub points: Vec<[f64; 2]>,
     /// Mean.
     pub mean: f64,
-    /// Name of the mean.
+    /// Kind of the mean in words, such as "mean".
     pub mean_word: &'static str,
     /// Lowest and highest point of the graph on paper.
     pub marks: [GraphPoint; 2],

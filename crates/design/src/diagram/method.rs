@@ -45,8 +45,8 @@ impl Method {
     }
 }
 
-/// Applies a method to divisions of `stride` rows. Returns the rows, and the method's values in these rows.
-/// `is_closed`: whether the motion repeats after the last row.
+/// Applies a method to divisions of `stride` rows. Returns the rows with a result, and the results.
+/// `is_closed` states whether the motion repeats after the last row.
 pub(super) fn apply(
     method: Method,
     stride: usize,
@@ -83,8 +83,8 @@ pub(super) fn apply(
     }
 }
 
-/// The rows that have two neighbours, and the slope in each of these rows: that of the chord between the neighbours.
-/// If the motion repeats, the last row is included. Its slope is also the slope in the first row.
+/// The rows that have two neighbours, and for each row the slope of the chord between its neighbours.
+/// If the motion repeats, the last row is included. The slope in the last row is also the slope in the first row.
 fn tangents(rows: &[usize], places: &[f64], values: &[f64], is_closed: bool) -> (Vec<usize>, Vec<f64>) {
     let last = rows.len() - 1;
     let wrapped = |of: &[f64]| if is_closed { [of, &[of[last] + (of[1] - of[0])]].concat() } else { of.to_vec() };

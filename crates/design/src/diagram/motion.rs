@@ -20,9 +20,10 @@ const CURVE: usize = 720;
 /// The errors of a nearly constant derivative come from the displacement.
 /// The range of a nearly constant derivative would be too small a scale for such errors.
 const SMALLEST: f64 = 1e-3;
-/// A motion repeats if each rate changes from start to end by at most this fraction of half the rate's range.
+/// A motion counts as repeating if no rate differs between start and end by more than this fraction of half the rate's
+/// range.
 const REPEATS: f64 = 1e-6;
-/// If an error is below this fraction of its scale, it is rounding error and no order is computed from it.
+/// An error below this fraction of its scale counts as rounding error: no order of convergence is computed from it.
 const ROUNDING: f64 = 1e-11;
 /// Suffixes of a channel and its two derivatives.
 const ENDINGS: [[&str; 3]; 3] =
@@ -132,8 +133,8 @@ impl MotionDiagram {
     /// The turn begins at the crank's start and follows its sense of rotation.
     /// If the input is a slide, the range of the grid replaces the turn.
     /// If the motion does not repeat after the range, some methods give no values near the ends of the range.
-    /// Chords of chords and velocities by tangents begin and end one division inside the range, accelerations by
-    /// tangents two divisions inside.
+    /// The results of chords of chords, and velocities by tangents, begin and end one division inside the range.
+    /// Accelerations by tangents begin and end two divisions inside the range.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for a number of divisions outside [`DIVISIONS`], or if the grid of a slide has no stroke.
@@ -160,7 +161,8 @@ impl MotionDiagram {
                 Error::new(ErrorKind::Input, sentences::THE_GRID_HAS_NO_STROKE).help(sentences::EXTEND_THE_GRID)
             );
         }
-        // Every midpoint of a division, a half division or a quarter division is a row.
+        // The number of rows per division is a multiple of 8. The midpoints of divisions, half divisions and quarter
+        // divisions are therefore rows.
         let stride = 8 * CURVE.div_ceil(8 * divisions);
         let rows = divisions * stride;
         let crank = |row: usize| from + sense * span * (row as f64 / rows as f64);

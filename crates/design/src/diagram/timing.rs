@@ -35,7 +35,7 @@ pub struct TimingDiagram {
 }
 
 impl TimingDiagram {
-    /// The diagram over a shaft angle that is larger by `offset` (rad).
+    /// The diagram with all crank angles increased by `offset` (rad).
     /// Phases and parts of curves beyond the end of the turn continue at the beginning of the turn.
     #[must_use]
     pub fn shifted(self, offset: f64) -> TimingDiagram {

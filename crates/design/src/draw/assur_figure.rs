@@ -39,7 +39,8 @@ pub fn scale(point: &SingularPoint, plan: f64) -> f64 {
     plan.larger(factor(largest, ROOM))
 }
 
-/// Points of a trial (SI, from the pole) with their letters. `stars` is added to each letter.
+/// Points of one construction of the acceleration (SI, from the pole) with their letters. `stars` is added to each
+/// letter.
 fn of_trial(point: &SingularPoint, trial: &AssurTrial, stars: &str) -> Vec<(Vec2, String)> {
     let ends =
         point.leads.iter().zip(trial.far).map(|(lead, at)| (at, format!("{}{stars}", lead.names[1].to_lowercase())));

@@ -109,8 +109,9 @@ impl Paper {
         Some([from, to].map(|share| ends[0] + (ends[1] - ends[0]) * share))
     }
 
-    /// The drawn part of a construction line of `centre`. The line joins `centre` with the centres or the point of
-    /// action that determine the line, and is cut off at the edge of the window.
+    /// The drawn part of a construction line of `centre`.
+    /// The line joins `centre` with the centres or with the point of action that determine the line.
+    /// The line is cut off at the edge of the window.
     fn line(&self, sheet: &CentreSheet, centre: &InstantCentre, line: &CentreLine) -> Option<[Vec2; 2]> {
         let places = match line {
             CentreLine::Through(third) => {
@@ -134,9 +135,10 @@ impl Paper {
         self.clipped([*first, last])
     }
 
-    /// An arrow towards a centre outside the window. The arrow starts at the centre's guide, else at an end of `line`.
-    /// If there is neither, it starts at the edge of the window for a centre at infinity, and in the middle of the
-    /// window for any other centre.
+    /// An arrow towards a centre outside the window.
+    /// The arrow starts at the centre's guide, or else at an end of `line`.
+    /// If there is neither a guide nor a line, an arrow to a centre at infinity starts at the edge of the window, and
+    /// an arrow to any other centre starts in the middle of the window.
     fn toward(&self, centre: &InstantCentre, line: Option<[Vec2; 2]>) -> Option<[Vec2; 2]> {
         let middle = (self.window[0] + self.window[1]) / 2.0;
         let (start, direction) = match (centre.place, &centre.origin) {

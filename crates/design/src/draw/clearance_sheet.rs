@@ -17,7 +17,7 @@ use scenario::clearance::{ClearanceQuestion, Outline};
 
 /// Largest size of the drawing (mm).
 const ROOM: Vec2 = Vec2::new(150.0, 150.0);
-/// Number of parts of the range. A link's swept area is drawn as the link's positions at the ends of the parts.
+/// Number of equal parts of the range. A link's swept area is drawn as the link's positions at the ends of all parts.
 const POSITIONS: usize = 240;
 /// Opacity of swept areas. `OUTLINE` is the opacity of outlines.
 const SWEPT: f64 = 0.2;

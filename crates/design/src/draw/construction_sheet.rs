@@ -78,7 +78,7 @@ impl Sheet<'_> {
     }
 
     /// Draws the chords or tangents of a diagram with the points `points` (mm).
-    /// `at` are the positions of their numbers (mm).
+    /// The numbers of the chords or tangents stand at the positions `at` (mm).
     fn slopes(&self, figure: &mut DrawnFigure, points: &[Vec2], step: &ConstructionStep, at: &[Vec2]) {
         let is_tangent = self.construction.sort == ConstructionSort::Tangents;
         for (number, (middle, ordinate)) in (1..).zip(at.iter().zip(&step.ordinates)) {

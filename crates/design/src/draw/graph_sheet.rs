@@ -15,8 +15,8 @@ const HIGH: f64 = 56.0;
 const ROOM: Room = Room { gap: 3.0, left: 22.0, between: 6.0 };
 /// Space above and below a curve for the labels of its extremes, divided by the curve's range.
 const ASIDES: f64 = 0.2;
-/// If the distance of an extreme from an end of the axis is below this limit (mm), its label is not centred.
-/// The label then starts or ends at the extreme.
+/// The label of an extreme is centred at the extreme, except within this distance (mm) from an end of the axis.
+/// There, the label starts or ends at the extreme.
 const ASIDE: f64 = 28.0;
 /// Line at the mean.
 const MEAN: Style = Style { colour: COLOURS[1], width: 0.3, dash: "2 1.2" };
@@ -74,7 +74,7 @@ fn panel(graph: &CrankGraph, [start, end]: [f64; 2]) -> DrawnFigure {
 fn angles(figure: &mut DrawnFigure, [start, end]: [f64; 2], height: f64) {
     let (from, to) = (start.to_degrees(), end.to_degrees());
     let every = 30.0 * ((to - from).abs() / 360.0).ceil().larger(1.0);
-    // An angle that exceeds an end by a rounding error counts as the end.
+    // A round angle beyond an end of the axis counts as the end if the difference is a rounding error.
     let [first, last] = [(from.smaller(to) / every - 1e-9).ceil(), (from.larger(to) / every + 1e-9).floor()];
     for k in 0..=(last - first).larger(0.0) as u32 {
         let degrees = (first + f64::from(k)) * every + 0.0;

@@ -181,7 +181,8 @@ fn figure(plan: &VectorPlan) -> DrawnFigure {
     figure
 }
 
-/// Shifts an arrow sideways, with its length kept, until the arrow no longer coincides with an arrow drawn before.
+/// Shifts an arrow sideways until it no longer coincides with an arrow drawn before. The shift keeps the arrow's
+/// length.
 fn beside(ends: [Vec2; 2], drawn: &[[Vec2; 2]]) -> [Vec2; 2] {
     let along = (ends[1] - ends[0]).normalize();
     let aside = turned(along) * APART;

@@ -54,7 +54,8 @@ pub fn scheme(scheme: &Scheme) -> DrawnFigure {
     picture.finish(1)
 }
 
-/// Returns a singular point on paper and the two lines that meet in it. Each line starts at the farther end of a lead.
+/// Returns a singular point on paper, and the two lines through leads that meet in this point.
+/// Each line starts at the lead's end that is farther from the point.
 /// `None` if the point is at least `NEAR` away from both ends of a lead.
 fn lines_through(scheme: &Scheme, point: &SingularPoint) -> Option<(Vec2, [[Vec2; 2]; 2])> {
     let at = point.at / scheme.scale;

@@ -16,9 +16,8 @@ pub struct Flywheel {
     pub regime: Regime,
 }
 
-/// Upper limit of the flywheel's inertia, divided by the first guess of the inertia. The factor is that of sixty
-/// doublings.
-/// If a larger flywheel would be needed, the required coefficient counts as unreachable.
+/// Largest inertia of a flywheel, divided by the first guess of the inertia: sixty doublings.
+/// If a larger flywheel would be needed, the required coefficient of non-uniformity counts as unreachable.
 const LARGEST: f64 = (1u64 << 60) as f64;
 /// Upper limit of the number of regula falsi steps. About eight steps are needed.
 const STEPS: usize = 80;
@@ -42,7 +41,7 @@ impl Flywheel {
         let mut last = Flywheel { inertia: 0.0, regime: model.with_flywheel(0.0).regime(&[], accuracy)? };
         // The inverse of the coefficient of non-uniformity is nearly linear in the flywheel's inertia.
         // The search therefore compares the inverses of the actual and the required coefficient.
-        // The product of the coefficient and the inertia is about the largest surplus of work divided by omega^2.
+        // The reason: the coefficient times the inertia is about the largest surplus of work divided by omega^2.
         let excess = |regime: &Regime| 1.0 / regime.non_uniformity() - 1.0 / wanted;
         let none = (0.0, excess(&last.regime));
         if none.1 >= 0.0 {

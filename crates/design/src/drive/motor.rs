@@ -58,7 +58,7 @@ impl CatalogueMotor {
 /// Largest breakdown torque of usual induction motors, divided by the rated torque.
 pub const LARGEST_BREAKDOWN: f64 = 3.0;
 
-/// A reason why the law of a motor does not describe the motor in a part of a motion.
+/// A limit beyond which a motor's torque law no longer describes the motor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum MotorLimit {
     /// The motor turns faster than at no load, so the motor brakes the mechanism.
@@ -68,7 +68,7 @@ pub enum MotorLimit {
         /// Speed of the motor without load (rad/s).
         synchronous: f64,
     },
-    /// The torque of a linear law exceeds the breakdown torque of usual induction motors.
+    /// The torque by a linear law exceeds the breakdown torque of usual induction motors.
     BeyondBreakdown {
         /// Speed of the motor (rad/s).
         speed: f64,
@@ -90,7 +90,7 @@ impl MotorLimit {
     /// The limits of a motor that are exceeded in a motion between two speeds of the crank (rad/s, positive in the
     /// motor's sense).
     /// A linear law without a rated torque has no breakdown, because it may describe a direct-current motor.
-    /// In a start from rest (`is_start`), a Kloss law holds below its breakdown speed too.
+    /// In a start from rest (`is_start`), a Kloss law is valid below the breakdown speed too.
     pub fn of(motor: &Motor, [slowest, fastest]: [f64; 2], is_start: bool) -> Vec<MotorLimit> {
         let [slowest, fastest] = [slowest, fastest].map(|speed| speed * motor.ratio);
         let mut limits = Vec::new();
@@ -196,7 +196,7 @@ impl MotorChoice {
     }
 
     /// The limits of the motor's law that the steady motion exceeds.
-    /// For a start from rest, only a torque beyond the breakdown torque is reported.
+    /// The start from rest is checked too, but only for a torque beyond the breakdown torque.
     pub fn limits(&self) -> Vec<MotorLimit> {
         let [slowest, fastest] = self.regime.ends();
         let mut limits = MotorLimit::of(&self.geared, [slowest, fastest], false);
@@ -235,7 +235,7 @@ mod tests {
 
     /// At rest, a linear law through the rated point gives 11.8 times the rated torque.
     /// A linear law without rated torque has no breakdown.
-    /// A Kloss law holds below its breakdown speed in a start, but not in steady motion.
+    /// A Kloss law is valid below the breakdown speed in a start, but not in steady motion.
     #[test]
     fn a_motion_beyond_the_stable_branch_is_told() {
         let geared = motor("a", 0.55, 2745.0).geared_to(130.0 * TAU / 60.0, 1.0);
@@ -256,7 +256,7 @@ mod tests {
     #[test]
     fn rated_data_give_the_published_torque_line() {
         let motor = motor("a", 0.55, 2745.0);
-        // The printed values of the three quantities below are 1.913 N m, 22.51 N m and -0.0716 N m s.
+        // The source prints 1.913 N m (rated torque), 22.51 N m (torque at rest) and -0.0716 N m s (slope).
         assert!((motor.rated_torque() - 1.913).abs() < 5e-4);
         let MotorLaw::Linear { at_rest, slope } = motor.law() else { panic!("not linear") };
         assert!((at_rest - 22.51).abs() < 5e-3 && (slope + 0.0716).abs() < 1e-4, "{at_rest} {slope}");

@@ -1,4 +1,4 @@
-//! What a model file cannot hold: each error names the part and a way out.
+//! Checks for parts of a case that a model file cannot hold. Each error names the part and a remedy.
 
 use crate::rigid::{Body, RigidModel};
 use crate::sentences;
@@ -82,7 +82,7 @@ pub(super) fn friction_of(frictions: &[(JointId, f64)], joint: JointId) -> f64 {
     frictions.iter().filter(|(own, _)| *own == joint).map(|(_, moment)| moment).sum()
 }
 
-/// A joint whose coordinate is a multiple of the coordinate of another joint. Both are zero in the start pose.
+/// A joint whose coordinate is a multiple of another joint's coordinate. Both coordinates are zero in the start pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Follower {
     /// The joint.
@@ -93,7 +93,7 @@ pub(super) struct Follower {
     pub multiplier: f64,
 }
 
-/// The transmissions as followers.
+/// The transmissions, each as a joint that follows another joint.
 ///
 /// # Errors
 /// [`ErrorKind::Unsupported`] for cams, for losses, and for a transmission that couples more than two joints of the

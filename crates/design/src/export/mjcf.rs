@@ -12,14 +12,14 @@
 //! - A transmission is a fixed tendon of constant length; the length is a sum of joint coordinates times factors.
 //!   The tendon's force acts as moments.
 //!   Reactions of axles therefore lack the radial part of tooth forces and the tension of strands.
-//! - A prescribed drive is a rotor ([`MjcfModel::rotor`]) on the driven joint; for a slide, a mass of the same number.
-//!   The rotor's inertia is so large that its speed is practically constant: the speed changes by 1e-9 of its value per
-//!   radian.
-//!   The speed is constant with any integrator and at any step.
-//!   A velocity actuator that kept the speed as well as the rotor would diverge, because `implicitfast` solves the
-//!   constraints without the actuator's damping.
-//!   A softer velocity actuator lags.
-//!   The rotor does not enter the interaction forces that sensors read.
+//! - A prescribed drive is a rotor ([`MjcfModel::rotor`]) on the driven joint. On a slide, a heavy mass takes the place
+//!   of the rotor.
+//!   The rotor's inertia is so large that its speed is practically constant, with any integrator and at any step: the
+//!   speed changes by 1e-9 of its value per radian.
+//!   A velocity actuator would need a very large gain to keep the speed as constant as the rotor does. With such a gain
+//!   it diverges, because `implicitfast` solves the constraints without the actuator's damping.
+//!   A velocity actuator with a smaller gain does not keep the speed exactly.
+//!   The interaction forces that sensors read do not include the rotor's inertia.
 //!   The torque sensor of the hinge therefore reads the driving moment.
 //! - A free link has no rotor except that of its motor.
 //!   The motor is an actuator whose moment is a linear function of the speed.

@@ -1,4 +1,4 @@
-//! Names in model files. A file has the names of the scenario wherever its format accepts them.
+//! Names in model files. A model file uses the names of the scenario if the file format accepts them.
 
 use std::collections::BTreeSet;
 
@@ -41,7 +41,7 @@ pub(super) fn check_urdf(mechanism: &Mechanism) -> Result<()> {
 }
 
 /// The names as identifiers of USD: letters, digits and underscores, without a digit at the beginning.
-/// A name that would be given twice gets a number.
+/// If an identifier would occur twice, the second one gets a number.
 pub(super) fn identifiers<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
     let mut found: Vec<String> = Vec::new();
     for name in names {

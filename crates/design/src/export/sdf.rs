@@ -86,7 +86,7 @@ fn link(xml: &mut Xml, model: &RigidModel, link: LinkId) {
         xml.nest("inertial", |xml| {
             xml.value("pose", pose(data.mass_centre, 0.0));
             xml.value("mass", number(mass));
-            // Three equal moments of inertia satisfy the triangle inequality.
+            // All three moments of inertia are equal, so that they satisfy the triangle inequality of rigid bodies.
             xml.nest("inertia", |xml| {
                 for (name, value) in [("xx", inertia), ("xy", 0.0), ("xz", 0.0), ("yy", inertia), ("yz", 0.0)] {
                     xml.value(&format!("i{name}"), number(value));
@@ -121,7 +121,7 @@ fn placed(shape: Shape) -> ([f64; 6], Geometry) {
     match shape {
         Shape::Rod { ends: [from, to], radius } => {
             let (middle, way) = ((from + to) / 2.0, to - from);
-            // A cylinder lies along z: a pitch of a quarter turn puts it along x.
+            // SDF places cylinders along z. A pitch of a quarter turn turns the cylinder to x.
             let place = [middle.x, middle.y, 0.0, 0.0, FRAC_PI_2, way.y.atan2(way.x)];
             (place, ("cylinder", vec![("radius", number(radius)), ("length", number(way.norm()))]))
         }
@@ -173,7 +173,7 @@ fn mimic(xml: &mut Xml, model: &RigidModel, own: &Follower) {
     });
 }
 
-/// A controller for every prescribed drive: it keeps the speed of the joint's coordinate.
+/// Writes a controller for every prescribed drive. The controller keeps the speed of the joint's coordinate.
 fn controllers(xml: &mut Xml, model: &RigidModel) {
     for body in model.bodies.iter().filter(|body| model.is_prescribed(body.branch.joint)) {
         let class = r#"filename="gz-sim-joint-controller-system" name="gz::sim::systems::JointController""#;

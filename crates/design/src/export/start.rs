@@ -1,4 +1,4 @@
-//! What every model file begins with: the state at t = 0, and lines about origin and drives.
+//! The beginning of every model file: the state at t = 0, and comment lines about the file's origin and the drives.
 
 use crate::rigid::RigidModel;
 use crate::sentences;

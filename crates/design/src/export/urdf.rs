@@ -3,9 +3,9 @@
 //! - The plane of motion is XOY. A joint's coordinate is zero in the start pose.
 //! - The frame of a URDF link lies at the joint that carries the link, with the directions of the link's frame.
 //! - URDF permits no loops. A joint that closes a loop is an SDF joint within an element `gazebo`.
-//!   Parsers of URDF skip this element; the converter of SDFormat copies its contents into the model.
+//!   Parsers of URDF skip the element `gazebo`. The converter of SDFormat copies its contents into the model.
 //! - URDF has no place for gravity, drives and speeds.
-//! - With [`Mimics`], every joint but the driven one follows the driven joint by a linear relation.
+//! - With [`Mimics`], every joint except the driven joint follows the driven joint by a linear relation.
 
 mod mimic;
 
@@ -32,7 +32,8 @@ use linkage::solver::Solver;
 const FORMAT: &str = "URDF";
 /// Name of the root link. Gazebo takes a link with this name as the world.
 const ROOT: &str = "world";
-/// Largest force (N) and speed (m/s) in the limits of a prismatic joint, which URDF requires.
+/// Limit of the force (N) and of the speed (m/s) of a prismatic joint. URDF requires such limits; this one is never
+/// reached.
 const ENDLESS: f64 = 1e9;
 
 /// The case as URDF, with the robot's name `name`, in the pose at t = 0 that `solver` computes.
@@ -106,7 +107,7 @@ fn link(xml: &mut Xml, model: &RigidModel, body: &Body) {
         xml.nest("inertial", |xml| {
             origin(xml, data.mass_centre - shift, 0.0, 0.0);
             xml.leaf(format_args!(r#"mass value="{}""#, number(mass)));
-            // Three equal moments of inertia satisfy the triangle inequality.
+            // All three moments of inertia are equal, so that they satisfy the triangle inequality of rigid bodies.
             let own = number(inertia);
             xml.leaf(format_args!(r#"inertia ixx="{own}" ixy="0" ixz="0" iyy="{own}" iyz="0" izz="{own}""#));
         });
@@ -121,7 +122,7 @@ fn visuals(xml: &mut Xml, model: &RigidModel, link: LinkId, shift: Vec2) {
             let geometry = match shape {
                 Shape::Rod { ends: [from, to], radius } => {
                     let way = to - from;
-                    // A cylinder lies along z: a pitch of a quarter turn puts it along x.
+                    // URDF places cylinders along z. A pitch of a quarter turn turns the cylinder to x.
                     origin(xml, (from + to) / 2.0 - shift, FRAC_PI_2, way.y.atan2(way.x));
                     format!(r#"cylinder radius="{}" length="{}""#, number(radius), number(way.norm()))
                 }
@@ -156,7 +157,8 @@ fn joint(xml: &mut Xml, model: &RigidModel, body: &Body, follower: Option<(Follo
         xml.leaf(format_args!(r#"child link="{}""#, escape(file_name(model, branch.link))));
         xml.leaf(format_args!(r#"axis xyz="{axis}""#));
         if matches!(body.freedom, Freedom::Slide(_)) {
-            // URDF requires limits. These are out of reach: no link is longer than the mechanism.
+            // URDF requires limits of the coordinate. The limits written here cannot be reached: each is the
+            // mechanism's size times the number of bodies.
             let reach = number(model.size() * model.bodies.len() as f64);
             let endless = number(ENDLESS);
             let ends = format!(r#"lower="-{reach}" upper="{reach}""#);

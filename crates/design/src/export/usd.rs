@@ -25,7 +25,7 @@ use text::{Usd, about_z, flat, number, quoted, tuple};
 /// Name of the format in messages.
 const FORMAT: &str = "USD";
 /// Damping of a velocity drive that acts as an acceleration (1/s; of an angle in degrees).
-/// A drive so stiff keeps its speed within the step of any engine.
+/// With this damping, a drive reaches its speed within one time step of any engine.
 const DAMPING: f64 = 1e6;
 
 /// The case as USD, with the name `name` of the mechanism.
@@ -71,7 +71,7 @@ pub fn usd(case: &Case, solver: &dyn Solver, name: &str) -> Result<String> {
     Ok(usd.text)
 }
 
-/// The name of the scenario, if the identifier differs from it.
+/// The metadata that shows the scenario's name of a part, if the identifier differs from this name.
 fn shown(name: &str, identifier: &str) -> Option<String> {
     (name != identifier).then(|| format!("displayName = {}", quoted(name)))
 }
@@ -86,7 +86,7 @@ fn body(usd: &mut Usd, model: &RigidModel, link: LinkId, identifier: &str) {
         usd.line(r#"uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:orient"]"#);
         let (mass, inertia) = if link == GROUND { (1.0, 1.0) } else { model.inertial(link) };
         if link != GROUND {
-            // Engines take the velocity as that of the mass centre.
+            // Physics engines read this velocity as the velocity of the mass centre.
             usd.line(format_args!("vector3f physics:velocity = {}", flat(motion.point_velocity(data.mass_centre))));
             let turn = tuple([0.0, 0.0, motion.omega.to_degrees()]);
             usd.line(format_args!("vector3f physics:angularVelocity = {turn}"));
@@ -96,7 +96,7 @@ fn body(usd: &mut Usd, model: &RigidModel, link: LinkId, identifier: &str) {
         }
         usd.line(format_args!("float physics:mass = {}", number(mass)));
         usd.line(format_args!("point3f physics:centerOfMass = {}", flat(data.mass_centre)));
-        // Three equal moments of inertia satisfy the triangle inequality.
+        // All three moments of inertia are equal, so that they satisfy the triangle inequality of rigid bodies.
         usd.line(format_args!("float3 physics:diagonalInertia = {}", tuple([inertia; 3])));
         usd.line("quatf physics:principalAxes = (1, 0, 0, 0)");
         shapes(usd, model, link);
@@ -132,7 +132,7 @@ fn shapes(usd: &mut Usd, model: &RigidModel, link: LinkId) {
     }
 }
 
-/// The fixed joint of the ground with the world, the root of the articulation.
+/// Writes the fixed joint between the ground and the world. This joint is the root of the articulation.
 fn root(usd: &mut Usd, ground: &str) {
     let apis = r#"prepend apiSchemas = ["PhysicsArticulationRootAPI"]"#.to_string();
     usd.prim("PhysicsFixedJoint", "world__root", &[apis], |usd| {
@@ -144,7 +144,7 @@ fn joint(usd: &mut Usd, model: &RigidModel, body: &Body, [links, joints]: [&[Str
     let branch = body.branch;
     let name = &joints[branch.joint.index()];
     let driven = model.is_prescribed(branch.joint);
-    // Both frames of a joint have the same place and directions in the start pose.
+    // In the start pose, the joint's frames on the two bodies coincide.
     let place = model.point(branch.joint, branch.link);
     let (kind, axis, own, drive, speed) = match body.freedom {
         Freedom::Hinge(_) => ("PhysicsRevoluteJoint", "Z", 0.0, "angular", body.rate.to_degrees()),

@@ -4,7 +4,7 @@ use std::fmt::{Display, Write};
 
 use linkage::math::Vec2;
 
-/// Shortest text that is parsed as the same number.
+/// The shortest text from which a parser reads the same number.
 pub(super) fn number(value: f64) -> String {
     match value.abs() {
         0.0 => "0".into(),
@@ -27,7 +27,8 @@ pub(super) fn about_z(angle: f64) -> String {
     numbers([0.0, 0.0, 1.0, angle])
 }
 
-/// An XML document in memory, with one line for every tag. Tags are passed as they are written, without their brackets.
+/// An XML document in memory, with one line for every tag.
+/// Callers pass tags as they are written, but without the angle brackets.
 /// Names from outside must be [escaped](quick_xml::escape::escape).
 pub(super) struct Xml {
     pub(super) text: String,
@@ -61,7 +62,8 @@ impl Xml {
         self.line(&format!("<{tag}>{value}</{tag}>"));
     }
 
-    /// A comment. XML permits no `--` in it.
+    /// A comment.
+    /// XML does not permit `--` in a comment.
     pub(super) fn comment(&mut self, text: &str) {
         self.line(&format!("<!-- {} -->", text.replace("--", "- -")));
     }

@@ -19,7 +19,8 @@ use std::path::Path;
 pub struct ImportedScenario {
     /// Text of the scenario file.
     pub text: String,
-    /// What was not understood, by name, and what was assumed. The text has the same lines as comments.
+    /// Parts of the source that were not understood, by name, and assumptions. The scenario's text has these lines as
+    /// comments.
     pub told: Vec<String>,
     /// The reason why the scenario does not run, if there is one.
     pub problem: Option<Error>,
@@ -27,7 +28,8 @@ pub struct ImportedScenario {
 
 /// Number of steps of a grid that is not a whole turn.
 const STEPS: f64 = 60.0;
-/// Part of the way to a dead point that the grid covers. Accelerations grow without bound towards the dead point.
+/// Fraction of the way from the start to a dead point that the grid covers. Towards a dead point, accelerations grow
+/// without bound.
 const SHARE: f64 = 0.9;
 
 /// The scenario of a mechanism, with the reason why it cannot run, if there is one.
@@ -55,7 +57,7 @@ fn groups(parts: &Parts, name: &str, path: &Path) -> String {
     groups.map(|group| table(parts, &draft.mechanism, group, &pose)).collect()
 }
 
-/// The start of one group: the mode of a dyad, or two points of every link.
+/// The start of one group: the assembly mode of a dyad, or approximate positions of two points of every link.
 fn table(parts: &Parts, mechanism: &Mechanism, group: &Group, pose: &Pose) -> String {
     let names: Vec<String> = group.links.iter().map(|&link| quoted(&mechanism.links()[link].name)).collect();
     let mut text = format!("\n[[start.groups]]\nlinks = [{}]\n", names.join(", "));
@@ -85,7 +87,7 @@ fn table(parts: &Parts, mechanism: &Mechanism, group: &Group, pose: &Pose) -> St
     text
 }
 
-/// A grid of the first instant alone; of a free motion, its first second.
+/// A grid with only the start instant. For a free motion, the grid covers the first second.
 fn first_grid(parts: &Parts) -> String {
     let Some(drive) = parts.drives.first() else { return String::new() };
     if parts.drives.iter().any(|drive| drive.free.is_some()) {
@@ -98,7 +100,8 @@ fn first_grid(parts: &Parts) -> String {
     }
 }
 
-/// The grid from the start in the direction of motion: a whole turn, or the part of the way that the mechanism reaches.
+/// The grid from the start in the direction of motion: a whole turn, or 0.9 of the way to the limit of the motion. A
+/// grid of a slide is not longer than the drive's travel.
 fn grid(parts: &mut Parts, case: &Case) -> String {
     let crank = case.crank();
     if case.drives.iter().any(|drive| drive.is_free()) {
@@ -117,7 +120,8 @@ fn grid(parts: &mut Parts, case: &Case) -> String {
             let way = SHARE * if sense > 0.0 { to - start } else { start - from };
             (rounded(travel.map_or(way, |travel| way.smaller(travel)) / STEPS), STEPS)
         }
-        // Without known limits, the travel, or a small part of the mechanism's size or of a turn.
+        // If the limits of the motion are unknown, the grid covers the drive's travel. If the travel is unknown too,
+        // the grid covers a small fraction of the mechanism's size, or a small angle.
         Err(_) => {
             let small = input.shown(0.1 * if unit == "mm" { case.mechanism.size() } else { 1.0 });
             (rounded(travel.unwrap_or(small) / STEPS), STEPS)
@@ -127,7 +131,7 @@ fn grid(parts: &mut Parts, case: &Case) -> String {
     format!("\n[grid]\nfrom_{unit} = {from}\nto_{unit} = {to}\nstep_{unit} = {step}\n")
 }
 
-/// The number with two significant digits, rounded down.
+/// Rounds a number down to two significant digits.
 fn rounded(value: f64) -> f64 {
     let digit = 10f64.powf(value.log10().floor() - 1.0);
     (value / digit).floor() * digit

@@ -1,5 +1,6 @@
-//! Files of Linkage (`.linkage2`): connectors with their places, links through connectors, anchors, inputs, sliders,
-//! actuators and gears. Lengths are 1/96 inch, y points up, and a positive speed is clockwise.
+//! Files of the program Linkage (`.linkage2`): connectors with their positions, links through connectors, anchors,
+//! inputs, sliders, actuators and gears.
+//! Lengths are 1/96 inch, y points up, and a positive speed is clockwise.
 
 mod build;
 mod elements;

@@ -12,7 +12,7 @@ use crate::sentences;
 use linkage::error::Result;
 use roxmltree::Node;
 
-/// Elements at the top that have no effect on the mechanism, or that a reader below handles.
+/// Top-level elements that the import reads, or that have no effect on the mechanism.
 const KNOWN: [&str; 11] = [
     "compiler",
     "option",
@@ -26,7 +26,7 @@ const KNOWN: [&str; 11] = [
     "sensor",
     "keyframe",
 ];
-/// Elements of a body that only show it, or that a reader handles.
+/// Elements of a body that the import reads, or that only affect the body's appearance.
 const KNOWN_IN_BODIES: [&str; 8] = ["body", "inertial", "joint", "site", "geom", "light", "camera", "worldbody"];
 
 /// A model while it is read.
@@ -37,14 +37,14 @@ struct Model<'a> {
     joints: Vec<ModelJoint<'a>>,
 }
 
-/// A body; the link of the same number is the link with the number of the body plus one.
+/// A body of the model. The body with the index i is the link with the index i + 1, because link 0 is the ground.
 struct Body<'a> {
     node: Node<'a, 'a>,
     /// Link that carries the body.
     parent: usize,
 }
 
-/// A joint of the tree, in the order of coordinates.
+/// A joint of the tree. The joints have the order of the coordinates.
 struct ModelJoint<'a> {
     node: Node<'a, 'a>,
     /// Link of the body.
@@ -76,14 +76,14 @@ pub(super) fn parts(file: &XmlFile) -> Result<Parts> {
 }
 
 impl<'a> Model<'a> {
-    /// The elements of a section at the top.
+    /// The elements in the top-level sections called `name`.
     fn section(&self, name: &'static str) -> impl Iterator<Item = Node<'a, 'a>> + use<'a> {
         let root = self.file.tree.root_element();
         let sections = root.children().filter(move |node| node.has_tag_name(name));
         sections.flat_map(|node| node.children().filter(Node::is_element))
     }
 
-    /// Tells which elements are not understood.
+    /// Adds a remark for each element that the import does not understand.
     fn check(&mut self) {
         let root = self.file.tree.root_element();
         let top = root.children().filter(|node| node.is_element() && !KNOWN.contains(&node.tag_name().name()));
@@ -95,14 +95,14 @@ impl<'a> Model<'a> {
         }
     }
 
-    /// Tells that an element is left out.
+    /// Adds the remark that an element is left out.
     fn tell(&mut self, node: Node) {
         let name = node.attribute("name").map(|name| format!(" \"{name}\"")).unwrap_or_default();
         let told = sentences::the_element_is_left_out(&node.tag_name().name(), &name, &self.file.line(node));
         self.parts.told.push(told);
     }
 
-    /// Link and place of a site.
+    /// The link that carries a site, and the site's element.
     fn site(&self, name: &str) -> Option<(usize, Node<'a, 'a>)> {
         let root = self.file.tree.root_element();
         let world = root.children().find(|node| node.has_tag_name("worldbody"))?;
@@ -111,7 +111,7 @@ impl<'a> Model<'a> {
         Some((self.owner(node), node))
     }
 
-    /// Link that an element belongs to.
+    /// The link to which an element belongs.
     fn owner(&self, node: Node<'a, 'a>) -> usize {
         let parent = node.ancestors().skip(1).find(|own| own.has_tag_name("body"));
         parent.map_or(0, |parent| 1 + self.bodies.iter().position(|body| body.node == parent).unwrap_or_default())

@@ -1,4 +1,4 @@
-//! Names that scenario files allow, each given once.
+//! Names that scenario files allow. Each name is given only once.
 
 use std::collections::BTreeSet;
 
@@ -9,12 +9,13 @@ use linkage::mechanism::{LONGEST_NAME, is_sound_name};
 pub(super) struct Names(BTreeSet<String>);
 
 impl Names {
-    /// Names of which these are taken.
+    /// A set of names in which only these names are already taken.
     pub(super) fn with(taken: &[&str]) -> Names {
         Names(taken.iter().map(ToString::to_string).collect())
     }
 
-    /// A legal name near the wanted one: other characters become `_`, and a name that is taken gets a number.
+    /// A name that scenario files allow, similar to `wanted`. Forbidden characters become `_`, and a name that is taken
+    /// gets a number.
     pub(super) fn legal(&mut self, wanted: &str) -> String {
         let sign = |letter: char| if is_sound_name(letter.encode_utf8(&mut [0; 4])) { letter } else { '_' };
         let mut base: String = wanted.trim().chars().take(LONGEST_NAME - 8).map(sign).collect();

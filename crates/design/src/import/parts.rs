@@ -1,5 +1,6 @@
 //! A mechanism as another program describes it: links in their start pose, joints, drives and loads.
-//! Lengths, masses and forces stay in the units of that program, so that the scenario shows the numbers of its source.
+//! Lengths, masses and forces stay in the units of the other program. The scenario then shows the numbers of its
+//! source.
 
 use super::names::Names;
 use linkage::error::{Error, ErrorKind, Result};
@@ -8,12 +9,12 @@ use linkage::mechanism::LinkPose;
 
 use crate::sentences;
 
-/// Number of the ground in the list of links.
+/// Index of the ground in the list of links.
 pub(super) const FRAME: usize = 0;
-/// Upper limit of the numbers of links, joints and loads. No drawing made by hand is larger.
+/// Largest number of links, of joints and of loads. No mechanism that was drawn by hand has more.
 const MOST_PARTS: usize = 300;
 
-/// The units of a source, as endings of keys, and the size of its length in m.
+/// The units of a source, as key endings in scenarios. `metres` is the source's unit of length in m.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SourceUnits {
     pub(super) length: &'static str,
@@ -46,8 +47,8 @@ pub(super) struct LinkPart {
 }
 
 impl LinkPart {
-    /// A link whose frame begins at its first place and has its x axis towards the second; its points are given in
-    /// the world. The frame of a link with a single place has the direction `otherwise` (rad).
+    /// A link whose frame has its origin at the first of `places` (world) and its x axis towards the second.
+    /// If the link has a single place, its frame has the direction `otherwise` (rad).
     pub(super) fn through(name: String, places: Vec<(String, Vec2)>, otherwise: f64) -> LinkPart {
         let origin = places.first().map_or(Vec2::zeros(), |(_, place)| *place);
         let along = places.iter().map(|(_, place)| place - origin).find(|along| along.norm() > 0.0);
@@ -56,7 +57,7 @@ impl LinkPart {
         LinkPart { name, pose, points, mass: None }
     }
 
-    /// The world in the frame of this link.
+    /// Converts a world position into the frame of this link.
     pub(super) fn local(&self, place: Vec2) -> Vec2 {
         local(&self.pose, place)
     }
@@ -66,7 +67,7 @@ impl LinkPart {
         self.points.iter().find(|(name, _)| name == point).map(|(_, place)| *place)
     }
 
-    /// Adds a point that the link does not have yet.
+    /// Adds a point, unless the link already has a point of this name.
     pub(super) fn put(&mut self, name: &str, place: Vec2) {
         if self.place_of(name).is_none() {
             self.points.push((name.into(), place));
@@ -81,10 +82,10 @@ fn local(pose: &LinkPose, place: Vec2) -> Vec2 {
 /// The pair of a joint.
 #[derive(Clone, Debug)]
 pub(super) enum PartPair {
-    /// A pin at the point of this name on both links.
+    /// A pin. Both links have a point of this name, and the two points coincide.
     Pin(String),
-    /// A slide through a point of the first link and a point of the second, with its direction in the frame of each
-    /// link (rad).
+    /// A slide through a point of the first link and a point of the second. `axes` are its directions in the frames of
+    /// the two links (rad).
     Slide { points: [String; 2], axes: [f64; 2] },
 }
 
@@ -102,16 +103,17 @@ pub(super) struct DrivePart {
     pub(super) joint: usize,
     /// Speed: an angular velocity in the unit `turning`, or a rate of a slide in the source's length per second.
     pub(super) speed: f64,
-    /// Unit of an angular velocity, as the ending of a key.
+    /// Unit of an angular velocity, as a key ending in scenarios.
     pub(super) turning: &'static str,
-    /// Largest way of a slide in the direction of its motion, in the source's length.
+    /// Largest travel of a slide from the start in the direction of its motion, in the source's length.
     pub(super) travel: Option<f64>,
-    /// If forces determine the motion: the rate at t = 0 in the unit of the speed, and the link whose world angle is
-    /// the input, if the input is a world angle.
+    /// Only for a drive whose motion is determined by forces: the rate at t = 0 in the unit of `speed`, and the link
+    /// whose world angle is the input.
+    /// The link is `None` if the input is not a world angle.
     pub(super) free: Option<(f64, Option<usize>)>,
 }
 
-/// A table of the scenario as it is written: its heading and its keys with their values.
+/// A table in the text of the scenario: its heading, and its keys with their values.
 pub(super) type WrittenTable = (&'static str, Vec<(String, String)>);
 
 /// A mechanism of another program.
@@ -129,11 +131,13 @@ pub(super) struct Parts {
     pub(super) tables: Vec<WrittenTable>,
     /// Acceleration of gravity (m/s^2).
     pub(super) gravity: Option<Vec2>,
-    /// What was not understood, or understood by a rule that the user should know.
+    /// Remarks for the user: parts of the source that were not understood, and assumptions of the import.
     pub(super) told: Vec<String>,
-    /// Whether coordinates are written digit by digit. Otherwise they are rounded to twelve digits of the largest.
+    /// Whether coordinates are written with all digits.
+    /// Otherwise they are rounded to the twelfth digit of the mechanism's size.
     pub(super) is_exact: bool,
-    /// Rounding of the coordinates in the source, in its length; 0 if it is finer than twelve digits.
+    /// Step to which the source rounds its coordinates, in the source's length; 0 if the source has more than twelve
+    /// digits.
     pub(super) rounding: f64,
     pub(super) link_names: Names,
     pub(super) point_names: Names,
@@ -162,8 +166,8 @@ impl Parts {
         }
     }
 
-    /// Joins all links on a pin in pairs, each with the first of them. The names are those of the pin, then of the pin
-    /// with a number.
+    /// Joins the first link on a pin with each further link on the pin.
+    /// The first joint has the name of the pin. Further joints have this name with a number.
     pub(super) fn pin(&mut self, point: &str, links: &[usize]) {
         for &link in links.iter().skip(1) {
             let name = self.joint_names.legal(point);
@@ -177,7 +181,7 @@ impl Parts {
         own.pose.point(own.place_of(point).unwrap_or_else(Vec2::zeros))
     }
 
-    /// The input of a drive in the start pose: rad, or the source's length.
+    /// The value of a drive's input in the start pose: an angle (rad), or a slide in the source's length.
     pub(super) fn start(&self, drive: &DrivePart) -> f64 {
         let joint = &self.joints[drive.joint];
         let [first, second] = joint.links;
@@ -194,7 +198,8 @@ impl Parts {
         }
     }
 
-    /// Largest distance of a point from the origin of its link's frame, or of the ground points from each other.
+    /// Size of the mechanism: the largest distance between two ground points, or between a point and the origin of its
+    /// link's frame.
     pub(super) fn size(&self) -> f64 {
         let ground = &self.links[FRAME].points;
         let apart = ground.iter().flat_map(|(_, a)| ground.iter().map(move |(_, b)| (a - b).norm()));
@@ -202,7 +207,7 @@ impl Parts {
         apart.chain(own).fold(0.0, f64::larger)
     }
 
-    /// Refuses a source with more parts than anybody draws.
+    /// Refuses a source with more parts than a mechanism drawn by hand has.
     ///
     /// # Errors
     /// [`ErrorKind::Unsupported`] above the limit.

@@ -1,4 +1,4 @@
-//! Links of PMKS+ and of the older PMKS: the whole mechanism is in the query of the address.
+//! Share links of PMKS+ and of the older PMKS. The query of the web address contains the whole mechanism.
 
 mod build;
 mod classic;
@@ -9,7 +9,7 @@ use super::parts::Parts;
 use crate::sentences;
 use linkage::error::{Error, ErrorKind, Result};
 
-/// The mechanism of a link, or of its query alone.
+/// The mechanism of a share link. `address` is the whole web address, or only its query.
 pub(super) fn parts(address: &str) -> Result<Parts> {
     if address.lines().count() > 1 {
         return unknown(sentences::THE_SOURCE_HAS_SEVERAL_LINES);

@@ -5,7 +5,7 @@ use crate::sentences;
 use linkage::math::{KeepNan, Vec2};
 use std::fmt::Write;
 
-/// The text of the scenario with `name`, the start of its groups and its grid, both as they are written.
+/// The text of the scenario called `name`. `groups` and `grid` are the texts of the groups' start and of the grid.
 pub(super) fn text(parts: &Parts, name: &str, groups: &str, grid: &str) -> String {
     let mut text = format!("# {}\n", sentences::imported_from(&parts.source));
     for told in &parts.told {
@@ -97,7 +97,7 @@ fn tables(text: &mut String, parts: &Parts, is_wanted: impl Fn(&str) -> bool) {
     }
 }
 
-/// A mechanism with the smallest difference of coordinates that is written.
+/// A mechanism, and the step to which its coordinates are rounded in the text.
 pub(super) struct Writer<'a> {
     parts: &'a Parts,
     step: f64,
@@ -113,7 +113,8 @@ impl<'a> Writer<'a> {
 
     fn length(&self, value: f64) -> String {
         if self.step > 0.0 {
-            // A quotient of a whole number by a power of ten is the double nearest to the decimal number.
+            // A whole number divided by a power of ten gives the double nearest to the decimal number. The text then
+            // has no further digits.
             let per = (1.0 / self.step).round();
             let rounded = if per > 1.0 { (value * per).round() / per } else { (value / self.step).round() * self.step };
             return number(rounded);
@@ -121,12 +122,12 @@ impl<'a> Writer<'a> {
         number(value)
     }
 
-    /// A place in the frame of its link, or in the world.
+    /// A position as an inline table.
     pub(super) fn place(&self, place: Vec2) -> String {
         format!("{{ {} }}", self.coordinates(place))
     }
 
-    /// The two coordinates of a place.
+    /// The two coordinates of a position, each with its key.
     pub(super) fn coordinates(&self, place: Vec2) -> String {
         let [x, y] = [place.x, place.y].map(|value| self.length(value));
         let unit = self.parts.units.length;
@@ -145,7 +146,7 @@ impl<'a> Writer<'a> {
         matches!(joint.pair, PartPair::Pin(_)) && joint.links.contains(&FRAME)
     }
 
-    /// The start of a drive: unit and value, as they follow `start_`.
+    /// The start of a drive: the text that follows `start_`, with unit and value.
     fn start(&self, drive: &DrivePart) -> String {
         let value = self.parts.start(drive);
         match self.parts.joints[drive.joint].pair {
@@ -157,12 +158,12 @@ impl<'a> Writer<'a> {
 
 /// An angle in degrees.
 pub(super) fn degrees(angle: f64) -> String {
-    // Whole degrees stay whole.
+    // An angle that differs from whole degrees only by rounding is written as whole degrees.
     let (own, whole) = (angle.to_degrees(), angle.to_degrees().round());
     number(if (own - whole).abs() < 1e-12 * own.abs() { whole } else { own })
 }
 
-/// Shortest text that is parsed as the same number.
+/// The shortest text from which a parser reads the same number.
 pub(super) fn number(value: f64) -> String {
     let text = format!("{:?}", value + 0.0);
     text.strip_suffix(".0").map_or(text.clone(), Into::into)

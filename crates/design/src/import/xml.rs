@@ -1,4 +1,4 @@
-//! An XML file as a tree, and errors with their lines.
+//! An XML file as a tree. Errors state the line.
 
 use crate::sentences;
 use linkage::error::{Error, ErrorKind, Place, Result};
@@ -10,7 +10,7 @@ use std::sync::Arc;
 /// Upper limit of the number of elements, comments and texts.
 const MOST_NODES: u32 = 100_000;
 
-/// A file and its tree.
+/// A file and its tree of elements.
 pub(super) struct XmlFile<'a> {
     path: &'a Path,
     shared: Arc<str>,
@@ -18,7 +18,7 @@ pub(super) struct XmlFile<'a> {
 }
 
 impl<'a> XmlFile<'a> {
-    /// The tree of the file at `path`.
+    /// Parses the file at `path`, whose content is `text`.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for a text that is not XML, with its line.
@@ -49,7 +49,7 @@ impl<'a> XmlFile<'a> {
         self.tree.text_pos_at(node.range().start).row
     }
 
-    /// An attribute that must be there.
+    /// A required attribute.
     pub(super) fn text(&self, node: Node<'a, 'a>, name: &str) -> Result<&'a str> {
         let missing = || self.wrong(node, sentences::the_element_has_no(&node.tag_name().name(), &name));
         node.attribute(name).ok_or_else(missing)
@@ -72,7 +72,7 @@ impl<'a> XmlFile<'a> {
         }
     }
 
-    /// A vector of three numbers in the plane; zero without the attribute.
+    /// Reads a vector of three numbers whose z component is zero. Without the attribute, the vector is zero.
     pub(super) fn flat(&self, node: Node, name: &str) -> Result<Vec2> {
         match self.numbers(node, name)?.as_deref() {
             None => Ok(Vec2::zeros()),

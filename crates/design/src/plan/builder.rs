@@ -1,4 +1,4 @@
-//! Computes the vectors of a plan from the motions of the links, for one pair of points after another.
+//! Computes the vectors of a plan from the motions of the links.
 
 use super::names::{Named, NamedPoint, fixed_guide, pair, pivot, primed};
 use super::sliding::Slide;
@@ -65,7 +65,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Vectors from the pole to the images of points and of mass centres.
+    /// Adds the vectors from the pole to the images of points and of mass centres.
     fn absolute(&mut self) {
         let (pole, symbol, word) = (self.quantity.pole(), self.quantity.symbol(), self.quantity.word());
         for place in self.places {
@@ -97,7 +97,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Adds the absolute vectors of the points of moving guides that coincide with the sliding points.
+    /// Adds the absolute vectors of coincident points: the points of moving guides that coincide with sliding points.
     fn coincident(&mut self) {
         let (pole, symbol, word) = (self.quantity.pole(), self.quantity.symbol(), self.quantity.word());
         for slide in self.slides {
@@ -164,7 +164,8 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Adds the end of a vector and returns its letter. The letter gets as many primes as make it unique.
+    /// Adds the end of a vector and returns its letter.
+    /// If the letter is taken, primes are appended.
     fn tip(&mut self, letter: String, kind: TipKind, at: Vec2) -> String {
         let letter = primed(letter, |letter| self.tips.iter().any(|tip| tip.letter == letter));
         self.tips.push(Tip { letter: letter.clone(), kind, at });
@@ -176,8 +177,8 @@ impl<'a> Builder<'a> {
         self.tips.iter().find(|tip| tip.letter == letter).map_or_else(Vec2::zeros, |tip| tip.at)
     }
 
-    /// Adds the normal and tangential parts of every relative acceleration, and of every acceleration about a ground
-    /// pivot.
+    /// Adds the normal and tangential parts of accelerations: of every relative acceleration, and of accelerations of
+    /// points that turn about a ground pivot.
     fn split(&mut self, scale: f64) {
         let mut number = 0;
         for link in self.mechanism.links().ids().skip(1) {
@@ -207,9 +208,9 @@ impl<'a> Builder<'a> {
     }
 
     /// Pairs of points of a link.
-    /// The first pairs join the link's ground pivot and every other point. The next pairs join two moving points.
-    /// Each of the last pairs contains a point that coincides with a sliding point.
-    /// The coincident point is paired with the link's pivot or, without a pivot, with the link's moving points.
+    /// First come the pairs of the link's ground pivot with every other point, then the pairs of two moving points.
+    /// Last come pairs with a coincident point of a sliding point. The coincident point is paired with the link's pivot
+    /// or, without a pivot, with the link's moving points.
     /// A link that never turns has no pairs: all its points have the same motion.
     fn pairs(&self, link: LinkId) -> Vec<(On<'a>, On<'a>)> {
         if !self.mechanism.can_turn(link) {

@@ -15,7 +15,7 @@ const ROOM: [f64; 2] = [175.0, 210.0];
 /// Largest distance of a drawn centre from the middle of the mechanism, divided by half the mechanism's diagonal.
 /// Farther instant centres are drawn as arrows.
 const NEAR: f64 = 2.2;
-/// Margin around all that is drawn, divided by half the mechanism's diagonal.
+/// Margin around the drawing, divided by half the mechanism's diagonal.
 const MARGIN: f64 = 0.12;
 
 /// Drawing of the instant centres and acceleration centres.
@@ -92,7 +92,7 @@ impl InstantCentre {
         }
     }
 
-    /// A line on which the centre lies: `P01P14`.
+    /// Name of a line on which the centre lies, such as `P01P14`.
     fn line(&self, line: &CentreLine) -> String {
         match line {
             CentreLine::Through(third) => {

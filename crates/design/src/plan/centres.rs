@@ -5,9 +5,10 @@
 //! The three centres of three links lie on one line (Aronhold 1872, Kennedy 1886).
 //! The centre of the links i and j is therefore the intersection of two lines: one goes through the centres ik and kj,
 //! the other through the centres im and mj.
-//! Along a line of action, both members of a transmission have the same speed, so their centre lies on this line.
-//! These constructions use only the pose. A centre with fewer than two known lines is computed from the velocities.
-//! Afterwards, lines through this centre may lead to further centres.
+//! The two members of a transmission have the same speed along their line of action, so their centre lies on this line.
+//! These constructions use only the pose.
+//! If fewer than two lines through a centre are known, the centre is computed from the velocities.
+//! Further centres may then be found by lines through this centre.
 //! [`InstantCentre::slip`] compares every centre with the solved velocities.
 
 use linkage::math::centre::{MotionCentre, MotionNoise, instant_centre};
@@ -21,7 +22,8 @@ const ROUNDING: f64 = 1e-12;
 /// A line on which a centre lies.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CentreLine {
-    /// Line through two centres: the centres of both links with this third link.
+    /// Line through two other centres: the centre of the first link and this third link, and the centre of the second
+    /// link and this third link.
     Through(LinkId),
     /// Line of action of a transmission.
     Contact {
@@ -44,7 +46,7 @@ pub enum CentreOrigin {
         /// Sliding point of the block (world, m).
         block: Vec2,
     },
-    /// The centres of both links with this third link coincide.
+    /// The centre is the point in which the two centres with this third link coincide.
     Common(LinkId),
     /// Intersection of two lines.
     Lines([CentreLine; 2]),
@@ -62,8 +64,8 @@ pub struct InstantCentre {
     /// How the centre was found.
     pub origin: CentreOrigin,
     /// Difference of the solved velocities of both links at the centre (m/s): zero except for rounding errors.
-    /// For a centre at infinity: the component of the difference towards the centre, plus the difference of the angular
-    /// velocities times the size of the mechanism.
+    /// For a centre at infinity, the value is the sum of two magnitudes: the component of the velocity difference
+    /// towards the centre, and the difference of the angular velocities times the size of the mechanism.
     pub slip: f64,
     /// Velocity to which `slip` is compared (m/s): an upper bound of the relative velocity of the links within the
     /// mechanism.
@@ -115,8 +117,9 @@ struct Finder<'a> {
     size: f64,
     /// Rounding errors of velocities, and of accelerations.
     noise: [MotionNoise; 2],
-    /// For every pair of links, the smaller number first: the centre and its origin, once they are found.
-    /// The centre is `None` if the links do not move relative to each other.
+    /// For every pair of links: the centre, and how it was found; the outer `None` marks a centre that is not found
+    /// yet.
+    /// The inner centre is `None` if the links do not move relative to each other.
     found: Vec<Option<(Option<Projective>, CentreOrigin)>>,
 }
 

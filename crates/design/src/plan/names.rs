@@ -18,7 +18,7 @@ pub struct Named {
     pub letter: String,
 }
 
-/// Named point of the mechanism, listed once for all links that contain it.
+/// Named point of the mechanism. A point of several links is listed once.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NamedPoint {
     /// Name and letter.
@@ -76,7 +76,7 @@ pub fn primed(mut name: String, taken: impl Fn(&str) -> bool) -> String {
     name
 }
 
-/// Joins two names: BA, or P3,P2 where the letters alone would be ambiguous.
+/// Joins two names. Single letters give `BA`; longer names need a comma, as in `P3,P2`.
 pub fn pair(a: &str, b: &str) -> String {
     let single = |name: &str| name.chars().count() == 1;
     if single(a) && single(b) { format!("{a}{b}") } else { format!("{a},{b}") }

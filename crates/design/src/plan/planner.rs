@@ -13,9 +13,9 @@
 //! Differentiation in fixed axes gives v_A = v_A3 + s' e and a_A = a_A3 + 2 omega x (s' e) + s'' e.
 //! Here e is the guide's unit vector and omega the guide's angular velocity (Coriolis 1835).
 //!
-//! Every vector is computed from the motion of its link. A vector along a guide is computed from the slide.
-//! No vector is computed as the difference of two vectors, so the closure of the polygons is a result, not an
-//! assumption.
+//! Every vector is computed from the motion of a link. A vector along a guide is computed from the slide.
+//! The program never computes a vector as the difference of two others. That the polygons close is therefore a result
+//! and not an assumption.
 
 use super::builder::Builder;
 use super::centre_sheet::CentreSheet;
@@ -80,7 +80,7 @@ impl Plans {
 
     /// Keeps only the vectors of the points and links in `names`.
     /// For a point, its vectors are kept; for a link, the vectors of all its points and of its mass centre.
-    /// If `names` contains links, only the instant centres and acceleration centres of these links are kept.
+    /// If `names` contains links, only these links keep their instant centres and acceleration centres.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for a name of neither a point nor a link.
@@ -122,7 +122,7 @@ impl Plans {
     }
 }
 
-/// Plans of a mechanism at any state. Letters and slides are determined only once.
+/// Plans of a mechanism at any state. The letters and the prismatic joints are determined once for all states.
 #[derive(Debug)]
 pub struct Planner<'a> {
     mechanism: &'a Mechanism,
@@ -149,7 +149,7 @@ impl<'a> Planner<'a> {
     }
 }
 
-/// The grid of one instant, at which the laws of all drives are defined.
+/// A grid of one instant. The motion laws of all drives must be defined at this instant.
 ///
 /// # Errors
 /// [`ErrorKind::Input`] as for [`state_at`].

@@ -1,7 +1,8 @@
 //! Choice of the scales: by a scale factor, by the length of a vector or a distance on paper, or by the crank.
 //!
-//! The scale of the crank is mu_v = omega mu_l and mu_a = omega^2 mu_l. At this scale, the velocity and the normal
-//! acceleration of the crank pin are as long on paper as the crank.
+//! The scale of the crank is mu_v = omega mu_l and mu_a = omega^2 mu_l.
+//! At this scale, three lengths on paper are equal: the crank, the velocity of the crank pin, and its normal
+//! acceleration.
 
 use super::names::pair;
 use super::planner::Plans;
@@ -69,7 +70,8 @@ impl PlanScale {
 }
 
 impl Plans {
-    /// Draws the plans at the chosen scales. Drawings without a chosen scale keep their scale.
+    /// Draws the plans at the chosen scales.
+    /// Drawings for which no scale is chosen keep their present scale.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for an unknown vector, for a vector of zero length, for two scales of one drawing, for the
@@ -178,7 +180,7 @@ fn put(place: &mut Option<f64>, scale: f64, symbol: &str) -> Result<()> {
 
 /// The scale factor at which a vector of the size `size` (SI) is `mm` long. `longest` is the plan's longest vector.
 fn length(name: &str, size: f64, longest: f64, mm: f64) -> Result<f64> {
-    // A shorter vector is a rounding error of the longest one.
+    // A vector below a billionth of the longest vector is a rounding error.
     if size > 1e-9 * longest {
         return Ok(size / mm);
     }

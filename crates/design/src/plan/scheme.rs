@@ -38,7 +38,7 @@ pub struct SchemeGuide {
     pub origin: Vec2,
     /// World position of the sliding point (m).
     pub at: Vec2,
-    /// Ends of the sliding point's travel for the present position of the guide (m, world).
+    /// Ends of the sliding point's travel along the guide, at the guide's present position (m, world).
     pub ends: [Vec2; 2],
     /// Names of the sliding point and of the coincident point on a moving guide's link; `None` for a fixed guide.
     pub under: Option<[String; 2]>,

@@ -12,9 +12,9 @@ use linkage::trajectory::Stage;
 pub struct Slide {
     /// Index of the joint.
     pub joint: JointId,
-    /// The guide's link and the joint's point on it.
+    /// The link of the guide, and the joint's point on this link.
     pub guide: JointSide,
-    /// The block's link and the sliding point on it.
+    /// The link of the block, and the sliding point on this link.
     pub block: JointSide,
     /// Sliding point. If a rod slides in a block that only swings, the sliding point is a ground point.
     pub place: NamedPoint,
@@ -36,8 +36,8 @@ impl Slide {
         let joint = &mechanism.joints()[self.joint];
         let [_, speed, growth] = state.slide(joint)?;
         let axis = state.motions[self.guide.link].arm(joint.axis_on(self.guide.link)?);
-        // The slide is measured from the first link to the second, so the axis is reversed if the guide is on the
-        // second link.
+        // A slide is measured from the first link to the second. If the guide is on the second link, the axis is
+        // reversed.
         let axis = if joint.first.link == self.guide.link { axis } else { -axis };
         Some([axis * speed, axis * growth])
     }
@@ -54,7 +54,7 @@ impl Slide {
 /// A sliding point without a name takes the name of its joint and is added to `places`.
 pub fn slides(mechanism: &Mechanism, places: &mut Vec<NamedPoint>) -> Vec<Slide> {
     let mut all = Vec::new();
-    // Mass centres keep their letters, so coincident points must not have these letters.
+    // Coincident points must not have the letters of mass centres.
     let mut unders: Vec<Named> = mechanism
         .links()
         .ids()
@@ -82,7 +82,8 @@ pub fn slides(mechanism: &Mechanism, places: &mut Vec<NamedPoint>) -> Vec<Slide>
     all
 }
 
-/// Returns `name` and its letter in the plans. Both get as many primes as make them unique.
+/// Returns `name` and its letter in the plans.
+/// If the name or the letter is taken, primes are appended to both.
 fn unused(name: String, places: &[NamedPoint], others: &[Named]) -> Named {
     let name = primed(name, |name| {
         let letter = name.to_lowercase();
@@ -108,7 +109,7 @@ pub fn travels(case: &Case, solver: &dyn Solver, state: &State, slides: &[Slide]
         Ok(())
     };
     let case = case.wanting(Wanted::of(&[Stage::Positions]));
-    // If the crank cannot reach the end of the grid, the travel up to the last solved instant is used.
+    // If the crank cannot reach the end of the grid, only the travel up to the last solved instant counts.
     let _ = solver.each(&case, &mut visit);
     travels
 }

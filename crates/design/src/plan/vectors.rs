@@ -9,8 +9,7 @@ use linkage::mechanism::LinkId;
 
 /// Upper limit of the length of a plan's longest vector (mm).
 pub(super) const ROOM: f64 = 100.0;
-/// If only selected vectors are drawn, the plan's scale factor is at least this fraction of the full plan's scale
-/// factor.
+/// A plan with only selected vectors has at least this fraction of the full plan's scale factor.
 const FINEST: f64 = 1e-3;
 
 linkage::words! {
@@ -182,7 +181,7 @@ pub(super) fn longest(vectors: &[Vector]) -> f64 {
 
 impl VectorPlan {
     /// Keeps only the vectors between the pole and the points with these letters. The plan gets a new scale.
-    /// Ends of normal and Coriolis parts and coincident points stay if all vectors that touch them stay.
+    /// A coincident point, or the end of a normal or Coriolis part, stays if all vectors that begin or end there stay.
     pub(super) fn keep(&mut self, letters: &[String]) {
         let pole = self.quantity.pole();
         let kind = |letter: &str| self.tips.iter().find(|tip| tip.letter == letter).map(|tip| tip.kind);
@@ -198,7 +197,7 @@ impl VectorPlan {
         let is_touched = |tip: &Tip| kept.iter().any(|own| own.from == tip.letter || own.to == tip.letter);
         let tips = self.tips.iter().filter(|tip| is_chosen(&tip.letter) || is_touched(tip)).cloned().collect();
         (self.vectors, self.tips, self.lines) = (kept, tips, Vec::new());
-        // The scale factor has a lower limit, so that vectors that are only rounding error stay short on paper.
+        // The scale factor has a lower limit. Vectors that consist only of rounding errors thus stay short on paper.
         self.scale = factor(self.longest(), ROOM).larger(self.scale * FINEST);
     }
 
@@ -207,7 +206,7 @@ impl VectorPlan {
         longest(&self.vectors)
     }
 
-    /// Adds the velocities of the groups' singular points, and the two lines that meet at the end of each velocity.
+    /// Adds the velocities of the groups' singular points. Two construction lines meet at the end of each velocity.
     /// A velocity that is too long for the paper at the plan's scale is left out.
     pub(super) fn add_singular(&mut self, points: &[SingularPoint]) {
         for point in points.iter().filter(|point| point.velocity.norm() <= ROOM * self.scale) {

@@ -2,10 +2,11 @@
 //!
 //! The range of the input is divided into parts.
 //! Over each part, [`Tubes`] enclose the true motion: a uniform motion with a proven bound on the deviation.
-//! The motion under the polynomials has, over the part, its value and its first derivative at the middle, and a bound on
-//! its second derivative.
-//! The difference of the two motions is thus a linear function with a bound on the rest, and is largest at an end.
-//! Parts are halved until every bound is near the largest error at the middles of parts.
+//! For the motion by the polynomials, three numbers are computed: value and first derivative at the middle of the part,
+//! and a bound on the second derivative over the part.
+//! The difference of the two motions is thus a linear function of the input, plus a remainder with a known bound.
+//! A linear function has its largest magnitude at an end of the part.
+//! Parts are halved until every bound is close to the largest sampled error, which is taken at the middles of parts.
 
 use super::range::InputRange;
 use super::{JointRelation, MimicError, Mimics};
@@ -17,9 +18,10 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{KeepNan, Vec2, angle, rotated, turned, unit};
 use linkage::mechanism::LinkId;
 
-/// Parts are halved while a bound exceeds the largest sampled error by this factor ...
+/// A part is halved while a bound exceeds both of two limits. The first limit is the largest sampled error times this
+/// factor.
 const FACTOR: f64 = 1.1;
-/// ... and exceeds this value (rad; of a length divided by the mechanism's size).
+/// The second limit: an angle (rad), or a length divided by the mechanism's size.
 const FLOOR: f64 = 1e-9;
 /// Largest number of parts that are examined.
 const BUDGET: usize = 400_000;
@@ -41,13 +43,13 @@ impl Curved {
         Curved { value: self.value + other.value, rate: self.rate + other.rate, bend: self.bend + other.bend }
     }
 
-    /// Largest size of the derivative.
+    /// Upper bound of the derivative's magnitude over the part.
     fn top(&self, half: f64) -> f64 {
         self.rate.abs() + self.bend * half
     }
 }
 
-/// Frame of a link that follows the polynomials.
+/// Frame of a link if the joints follow the polynomials.
 #[derive(Clone, Copy, Debug)]
 struct Followed {
     origin: Vec2,
@@ -60,14 +62,14 @@ impl Followed {
     const GROUND: Followed =
         Followed { origin: Vec2::new(0.0, 0.0), speed: Vec2::new(0.0, 0.0), bend: 0.0, turn: Curved::ZERO };
 
-    /// Place of the point `local` with its derivative, and the bound on its second derivative.
+    /// Position and derivative of the point `local` at the middle, and a bound on its second derivative.
     fn point(&self, local: Vec2, half: f64) -> (Vec2, Vec2, f64) {
         let arm = rotated(unit(self.turn.value), local);
         let bend = local.norm() * (self.turn.bend + self.turn.top(half).powi(2));
         (self.origin + arm, self.speed + turned(arm) * self.turn.rate, self.bend + bend)
     }
 
-    /// Frame of a child with the joint's coordinate `by`.
+    /// Frame of the child link `body`, whose joint has the coordinate `by`.
     fn child(&self, body: &Body, by: Curved, half: f64) -> Followed {
         let turned_by = Curved { value: body.turn, ..Curved::ZERO };
         match body.freedom {
@@ -84,7 +86,7 @@ impl Followed {
                 let (origin, speed, bend) = self.point(local, half);
                 let way = rotated(unit(self.turn.value), axis);
                 let (top, spin) = (by.top(half), self.turn.top(half));
-                // Second derivative of the slide in the turning parent.
+                // Bound on the second derivative of a slide along an axis that turns with the parent.
                 let more = by.bend + 2.0 * top * spin + top * half * (self.turn.bend + spin * spin);
                 Followed { origin, speed: speed + way * by.rate, bend: bend + more, turn: self.turn.plus(turned_by) }
             }
@@ -92,7 +94,7 @@ impl Followed {
     }
 }
 
-/// Proves the errors of all joints and pins of `mimics`.
+/// Computes proven bounds on the errors of all joints and pins of `mimics`, and stores them.
 ///
 /// # Errors
 /// [`ErrorKind::Numeric`] if no bound can be proven near a pose. The errors of the pose solver.
@@ -148,7 +150,7 @@ pub(super) fn prove(model: &RigidModel, case: &Case, range: InputRange, mimics: 
     Ok(())
 }
 
-/// Errors of all joints and pins over a part: proven bounds, and the errors at the middle.
+/// For all joints and pins: a proven bound on the error over a part, and the error at the middle.
 fn over(
     model: &RigidModel,
     range: InputRange,
@@ -192,8 +194,8 @@ fn over(
     Ok(errors)
 }
 
-/// Difference of a joint's followed coordinate `by` from the true one: value and derivative at the middle, and the
-/// largest deviation of the true coordinate from a uniform change.
+/// A joint's coordinate `by` by its polynomial, minus the true coordinate: value and derivative at the middle.
+/// The third number is the largest deviation of the true coordinate from a uniform change.
 fn difference(model: &RigidModel, body: &Body, by: Curved, tubes: &[Tube], half: f64) -> (f64, f64, f64) {
     let of = |link: LinkId| &tubes[link.index()];
     let (parent, child) = (of(body.branch.parent), of(body.branch.link));
@@ -211,7 +213,7 @@ fn difference(model: &RigidModel, body: &Body, by: Curved, tubes: &[Tube], half:
             let (from, to) = (point(body.branch.parent), point(body.branch.link));
             let (gap, rate, error) = (to.at - from.at, to.rate - from.rate, to.error + from.error);
             let (value, change) = (axis.dot(&gap), axis.dot(&rate) + spin * turned(axis).dot(&gap));
-            // The axis turns with the parent: it deviates from its tangent by `bend`, and moves by `turn`.
+            // The axis turns with the parent, by at most `turn`. Its deviation from a uniform motion is at most `bend`.
             let turn = spin.abs() * half + twist;
             let (bend, reach) = (twist + turn * turn / 2.0, rate.norm() * half + error);
             let rest = error + bend * (gap.norm() + reach) + spin.abs() * half * reach;

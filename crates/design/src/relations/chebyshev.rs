@@ -2,7 +2,7 @@
 
 use linkage::math::KeepNan;
 
-/// The sum of `coefficients[k]` T_k(x), where x grows from -1 to 1 over the domain.
+/// The sum of `coefficients[k]` times the Chebyshev polynomial T_k(x). Over the domain, x grows from -1 to 1.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Chebyshev {
     pub coefficients: Vec<f64>,
@@ -20,7 +20,8 @@ fn place([low, high]: [f64; 2], x: f64) -> f64 {
 }
 
 impl Chebyshev {
-    /// The least-squares fit of degree `degree` to `values` at all [`nodes`] of the domain, in any order.
+    /// The least-squares fit of degree `degree` to `values` at all [`nodes`] of the domain. The nodes may be in any
+    /// order.
     pub(crate) fn fit(domain: [f64; 2], degree: usize, nodes: &[f64], values: &[f64]) -> Self {
         let mut own = Chebyshev { coefficients: vec![0.0; degree + 1], domain };
         for (&node, value) in nodes.iter().zip(values) {

@@ -15,7 +15,7 @@ pub struct MimicError {
     pub sampled: f64,
 }
 
-/// Coordinate of a joint as a polynomial of the driven joint's coordinate. Both are zero in the start pose.
+/// Coordinate of a joint as a polynomial of the driven joint's coordinate. Both coordinates are zero in the start pose.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JointRelation {
     /// The joint.
@@ -33,7 +33,8 @@ impl JointRelation {
     }
 }
 
-/// Error of the place of a joint's point on a link, if all joints of the tree follow their polynomials.
+/// Error of the position of a joint's point on a link. The error arises if all joints of the tree follow their
+/// polynomials.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PinError {
     /// The joint.
@@ -51,9 +52,9 @@ pub struct Mimics {
     /// Range of the driven joint's coordinate (rad or m).
     pub domain: [f64; 2],
     pub(crate) degree: usize,
-    /// The relations of all joints of the tree but the driven one.
+    /// The relations of all joints of the tree, except the driven joint.
     pub relations: Vec<JointRelation>,
-    /// The errors of all pins that a relation places.
+    /// The errors of all points of joints whose positions depend on relations.
     pub pins: Vec<PinError>,
 }
 

@@ -1,6 +1,6 @@
 //! Range of the input over which relations are proven.
 
-/// The range of the first drive's input, from which the driven joint's coordinate follows.
+/// The range of the first drive's input. The driven joint's coordinate follows from this input.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct InputRange {
     /// Both ends (rad or m), in the direction of motion.

@@ -11,10 +11,10 @@ pub struct SensitivityQuestion {
     pub keys: Vec<String>,
     /// Names of further keys, such as those with tolerances.
     pub also: Vec<String>,
-    /// The start that replaces the start of the file.
+    /// The start to use in place of the start in the file.
     pub asked: StartRequest,
     /// Whether the instants keep their inputs (`true`) or their times (`false`) when a number of a law changes.
-    /// `None` stands for the coordinate by which the file gives its grid.
+    /// `None` means that the instants keep the coordinate by which the file gives its grid.
     pub by_input: Option<bool>,
 }
 
@@ -23,17 +23,18 @@ pub struct SensitivityQuestion {
 pub struct FigureSlopes {
     /// The figure.
     pub figure: TurnFigure,
-    /// Unit of its quantity; empty for an expression.
+    /// Unit of the figure's quantity; empty for an expression.
     pub unit: String,
     /// The value of the figure, with the rows that determine it.
     pub sampled: SampledFigure,
-    /// Inputs of these rows, as messages write them.
+    /// Values of the input at the rows of `sampled`, as messages write them.
     pub instants: Vec<String>,
     /// Derivatives by the keys, per unit of the key, in the order of [`Sensitivity::keys`].
     /// NaN where the figure has a kink.
     pub by: Vec<f64>,
-    /// Input at a second, equal extreme. The figure then has a kink, and the derivatives hold only for changes after
-    /// which the first instant still has the extreme.
+    /// Value of the input at a second, equal extreme; `None` if there is only one extreme.
+    /// With two equal extremes, the figure has a kink: the derivatives are valid only for changes that leave the
+    /// extreme at the first instant.
     pub rival: Option<String>,
     /// Whether the figure has a kink, because it is the absolute value of zero or the magnitude of a zero vector.
     pub has_kink: bool,
@@ -46,24 +47,25 @@ pub struct Sensitivity {
     pub keys: Vec<CaseKey>,
     /// The figures, in the order of the question.
     pub figures: Vec<FigureSlopes>,
-    /// Usual keys that were left out, each with the part of the file that has no derivative by this key.
+    /// Usual keys that were left out, each with the part of the file whose derivative by this key is not known.
     pub left_out: Vec<(String, String)>,
-    /// Whether the instants keep their inputs (`true`) or their times (`false`).
+    /// Whether the instants keep their inputs (`true`) or their times (`false`) when a key changes.
     pub by_input: bool,
 }
 
 impl FigureSlopes {
-    /// Relative derivative by the key with this index: per cent of the figure for each per cent of the key. `None` if
-    /// one of the two is zero.
+    /// Relative derivative by the key with this index: the change of the figure in per cent if the key grows by one per
+    /// cent.
+    /// `None` if the figure or the key is zero.
     #[must_use]
     pub fn relative(&self, keys: &[CaseKey], index: usize) -> Option<f64> {
         let (value, key) = (self.sampled.value, keys[index].value);
         (value != 0.0 && key != 0.0).then(|| self.by[index] * key / value)
     }
 
-    /// Indices of the keys, by decreasing relative derivative. Keys with the value zero follow, by decreasing
-    /// derivative.
-    /// Keys with equal derivatives keep their order.
+    /// Indices of the keys, by decreasing magnitude of the relative derivative.
+    /// Keys without a relative derivative follow, by decreasing magnitude of the derivative. Keys with equal
+    /// derivatives keep their order.
     #[must_use]
     pub fn ranked(&self, keys: &[CaseKey]) -> Vec<usize> {
         let mut order: Vec<usize> = (0..keys.len()).collect();

@@ -15,7 +15,7 @@ use scenario::{CaseSlopes, Claim};
 
 use super::quantity::Quantity;
 
-/// Number of keys for which one solution gives the derivatives.
+/// Number of keys whose derivatives one solution in dual numbers gives.
 const WIDTH: usize = 16;
 
 /// A value with its derivatives by all chosen keys.
@@ -29,7 +29,7 @@ pub(super) struct Sloped {
 #[derive(Debug)]
 pub(super) struct Derived {
     places: BTreeMap<usize, usize>,
-    /// For every row, the quantities.
+    /// For every row, all quantities with their derivatives.
     rows: Vec<Vec<Sloped>>,
     turns: Vec<Option<f64>>,
     /// Times of the rows (s), with their derivatives.
@@ -38,7 +38,7 @@ pub(super) struct Derived {
 }
 
 impl Derived {
-    /// A quantity, by its number, at a row.
+    /// The quantity with this number, at a row.
     pub(super) fn at(&self, quantity: usize, row: usize) -> &Sloped {
         &self.rows[self.places[&row]][quantity]
     }
@@ -84,7 +84,7 @@ pub(super) fn derived(
         times: rows.iter().map(|row| case.grid.times[*row]).collect(),
         time_slopes: vec![Vec::new(); rows.len()],
     };
-    // Unsupported cases are refused before side 1 solves them.
+    // A case that the dual numbers do not support is refused here, before side 1 solves it.
     CaseNumbers::<f64>::of(case).map_err(|error| unsupported(&sentences::no_sensitivities(&error.message())))?;
     let poses = poses(case, rows)?;
     for part in keys.chunks(WIDTH) {

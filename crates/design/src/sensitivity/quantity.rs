@@ -1,4 +1,4 @@
-//! The quantity of a figure with its derivatives, from those of its channels.
+//! The quantity of a figure with its derivatives, computed from the derivatives of its channels.
 
 use analytic::AssurSolver;
 use formula::{FormulaGraph, Program, Rounded};
@@ -12,17 +12,17 @@ use scenario::Claim;
 /// A quantity as an expression of channels, with its partial derivatives.
 #[derive(Debug)]
 pub(crate) struct Quantity {
-    /// For every name of the expression: the channel; if the name is a magnitude, the channel of the other component of
-    /// the vector; the factor from SI to the unit of the name.
+    /// For every name of the expression: its channel; for the magnitude of a vector, also the channel of the other
+    /// component; and the factor from SI to the unit of the name.
     names: Vec<(Channel, Option<Channel>, f64)>,
-    /// Computes the value, and then the partial derivatives by the names.
+    /// Computes the value, followed by the partial derivatives with respect to the names.
     program: Program,
     /// A full turn in the unit of the quantity, if it is an angle.
     pub(super) turn: Option<f64>,
 }
 
 impl Quantity {
-    /// The quantity of a claim; `None` if the claim names more than channels.
+    /// The quantity of a claim; `None` if the claim contains names that are not channels.
     pub(crate) fn of(claim: &Claim) -> Option<Quantity> {
         let words: Vec<&str> = claim.channels.iter().map(|(name, _)| name.as_str()).collect();
         let mut graph = FormulaGraph::new(&words, 0);

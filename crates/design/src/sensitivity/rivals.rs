@@ -1,4 +1,4 @@
-//! Extremes at two instants.
+//! Finds extremes that are reached at two instants.
 
 use std::f64::consts::TAU;
 
@@ -11,9 +11,9 @@ use scenario::Statistic;
 /// Largest difference between two extremes, divided by the largest value, at which they count as equal.
 const EQUAL: f64 = 1e-6;
 
-/// Row of a second extreme that equals the first; between the two extremes there are other values.
+/// Row of a second extreme that equals the first, with other values between the two.
 /// `None` if there is no second extreme.
-/// The first and the last instant of a turn are the same pose and thus the same extreme.
+/// The first and the last instant of a turn have the same pose, so they count as one extreme.
 pub(super) fn rival(statistic: Statistic, values: &[f64], run: &Trajectory, case: &Case) -> Option<usize> {
     let of = |change: fn(f64) -> f64| rival_of(&values.iter().map(|own| change(*own)).collect::<Vec<_>>(), run, case);
     match statistic {
@@ -31,7 +31,7 @@ fn rival_of(values: &[f64], run: &Trajectory, case: &Case) -> Option<usize> {
     let best = (1..order.len()).fold(0, |best, place| if height(place) > height(best) { place } else { best });
     let scale = values.iter().fold(0.0, |most: f64, own| most.larger(own.abs()));
     let least = height(best) - EQUAL * scale;
-    // The hill of the first extreme: the instants around it, as far as the values remain above the limit.
+    // The instants around the first extreme at which the values stay above the limit all count as the first extreme.
     let mut hill = vec![false; order.len()];
     let mut up = (best..order.len()).take_while(|place| height(*place) >= least).collect::<Vec<_>>();
     up.extend((0..best).rev().take_while(|place| height(*place) >= least));

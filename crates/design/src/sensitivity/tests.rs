@@ -1,4 +1,5 @@
-//! Derivatives, compared with differences between solutions of the crate `precise` for files with other numbers.
+//! Compares the derivatives with difference quotients.
+//! For these quotients, the crate `precise` solves files with changed numbers.
 
 use scenario::{CaseKey, KeySort, StartRequest};
 
@@ -14,8 +15,8 @@ fn question(figures: &[&str]) -> SensitivityQuestion {
 }
 
 /// The figures of a file in which one number is changed, by the precise solver.
-/// An extreme is read at the same instant as in the unchanged file, because a finite change may move it to another
-/// instant of the grid.
+/// A finite change may move an extreme to another instant of the grid. The value is therefore read at the instant of
+/// the extreme in the unchanged file.
 fn precise_figures(scenario: &Scenario, found: &Sensitivity, key: &CaseKey, value: f64) -> Vec<f64> {
     let asked = StartRequest { set: vec![(key.name.clone(), value)], ..StartRequest::default() };
     let moved = Scenario::parse_as(&scenario.text, &scenario.path, &asked).unwrap();
@@ -33,8 +34,8 @@ fn precise_figures(scenario: &Scenario, found: &Sensitivity, key: &CaseKey, valu
     found.figures.iter().map(one).collect()
 }
 
-/// A small change of a key: 0.4 % of the key's size; for dimensions and parameters, of the smallest nonzero number of
-/// the same unit.
+/// A small change of a key: 0.4 % of a size. The size of a dimension or parameter is the smallest nonzero number of the
+/// same unit.
 fn small_change(key: &CaseKey, all: &[CaseKey]) -> f64 {
     let alike = all.iter().filter(|own| own.unit == key.unit && own.value != 0.0).map(|own| own.value.abs());
     match key.sort {
@@ -44,7 +45,8 @@ fn small_change(key: &CaseKey, all: &[CaseKey]) -> f64 {
     }
 }
 
-/// The size of a key: its number, or the largest number of its unit if its number is zero.
+/// The size of a key: the magnitude of its number. If the number is zero, the size is the largest number of the same
+/// unit.
 fn size_of(key: &CaseKey, all: &[CaseKey]) -> f64 {
     let alike = all.iter().filter(|own| own.unit == key.unit).map(|own| own.value.abs());
     let most = alike.fold(0.0, f64::larger);
@@ -71,12 +73,13 @@ fn differences(scenario: &Scenario, found: &Sensitivity, key: &CaseKey) -> Vec<f
         .collect()
 }
 
-/// Compares all derivatives; `share` is the largest allowed error, divided by the largest effect of a key.
+/// Compares all derivatives. `share` is the largest allowed error, divided by the largest effect of a key.
 fn compare(scenario: &Scenario, asked: &SensitivityQuestion, share: f64) -> usize {
     let found = sensitivity(scenario, asked).unwrap();
     let by: Vec<Vec<f64>> = found.keys.iter().map(|key| differences(scenario, &found, key)).collect();
     for (index, figure) in found.figures.iter().enumerate() {
-        // To compare keys of different units, each derivative is multiplied by the size of the key.
+        // The derivative by a key times the size of the key is the key's effect. Effects of keys with different units
+        // can be compared.
         let size = |k: usize| size_of(&found.keys[k], &found.keys);
         let most = (0..by.len()).map(|k| (figure.by[k] * size(k)).abs()).fold(0.0, f64::larger);
         for (k, key) in found.keys.iter().enumerate() {
@@ -113,7 +116,7 @@ fn loads_laws_and_several_drives_have_the_derivatives_of_differences() {
     ] {
         println!("{name}");
         let scenario = of_repository(name);
-        // A shorter law must still reach the last instant of the grid.
+        // A law that a change makes shorter must still reach the last instant of the grid.
         let text = scenario.text.replace("to_s = 0.2", "to_s = 0.18").replace("to_s = 4", "to_s = 1");
         let scenario = Scenario::parse(&text, &scenario.path).unwrap();
         compare(&scenario, &question(&figures), share);

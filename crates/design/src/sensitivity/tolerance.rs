@@ -24,9 +24,9 @@ pub struct KeyTolerance {
 /// Deviations of one figure under all tolerances, in the unit of the figure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ToleranceStack {
-    /// Worst case of linear theory: the sum of the absolute values of derivative times limit.
+    /// Worst case of linear theory: the sum of the magnitudes of all products of derivative and limit.
     pub worst: f64,
-    /// Root of the sum of the squares of derivative times limit.
+    /// Root of the sum of the squares of all products of derivative and limit.
     pub root_sum_square: f64,
     /// Standard deviation of the figure by linear theory, for the sampled deviations of the keys. These deviations are
     /// independent and uniformly distributed between their limits.
@@ -39,19 +39,21 @@ pub struct ToleranceStack {
     pub sampled_ends: [f64; 2],
     /// Number of random mechanisms that could not be solved. They are left out of the statistics.
     pub unsolved: usize,
-    /// Range in which linear theory holds.
+    /// Range in which linear theory is valid.
     pub limit: LinearLimit,
 }
 
-/// Range of linear theory: the multiples of all tolerances at which the standard deviation of the solved mechanisms
-/// differs by at most [`APART`] from that of linear theory.
+/// Multiples of all tolerances for which linear theory is valid.
+/// The theory counts as valid if its standard deviation differs by at most [`APART`] from the standard deviation of the
+/// solved mechanisms.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LinearLimit {
-    /// From this multiple on, linear theory does not hold.
+    /// At this multiple and above, linear theory counts as invalid.
     From(f64),
-    /// Linear theory holds below this multiple, at which a random mechanism cannot be solved.
+    /// At this multiple, a random mechanism cannot be solved. Linear theory is not invalid at any smaller multiple that
+    /// was tried.
     UntilUnsolved(f64),
-    /// Linear theory holds up to this multiple, the largest that is tried.
+    /// Linear theory is valid up to this multiple, the largest one tried.
     Beyond(f64),
 }
 
@@ -67,7 +69,7 @@ impl LinearLimit {
     }
 }
 
-/// Relative difference of two standard deviations from which linear theory no longer holds.
+/// Relative difference of the two standard deviations above which linear theory counts as invalid.
 pub const APART: f64 = 0.1;
 
 /// Largest multiple of the tolerances that is tried.
@@ -150,7 +152,7 @@ fn draws(keys: usize, count: usize, seed: u64) -> Vec<Vec<f64>> {
     (0..count).map(|_| (0..keys).map(|_| one()).collect()).collect()
 }
 
-/// Figures of one sampled mechanism; `None` if it cannot be solved.
+/// Figures of one sampled mechanism; `None` if the mechanism cannot be solved.
 type Figures = Option<Vec<f64>>;
 
 impl Sample<'_> {
@@ -171,7 +173,7 @@ impl Sample<'_> {
         figures(&scenario.case.on(grid)?, self.figures)
     }
 
-    /// Range of linear theory for a figure. `first` is the spread at the tolerances themselves.
+    /// Range of linear theory for a figure. `first` is the spread at the tolerances times 1.
     fn limit(&self, figure: usize, parts: &[f64], nominal: f64, first: &Spread) -> LinearLimit {
         let mut unsolved = first.unsolved > 0;
         let mut differs = |multiple: f64| {
@@ -188,7 +190,7 @@ impl Sample<'_> {
         let begins_apart = first.is_apart();
         let mut multiple = 1.0;
         if begins_apart {
-            // Smaller tolerances are tried, down to the reciprocal of the largest multiple.
+            // Multiples below 1 are tried, down to the reciprocal of the largest multiple.
             while multiple > 1.0 / MOST_MULTIPLE && differs(multiple / 2.0) == Some(true) {
                 multiple /= 2.0;
             }
@@ -232,7 +234,8 @@ struct Spread {
 }
 
 impl Spread {
-    /// `parts` are the products of derivative and limit. `None` if fewer than two mechanisms could be solved.
+    /// `parts` are the products of derivative and limit of all keys.
+    /// `None` if fewer than two mechanisms could be solved.
     fn of(
         sample: &Sample,
         found: &[Figures],

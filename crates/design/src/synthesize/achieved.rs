@@ -1,4 +1,4 @@
-//! The achieved motion of a mechanism, compared with the required motion of its output, on a fine grid of its scenario.
+//! The achieved motion of a mechanism, compared with the required motion of its output at many crank angles.
 
 use crate::sentences;
 use linkage::math::statistics::ends;
@@ -13,9 +13,10 @@ use linkage::mechanism::GroupKind;
 
 /// Rows per turn.
 const ROWS: usize = 7200;
-/// Rows between two positions of a path.
+/// Number of rows from one stored position of a path to the next.
 pub const PATH: usize = 10;
-/// Half width of the band about a dwell (fraction of the stroke). The dwell ends where the output leaves the band.
+/// Half width of the band of outputs that count as a dwell (fraction of the stroke). The dwell ends where the output
+/// leaves the band.
 pub const BAND: f64 = 0.01;
 
 /// The crank angles at which a motion is measured (rad), over one turn.
@@ -35,9 +36,10 @@ pub struct PhaseDone {
     pub wrong: f64,
     /// Position of the output at the end of the phase (fraction of the stroke).
     pub level: f64,
-    /// Crank angle (rad) at which the phase actually ends.
+    /// Crank angle (rad) at which the phase ends in the achieved motion.
     /// Between two motions in opposite senses, `end` is the crank angle of the extreme position.
-    /// At the beginning or end of a dwell, `end` is the crank angle at which the output enters or leaves the band.
+    /// If this phase or the next phase is a dwell, `end` is the crank angle at which the output leaves or enters the
+    /// band.
     /// The band has the half width [`BAND`] about the mean of the dwell's largest and smallest output.
     /// `end` is `None` between two phases of the same sense, or if there is no extreme position or dwell limit nearby.
     pub end: Option<f64>,
@@ -114,7 +116,7 @@ impl Achieved {
         Ok(if wrong(&ahead) <= wrong(&back) { ahead } else { back })
     }
 
-    /// Every phase as achieved and as required, together with the required sense of the next phase.
+    /// For every phase: its achieved motion, its required motion, and the required sense of the next phase.
     fn with_next<'a>(&'a self, task: &'a Task) -> impl Iterator<Item = (&'a PhaseDone, &'a Phase, Sense)> {
         let phases = task.timing.phases();
         let next = phases.iter().cycle().skip(1).map(|phase| phase.sense);
@@ -132,17 +134,17 @@ impl Achieved {
         self.phases.iter().map(|phase| phase.wrong).fold(0.0, f64::larger)
     }
 
-    /// Largest deviation (rad) of an extreme position from its required crank angle.
-    /// The required crank angle is the limit between two opposite motions.
+    /// Largest deviation (rad) of an extreme position from its required crank angle: the crank angle at which the task
+    /// changes from one sense of motion to the other.
     pub fn late(&self, task: &Task) -> f64 {
         let turns = self.with_next(task).filter(|(_, phase, next)| phase.sense.sign() * next.sign() < 0.0);
         let apart = turns.map(|(done, phase, _)| done.end.map_or(TAU, |end| (end - phase.to).abs()));
         apart.fold(0.0, f64::larger)
     }
 
-    /// Largest crank angle (rad) by which a dwell is too short at its beginning or end.
-    /// During this crank angle the output is outside [`BAND`] although it should dwell. A dwell that is too long does
-    /// not count.
+    /// Largest crank angle (rad) by which a dwell begins too late or ends too early.
+    /// During this crank angle, the output should dwell but is outside the band of half width [`BAND`]. Dwells that are
+    /// too long have no effect on the result.
     pub fn short(&self, task: &Task) -> f64 {
         let missing = |(done, phase, next): (&PhaseDone, &Phase, Sense)| match (phase.sense, next) {
             (Sense::Dwell, Sense::Dwell) => None,
@@ -154,7 +156,7 @@ impl Achieved {
     }
 
     /// The output at the crank angle `crank` (rad, 0 to a turn), as a fraction of the stroke.
-    /// The value is taken at the first measured crank angle that is not before `crank`.
+    /// The result is the output at the first measured crank angle that is not before `crank`.
     pub fn share(&self, crank: f64) -> f64 {
         let row = self.turns.partition_point(|&turn| turn < crank - 1e-9);
         self.shares[row.min(self.shares.len() - 1)]
@@ -205,10 +207,9 @@ impl Achieved {
         turn + TAU * ((to - turn) / TAU).round()
     }
 
-    /// Row at which the output leaves the band about its dwell.
-    /// The band is centred between the dwell's extremes.
-    /// The search starts in the middle between the rows `from` and `to`. From there, the search goes towards `to` and
-    /// beyond.
+    /// Row at which the output leaves the band of a dwell.
+    /// The middle of the band is the mean of the smallest and the largest output between the rows `from` and `to`.
+    /// The search begins in the middle between these rows and proceeds towards `to` and beyond.
     fn leaves(&self, from: i64, to: i64, way: i64) -> Option<f64> {
         let (first, last) = (from.min(to), from.max(to));
         let [low, high] = self.ends(first, last);
@@ -221,8 +222,9 @@ impl Achieved {
         (row != outside).then_some(row as f64)
     }
 
-    /// The extreme position nearest to a row, within a quarter of a turn: a maximum for `sign` +1, a minimum for -1.
-    /// A parabola through three rows interpolates between rows.
+    /// The row of the extreme position nearest to the row `to`, within a quarter of a turn: a maximum for `sign` +1, a
+    /// minimum for -1.
+    /// A parabola through three neighbouring rows gives the fraction of the row.
     fn extreme(&self, to: i64, sign: f64) -> Option<f64> {
         let value = |row: i64| sign * self.at(row);
         let is_top = |row: &i64| value(*row) >= value(row - 1) && value(*row) > value(row + 1);

@@ -15,8 +15,8 @@ pub(super) struct BarMass<const N: usize> {
 
 impl<const N: usize> BarMass<N> {
     /// Slender bars of `density` (kg/m) that join the first point of a link to each of its other points.
-    /// A bar of length l has the moment of inertia m l^2 / 12 about its middle. The parallel-axis theorem gives that about
-    /// the mass centre of the link.
+    /// A bar of length l has the moment of inertia m l^2 / 12 about its middle.
+    /// The parallel-axis theorem gives the moment of inertia about the mass centre of the link.
     /// `None` if all points coincide.
     pub(super) fn of(points: &[[Number<N>; 2]], density: f64) -> Option<Self> {
         let (&[x, y], others) = points.split_first()?;

@@ -1,7 +1,8 @@
 //! Crank-rocker from the two extreme positions of its rocker, in closed form.
 //!
-//! In the extreme positions crank and coupler are in line: stretched, `|O B1| = OA + AB`; folded, `|O B2| = AB - OA`.
-//! With both positions of B given, AB is half the sum of |O B1| and |O B2|, and OA half their difference.
+//! In the extreme positions, crank and coupler are in line: `|O B1| = OA + AB` if stretched, `|O B2| = AB - OA` if
+//! folded.
+//! The positions of B are given, so AB is half the sum of |O B1| and |O B2|, and OA is half the difference.
 //! This module derives the solution from these two equations. Background: I. I. Artobolevsky, Theory of Mechanisms and
 //! Machines, 4th ed., Nauka 1988.
 
@@ -54,11 +55,12 @@ pub struct CrankRocker {
     pub folded: RockerExtreme,
     /// Assembly mode of the dyad (coupler, rocker).
     pub mode: AssemblyMode,
-    /// Smallest transmission angle of the turn (rad), between coupler and rocker at B, at most a right angle.
+    /// Smallest transmission angle over the turn (rad): the angle between coupler and rocker at B, at most a right
+    /// angle.
     pub transmission: f64,
-    /// Crank angle (rad) of the smallest transmission angle. The crank is then on the line of the pivots.
+    /// Crank angle (rad) at which the transmission angle is smallest. There, the crank is on the line of the pivots.
     pub transmission_at: f64,
-    /// Time of the slower swing divided by that of the faster swing, at a constant speed of the crank.
+    /// Time of the slower swing divided by the time of the faster swing, at a constant speed of the crank.
     pub time_ratio: f64,
 }
 
@@ -90,8 +92,9 @@ impl CrankRocker {
         }
         let lengths = [frame.norm(), crank, coupler, wish.rocker];
         let found = FourBar::of_lengths(lengths).of_type;
-        // In both extreme positions, O, B and C form a triangle. So the crank is the shortest link and turns fully.
-        // Only rounding errors can put O, B and C on one line. Requirements for which this happens are refused.
+        // In both extreme positions, O, B and C form a triangle. The crank is therefore the shortest link and turns
+        // fully.
+        // Only rounding errors can put O, B and C on one line. Such requirements are refused.
         if found != FourBarType::CrankRocker {
             let message = sentences::an_extreme_position_lies_on_the_line(&told, &found.name());
             return Err(Error::new(ErrorKind::Geometry, message).help(sentences::MOVE_A_PIVOT_OR_TURN_THE_EXTREME));
@@ -193,8 +196,7 @@ mod tests {
             (CrankRockerSpec { rocker: -1.0, ..wish }, ErrorKind::Input, "length is -1 m"),
             (CrankRockerSpec { rocker_pivot: Vec2::zeros(), ..wish }, ErrorKind::Input, "two pivots coincide"),
             (CrankRockerSpec { extreme: f64::NAN, ..wish }, ErrorKind::Input, "not finite"),
-            // The two positions of B are symmetric about the line of the pivots, so both positions are equally far from
-            // O.
+            // The two positions of B are symmetric about the line of the pivots, so their distances from O are equal.
             (
                 CrankRockerSpec { rocker_pivot: Vec2::new(0.15, 0.0), extreme: -0.3, swing: 0.6, ..wish },
                 ErrorKind::Geometry,

@@ -8,10 +8,10 @@ use super::precision::{CrankTravel, PrecisionFourBar};
 use super::slider_crank::SliderCrank;
 use linkage::math::{Complex, KeepNan};
 
-/// Contents of a scenario besides the dimensions.
+/// Contents of a scenario, except the dimensions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DraftContents {
-    /// Name of the scenario, usable in file names.
+    /// Name of the scenario, with only such characters as file names permit.
     pub name: String,
     /// Title for the reader, in one line.
     pub title: String,
@@ -19,7 +19,7 @@ pub struct DraftContents {
     pub comment: String,
     /// Speed of the crank (rad/s), not zero, counter-clockwise positive.
     pub speed: f64,
-    /// Mass per metre of the links (kg/m). The links are uniform slender bars.
+    /// Mass of the links per metre of their length (kg/m). The links are uniform slender bars.
     pub bar: f64,
 }
 
@@ -36,8 +36,8 @@ impl DraftContents {
         self.bars(name, &[(first, Complex::default()), (second, Complex::new(length, 0.0))])
     }
 
-    /// Scenario text of a link of slender bars from its first point to each of its other points (m, in the link's
-    /// frame).
+    /// Scenario text of a link that consists of slender bars. They join the first of `points` (m, in the link's frame)
+    /// to each of the others.
     fn bars(&self, name: &str, points: &[(&str, Complex)]) -> String {
         let first = points[0].1;
         let arms = || points[1..].iter().map(|(_, point)| point - first);
@@ -81,7 +81,7 @@ impl Course {
         Course { from: 0.0, to: 360.0 * sense, step: Course::STEP * sense }
     }
 
-    /// The angles between two angles (deg).
+    /// Crank angles from one angle to another (deg).
     fn between(from: f64, to: f64) -> Self {
         let steps = ((to - from).abs() / Course::STEP).ceil().larger(20.0);
         Course { from, to, step: (to - from) / steps }
@@ -101,7 +101,7 @@ fn pins(all: &[(&str, [&str; 2])]) -> String {
     all.iter().map(pin).collect()
 }
 
-/// Pins of a four-bar with the links of each pin.
+/// Pins of a four-bar, each with its two links.
 const FOUR_BAR: [(&str, [&str; 2]); 4] = [
     ("O", ["ground", "crank"]),
     ("A", ["crank", "coupler"]),
@@ -131,7 +131,8 @@ impl CrankRocker {
 }
 
 impl PrecisionFourBar {
-    /// The scenario file. The crank turns in the sense of the positions; only the magnitude of the speed is used.
+    /// The scenario file.
+    /// The order of the positions determines the crank's sense of rotation. Only the magnitude of the speed is used.
     pub fn scenario(&self, sheet: &DraftContents) -> String {
         let [crank, coupler, rocker] = self.frames;
         let ([o, c], [a, b]) = (self.pivots, self.pins);

@@ -9,9 +9,10 @@ use linkage::mechanism::assembly::transmission_sine;
 use linkage::mechanism::{LinkPose, Mechanism, PerLink, Pose, first_pose};
 use linkage::solver::State;
 
-/// Number of poses that are tried first. Most candidates that cannot be assembled fail in one of these poses.
+/// Number of poses, spread over the turn, that are tried before all others. Most candidates that cannot be assembled
+/// fail in one of these poses.
 const PROBES: usize = 8;
-/// Largest step (rad) between poses that are found by continuation.
+/// Largest step of the crank (rad) from one pose to the next, if a mechanism is followed step by step.
 const FOLLOWED: f64 = PI / 90.0;
 
 /// Computes the motion of one candidate after another over a turn. The loop over the poses does not allocate.
@@ -19,18 +20,18 @@ pub(super) struct Evaluator<'a> {
     task: &'a Task,
     mechanism: Mechanism,
     motions: PerLink<Motion>,
-    /// Pose of the last computed motions. Dyads with prismatic joints need this pose.
+    /// Pose for the last computed motions. The transmission angles of dyads with prismatic joints are computed from it.
     pose: Pose,
-    /// Output at the crank angles of the last run. Angles have no jumps by a full turn.
+    /// Output at the crank angles of the last run. An output angle has no jumps by a full turn.
     pub(super) curve: Vec<f64>,
     /// Smallest sine of the transmission angle of any dyad so far.
     pub(super) sine: f64,
     /// Largest acceleration of the working point so far (m/s^2), at the drawing's crank speed; 0 if the task does not
     /// limit the acceleration.
     pub(super) acceleration: f64,
-    /// Number of poses that were solved so far, with all runs.
+    /// Number of poses that all runs so far have solved.
     pub(super) poses: u64,
-    /// Motions of all links at the crank angles of the last run, for a task with precision points.
+    /// Motions of all links at the crank angles of the last run; empty if the motions are not recorded.
     pub(super) recorded: Vec<PerLink<Motion>>,
     records: bool,
 }
@@ -52,7 +53,7 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// An evaluator that keeps the motions of all links for any task.
+    /// An evaluator that records the motions of all links, even for a task without precision points.
     pub(super) fn recording(task: &'a Task) -> Self {
         Evaluator { records: true, ..Evaluator::new(task) }
     }
@@ -65,13 +66,13 @@ impl<'a> Evaluator<'a> {
     }
 
     /// Computes the output at the crank angles `turns` into `curve`.
-    /// These crank angles (rad) are measured from crank angle zero in the sense of rotation, and ascend.
-    /// The last crank angle is a turn after the first. At crank angle zero, the crank has the world direction `zero`
-    /// (rad).
+    /// These crank angles (rad) are measured from crank angle zero in the sense of rotation.
+    /// They ascend from the first angle to the angle one turn later.
+    /// At crank angle zero, the crank has the world direction `zero` (rad).
     ///
     /// # Errors
-    /// The fraction of poses reached, if the mechanism cannot be assembled over the whole turn or if the output turns
-    /// fully.
+    /// The fraction of poses that are reached, if the mechanism cannot be assembled over the whole turn or if the
+    /// output turns fully.
     pub(super) fn run(&mut self, values: &[f64], zero: f64, turns: &[f64]) -> Result<(), f64> {
         self.dimension(values);
         let case = &self.task.case;
@@ -120,7 +121,7 @@ impl<'a> Evaluator<'a> {
     }
 
     /// Computes the output of a mechanism with higher groups, in small steps from the start pose.
-    /// After the turn the output must have its first value again.
+    /// After the turn, the output must have the same value as at the start.
     fn follow(
         &mut self,
         mut plan: SolutionPlan,

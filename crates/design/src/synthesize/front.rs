@@ -1,8 +1,9 @@
-//! A front of two wishes: the smallest deviation from the required motion over a limit that is varied.
+//! A front of two conflicting requirements: the smallest deviation from the required motion, as a function of a limit
+//! that is varied.
 //!
 //! Every point is a search with another limit (epsilon-constraint method: Haimes, Lasdon, Wismer, IEEE Transactions on
 //! Systems, Man, and Cybernetics 1 (1971) 296-297).
-//! The searches go from the tightest to the loosest limit, and each also starts from the result of the one before.
+//! The searches proceed from the tightest to the loosest limit. Each search also starts from the previous result.
 //! A looser limit therefore never gives a larger deviation.
 
 use linkage::error::{Error, ErrorKind, Result};
@@ -23,7 +24,7 @@ pub enum FrontLimit {
     Acceleration,
     /// Smallest transmission angle (deg).
     Transmission,
-    /// Largest value of a limited quantity of the task, by its index, in the quantity's unit.
+    /// Largest value of the task's limited quantity with this index, in the unit of the quantity.
     Quantity(usize),
 }
 
@@ -68,7 +69,8 @@ impl FrontLimit {
         task
     }
 
-    /// The limit in words, and its unit; without unit for a limited quantity, whose text names it.
+    /// The limit in words, and its unit. For a limited quantity, the unit is empty, because the quantity's text
+    /// contains it.
     pub fn noun(self, task: &Task) -> [String; 2] {
         match self {
             FrontLimit::Acceleration => [sentences::LARGEST_ACCELERATION.into(), "m/s²".into()],
@@ -77,16 +79,17 @@ impl FrontLimit {
         }
     }
 
-    /// Whether a larger value allows more mechanisms.
+    /// Whether a larger value of the limit admits more mechanisms.
     fn loosens(self) -> bool {
         self != FrontLimit::Transmission
     }
 }
 
-/// The front over these values of a limit, in their order. `values` are in the unit of the limit's name.
+/// The points of the front for the values `values` of a limit, in the same order. The values are in the unit of the
+/// limit's name.
 ///
 /// # Errors
-/// The errors of [`super::search()`], except that no candidate was found.
+/// The errors of [`super::search()`], except the error that no candidate was found.
 pub fn front(
     task: &Task,
     limit: FrontLimit,

@@ -1,6 +1,7 @@
 //! Refinement of a candidate with exact derivatives: sequential quadratic programming.
 //!
-//! The derivatives of all quantities come from dual numbers ([`precise`]), so that they have no error of a step width.
+//! The derivatives of all quantities come from dual numbers ([`precise`]), and not from difference quotients with a
+//! step width.
 //! The programme is solved by SLSQP (Kraft, A software package for sequential quadratic programming, DFVLR-FB 88-28,
 //! 1988).
 
@@ -29,7 +30,7 @@ use wishes::Wishes;
 
 /// Weight of the largest violation of a limit in the cost of a candidate, relative to the largest deviation.
 const VIOLATION: f64 = 10.0;
-/// Accuracy at which the optimiser ends: of the deviation, of the constraints and of the fractions.
+/// Accuracy at which the optimiser ends. It applies to the deviation, the constraints and the fractions.
 const ACCURACY: f64 = 1e-9;
 /// Upper limit of the deviation, and bounds of the levels, as fractions of the stroke.
 const MOST_DEVIATION: f64 = 100.0;
@@ -68,7 +69,8 @@ pub(super) fn refine(task: &Task, candidate: &Candidate) -> Candidate {
     best
 }
 
-/// The better of a candidate and the result of the optimiser that starts from it, with its cost.
+/// Runs the optimiser from a candidate. Returns the candidate or the result, whichever has the lower cost, with this
+/// cost.
 /// `None` if the candidate cannot be assembled.
 fn descent<'a>(task: &'a Task, wishes: &Wishes<'a>, rows: &mut Rows<'a>, shares: &[f64]) -> Option<(Vec<f64>, f64)> {
     let turns = rows.turns_near(shares)?;

@@ -1,4 +1,4 @@
-//! Machine files: organs with their tasks and mechanisms on one main shaft, and the moments of the machine's cycle.
+//! Machine files. A machine has organs on one main shaft, each with a task and a mechanism, and moments of its cycle.
 //! docs/synthesis.md describes the format.
 
 use crate::sentences;
@@ -19,7 +19,7 @@ use scenario::words::suggestion;
 
 /// Largest number of organs, and largest number of moments. A larger number is most likely a mistake.
 const MOST: usize = 12;
-/// A common angle of phases that is smaller than this (rad) is ignored.
+/// A span of angles that phases have in common is ignored if it is smaller than this (rad).
 const SAME: f64 = 1e-9;
 
 /// An organ of a machine.
@@ -40,8 +40,9 @@ pub struct Organ {
 pub struct Moment {
     /// Name of the moment.
     pub name: String,
-    /// Beginnings and ends (rad) of the spans of the main shaft's angle in which every organ of the moment is in one of
-    /// the phases that the moment requires. A beginning is below a full turn, and an end is larger than its beginning.
+    /// Spans of the main shaft's angle: beginning and end (rad).
+    /// Within a span, every organ of the moment is in one of the phases that the moment requires of this organ.
+    /// A beginning is below a full turn, and an end is larger than its beginning.
     pub spans: Vec<[f64; 2]>,
 }
 

@@ -5,8 +5,9 @@ use linkage::math::KeepNan;
 use crate::synthesize::evaluate::Evaluator;
 use crate::synthesize::task::{PrecisionPoint, Task};
 
-/// Crank angles (rad) of all precision points. Free crank angles ascend within one turn, and are those with the
-/// smallest sum of squared deviations among the crank angles `turns` of the evaluator's last run.
+/// Crank angles (rad) of all precision points.
+/// Free crank angles are chosen among the crank angles `turns` of the evaluator's last run.
+/// They ascend within one turn and have the smallest possible sum of squared deviations.
 /// The last crank angle of the run is a turn after the first.
 pub(super) fn nearest(task: &Task, evaluator: &Evaluator, turns: &[f64]) -> Vec<f64> {
     let count = turns.len() - 1;
@@ -24,12 +25,14 @@ pub(super) fn nearest(task: &Task, evaluator: &Evaluator, turns: &[f64]) -> Vec<
     task.points.all().iter().map(|point| point.turn.or_else(|| chosen.next()).unwrap_or(0.0)).collect()
 }
 
-/// The ascending rows of smallest total cost whose first row is `first` and that end within a turn, by dynamic
-/// programming. `costs` has a list of costs by rows for every point.
+/// Ascending rows within one turn that begin with the row `first` and have the smallest total cost, by dynamic
+/// programming.
+/// `costs` contains, for every point, a list with the cost of each row.
 fn ascend(costs: &[Vec<f64>], first: usize) -> (f64, Vec<usize>) {
     let Some((head, rest)) = costs.split_first() else { return (0.0, Vec::new()) };
     let count = head.len();
-    // For every point and row: the smallest cost up to this point if it lies at or before this row, and its row.
+    // For every point and row: the smallest total cost up to this point if the point's row is at most this row, and the
+    // row chosen for the point.
     let mut best = vec![vec![(head[first], first); count]];
     for costs in rest {
         let before = &best[best.len() - 1];
@@ -62,7 +65,7 @@ mod tests {
 
     #[test]
     fn rows_ascend_with_the_smallest_total_cost() {
-        // The second point is nearest at a row before that of the first point.
+        // The row nearest to the second point is before the row nearest to the first point.
         let costs = vec![vec![9.0, 9.0, 0.0, 9.0], vec![9.0, 0.0, 9.0, 1.0]];
         let best = (0..4).map(|first| ascend(&costs, first)).min_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
         // Row 5 is row 1 of the next turn.

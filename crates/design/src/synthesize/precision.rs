@@ -1,8 +1,7 @@
 //! Four-bars through precision points: coupler poses, path points with crank angles, or pairs of crank and rocker
 //! angles.
-//!
-//! All three tasks use the dyad in standard form (Freudenstein and Sandor 1959; Sandor and Erdman, Advanced Mechanism
-//! Design, vol. 2, 1984, chapters 2 and 3). See [`dyad`].
+//! The solutions of all three tasks use the dyad in standard form, see [`dyad`] (Freudenstein and Sandor 1959; Sandor
+//! and Erdman, Advanced Mechanism Design, vol. 2, 1984, chapters 2 and 3).
 
 mod choice;
 pub mod dyad;

@@ -1,11 +1,11 @@
 //! Deviation of an output from the required motion: one number, zero for a perfect output.
 //!
-//! The output is divided by its stroke, so that amplitude and offset do not matter.
+//! The output is measured from its smallest value and divided by its stroke, so that amplitude and offset do not
+//! matter.
 //! The cost is a sum of squares of fractions of the stroke.
-//! The terms of the sum are motion in dwells, distances in the wrong sense, missed levels, and moving phases that
-//! hardly move.
-//! A further term is the deviation of extreme positions from the limits of their phases.
-//! If the output must follow a curve, the deviation from the curve is another term.
+//! The terms are: motion in dwells, distances in the wrong sense, deviations from required levels, too little motion in
+//! moving phases, and the output's rate between two opposite motions.
+//! If the output must follow a curve, the deviation from the curve is a further term.
 //! A cost of 1e-4 corresponds to a deviation of about one hundredth of the stroke.
 
 use std::f64::consts::TAU;
@@ -16,16 +16,15 @@ use linkage::math::statistics::ends;
 
 /// Largest crank angle between two rows (rad) at which refined candidates are compared with the task: 3 degrees.
 pub(super) const STEP: f64 = TAU / 120.0;
-/// Weight of two terms relative to motion in a dwell.
-/// The terms are motion in the wrong sense, and too little motion in a moving phase.
+/// Weight of motion in the wrong sense, and of too little motion in a moving phase. Motion in a dwell has the weight 1.
 const WRONG: f64 = 4.0;
 /// Where a motion ends and the opposite motion begins, the output's rate should be zero.
 /// The rate times this crank angle (rad, 20 deg) counts as a deviation (fraction of the stroke).
 pub(super) const LATE: f64 = TAU / 18.0;
-/// Upper limit of the distance between a limit of a phase and each of the two rows beside it (rad, 0.25 deg).
-/// The rate at the limit is computed from these two rows.
+/// The output's rate at the end of a phase is computed from a row before and a row after the end.
+/// The distance of these rows from the end is at most this angle (rad, 0.25 deg).
 const BESIDE: f64 = TAU / 1440.0;
-/// Weight of the squared violations of limits in the cost, compared with weight 1 for squared fractions of the stroke.
+/// Weight of the squared relative violations of limits in the cost. Squared fractions of the stroke have the weight 1.
 const LIMIT: f64 = 10.0;
 
 /// Computes the cost of outputs that are sampled at certain crank angles.
@@ -35,7 +34,7 @@ pub(super) struct Rater<'a> {
     pub(super) turns: Vec<f64>,
     /// Row at which each phase ends.
     pub(super) ends: Vec<usize>,
-    /// The required curve; empty if the output need not follow it.
+    /// The required curve at the samples; empty if the output need not follow a curve.
     pub(super) wanted: Vec<f64>,
     /// The output over two turns, so that any row can be the beginning of the turn.
     twice: Vec<f64>,
@@ -43,11 +42,11 @@ pub(super) struct Rater<'a> {
 }
 
 impl<'a> Rater<'a> {
-    /// Divides the turn into `count` equal parts. A limit of a phase is moved to the nearest row.
+    /// Divides the turn into `count` equal parts. The end of a phase is moved to the nearest row.
     pub(super) fn even(timing: &'a Timing, count: usize) -> Self {
         let turns: Vec<f64> = (0..=count).map(|row| TAU * (row as f64 / count as f64)).collect();
         let phases = timing.phases();
-        // Every phase, however short, has a row before its end and a row after its end.
+        // Even if phases are short, rows remain for the phases before and after this end.
         let end = |(index, phase): (usize, &Phase)| {
             let row = (phase.to / TAU * count as f64).round() as usize;
             row.clamp(index + 1, count + index + 1 - phases.len())
@@ -56,9 +55,9 @@ impl<'a> Rater<'a> {
         Rater::on(timing, turns, ends)
     }
 
-    /// Places rows at most `step` (rad) apart. Each limit of a phase is one of the rows.
-    /// Two more rows close to each limit give the output's rate at the limit.
-    /// If the rate were computed over whole steps, the extreme position would be wrong by a few hundredths of a degree.
+    /// Places rows at most `step` (rad) apart. The end of each phase is one of the rows.
+    /// Two more rows close to each end give the output's rate there.
+    /// A rate computed over whole steps would misplace the extreme position by a few hundredths of a degree.
     pub(super) fn fitted(timing: &'a Timing, step: f64) -> Self {
         let (mut turns, mut ends) = (vec![0.0], Vec::new());
         for phase in timing.phases() {
@@ -86,7 +85,8 @@ impl<'a> Rater<'a> {
         self.span = high - low;
         let share = |value: &f64| (value - low) / self.span;
         self.twice.clear();
-        // The last row of a turn is the first row of the next turn, so the first copy leaves the last row out.
+        // The last row of a turn is also the first row of the next turn, so the first copy of the turn is stored
+        // without its last row.
         self.twice.extend(curve[..curve.len() - 1].iter().map(share));
         self.twice.extend(curve.iter().map(share));
         self.twice.push(share(&curve[1]));
@@ -129,21 +129,21 @@ impl<'a> Rater<'a> {
         cost
     }
 
-    /// Addition to the cost if the stroke or the acceleration (m/s^2) is outside its limits, or the transmission sine
-    /// is below its limit.
+    /// Addition to the cost for violated limits of the stroke, the acceleration (m/s^2) and the sine of the
+    /// transmission angle.
     pub(super) fn excess(&self, task: &Task, sine: f64, acceleration: f64) -> f64 {
         let [least, most] = task.stroke;
         let short = if least > 0.0 { (1.0 - self.span / least).larger(0.0) } else { 0.0 };
         let long = if most.is_finite() { (self.span / most - 1.0).larger(0.0) } else { 0.0 };
         let flat = (task.transmission.sin() - sine).larger(0.0);
-        // Without a limit, the quotient is zero, and so is the excess.
+        // If the acceleration has no limit, the limit is infinite and the quotient is zero.
         let hard = (acceleration / task.acceleration - 1.0).larger(0.0);
         LIMIT * (short * short + long * long + flat * flat + hard * hard)
     }
 }
 
 /// Cost of motion in a dwell: the square of the output's range plus twelve times the output's variance.
-/// For a uniform drift the second term equals the first term.
+/// For a uniform drift, the two terms are equal.
 fn unrest(values: impl Iterator<Item = f64>) -> f64 {
     let (mut count, mut sum, mut squares, mut low, mut high) = (0.0, 0.0, 0.0, f64::INFINITY, f64::NEG_INFINITY);
     for value in values {
@@ -195,7 +195,7 @@ mod tests {
 
     #[test]
     fn a_drift_in_a_dwell_counts_twice_its_square() {
-        // The variance of 1001 uniform steps is the square of the range divided by 12.
+        // The variance of uniformly spaced values is nearly the square of their range divided by 12.
         let drift = unrest((0..=1000).map(|k| 0.02 * f64::from(k) / 1000.0));
         assert!((drift - 2.0 * 0.02f64.powi(2)).abs() < 2e-6, "{drift}");
         assert_eq!(unrest([0.3; 5].into_iter()), 0.0);

@@ -11,7 +11,7 @@ use super::evaluate::Evaluator;
 use super::nearest::nearest;
 use crate::synthesize::task::{PrecisionPoint, Task};
 
-/// Rows per turn among which a free crank angle is searched for.
+/// Number of evenly spaced crank angles per turn from which the search for a free crank angle starts.
 const ROWS: usize = 720;
 
 /// The position of a mechanism that comes nearest to a precision point.
@@ -30,7 +30,8 @@ pub struct ReachedPoint {
 }
 
 /// The positions of the mechanism of `task.case` at its precision points.
-/// A free crank angle is the one at which the mechanism comes nearest to the point.
+/// For a precision point with a free crank angle, the crank angle is chosen at which the mechanism comes nearest to the
+/// point.
 ///
 /// # Errors
 /// The errors of [`PoseSolver::solve_at`].
@@ -71,7 +72,7 @@ pub fn reached(task: &Task) -> Result<Vec<ReachedPoint>> {
     task.points.all().iter().zip(&coarse).map(one).collect()
 }
 
-/// Crank angles (rad) of the precision points, among evenly spaced ones.
+/// Crank angles (rad) of the precision points. Free crank angles are chosen from evenly spaced crank angles.
 fn coarse(task: &Task) -> Vec<f64> {
     let turns: Vec<f64> = (0..=ROWS).map(|row| TAU * (row as f64 / ROWS as f64)).collect();
     let as_drawn = Task { places: Vec::new(), ..task.clone() };
@@ -82,7 +83,8 @@ fn coarse(task: &Task) -> Vec<f64> {
     }
 }
 
-/// Largest distance from a required place (m) and largest deviation of an angle (rad); `None` if none is required.
+/// Largest distance from a required place (m), and largest deviation from a required angle (rad).
+/// `None` if no point requires a place, or an angle.
 pub fn largest_deviations(points: &[ReachedPoint]) -> [Option<f64>; 2] {
     let largest = |of: &dyn Fn(&ReachedPoint) -> Option<f64>| points.iter().filter_map(of).reduce(f64::larger);
     [largest(&|point| point.distance), largest(&|point| point.turned.map(f64::abs))]

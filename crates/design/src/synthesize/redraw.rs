@@ -11,7 +11,7 @@ use linkage::mechanism::{GROUND, Link, LinkId, Mechanism, first_pose};
 use precise::{Dual, Scalar};
 
 /// Dimensions are rounded to the accuracy of a workshop.
-/// The first number is the number of steps per millimetre, the second is the number of steps per degree.
+/// The numbers are rounding steps per millimetre and rounding steps per degree.
 const DECIMALS: [f64; 2] = [1e3, 1e4];
 
 /// A number rounded to a multiple of 1 / `parts`.
@@ -29,11 +29,11 @@ pub fn round_values(task: &Task, values: &[f64]) -> Vec<f64> {
     values.iter().zip(&task.variables).map(round).collect()
 }
 
-/// Sections of a drawing that are valid for its original dimensions only.
-/// These sections contain published numbers with their tables, claims of formulas, and the source of the dimensions.
+/// Sections that are valid only for the drawing's original dimensions: published numbers with their tables, claims of
+/// formulas, and the source of the dimensions.
 const OWN: [&str; 3] = ["oracle", "formula", "source"];
 
-/// The text of the drawing `text`, with the dimensions that `values` (SI) give the task.
+/// The drawing `text` with new dimensions: the task's variables have the values `values` (SI).
 /// The new text has the task's name, and `comment` at the top.
 /// Sections that are valid only for the original dimensions are left out, and the comment names them.
 /// Approximate positions at the start are replaced by the positions of the mechanism found.
@@ -91,7 +91,8 @@ pub fn redrawn(task: &Task, text: &str, values: &[f64], comment: &str) -> Result
 }
 
 /// Replaces the approximate positions at the start by the positions of the mechanism found, with the crank's zero at
-/// `zero` (rad). The drawing's approximate positions could be closer to another configuration of the mechanism found.
+/// `zero` (rad).
+/// The drawing's approximate positions could select a wrong configuration of the mechanism found.
 fn approach(document: &mut DocumentMut, task: &Task, mechanism: &Mechanism, zero: f64) {
     let case = &task.case;
     let start = [zero + case.crank().start];
@@ -123,7 +124,7 @@ fn foreign(name: &str) -> Error {
         .help(sentences::GIVE_THE_TEXT_OF_THE_SCENARIO)
 }
 
-/// The table of a link in the document: an entry of `links`, or `ground` for the ground.
+/// The table of a link in the document: its entry in `links`, or the table `ground` for the ground.
 fn link_table<'a>(document: &'a mut DocumentMut, link: LinkId, name: &str) -> Result<&'a mut dyn TableLike> {
     let item = match link {
         GROUND => document.get_mut("ground"),

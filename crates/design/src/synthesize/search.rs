@@ -3,10 +3,10 @@
 //! Candidates are drawn uniformly within their bounds.
 //! Every block of candidates has a separate random stream (ChaCha, by Bernstein).
 //! The result therefore depends on the seed and not on the number of threads.
-//! An evolution strategy refines the best candidates, with one parent, one child and the one-fifth rule (Rechenberg
-//! 1973).
-//! This strategy can cross kinks and edges of the cost.
-//! After the evolution strategy, linear approximation within a trust region refines the result (COBYLA, Powell 1994).
+//! Two methods refine the best candidates, one after the other.
+//! The first is an evolution strategy with one parent, one child and the one-fifth rule (Rechenberg 1973). It can cross
+//! kinks and edges of the cost.
+//! The second is linear approximation within a trust region (COBYLA, Powell 1994).
 
 mod refine;
 
@@ -30,14 +30,14 @@ use std::f64::consts::TAU;
 
 /// Number of evenly spaced crank angles at which the cost of a random candidate is computed.
 const COARSE: usize = 72;
-/// Candidates per random stream.
+/// Number of candidates in a block. Each block has a separate random stream.
 const BLOCK: usize = 4096;
 /// Number of blocks between two calls of `progress`.
-/// This number is constant, so that the candidates that are kept do not depend on the number of threads.
+/// The number does not depend on the number of threads, and neither do the candidates that are kept.
 const ROUND: usize = 16;
 /// Largest number of threads.
 const MOST_THREADS: usize = 256;
-/// Fraction of the progress bar for the random candidates.
+/// Fraction of the progress that the random candidates take.
 const RANDOM_SHARE: f64 = 0.5;
 /// Shifts of the crank's zero are tried in steps of this many rows.
 /// Afterwards, the shifts around the best shift are tried row by row.
@@ -56,10 +56,10 @@ pub struct SearchResult {
     /// Sense of the output that counts as forward: +1 or -1.
     pub forward: f64,
     /// Cost of the best candidate. With an evolution strategy: a sum of squares of fractions of the stroke.
-    /// With exact derivatives: the largest deviation, and ten times the largest violation of a limit.
+    /// With exact derivatives: the largest deviation plus ten times the largest violation of a limit.
     pub cost: f64,
-    /// Cost of the best random candidate before refinement, on a coarser grid than that of `cost`. NaN if there is no
-    /// such candidate.
+    /// Cost of the best random candidate before refinement, computed at fewer crank angles than `cost`. NaN if no
+    /// random candidate was kept.
     pub random_cost: f64,
     /// Number of random candidates, and number of candidates that assemble over the whole turn and nearly keep the
     /// limits.
@@ -81,7 +81,8 @@ pub fn search(task: &Task, threads: usize, progress: Progress) -> Result<SearchR
     search_from(task, &[], threads, progress)
 }
 
-/// Like [`search`]; the results `starts` of other searches are refined with the best random candidates.
+/// Like [`search`], but the results `starts` of other searches are also refined, together with the best random
+/// candidates.
 ///
 /// # Errors
 /// The errors of [`search`].
@@ -140,8 +141,9 @@ pub fn search_from(task: &Task, starts: &[SearchResult], threads: usize, progres
     })
 }
 
-/// Whether a candidate with rounded dimensions can be followed over the whole turn in the fine steps in which results
-/// are measured. In larger steps, a higher group may change its branch unnoticed.
+/// Whether a candidate with rounded dimensions can be followed over the whole turn, in the fine steps that are used to
+/// measure results.
+/// In larger steps, a higher group may change its branch unnoticed.
 fn holds(task: &Task, candidate: &Candidate) -> bool {
     let values = round_values(task, &values(task, &candidate.shares));
     Evaluator::new(task).run(&values, task.zero.value(&values), &fine_turns()).is_ok()
@@ -153,7 +155,7 @@ fn none(task: &Task) -> Error {
 }
 
 /// Keeps the `count` candidates of lowest cost, in order.
-/// Of two candidates with equal cost, the candidate that was drawn first comes first.
+/// Candidates with equal cost are kept in the order in which they were drawn.
 fn keep(candidates: &mut Vec<Candidate>, count: usize) {
     candidates.sort_by(|a, b| a.cost.total_cmp(&b.cost).then(a.number.cmp(&b.number)));
     candidates.truncate(count);
@@ -213,7 +215,7 @@ impl<'a> Random<'a> {
     }
 
     /// Cost of a candidate, and the sense of its output that counts as forward.
-    /// If the crank's zero is free, this function chooses the zero.
+    /// If the crank's zero is free, this function also chooses the zero and stores it in `shares`.
     /// `None` if the candidate cannot be assembled, or is far outside the limits.
     fn rate(&mut self, shares: &mut [f64]) -> Option<(f64, f64)> {
         if let Some(zero) = self.zero {
@@ -266,7 +268,8 @@ impl<'a> Random<'a> {
         Some((best.0 + excess, best.1))
     }
 
-    /// Sum of the squared deviations from a precision point: in the row nearest to its crank angle, or in the best row.
+    /// Sum of the squared deviations from a precision point, in the row nearest to the point's crank angle. If this
+    /// crank angle is free, the row with the smallest sum is taken.
     fn missed(&self, point: &PrecisionPoint) -> f64 {
         let at = |row: usize| {
             let (place, angle) = self.evaluator.position(row);

@@ -1,14 +1,15 @@
-//! Slider-crank from stroke and offset, and the rod's length or the time ratio, in closed form.
+//! Closed-form synthesis of a slider-crank from its stroke, its offset, and either the rod's length or the time ratio.
 //!
-//! With crank r, rod l and offset e (distance of the crank's pivot from the slider's line) the stroke is `s = sqrt((l +
-//! r)^2 - e^2) - sqrt((l - r)^2 - e^2)`.
-//! Squaring this equation twice gives an equation that is linear in r^2: `r^2 = s^2 (4 (l^2 - e^2) - s^2) / (4 (4 l^2 -
-//! s^2))`.
+//! Let r be the crank, l the rod, and e the offset: the distance of the crank's pivot from the slider's line.
+//! The stroke is then `s = sqrt((l + r)^2 - e^2) - sqrt((l - r)^2 - e^2)`.
+//! Squaring this equation twice gives an equation that is linear in r^2:
+//! `r^2 = s^2 (4 (l^2 - e^2) - s^2) / (4 (4 l^2 - s^2))`.
 //! The crank turns fully if l > r + |e|.
-//! In the limit l = r + |e|, the rod has its smallest possible length, `l = (|e| + sqrt(e^2 + s^2)) / 2`.
-//! With the time ratio K the directions of the extreme positions differ by theta = pi (K - 1) / (K + 1).
-//! The distance n along the line from the pivot to the nearer extreme position solves `n^2 + s n + e^2 - |e| s
-//! cot(theta) = 0`.
+//! At the limit l = r + |e|, the rod has its smallest possible length: `l = (|e| + sqrt(e^2 + s^2)) / 2`.
+//! For the time ratio K, the directions from the pivot to the two extreme positions differ by
+//! theta = pi (K - 1) / (K + 1).
+//! Let n be the distance from the pivot to the nearer extreme position, measured along the slider's line. It solves
+//! `n^2 + s n + e^2 - |e| s cot(theta) = 0`.
 //! This equation follows from the right triangles of the extreme positions.
 
 use crate::sentences;
@@ -22,8 +23,8 @@ use linkage::error::{Advice, Error, ErrorKind, Result};
 pub enum Given {
     /// Length of the rod (m).
     Rod(f64),
-    /// Time of the slower stroke divided by that of the faster stroke, at a constant speed of the crank. The ratio is
-    /// at least 1.
+    /// Time of the slower stroke divided by the time of the faster stroke, at a constant speed of the crank. The ratio
+    /// is at least 1.
     TimeRatio(f64),
 }
 
@@ -44,10 +45,10 @@ pub struct SliderCrank {
     /// Crank angle (rad, from 0 to a full turn) and position of the slider along its line (m) where the slider is
     /// nearest to the pivot.
     pub near: [f64; 2],
-    /// Time of the slower stroke divided by that of the faster stroke, at a constant speed of the crank.
+    /// Time of the slower stroke divided by the time of the faster stroke, at a constant speed of the crank.
     pub time_ratio: f64,
-    /// Largest angle between the rod and the slider's line (rad): the pressure angle; the transmission angle is its
-    /// complement.
+    /// Pressure angle: the largest angle between the rod and the slider's line (rad).
+    /// The smallest transmission angle is the complement of the pressure angle.
     pub pressure: f64,
 }
 
@@ -60,8 +61,8 @@ impl SliderCrank {
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for a number outside its range.
-    /// [`ErrorKind::Geometry`] if no crank turns fully (the error states the limit), or if the time ratio does not
-    /// determine the mechanism.
+    /// [`ErrorKind::Geometry`] if no crank turns fully, or if the time ratio does not determine the mechanism.
+    /// In the first case, the error states the limit.
     pub fn of(stroke: f64, offset: f64, given: Given) -> Result<Self> {
         if !(stroke > 0.0 && stroke.is_finite()) {
             return Err(wrong("stroke", sentences::the_stroke_is(&stroke), sentences::GIVE_A_LENGTH_GREATER_THAN_ZERO));

@@ -1,4 +1,5 @@
-//! A task with another mechanism: choice of the output, crank at a chosen speed, and accelerations of the output.
+//! Applies a task to another mechanism: chooses the output, sets the crank's speed, and computes accelerations of the
+//! output.
 
 use crate::sentences;
 use std::f64::consts::{PI, TAU};
@@ -21,9 +22,9 @@ const SAMPLE_STEP: f64 = PI / 360.0;
 /// Names of the output in mechanisms that do not use the names of the task.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct OutputNames {
-    /// Names of output links. The first name that the mechanism contains counts.
+    /// Names of output links. The first name that occurs in the mechanism is used.
     pub links: Vec<String>,
-    /// Names of working points, or of output points. The first name that the mechanism contains counts.
+    /// Names of working points, or of output points. The first name that occurs in the mechanism is used.
     pub points: Vec<String>,
 }
 
@@ -109,8 +110,8 @@ fn is_joined(case: &Case, link: LinkId, point: usize) -> bool {
     case.mechanism.joints().iter().any(|joint| joint.on(link) == Some(local))
 }
 
-/// The working point of a link: the point with the first name of `names` that the link has, otherwise the point `own`,
-/// otherwise the link's only point without a joint.
+/// The working point of a link: the point with the first name of `names` that occurs on the link.
+/// If no name occurs, the working point is the point `own`, or else the link's only point without a joint.
 fn working_point(case: &Case, link: LinkId, names: &OutputNames, own: Option<&String>) -> Option<usize> {
     let points = &case.mechanism.links()[link].points;
     let named = |name: &String| points.iter().position(|point| point.name == *name);

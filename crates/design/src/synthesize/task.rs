@@ -114,7 +114,8 @@ pub struct LimitedQuantity {
 }
 
 impl LimitedQuantity {
-    /// The value by which a violation of the limits is divided: the permitted range, or the size of the only limit.
+    /// The value by which violations of the limits are divided: the permitted range. If only one limit is given, the
+    /// value is the magnitude of this limit.
     pub(super) fn scale(&self) -> f64 {
         let [low, high] = self.bounds;
         let only = if low.is_finite() { low.abs() } else { high.abs() };
@@ -126,8 +127,8 @@ impl LimitedQuantity {
 /// Smallest permitted distances between links and from the housing.
 #[derive(Clone, Debug)]
 pub struct WantedClearance {
-    /// The bodies with their outlines, and the pairs.
-    /// A corner of an outline at a point of its link moves with the point.
+    /// The bodies with their outlines, and the pairs whose distances are limited.
+    /// If a corner of an outline lies at a point of its link, the corner moves with this point.
     pub question: ClearanceQuestion,
     /// Smallest permitted distance of every pair (m).
     pub wanted: f64,
@@ -153,7 +154,7 @@ pub struct SearchEffort {
     pub candidates: usize,
     /// Number of the best candidates that are refined.
     pub refined: usize,
-    /// Evaluations that each refinement may take; with exact derivatives, the steps.
+    /// Largest number of evaluations of each refinement. With exact derivatives: the largest number of steps.
     pub evaluations: usize,
     /// Method of the refinement.
     pub refinement: Refinement,
@@ -172,7 +173,7 @@ pub struct Task {
     pub starts: Vec<StartGroup>,
     /// The variable quantities.
     pub variables: Vec<Variable>,
-    /// Positions that depend on the variables, in the order in which the positions must be set.
+    /// Positions of points that depend on the variables, in the order in which they must be set.
     pub places: Vec<PointPosition>,
     /// World direction of the crank at crank angle zero (rad).
     pub zero: TaskNumber,
@@ -191,20 +192,22 @@ pub struct Task {
     /// Largest permitted acceleration of the working point (m/s^2), at the drawing's crank speed. Infinite if the
     /// acceleration has no limit.
     pub acceleration: f64,
-    /// Further limits. Only a refinement with exact derivatives keeps them, and the next two.
+    /// Further limited quantities. Only a refinement with exact derivatives keeps the limits in `keep`, `clearance` and
+    /// `mass`.
     pub keep: Vec<LimitedQuantity>,
-    /// Required distances of links. `None` if distances are not limited.
+    /// Smallest permitted distances of links. `None` if distances are not limited.
     pub clearance: Option<WantedClearance>,
     /// Largest permitted mass of all moving links (kg). Infinite without a limit.
     pub mass: f64,
     /// Effort of the search.
     pub effort: SearchEffort,
-    /// Mass of the links found, per metre of their length (kg/m). `None` if the links keep the masses of the drawing.
+    /// Mass of the links of the resulting mechanism, per metre of their length (kg/m). `None` if the links keep the
+    /// masses of the drawing.
     pub bar: Option<f64>,
 }
 
-/// Upper limit of the numbers of random candidates, of refinements, and of evaluations per refinement.
-/// A larger number is most likely mistyped.
+/// Largest permitted number of random candidates, of refinements, and of evaluations per refinement.
+/// A larger number is most likely a typing error.
 pub const MOST: usize = 1_000_000_000;
 
 impl Task {
@@ -213,8 +216,10 @@ impl Task {
     /// # Errors
     /// [`ErrorKind::Unsupported`] for mechanisms with several degrees of freedom.
     /// [`ErrorKind::Unsupported`] if a transmission angle is limited and the mechanism has higher groups.
-    /// [`ErrorKind::Input`] if no dimension may vary, if an acceleration is limited but the output has no point, or if
-    /// a count of the search is outside its limits.
+    /// [`ErrorKind::Unsupported`] if the task has precision points or limits that only exact derivatives keep, but asks
+    /// for an evolution strategy.
+    /// [`ErrorKind::Input`] if no dimension may vary, or if a count of the search is outside its limits.
+    /// [`ErrorKind::Input`] if an acceleration is limited or a place is required, but the output has no point.
     pub fn check(&self) -> Result<()> {
         let wrong = |kind: ErrorKind, key: &str, message: &'static str, help: &'static str| {
             Err(Error::new(kind, message).key(key).help(help))

@@ -33,7 +33,7 @@ pub struct TaskFile {
 
 impl TaskFile {
     /// Reads the synthesis file at `path` and the scenario that this file names.
-    /// The scenario is looked for in the directory of the synthesis file.
+    /// The path of the scenario is relative to the directory of the synthesis file.
     ///
     /// # Errors
     /// [`ErrorKind::Io`] if a file cannot be read.
@@ -55,10 +55,10 @@ pub(super) fn source_text(path: &Path, help: &str) -> Result<String> {
     })
 }
 
-/// Loads the file `file` that `key` names.
-/// A relative name is looked for in the directory of the file that contains the key.
-/// An error inside the named file has a position there and is returned unchanged.
-/// An error without a position, such as a missing file, is reported as an error at `key`, with the advice `help`.
+/// Loads the file `file` that `key` names. A relative name is relative to the directory of the file that contains the
+/// key.
+/// An error with a position in the named file is returned unchanged.
+/// An error without a position, such as a missing file, is reported at `key`, with the advice `help`.
 pub(super) fn beside<T>(
     table: &TomlTable,
     key: &str,
@@ -226,7 +226,7 @@ struct Limits {
     mass: f64,
 }
 
-/// Limits of the stroke in units of `family`, and all other limits.
+/// Reads the limits of the stroke, in units of `family`, and all other limits.
 fn read_limits(table: Option<TomlTable>, family: &'static UnitFamily, drawing: &Scenario) -> Result<Limits> {
     let unlimited = Limits {
         stroke: [0.0, f64::INFINITY],
@@ -321,7 +321,7 @@ fn bounds(mut table: TomlTable, family: &'static UnitFamily) -> Result<[f64; 2]>
     Ok([from, to])
 }
 
-/// Index of the point `name` of a link; an error at `key` if the link has no such point.
+/// Index of the point `name` of a link. A missing point is an error at `key`.
 fn own_point(table: &TomlTable, key: &str, links: &PerLink<Link>, link: LinkId, name: &str) -> Result<usize> {
     let own = &links[link];
     let names = || own.points.iter().map(|point| point.name.as_str());
@@ -335,7 +335,7 @@ fn free(variables: &mut Vec<Variable>, variable: Variable) -> TaskNumber {
     TaskNumber::Free(variables.len() - 1)
 }
 
-/// One entry `[[vary]]`: a point, given by its coordinates or relative to another point of its link.
+/// Reads one entry `[[vary]]`: a point that is given by its coordinates, or relative to another point of its link.
 fn place(
     mut table: TomlTable,
     mechanism: &Mechanism,

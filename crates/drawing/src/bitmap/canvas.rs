@@ -101,8 +101,7 @@ mod tests {
         figure.group(group, 0.5, "two squares".into());
         let bitmap = bitmap(&figure, [10.0, 10.0], 100).unwrap();
         let grey = |x: usize| bitmap.rgba[4 * (50 * 100 + x)];
-        // The first tested pixel is outside both squares, the second in the first square only, and the third in both
-        // squares.
+        // The test reads three pixels: outside both squares, in the first square only, and in both squares.
         assert_eq!(grey(5), 255);
         assert!(grey(20).abs_diff(128) <= 1 && grey(20) == grey(40), "{} {}", grey(20), grey(40));
     }

@@ -54,7 +54,7 @@ pub fn to_webp(frames: &[Bitmap], milliseconds: u32) -> Result<Vec<u8>> {
     let Some(first) = frames.first() else { return Ok(Vec::new()) };
     let three = |number: u32| number.to_le_bytes()[..3].to_vec();
     let size = [three(first.width - 1), three(first.height - 1)].concat();
-    // No crate writes the container of an animation, so its chunks are written here.
+    // No available crate writes the container of an animated WebP, so this function writes the container's chunks.
     // The flags mark the file as animated. The chunk after the flags contains the background and the endless loop.
     let mut body = chunk(*b"VP8X", &[&[0b0000_0010, 0, 0, 0], &size[..]].concat());
     body.extend(chunk(*b"ANIM", &[255, 255, 255, 255, 0, 0]));
@@ -63,7 +63,7 @@ pub fn to_webp(frames: &[Bitmap], milliseconds: u32) -> Result<Vec<u8>> {
         image_webp::WebPEncoder::new(&mut still)
             .encode(&frame.rgba, frame.width, frame.height, image_webp::ColorType::Rgba8)
             .map_err(|error| unwritten("the WebP", &error))?;
-        // The single chunk of the still picture is copied without the header of twelve bytes before it.
+        // The encoded still picture consists of a header of twelve bytes and a single chunk. Only the chunk is copied.
         // Each frame replaces the previous frame.
         let place = [vec![0; 6], size.clone(), three(milliseconds), vec![0b0000_0010]].concat();
         body.extend(chunk(*b"ANMF", &[&place[..], &still[12..]].concat()));

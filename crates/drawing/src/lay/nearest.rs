@@ -1,9 +1,11 @@
-//! Poses of links with the smallest gaps: least squares of all gaps, after Levenberg and Marquardt.
+//! Poses of links for which the gaps at the joints are smallest: least squares of all gaps, by the method of Levenberg
+//! and Marquardt.
 
 use linkage::math::{ColumnVector, KeepNan, Matrix, Vec2, cross, rotated, unit};
 use linkage::mechanism::{Joint, JointSide, LinkId, LinkPose, Mechanism, Pose};
 
-/// Weight of the gaps at placed links. The weight is large, so that the remaining gaps lie between the missing links.
+/// Weight of gaps between a missing link and a placed link. The weight is large, so that only gaps between missing
+/// links remain.
 const HELD: f64 = 1000.0;
 /// Number of start values that are tried. `STEPS` is the number of steps from each start value.
 /// If more than `FEW` links are missing, fewer start values are tried, to limit the time.
@@ -12,7 +14,7 @@ const STARTS: usize = 12;
 const STEPS: usize = 60;
 const FEW: usize = 12;
 const MOST: usize = 30;
-/// Step of the difference quotients, in radians and as a fraction of the mechanism's size.
+/// Step of the difference quotients: an angle (rad), or a length divided by the mechanism's size.
 const TINY: f64 = 1e-7;
 
 /// Poses of the links `missing`. All other links of the mechanism stay at `pose`.
@@ -48,7 +50,7 @@ impl Problem<'_> {
         }
     }
 
-    /// Start values. The links are turned by multiples of one angle, and each link lies at a placed neighbour.
+    /// Start values for the unknowns. Each missing link lies at a placed neighbour, and its angle depends on `number`.
     fn start(&self, number: usize) -> ColumnVector {
         let mut unknowns = ColumnVector::zeros(3 * self.missing.len());
         for (k, &link) in self.missing.iter().enumerate() {
@@ -93,7 +95,7 @@ impl Problem<'_> {
         ColumnVector::from_vec(gaps)
     }
 
-    /// Unknowns with the smallest sum of squared gaps for this start, and this sum.
+    /// The unknowns with the smallest sum of squared gaps that are found from this start, and the sum.
     fn solved(&self, start: usize) -> (ColumnVector, f64) {
         let mut at = self.start(start);
         let mut gaps = self.gaps(&at);

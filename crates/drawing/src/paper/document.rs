@@ -23,7 +23,7 @@ impl Drawing {
     }
 }
 
-/// The document of a figure on white paper of the given size (mm); on dark paper if the viewer is dark.
+/// The SVG document of a figure on white paper of the given size (mm). A viewer in dark mode shows dark paper.
 /// The document's upper left corner is the figure's origin.
 pub fn document(figure: &DrawnFigure, [width, height]: [f64; 2], title: &str) -> String {
     let mut document = Document::new()

@@ -17,7 +17,8 @@ const SMALL: f64 = 0.72;
 /// Downward shift of subscripts and upward shift of superscripts, divided by the font size.
 const LOW: f64 = 0.28;
 const HIGH: f64 = 0.36;
-/// Length of an arrow head (mm), and upper limit of this length divided by the arrow's length.
+/// Length of an arrow head (mm). The head of a short arrow takes at most the fraction `HEAD_SHARE` of the arrow's
+/// length.
 const HEAD: f64 = 2.8;
 const HEAD_SHARE: f64 = 0.45;
 
@@ -58,7 +59,7 @@ pub fn width(text: &str, size: f64) -> f64 {
     sum
 }
 
-/// Length (mm) of the part of a text to the left of the text's anchor.
+/// Length (mm) of the part of a text that lies to the left of the text's position.
 fn left(text: &str, set: &Type) -> f64 {
     match set.anchor {
         "middle" => width(text, set.size) / 2.0,
@@ -142,20 +143,20 @@ pub struct DrawnFigure {
     pub(crate) ink: Vec<Ink>,
     /// Boxes of the placed labels: lower left and upper right corner (mm).
     pub labels: Vec<[Vec2; 2]>,
-    /// Layers: each begins at an index of the ink.
+    /// Layers: the index of the ink at which a layer begins, and the name of the layer.
     layers: Vec<(usize, String)>,
     low: Option<[Vec2; 2]>,
 }
 
 impl DrawnFigure {
-    /// Puts all that is drawn from here on a layer with this name.
+    /// Begins a layer with this name. Everything that is drawn afterwards lies on the layer.
     pub fn set_layer(&mut self, name: &str) {
         if self.layers.last().is_none_or(|(_, last)| last != name) {
             self.layers.push((self.ink.len(), name.into()));
         }
     }
 
-    /// The layer of the ink with this index; `0`, the usual layer of DXF, before the first layer.
+    /// The layer of the ink with this index. Before the first layer, this is `0`, the usual layer of DXF.
     pub(crate) fn layer_of(&self, index: usize) -> &str {
         let next = self.layers.partition_point(|(from, _)| *from <= index);
         next.checked_sub(1).map_or("0", |last| &self.layers[last].1)
@@ -167,13 +168,14 @@ impl DrawnFigure {
         self.ink.push(Ink::Line(ends, style));
     }
 
-    /// An arrow with a name that appears when the mouse points at it.
+    /// An arrow with a name. A viewer shows the name when the mouse points at the arrow.
     pub fn arrow(&mut self, ends: [Vec2; 2], style: Style, name: String) {
         ends.iter().for_each(|end| self.reach(*end));
         self.ink.push(Ink::Arrow(ends, style, name));
     }
 
-    /// A line through corners. The area between the line and the straight return to its first corner may be filled.
+    /// A line through corners. The fill covers the area between the line and the straight line from its last to its
+    /// first corner.
     pub fn curve(&mut self, corners: Vec<Vec2>, fill: Option<Tint>, style: Style) {
         corners.iter().for_each(|corner| self.reach(*corner));
         self.ink.push(Ink::Shape { corners, closed: false, fill, style });
@@ -193,7 +195,7 @@ impl DrawnFigure {
         self.ink.push(Ink::Disc { centre, radius, fill, style });
     }
 
-    /// A text whose base line starts, is centred or ends at `at`.
+    /// A text with its base line at `at`. The text starts, is centred or ends there, as `set.anchor` states.
     pub fn text(&mut self, at: Vec2, text: impl Into<String>, set: Type) {
         let text = text.into();
         let (wide, left) = (width(&text, set.size), left(&text, &set));
@@ -203,9 +205,9 @@ impl DrawnFigure {
         self.ink.push(Ink::Text { at, text, set });
     }
 
-    /// Adds another figure as one element of the opacity `opacity`.
-    /// The element has a name that appears when the mouse points at the element.
-    /// Places where shapes of the element overlap are not darker than the rest.
+    /// Adds another figure as one element with this opacity. Where shapes of the element overlap, the element is not
+    /// darker.
+    /// A viewer shows the name of the element when the mouse points at the element.
     pub fn group(&mut self, other: DrawnFigure, opacity: f64, name: String) {
         if let Some(bounds) = other.low {
             bounds.iter().for_each(|corner| self.reach(*corner));
@@ -353,8 +355,8 @@ pub(crate) fn pieces(text: &str, size: f64) -> Vec<Piece> {
     pieces
 }
 
-/// Text element as a string.
-/// In a tree of elements, the writer could add white space between the parts of the text.
+/// The SVG element of a text, as a string.
+/// A tree of elements is not used, because the writer of the tree could add white space between the parts of the text.
 fn text_element(at: Vec2, text: &str, set: &Type) -> String {
     let size = set.size;
     let mut shift = 0.0;
@@ -383,8 +385,8 @@ fn text_element(at: Vec2, text: &str, set: &Type) -> String {
     let face =
         if set.italic { " font-family=\"Liberation Serif, Times New Roman, serif\" font-style=\"italic\"" } else { "" };
     let weight = if set.bold { " font-weight=\"bold\"" } else { "" };
-    // Some viewers do not centre a text of several pieces, so the text is shifted by its estimated width, which works
-    // in all viewers.
+    // Some viewers do not centre a text of several pieces. The text is therefore shifted by half or all of its
+    // estimated width.
     let pieces = text.contains([SUB, SUP]);
     let back = if pieces { left(text, set) } else { 0.0 };
     let [x, y] = if set.upward { [at.x, -at.y + back] } else { [at.x - back, -at.y] }.map(mm);

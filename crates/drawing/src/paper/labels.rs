@@ -1,5 +1,5 @@
 //! Places labels at points so that they touch neither lines nor each other.
-//! Each label takes the position of lowest cost around its anchor, in a few rounds.
+//! In each of a few rounds, every label takes the position around its anchor that has the lowest cost.
 
 use super::figure::{DrawnFigure, Type, solid, width, words};
 use super::style::GREY;
@@ -9,47 +9,50 @@ use linkage::math::{KeepNan, Vec2};
 
 /// Clearance between a label and lines or other labels (mm).
 pub const AIR: f64 = 0.5;
-/// Directions tried around an anchor.
+/// Number of directions that are tried around an anchor.
 const DIRECTIONS: usize = 32;
-/// Distances tried (mm), nearest first.
+/// Distances from the anchor's mark that are tried (mm), the smallest first.
 const DISTANCES: [f64; 10] = [0.6, 1.2, 2.0, 3.0, 4.5, 6.5, 9.0, 12.0, 16.0, 21.0];
-/// Beyond [`DISTANCES`], a label that still meets another label is moved outwards by this distance (mm) at a time, at
-/// most so many times.
+/// A label that still meets another label after all rounds is moved outwards in steps of this length (mm).
+/// `RINGS` is the largest number of steps.
 const OUTWARD: f64 = 3.0;
 const RINGS: usize = 60;
-/// Upper limit of the number of rounds. In practice, labels no longer move after so many rounds.
+/// Largest number of rounds. In practice, labels stop moving earlier.
 const ROUNDS: usize = 6;
 /// Largest distance (mm) between two points whose labels may exchange positions.
 const NEIGHBOURS: f64 = 12.0;
 
-/// Upper limit of the number of all comparisons of labels with their surroundings.
-/// Beyond this limit, labels take their first position.
-/// A drawing of hundreds of links has no space for their names anyway.
+/// Largest number of comparisons of labels with other labels, lines and marks. Beyond this limit, labels take their
+/// first position.
+/// The limit matters only for drawings of hundreds of links, which have no space for all names.
 const MOST_COMPARED: usize = 200_000_000;
 /// If many drawings are made together, such as frames, each drawing may use at least this number of comparisons.
 const LEAST_COMPARED: usize = 20_000_000;
 
-/// Costs: of an overlap with another label, a line or a mark, and of each millimetre of it.
-/// A position without overlap within reach costs less than any overlap, unless leaders cross labels there.
+/// Costs of an overlap with another label, a line or a mark: for the overlap itself, and for each millimetre of
+/// overlap.
+/// A position without an overlap costs less than any position with an overlap, unless a leader crosses a label.
 const ON_LABEL: [f64; 2] = [400.0, 10.0];
 const ON_LINE: [f64; 2] = [40.0, 3.0];
 const ON_MARK: [f64; 2] = [45.0, 4.0];
-/// Costs of a millimetre of distance, of a leader through another label, and of a foreign point that is nearer than
-/// the label's point; the largest sum for foreign points.
+/// `AWAY` is the cost of a millimetre of distance, and `CROSSED` the cost of a leader that passes through another
+/// label.
+/// `MISLEADING` is the cost of each foreign point that is nearer to the label than the label's anchor, and the largest
+/// sum of these costs.
 const AWAY: f64 = 0.5;
 const CROSSED: f64 = 12.0;
 const MISLEADING: [f64; 2] = [9.0, 18.0];
 
 /// Font size of labels (mm).
 pub const LETTER: f64 = 4.2;
-/// A line connects a label with its point if the distance between the two is larger than this (mm).
-/// The value is for labels of the font size [`LETTER`]; for other labels, the distance is proportional to the font
-/// size.
+/// A line connects a label with its point if their distance is larger than this (mm), for labels of the font size
+/// [`LETTER`].
+/// The distance is proportional to the font size.
 const FAR: f64 = 3.2;
 /// How far a slanted letter leans over the end of its text, divided by the font size.
 const SLANT: f64 = 0.15;
 
-/// A label to be placed; paper coordinates (mm), y upwards.
+/// A label that must be placed. Coordinates are on paper (mm), y upwards.
 #[derive(Clone, Copy, Debug)]
 pub struct PlacedLabel {
     /// The point that the label names.
@@ -72,7 +75,7 @@ pub struct Obstacles {
 }
 
 impl Obstacles {
-    /// The obstacles that positions at the tried distances around a label can meet.
+    /// The obstacles so near to a label that they matter at the tried distances.
     fn near(&self, label: &PlacedLabel) -> Obstacles {
         let reach = Vec2::repeat(label.clear + DISTANCES[DISTANCES.len() - 1] + label.size.norm() + AIR);
         let (least, most) = (label.anchor - reach, label.anchor + reach);
@@ -91,7 +94,8 @@ struct Spot {
     cost: f64,
 }
 
-/// Centres of the labels' boxes in one of several drawings made together. These drawings share the allowed work.
+/// Places the labels of one drawing and returns the centres of their boxes.
+/// `drawings` is the number of drawings that are made together: they share the allowed number of comparisons.
 pub fn place_among(labels: &[PlacedLabel], obstacles: &Obstacles, drawings: usize) -> Vec<Vec2> {
     Placer::of(labels, obstacles, (MOST_COMPARED / drawings.max(1)).max(LEAST_COMPARED)).placed()
 }
@@ -101,7 +105,7 @@ struct Placer<'a> {
     obstacles: &'a Obstacles,
     /// The positions of each label, cheapest first.
     spots: Vec<Vec<Spot>>,
-    /// The chosen position of each label, as an index of its spots.
+    /// The chosen position of each label, as an index into `spots`.
     chosen: Vec<Option<usize>>,
     /// Comparisons that remain.
     left: usize,
@@ -124,7 +128,7 @@ impl<'a> Placer<'a> {
         placer
     }
 
-    /// Takes comparisons from those that remain; false if too few remain.
+    /// Subtracts `work` from the comparisons that remain. Returns false if too few remain.
     fn spend(&mut self, work: usize) -> bool {
         let is_left = self.left >= work;
         self.left -= if is_left { work } else { self.left };
@@ -149,7 +153,7 @@ impl<'a> Placer<'a> {
         self.chosen[index].map(|spot| self.spots[index][spot].at)
     }
 
-    /// The cheapest position of a label beside the labels that have positions. `None` if no work is left.
+    /// The cheapest position of a label, given the positions of the other labels. `None` if no comparisons remain.
     fn cheapest(&mut self, index: usize) -> Option<usize> {
         let mut best: Option<(f64, usize)> = None;
         for k in 0..self.spots[index].len() {
@@ -169,7 +173,7 @@ impl<'a> Placer<'a> {
     }
 
     /// Lets neighbouring labels exchange positions if the exchange lowers their total cost.
-    /// Without exchanges, a label would keep its position even if its neighbour needs this position more.
+    /// Without exchanges, a label would keep a position that its neighbour needs more.
     fn trade(&mut self) {
         let one = |own: &Self, index: usize| {
             let spot = own.chosen[index].map(|spot| own.spots[index][spot]);
@@ -187,7 +191,8 @@ impl<'a> Placer<'a> {
                 self.chosen[a] = first.or(old[0]);
                 let second = self.cheapest(b);
                 self.chosen[b] = second;
-                // An exchange without gain is undone. Otherwise the two labels would be exchanged back and forth.
+                // An exchange that does not lower the cost is undone, because it could be repeated back and forth
+                // without end.
                 if first.is_none() || second.is_none() || !(one(self, a) + one(self, b) < was - 1e-9) {
                     [self.chosen[a], self.chosen[b]] = old;
                 }
@@ -198,7 +203,7 @@ impl<'a> Placer<'a> {
         }
     }
 
-    /// The positions, after each label that still meets an earlier label has moved outwards to a free position.
+    /// The final positions. A label that still meets an earlier label is moved outwards to a free position.
     fn settled(mut self) -> Vec<Vec2> {
         self.left = self.left.max(LEAST_COMPARED);
         let labels = self.labels;
@@ -229,7 +234,7 @@ impl<'a> Placer<'a> {
         places
     }
 
-    /// The cost of a position among lines, marks and the points of other labels.
+    /// The cost of a position because of lines, marks and the points of other labels.
     fn standing(&self, index: usize, place: Vec2, obstacles: &Obstacles) -> f64 {
         let label = &self.labels[index];
         let offset = place - label.anchor;
@@ -258,7 +263,7 @@ impl<'a> Placer<'a> {
         cost + (MISLEADING[0] * nearer as f64).smaller(MISLEADING[1])
     }
 
-    /// The cost of a position among the labels that have positions.
+    /// The cost of a position because of the labels that already have positions.
     fn among_labels(&self, index: usize, place: Vec2) -> f64 {
         let label = &self.labels[index];
         let mut cost = 0.0;
@@ -276,19 +281,19 @@ impl<'a> Placer<'a> {
     }
 }
 
-/// How deep the boxes of two labels at these positions lie in each other, with their clearance (mm); at most 0 if they
-/// do not meet.
+/// Depth by which the boxes of two labels at these positions overlap, including the clearance (mm).
+/// The result is 0 or negative if the boxes do not meet.
 fn overlap(label: &PlacedLabel, place: Vec2, other: &PlacedLabel, at: Vec2) -> f64 {
     let depth = (label.size + other.size) / 2.0 + Vec2::new(AIR, AIR) - (place - at).abs();
     depth.x.smaller(depth.y)
 }
 
-/// Positions around the anchor of a label at this distance from the mark at the anchor.
+/// Positions of a label around its anchor. The label's box has this distance from the mark at the anchor.
 fn ring(label: &PlacedLabel, distance: f64) -> impl Iterator<Item = Vec2> {
     let (anchor, half, clear) = (label.anchor, label.size / 2.0, label.clear);
     let directions = (0..DIRECTIONS).map(|k| linkage::math::unit(std::f64::consts::TAU * k as f64 / DIRECTIONS as f64));
     directions.map(move |direction| {
-        // The box is placed so that its side or corner that faces the anchor touches the end of the ray.
+        // The side or corner of the box that faces the anchor touches the end of a ray from the anchor.
         let reach = (half.x / direction.x.abs().larger(1e-9)).smaller(half.y / direction.y.abs().larger(1e-9));
         anchor + direction * (clear + distance + reach)
     })
@@ -391,8 +396,9 @@ mod tests {
 
     #[test]
     fn crowded_labels_still_get_positions() {
-        // Each of 2000 labels compares 320 positions with all other labels, twice for every pair of neighbours.
-        // In total, these are more than 1e12 comparisons, far above the limit `MOST_COMPARED`.
+        // Each of the 2000 labels is compared at 320 positions with all other labels, twice for every pair of
+        // neighbours.
+        // Without a limit, these would be more than 1e12 comparisons, far more than `MOST_COMPARED`.
         let crowd: Vec<PlacedLabel> = (0..2000).map(|k| label(0.01 * f64::from(k), 0.0)).collect();
         let places = Placer::of(&crowd, &Obstacles::default(), 10_000_000).placed();
         assert!(
@@ -401,7 +407,7 @@ mod tests {
         );
     }
 
-    /// Twelve labels at one point have no room for all within reach of their candidates.
+    /// The positions at the tried distances do not suffice for 24 wide labels at nearly the same point.
     #[test]
     fn no_two_labels_meet_even_where_there_is_no_room() {
         let wide = |k: u32| PlacedLabel { size: Vec2::new(30.0, 9.0), ..label(0.1 * f64::from(k), 0.0) };

@@ -2,15 +2,15 @@
 
 use linkage::math::KeepNan;
 
-/// A number counts as round if it exceeds a round number by at most this fraction of the number.
-/// The fraction allows for the rounding error of the division that gives the number.
+/// A number that exceeds a round number by at most this fraction counts as the round number.
+/// The fraction allows for the rounding error of a division.
 const SAME: f64 = 1e-12;
 
 /// The smallest number of the form 1, 2, 2.5 or 5 times a power of ten that is at least `least`.
 /// The result is 1 if `least` is zero, negative, infinite or NaN.
 ///
 /// Neighbouring numbers of this form differ by a factor of two at most.
-/// If a scale factor is rounded up to such a number, the longest vector therefore still fills more than half of the
+/// With a scale factor that is rounded up to such a number, the longest vector still fills at least half of the
 /// available length.
 pub fn round_up(least: f64) -> f64 {
     if !(least > 0.0 && least.is_finite()) {
@@ -18,19 +18,19 @@ pub fn round_up(least: f64) -> f64 {
     }
     let power = least.log10().floor() as i32;
     let candidates = (power - 1..=power + 1).flat_map(|n| ["1", "2", "2.5", "5"].map(|m| (m, n)));
-    // The numbers are parsed from text, so that 0.02 is the double nearest to 0.02 and is printed as 0.02.
+    // The numbers are parsed from text. Thus 0.02, for example, is the double nearest to 0.02 and is printed as 0.02.
     let numbers = candidates.filter_map(|(m, n)| format!("{m}e{n}").parse::<f64>().ok());
     numbers.filter(|&number| number >= least * (1.0 - SAME)).fold(f64::INFINITY, f64::smaller)
 }
 
-/// Scale factor (units per millimetre) at which the length of `largest` is at most `room` millimetres.
-/// The length is more than half of `room`.
+/// Round scale factor (units per millimetre) at which `largest` is at most `room` millimetres long, but longer than
+/// half of `room`.
 pub fn factor(largest: f64, room: f64) -> f64 {
     round_up(largest / room)
 }
 
-/// Formats a multiple of `step` with as many decimals as `step`.
-/// The number has an exponent if `step` lies outside the range from 1e-4 to 1e6.
+/// Formats a multiple of `step` with as many decimals as `step` has.
+/// If `step` is below 1e-4, or 1e6 or more, the number has an exponent.
 pub fn multiple(value: f64, step: f64) -> String {
     if (1e-4..1e6).contains(&step) {
         let decimals = format!("{step}").split_once('.').map_or(0, |(_, decimals)| decimals.len());

@@ -11,13 +11,13 @@ const LINE: f64 = 5.0;
 const GAP: f64 = 3.0;
 const SAMPLE: f64 = 9.0;
 
-/// A table: a heading, and rows. Each row starts with a sample of the line that the row explains.
+/// A table with a heading and rows. Each row explains a kind of line and starts with a sample of this line.
 pub struct LegendTable {
     /// Headings of the columns.
     pub head: Vec<&'static str>,
     /// Rows: the explained line, and the cells.
     pub rows: Vec<(Style, Vec<String>)>,
-    /// Columns of numbers, which are aligned right.
+    /// Indices of the columns that contain numbers. These columns are aligned right.
     pub numbers: &'static [usize],
 }
 

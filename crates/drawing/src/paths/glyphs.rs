@@ -10,7 +10,8 @@ use linkage::math::Vec2;
 
 /// DejaVu Sans Condensed, Latin, Greek and Cyrillic: see `font/LICENSE`.
 const FONT: &[u8] = include_bytes!("../../font/DejaVuSansCondensed.ttf");
-/// Slant of an italic letter, and by how much the strokes of a bold letter are thicker, divided by the font size.
+/// Slant of an italic letter. The second number is the additional stroke width of a bold letter, divided by the font
+/// size.
 const LEAN: f64 = 0.2;
 const BOLD: f64 = 0.045;
 
@@ -40,13 +41,14 @@ impl Glyphs {
         pieces(text, size).iter().map(|piece| self.advance(piece.sign) * piece.size).sum()
     }
 
-    /// The letters of a text that the font lacks; a box is drawn for each of them.
+    /// The letters of a text that the font lacks. A box is drawn in place of each such letter.
     pub fn lacking(&self, text: &str) -> impl Iterator<Item = char> {
         let lacks = |sign: &char| self.face.as_ref().is_some_and(|face| face.glyph_index(*sign).is_none());
         pieces(text, 1.0).into_iter().map(|piece| piece.sign).filter(lacks)
     }
 
-    /// A text as a path (mm, y downwards). Each letter of a bold text is two outlines, one beside the other.
+    /// A text as a path (mm, y downwards). In a bold text, each letter has two outlines, slightly displaced from each
+    /// other.
     pub fn path(&self, at: Vec2, text: &str, set: &Type) -> Option<Path> {
         let face = self.face.as_ref()?;
         let mut along = match set.anchor {

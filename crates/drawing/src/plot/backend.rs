@@ -36,7 +36,7 @@ pub(super) struct PlotPaper<'a> {
     pub(super) figure: &'a mut DrawnFigure,
     /// Size of the plot (pixels).
     pub(super) size: (u32, u32),
-    /// Colour and dashes of the curve that is being drawn. `None` for axes: `plotters` then gives the colour.
+    /// Colour and dashes of the curve that is being drawn. For axes, this is `None`, and `plotters` states the colour.
     pub(super) pen: Rc<Cell<Option<Style>>>,
 }
 
@@ -124,7 +124,7 @@ impl DrawingBackend for PlotPaper<'_> {
         let upward = matches!(style.transform(), FontTransform::Rotate270);
         let count = text.lines().count() as f64;
         for (index, line) in text.lines().enumerate() {
-            // If the bottom of a text is its anchor, the last line stands at the anchor.
+            // A text that is anchored at its bottom has its last line at the anchor.
             let row = match style.anchor().v_pos {
                 VPos::Top | VPos::Center => index as f64,
                 VPos::Bottom => index as f64 + 1.0 - count,

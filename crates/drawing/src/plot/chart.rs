@@ -15,8 +15,9 @@ pub struct PlotAxis {
     pub name: String,
     /// Unit as printed, such as `N·m`; empty for a number without unit.
     pub unit: String,
-    /// Whether the values are angles in degrees. Ticks of angles are at parts of a turn, such as 30 and 45 degrees; over
-    /// long ranges at multiples of a turn, over very short ones at round numbers.
+    /// Whether the values are angles in degrees.
+    /// The ticks of angles have usual steps, such as 30 or 45 degrees. The steps of long ranges are multiples of a
+    /// turn, and the steps of very short ranges are round numbers.
     pub degrees: bool,
     /// Whether the axis ends at round numbers. Otherwise the axis ends at the extreme values of the curves.
     pub rounded: bool,
@@ -29,8 +30,9 @@ pub struct PlotCurve {
     pub name: String,
     /// Pairs of values in the order of drawing. The curve has a gap at a pair that is not finite.
     pub points: Vec<[f64; 2]>,
-    /// Size of the rounding errors of the ordinates. If the ordinates of all curves differ by at most twice the largest
-    /// of these sizes, the vertical axis is widened, so that the curves look constant.
+    /// Size of the rounding errors of the ordinates.
+    /// If all ordinates of a chart lie within twice the largest such size, the range of the vertical axis is widened,
+    /// so that the curves look constant.
     pub noise: f64,
     /// Marked points with their labels.
     pub marks: Vec<([f64; 2], String)>,
@@ -45,7 +47,7 @@ pub struct PlotChart {
     pub axes: [PlotAxis; 2],
     /// The curves.
     pub curves: Vec<PlotCurve>,
-    /// Whether one unit has the same length on both axes. If so, both axes include zero.
+    /// Whether one unit has the same length on both axes. Both axes then include zero.
     pub equal: bool,
     /// Whether a legend above the chart names the curves.
     pub legend: bool,

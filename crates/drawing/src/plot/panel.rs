@@ -22,14 +22,15 @@ use linkage::math::{KeepNan, Vec2};
 
 /// Smallest distance between neighbouring ticks of the horizontal and of the vertical axis (mm).
 const APART: [f64; 2] = [11.0, 9.0];
-/// Length of a tick (mm). The distance of numbers from their axis is twice this length.
+/// Length of a tick (mm).
+/// The distance of numbers from their axis is twice this length.
 const TICK: f64 = 1.0;
 /// Space below the horizontal axis, space right of the horizontal axis, and space above the vertical axis (mm).
 const BELOW: f64 = 11.0;
 const ASIDE: f64 = 5.0;
 const ABOVE: f64 = 2.5;
-/// Dimensions of the legend (mm): width of a line sample with the space after the line, space after a name, height of a
-/// row.
+/// Dimensions of the legend (mm): `SAMPLE` is the width of a line sample with the space behind it, `GAP` the space
+/// after a name, `ROW` the height of a row.
 const SAMPLE: f64 = 11.0;
 const GAP: f64 = 5.0;
 const ROW: f64 = 5.0;
@@ -38,14 +39,15 @@ const CURVE: f64 = 0.45;
 const MARK: f64 = 0.7;
 /// Strokes and gaps of curves (mm), which distinguish the curves in black and white.
 const DASHES: [&str; 7] = ["", "2.6 1.4", "0.1 1.1", "4 1.2 0.1 1.2", "5.5 1.6", "1.2 1.2", "4 1.2 0.1 1.2 0.1 1.2"];
-/// Width (mm) of a strip of the chart. Of a curve's successive points in a strip, only the first, lowest, highest and
-/// last are drawn.
+/// Width (mm) of a strip of the chart. If successive points of a curve lie in one strip, only the first, lowest,
+/// highest and last of them are drawn.
 const CELL: f64 = 0.1;
 /// Length of an arrow on a curve (mm).
 const ARROW: f64 = 4.0;
 
-/// Colour, width and dashes of the curve with the number `index`. The numbers of colours and dashes have no common
-/// divisor, so that every pair comes before one is repeated.
+/// Colour, width and dashes of the curve with the number `index`.
+/// The number of colours and the number of dash patterns have no common divisor. Every pair of colour and dash pattern
+/// therefore occurs before a pair is repeated.
 fn pen(index: usize) -> Style {
     let (colour, dash) = (SERIES[index % SERIES.len()].light, DASHES[index % DASHES.len()]);
     Style { colour, width: CURVE, dash }
@@ -57,8 +59,8 @@ pub(super) struct Panel<'a> {
     ticks: [Ticks; 2],
     /// Labels of both axes, broken into lines.
     labels: [Vec<String>; 2],
-    /// Rows of the legend. An entry has the number of a curve, and the distance of its sample from the vertical axis
-    /// (mm).
+    /// Rows of the legend. An entry contains the index of a curve, and the distance of its line sample from the
+    /// vertical axis (mm).
     legend: Vec<Vec<(usize, f64)>>,
 }
 
@@ -120,7 +122,8 @@ impl<'a> Panel<'a> {
     }
 
     /// The ticks of both axes for a horizontal axis of the length `wide` (mm).
-    /// The numbers of the vertical axis take a part of the width, so `wide` is known only after [`Panel::of`].
+    /// The numbers of the vertical axis take a part of the chart's width. The length `wide` is therefore known only
+    /// after [`Panel::of`].
     /// At equal scales, the ends of the horizontal axis are adapted to `wide`.
     fn over_width(&self, wide: f64) -> [Ticks; 2] {
         let [x, y] = self.ticks.clone();
@@ -198,7 +201,8 @@ impl<'a> Panel<'a> {
         Ok(drawn)
     }
 
-    /// Zero lines inside the chart: at the zero of the vertical axis, and at equal scales at the zeros of both axes.
+    /// Zero lines inside the chart: at the zero of the vertical axis, and for equal scales also at the zero of the
+    /// horizontal axis.
     fn zeros(&self) -> Vec<[[f64; 2]; 2]> {
         let [x, y] = self.ticks.each_ref().map(|ticks| ticks.ends);
         let holds = |[low, high]: [f64; 2]| low < 0.0 && high > 0.0;
@@ -207,7 +211,7 @@ impl<'a> Panel<'a> {
         level.into_iter().chain(upright).collect()
     }
 
-    /// Draws points that stand alone, arrows in the direction of curves, and labelled points.
+    /// Draws single points between gaps, arrows along curves, and labelled points.
     fn mark(&self, figure: &mut DrawnFigure, curves: &[DrawnCurve]) {
         let lines = curves.iter().flat_map(|curve| &curve.pieces).flat_map(|piece| piece.windows(2));
         let mut obstacles = Obstacles { segments: lines.map(|pair| [pair[0], pair[1]]).collect(), discs: Vec::new() };
@@ -254,7 +258,7 @@ fn is_drawn(point: &[f64; 2]) -> bool {
 /// Ticks at equal scales: both axes include zero, have the same step, and show the same number of units per length.
 fn equal(plot: &PlotChart, ends: [[f64; 2]; 2], noise: f64, room: [f64; 2]) -> [Ticks; 2] {
     let [x, y] = ends.map(|[low, high]| [low.smaller(0.0), high.larger(0.0)]);
-    // A curve of mere rounding errors is drawn as a point.
+    // If the curves consist only of rounding errors, each looks like a point.
     let size = x.into_iter().chain(y).map(f64::abs).fold(0.0, f64::larger);
     let least = if size <= noise { 1.0 } else { 0.05 * size };
     let spans = [x, y].map(|[low, high]| (high - low).larger(least));
@@ -285,8 +289,9 @@ fn legend(plot: &PlotChart) -> Vec<Vec<(usize, f64)>> {
     rows
 }
 
-/// The points of a curve that are drawn. Of successive points within the width [`CELL`], they are the first, lowest,
-/// highest and last. All extreme values are therefore drawn.
+/// Selects the points of a curve that are drawn: the first, lowest, highest and last of successive points within the
+/// width [`CELL`].
+/// All extreme values are therefore drawn.
 fn thinned(points: &[[f64; 2]], at: &dyn Fn(&[f64; 2]) -> Vec2) -> Vec<[f64; 2]> {
     let mut kept = Vec::new();
     let mut rest = points;

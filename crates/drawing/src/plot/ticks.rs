@@ -13,7 +13,7 @@ use linkage::math::KeepNan;
 const DEGREES: [f64; 12] = [0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 90.0, 180.0];
 /// If the largest magnitude of an axis lies outside these limits, a power of ten stands before the unit.
 const PLAIN: [f64; 2] = [0.01, 1e5];
-/// An end of an axis counts as a tick if its distance from the tick is below this fraction of a step.
+/// A multiple of the step counts as an end of the axis if its distance from the end is at most this fraction of a step.
 const SAME: f64 = 1e-6;
 
 /// Ticks of an axis.
@@ -25,14 +25,16 @@ pub(super) struct Ticks {
     pub(super) values: Vec<f64>,
     /// Difference of two neighbouring ticks.
     step: f64,
-    /// Exponent of ten. The number printed at a tick is its value divided by this power of ten.
+    /// Exponent of the power of ten in the axis label. The number printed at a tick is the tick's value divided by this
+    /// power of ten.
     power: i32,
 }
 
 impl Ticks {
     /// Ticks of an axis of the length `long` (mm) for values from `low` to `high`.
     /// The distance between neighbouring ticks is at least `apart` (mm).
-    /// `noise` is the size of rounding errors. Values whose range is at most twice this size count as a constant.
+    /// `noise` is the size of rounding errors. If the range of the values is at most twice this size, they count as
+    /// constant.
     pub(super) fn of(axis: &PlotAxis, [low, high]: [f64; 2], noise: f64, long: f64, apart: f64) -> Ticks {
         let count = (long / apart).floor().larger(1.0);
         let [low, high] = widened([low, high], noise, axis.degrees);
@@ -63,7 +65,7 @@ impl Ticks {
     /// The number at a tick.
     pub(super) fn number(&self, value: f64) -> String {
         let unit = 10f64.powi(self.power);
-        // The rounding error of the quotient is removed.
+        // Rounding to ten digits removes the rounding error of the quotient.
         let round = |own: f64| format!("{:.9e}", own / unit).parse().unwrap_or(own / unit);
         multiple(round(value) + 0.0, round(self.step)).replace('-', "−")
     }

@@ -37,10 +37,10 @@ fn squares_are_covered_or_free_including_their_corners() {
     assert!(counts.iter().all(|count| *count > 50), "{counts:?}");
 }
 
-/// If a side of an outline passes over a disc, every point of the disc changes from the left of the side's line to the
-/// right, or vice versa.
-/// At every instant the point lies between the two ends of the side.
-/// Both statements are true for all positions of the ends within their errors.
+/// If [`passes`] finds that a side passes over a disc, every point of the disc changes from one side of the line to the
+/// other.
+/// At every instant, the point lies between the two ends of the side.
+/// The test draws the positions of the ends at random within their errors.
 #[test]
 fn a_side_that_passes_a_disc_passes_all_its_points() {
     // Knuth's MMIX generator: repeatable random numbers.

@@ -1,5 +1,5 @@
 //! Tests the bounds against samples: random joints between random tubes.
-//! In some samples one quantity is zero, so that every term of a bound dominates in some sample.
+//! Some samples have one quantity equal to zero. Every term of a bound thus dominates in at least one sample.
 
 use linkage::math::unit;
 use linkage::mechanism::{JointKind, JointSide, LinkId};
@@ -239,7 +239,7 @@ fn the_derivative_is_the_limit_of_differences() {
     }
 }
 
-/// Tests the bound on the change of the derivative over the box, times the radii of the box.
+/// Tests the bound on the following product: the change of the derivative over a box, times the radii of the box.
 #[test]
 fn the_change_of_the_derivative_is_within_its_bound() {
     let mut random = Random(4);

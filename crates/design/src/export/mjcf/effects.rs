@@ -12,7 +12,7 @@ use crate::export::xml::{Xml, flat, number, numbers};
 use linkage::math::Vec2;
 use linkage::mechanism::{GROUND, JointSide, LinkId};
 
-/// Site on the ground to which forces in world axes refer.
+/// Name of the site on the ground whose axes are the world axes, for loads in world axes.
 const AXES: &str = "world.axes";
 
 /// A site of a link.
@@ -20,7 +20,7 @@ pub(super) fn site(xml: &mut Xml, name: &str, place: Vec2) {
     xml.leaf(format_args!(r#"site name="{}" pos="{}""#, escape(name), flat(place)));
 }
 
-/// Sites of a link at which loads act. The ground also gets the site that defines the world axes.
+/// Writes the sites of a link at which loads act. The ground also gets the site that defines the world axes.
 pub(super) fn sites(xml: &mut Xml, forces: &Forces, link: LinkId) {
     for (name, place) in places(forces, link) {
         site(xml, &name, place);
@@ -32,8 +32,8 @@ pub(super) fn sites(xml: &mut Xml, forces: &Forces, link: LinkId) {
     }
 }
 
-/// Writes the tendons. Fixed tendons are sums of joint coordinates, for frictions, actuators and transmissions.
-/// Spatial tendons are springs and dampers between points.
+/// Writes the tendons. The length of a fixed tendon is a sum of joint coordinates; frictions, actuators and
+/// transmissions use fixed tendons. Springs and dampers between points are spatial tendons.
 pub(super) fn tendons<'a>(xml: &mut Xml, model: &MjcfModel, forces: &'a Forces) {
     let long: Vec<_> = model.frictions.iter().filter(|friction| !friction.own_hinge).collect();
     let sum = |own: &'a Actuator| match &own.target {

@@ -23,7 +23,8 @@ pub(super) enum Target {
         at: JointSide,
         /// The force.
         force: Vec2,
-        /// Whether the force is given in the axes of the link. If not, the force is given in the axes of the world.
+        /// Whether the components of the force refer to the axes of the link (`true`) or to the axes of the world
+        /// (`false`).
         follows: bool,
     },
 }
@@ -73,8 +74,8 @@ pub(super) fn forces(model: &MjcfModel) -> Result<Forces> {
             for &(link, sign) in links {
                 sum.extend(model.hinges(link).into_iter().map(|branch| (branch, sign)));
             }
-            // A hinge that turns both links has no effect on the twist between the two links, so it is left out of the
-            // sum.
+            // A hinge that turns both links has no effect on the angle between the links. Such a hinge is left out of
+            // the sum.
             let both: Vec<usize> = sum.iter().filter(|(_, sign)| *sign < 0.0).map(|(branch, _)| *branch).collect();
             let is_common = |branch: usize| both.contains(&branch) && sum.contains(&(branch, 1.0));
             sum.iter().copied().filter(|&(branch, _)| !is_common(branch)).collect::<Vec<_>>()
@@ -87,8 +88,8 @@ pub(super) fn forces(model: &MjcfModel) -> Result<Forces> {
             };
             found.actuators.push(Actuator { name: name.clone(), target, bias, range: None });
         };
-        // Resistances become frictions elsewhere, and loads that MJCF cannot express have been refused before.
-        // All loads of the remaining kinds become actuators or tendons here.
+        // Here, loads become actuators or tendons. Resistances become frictions elsewhere.
+        // Loads that MJCF cannot express were refused before.
         if let Load::Moment { link, moment, .. } = load {
             put(Target::Sum(turning(&[(*link, 1.0)])), [constant(moment), 0.0, 0.0]);
         } else if let Load::Force { at, force: [x, y], follows } = load {
@@ -99,8 +100,8 @@ pub(super) fn forces(model: &MjcfModel) -> Result<Forces> {
         } else if let &Load::Damper { ends, damping } = load {
             found.tendons.push(Tendon { name, ends, stiffness: 0.0, free_length: 0.0, damping });
         } else if let &Load::TorsionSpring { links: [first, second], stiffness, free_angle, .. } = load {
-            // A tendon's length is the difference of the link angles as the start pose states them.
-            // The twist is this difference, reduced to (-pi, pi] at t = 0.
+            // The tendon's length is the difference of the two link angles, including whole turns.
+            // The spring's twist is the same difference at t = 0, reduced to (-pi, pi].
             let begun = model.case.start.0[second].angle - model.case.start.0[first].angle;
             let free = free_angle + begun - angle::wrapped(begun);
             put(Target::Sum(turning(&[(second, 1.0), (first, -1.0)])), [stiffness * free, -stiffness, 0.0]);

@@ -51,7 +51,7 @@ pub(super) fn check_drive(drive: &Drive) -> Result<()> {
     if let Some(motor) = drive.moving_motor() {
         return line(&motor.law).map(|_| ());
     }
-    // A rotor can only keep a constant speed, so a drive with a changing speed is refused.
+    // A drive with a changing speed is refused: the model's rotor can only keep a constant speed.
     limits::check_speed(drive, FORMAT)
 }
 

@@ -13,9 +13,9 @@ use linkage::input::Input;
 use linkage::mechanism::{JointId, LinkId, PerLink};
 use linkage::solver::State;
 
-/// Inertia of a drive's rotor, divided by an estimate of the mechanism's moment of inertia about one of its points.
-/// The mechanism's inertia forces cause moments of about this estimate times the square of the speed.
-/// With such a rotor, these moments change the speed by 1e-9 of its value per radian.
+/// Inertia of a drive's rotor, divided by an estimate J of the mechanism's moment of inertia.
+/// Inertia forces cause moments of about J times the square of the speed.
+/// These moments change the rotor's speed by 1e-9 of its value per radian.
 const ROTOR: f64 = 1e9;
 
 /// Dry friction on the rotation of one link.
@@ -25,9 +25,10 @@ pub(super) struct Friction {
     pub link: LinkId,
     /// Moment (N m).
     pub moment: f64,
-    /// Hinges from the ground to the link, as indices of branches: the sum of their angles is the link's angle.
+    /// Hinges on the way through the tree from the ground to the link, as indices of branches. The sum of the hinge
+    /// angles is the link's angle.
     pub hinges: Vec<usize>,
-    /// Whether the joint that carries the link in the tree is the only hinge between the ground and the link.
+    /// Whether the link's joint with its parent in the tree is the only hinge between the ground and the link.
     pub own_hinge: bool,
 }
 
@@ -66,16 +67,17 @@ impl<'a> MjcfModel<'a> {
         Ok(model)
     }
 
-    /// Inertia of the rotor that keeps the speed of a prescribed drive (kg m^2; of a slide kg).
+    /// Inertia of the rotor that keeps the speed of a prescribed drive: a moment of inertia (kg m^2), or for a slide a
+    /// mass (kg).
     pub fn rotor(&self, input: Input) -> f64 {
         let (size, links) = (self.size(), self.case.mechanism.links());
-        // All mass at the distance `size` from a point.
+        // The estimate places all mass at the distance `size` from the axis.
         let inertia = ROTOR * (links.iter().map(|link| link.inertia).sum::<f64>() + self.mass() * size * size);
         if input == Input::Slide { inertia / (size * size) } else { inertia }
     }
 
-    /// Inertia that moves with a driven joint (kg m^2; of a slide kg): the rotor of a prescribed drive, or the inertia
-    /// of a free link's motor.
+    /// Inertia that moves with a driven joint: the rotor of a prescribed drive, or the inertia of a free link's motor
+    /// (kg m^2; kg for a slide).
     pub(super) fn armature(&self, joint: JointId) -> Option<f64> {
         let drive = self.case.drives.iter().find(|drive| drive.joint == joint)?;
         if drive.is_free() {

@@ -1,4 +1,4 @@
-//! Names in the file. The file has the names of the scenario wherever MuJoCo accepts them.
+//! Names in the file. The file uses the names of the scenario; names that MuJoCo does not accept are errors.
 
 use crate::sentences;
 use std::collections::BTreeSet;
@@ -14,7 +14,7 @@ pub(super) fn side(joint: &Joint, link: LinkId) -> String {
     format!("{}.{}", joint.name, if joint.first.link == link { "first" } else { "second" })
 }
 
-/// Name of the tendon and of the equality of a transmission.
+/// Name of a transmission's tendon, and of the equality constraint on this tendon.
 pub(super) fn of_transmission(transmission: &Transmission) -> String {
     format!("transmission.{}", transmission.name())
 }

@@ -42,9 +42,9 @@ pub(super) fn document(model: &MjcfModel, forces: &Forces) -> String {
 
 fn options(xml: &mut Xml, model: &MjcfModel) {
     xml.leaf(r#"compiler angle="radian" autolimits="false" inertiafromgeom="false""#);
-    // MuJoCo scales its tolerance with the trace of the inertia matrix. The rotor makes this trace so large that only a
-    // tolerance of zero is small enough.
-    // Newton's method needs two iterations. The limit of 20 ends the iteration if rounding errors would prolong it.
+    // MuJoCo multiplies the solver's tolerance by the trace of the inertia matrix, which contains the heavy rotor.
+    // Only a tolerance of zero is therefore small enough.
+    // Newton's method needs two iterations. The limit of 20 stops iterations that rounding errors would prolong.
     let solver = r#"integrator="implicitfast" solver="Newton" iterations="20" tolerance="0" ls_tolerance="1e-6""#;
     let (step, gravity) = (number(model.step), flat(model.case.gravity));
     xml.nest(format_args!(r#"option timestep="{step}" gravity="{gravity}" {solver}"#), |xml| {
@@ -93,8 +93,8 @@ fn body(xml: &mut Xml, model: &MjcfModel, forces: &Forces, link: LinkId) {
         } else if !(data.inertia > 0.0) {
             xml.comment(sentences::IT_HAS_NO_INERTIA);
         }
-        // Three equal moments of inertia satisfy the triangle inequality. The moments of inertia about x and y have no
-        // effect in planar motion.
+        // All three moments of inertia are equal, so that they satisfy the triangle inequality of rigid bodies.
+        // The moments of inertia about x and y have no effect in planar motion.
         let (centre, mass, inertia) = (flat(data.mass_centre), number(mass), numbers([inertia; 3]));
         xml.leaf(format_args!(r#"inertial pos="{centre}" mass="{mass}" diaginertia="{inertia}""#));
         joint(xml, model, index);

@@ -7,7 +7,8 @@ use crate::rigid::RigidModel;
 use linkage::mechanism::JointId;
 
 impl Mimics {
-    /// The relations of degree 1 as followers of the driven joint, and their offsets (rad or m).
+    /// The joints with relations of degree 1, as followers of the driven joint, and the offsets of these relations (rad
+    /// or m).
     pub(super) fn linear(&self) -> (Vec<Follower>, Vec<f64>) {
         let lines = self.relations.iter().filter_map(|own| Some((own.joint, own.polynomial.line()?)));
         lines.map(|(joint, [offset, multiplier])| (Follower { joint, leader: self.driver, multiplier }, offset)).unzip()

@@ -35,7 +35,7 @@ pub(super) struct Usd {
 
 impl Usd {
     /// A stage in metres and kilograms with z upwards, whose default prim is `mechanism`.
-    /// Each of `comments` is a line at its beginning.
+    /// The `comments`, joined by spaces, are the documentation of the stage.
     pub(super) fn new(comments: &[String]) -> Usd {
         let mut usd = Usd { text: "#usda 1.0\n(\n".into(), depth: 1 };
         usd.line(r#"defaultPrim = "mechanism""#);

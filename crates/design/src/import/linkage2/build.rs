@@ -1,5 +1,6 @@
-//! Bodies, pins and drives. Links that are fastened to each other, or that share two connectors, are one body; a link
-//! with two anchors is the ground.
+//! Bodies, pins and drives.
+//! Links of the file form one body if they are fastened to each other or share two connectors.
+//! A link with two anchors belongs to the ground.
 
 use super::elements::{Connector, DECIMALS, DrawnLink, Elements};
 use crate::import::parts::{DrivePart, FRAME, JointPart, LinkPart, PartPair, Parts};
@@ -7,7 +8,7 @@ use crate::import::xml::XmlFile;
 use crate::sentences;
 use linkage::error::Result;
 
-/// Speed of an input without a speed (turns per minute), as in Linkage.
+/// Speed of an input for which the file states no speed (turns per minute), as in Linkage.
 const USUAL_SPEED: f64 = 15.0;
 
 /// A mechanism while it is built.
@@ -17,11 +18,11 @@ pub(super) struct Builder<'a> {
     pub(super) parts: Parts,
     /// Names of the connectors in the scenario.
     pub(super) points: Vec<String>,
-    /// For each link of the file, its link in the scenario; none for a link that is only a point.
+    /// For each link of the file, its link in the scenario; `None` for a link that is only a point.
     pub(super) bodies: Vec<Option<usize>>,
-    /// For each connector, its links in the scenario, the ground first.
+    /// For each connector, the links of the scenario that are joined there, the ground first.
     pub(super) members: Vec<Vec<usize>>,
-    /// Joints of the actuators with stroke and cycles per minute.
+    /// For each actuator, its slide joint, its stroke, and its cycles per minute.
     actuators: Vec<(usize, [f64; 2])>,
 }
 
@@ -54,7 +55,8 @@ impl<'a> Builder<'a> {
         Ok(builder)
     }
 
-    /// For each link, the number of the first link of its body, or none for the ground.
+    /// For each link, the index of the first link of the body to which the link belongs; `None` if the body is the
+    /// ground.
     fn groups(&self) -> Vec<Option<usize>> {
         let links = &self.elements.links;
         let anchors =
@@ -77,7 +79,8 @@ impl<'a> Builder<'a> {
         groups
     }
 
-    /// Adds the body of a link, unless it is a part of another one.
+    /// Adds the body of a link.
+    /// If an earlier link has added the same body, only the link's connectors are added to the body.
     fn body(&mut self, at: usize, group: Option<usize>, groups: &[Option<usize>]) {
         let own: Vec<usize> = self.elements.links[at].connectors.clone();
         let link = &self.elements.links[at];
@@ -110,7 +113,7 @@ impl<'a> Builder<'a> {
             own.into_iter().for_each(|at| self.member(at, body));
             return;
         };
-        // An actuator is a cylinder at its first connector and a rod at its second.
+        // An actuator becomes two links: a cylinder at its first connector, and a rod at its second connector.
         let along = place(own[1]).1 - place(own[0]).1;
         let angle = along.y.atan2(along.x);
         let rod = self.parts.link_names.legal(&format!("{name}_rod"));
@@ -126,7 +129,7 @@ impl<'a> Builder<'a> {
         self.parts.joints.push(JointPart { name: joint, links: [body, body + 1], pair });
     }
 
-    /// Adds a link at a connector, with its point.
+    /// Adds a link to the links of a connector, and the connector's point to the link.
     fn member(&mut self, connector: usize, link: usize) {
         if !self.members[connector].contains(&link) {
             self.members[connector].push(link);
@@ -177,7 +180,7 @@ impl<'a> Builder<'a> {
             self.parts.drives.push(DrivePart { joint, speed, turning: "rpm", travel: None, free: None });
         }
         for &(joint, [stroke, cycles]) in &self.actuators {
-            // A cycle is the stroke and back.
+            // One cycle is the stroke forward and the stroke back.
             let speed = 2.0 * stroke * cycles / 60.0;
             let name = &self.parts.joints[joint].name;
             if speed == 0.0 {
@@ -194,7 +197,7 @@ impl<'a> Builder<'a> {
     }
 }
 
-/// Legal names of the connectors.
+/// Names of the connectors that scenario files allow.
 fn names(connectors: &[Connector], parts: &mut Parts) -> Vec<String> {
     let mut points = Vec::new();
     for own in connectors {

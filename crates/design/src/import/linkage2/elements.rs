@@ -1,4 +1,4 @@
-//! Connectors, links and ratios as the file has them.
+//! Connectors, links and gear ratios as they stand in the file.
 
 use crate::import::parts::{Parts, SourceUnits};
 use crate::import::xml::XmlFile;
@@ -7,11 +7,12 @@ use linkage::error::Result;
 use linkage::math::Vec2;
 use roxmltree::Node;
 
-/// Lengths of the file in an inch.
+/// Number of the file's units of length in an inch.
 const PER_INCH: f64 = 96.0;
-/// Decimal places of the unit of the scenario that the six decimals of the file are good for.
+/// Lengths in the scenario's unit are rounded to multiples of 1 / `DECIMALS`, because the file has six decimals.
 pub(super) const DECIMALS: f64 = 1e6;
-/// The bits of a layer that belong to the mechanism. The other layer is only a drawing.
+/// Bits of the layer number that mark an element as part of the mechanism. Elements on other layers only belong to the
+/// drawing.
 const MECHANISM: u32 = 0xffff_fff0;
 
 /// A connector: a point of all its links.
@@ -23,10 +24,10 @@ pub(super) struct Connector {
     pub(super) is_input: bool,
     /// Turns per minute, clockwise positive.
     pub(super) speed: f64,
-    /// Connectors at the ends of its straight or curved path.
+    /// For a slider, the connectors at the ends of its straight or curved path.
     pub(super) path: Option<[usize; 2]>,
     pub(super) is_curved: bool,
-    /// Link to which it is fastened, by its id.
+    /// Id of the link to which the connector is fastened.
     pub(super) fastened: Option<String>,
 }
 
@@ -39,9 +40,9 @@ pub(super) struct DrawnLink {
     /// Stroke and cycles per minute of an actuator.
     pub(super) actuator: Option<[f64; 2]>,
     pub(super) is_gear: bool,
-    /// Link to which it is fastened, by its id.
+    /// Id of the link to which this link is fastened.
     pub(super) fastened: Option<String>,
-    /// Whether it is fastened to an anchor.
+    /// Whether the link is fastened to an anchor.
     pub(super) is_fixed: bool,
 }
 
@@ -135,13 +136,13 @@ pub(super) fn elements<'a>(file: &'a XmlFile<'a>) -> Result<Elements<'a>> {
     Ok(Elements { units, connectors, links, ratios, told })
 }
 
-/// Whether an element belongs to the mechanism.
+/// Whether an element belongs to the mechanism, and not only to the drawing.
 fn is_mechanism(node: Node) -> bool {
     let layer = node.attribute("layer").and_then(|layer| layer.parse::<u32>().ok()).filter(|layer| *layer != 0);
     layer.is_none_or(|layer| layer & MECHANISM != 0)
 }
 
-/// The name of an element, or its number behind a letter.
+/// The name of an element; for an element without a name, `letter` followed by its id.
 fn name(node: Node, letter: &str, id: &str) -> String {
     let own = node.attribute("name").map(str::trim).filter(|name| !name.is_empty());
     own.map_or_else(|| format!("{letter}{id}"), Into::into)

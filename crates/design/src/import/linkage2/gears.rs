@@ -53,7 +53,7 @@ impl Builder<'_> {
                 keys.push(("carrier".into(), name(carrier)));
             }
             if ratio.is_chain {
-                // Only the ratio matters for the motion, if the file gives no radii.
+                // If the file gives no radii, any radii with the right ratio give the same motion.
                 let apart = (self.elements.connectors[a].place - self.elements.connectors[b].place).norm();
                 let scale = if ratio.has_radii { 1.0 } else { apart / (4.0 * (one + two)) };
                 let radii = [one, two].map(|size| number(size * scale)).join(", ");

@@ -1,5 +1,6 @@
-//! Sliders. One slider on a path is a pin in a slot: a block without mass, with a pin and a slide. Two sliders of one
-//! link on one path are a slide.
+//! Sliders.
+//! A single slider on a path is a pin in a slot. The scenario has a massless block for it, with a pin and a slide.
+//! Two sliders of one link on the same path become one slide of this link.
 
 use super::build::Builder;
 use super::elements::Connector;

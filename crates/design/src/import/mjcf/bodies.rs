@@ -9,7 +9,7 @@ use linkage::mechanism::LinkPose;
 use roxmltree::Node;
 
 impl<'a> Model<'a> {
-    /// Reads the bodies in the order of the file, which is that of the coordinates.
+    /// Reads the bodies in the order of the file. The joint coordinates have the same order.
     pub(super) fn read_bodies(&mut self) -> Result<()> {
         let root = self.file.tree.root_element();
         let Some(world) = root.children().find(|node| node.has_tag_name("worldbody")) else {
@@ -20,7 +20,7 @@ impl<'a> Model<'a> {
         for node in all {
             self.read_body(node)?;
         }
-        // Points follow the bodies, because a point may have the name of a joint.
+        // Points are read from the sites, except sites whose name contains a dot: these belong to joints and loads.
         let sites: Vec<Node> = world.descendants().filter(|node| node.has_tag_name("site")).collect();
         Parts::check_count(sites.len() / 4)?;
         for site in sites {
@@ -60,7 +60,8 @@ impl<'a> Model<'a> {
         Ok(())
     }
 
-    /// Mass of a body. MuJoCo refuses a mass of zero; a comment before `inertial` tells which values are only lent.
+    /// Mass of a body. MuJoCo refuses a mass of zero. A comment before `inertial` states which values of the model
+    /// replace zeros.
     fn mass(&mut self, node: Node<'a, 'a>) -> Result<Option<LinkMass>> {
         let Some(inertial) = node.children().find(|node| node.has_tag_name("inertial")) else {
             self.parts.told.push(sentences::the_body_has_no_inertial(&node.attribute("name").unwrap_or_default()));
@@ -80,7 +81,7 @@ impl<'a> Model<'a> {
         Ok(Some(LinkMass { mass, centre: self.file.flat(inertial, "pos")?, inertia }))
     }
 
-    /// Size of the file's unit of angles (rad).
+    /// The file's unit of angles, in radians.
     fn angle_unit(&self) -> f64 {
         let root = self.file.tree.root_element();
         let compiler = root.children().find(|node| node.has_tag_name("compiler"));

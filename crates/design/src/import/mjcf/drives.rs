@@ -1,4 +1,5 @@
-//! Drives: joints with a heavy rotor keep their speed; of the others, as many as the mobility demands move freely.
+//! Drives. A joint with a heavy rotor keeps its speed, so it has a prescribed drive.
+//! The remaining degrees of freedom become free drives at other joints.
 
 use super::Model;
 use crate::import::parts::{DrivePart, FRAME, PartPair};
@@ -10,13 +11,14 @@ use linkage::mechanism::{DrivenJoint, Structure};
 use scenario::{Draft, StartRequest};
 use std::path::Path;
 
-/// Inertia of a rotor that keeps its speed, divided by that of the mechanism. The export uses a thousand times as much.
+/// Smallest inertia of a rotor that keeps its speed, divided by an estimate of the mechanism's moment of inertia.
+/// The export writes rotors with a thousand times this inertia.
 const HEAVY: f64 = 1e6;
-/// Upper limit of the number of choices of free joints that are tried.
+/// Largest number of sets of free joints that are tried.
 const MOST_CHOICES: usize = 500;
 
 impl Model<'_> {
-    /// Reads the prescribed drives and finds the free ones.
+    /// Reads the prescribed drives, and chooses the joints of the free drives.
     pub(super) fn read_drives(&mut self) -> Result<()> {
         let size = self.parts.size();
         let inertia: f64 =
@@ -63,7 +65,7 @@ impl Model<'_> {
         actuators.any(|own| own.strip_prefix(name).is_some_and(|rest| rest.starts_with(".motor")))
     }
 
-    /// The first `count` of the joints `from` that give a valid structure together with the prescribed drives.
+    /// The first set of `count` joints out of `from` that gives a valid structure together with the prescribed drives.
     fn free(&self, from: &[usize], count: usize) -> Vec<usize> {
         let text = write::text(&self.parts, "model", "", "");
         let Ok(draft) = Draft::parse(&text, Path::new("model"), &StartRequest::default()) else { return Vec::new() };
@@ -100,7 +102,7 @@ impl Model<'_> {
         let base = if joint.links[0] == link { joint.links[1] } else { joint.links[0] };
         let of_drive =
             |link: usize| self.parts.drives.iter().any(|drive| self.parts.joints[drive.joint].links.contains(&link));
-        // The input is a world angle on the ground and on the link of an earlier drive.
+        // The input is the link's world angle if the joint is on the ground, or on a link of an earlier drive.
         let in_world = !is_slide && (base == FRAME || of_drive(base));
         let rate = match (in_world, joint.links[1] == link || is_slide) {
             (true, _) => self.omega(link),
@@ -134,7 +136,8 @@ impl Model<'_> {
         sum
     }
 
-    /// Adds the motor of a joint, as it acts on the crank; returns its sense.
+    /// Adds the motor of a joint with its torque line at the crank. Returns the sense of its torque (+1 or -1), or
+    /// `None` without a motor.
     fn motor(&mut self, at: usize) -> Result<Option<f64>> {
         let node = self.joints[at].node;
         let name = node.attribute("name").unwrap_or_default();

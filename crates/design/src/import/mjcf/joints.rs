@@ -7,7 +7,7 @@ use linkage::error::{ErrorKind, Result};
 use linkage::math::{KeepNan, Vec2};
 use roxmltree::Node;
 
-/// A joint with its places on both links, before its points have names.
+/// A joint with its positions on both links. The points at these positions have no names yet.
 struct Placed {
     name: String,
     links: [usize; 2],
@@ -40,7 +40,7 @@ impl<'a> Model<'a> {
         for node in self.section("equality") {
             match node.tag_name().name() {
                 "connect" => placed.push(self.closing(node)?),
-                // The list of what is left out names the tendon of a transmission.
+                // `read_loads` reports the tendon of a transmission as left out.
                 "tendon" => {}
                 _ => self.tell(node),
             }
@@ -77,7 +77,7 @@ impl<'a> Model<'a> {
             let links = sides.map(|(link, _)| link);
             links == [parent, child] || links == [child, parent]
         });
-        // Without separate sites the joint is on the parent where the body is.
+        // Without sites of the joint, the joint's position on the parent follows from the pose of the body.
         let pos = self.file.flat(node, "pos")?;
         let sides = sides.unwrap_or_else(|| [(parent, self.parts.links[parent].local(own.point(pos))), (child, pos)]);
         let (links, places) = (sides.map(|(link, _)| link), sides.map(|(_, place)| place));
@@ -105,8 +105,8 @@ impl<'a> Model<'a> {
     }
 
     /// Names the points of the joints and adds the joints.
-    /// A pin has the name of a point at its place on one of its links, because the points of a pin coincide; the other
-    /// link gets this point too. Each pass can name further pins.
+    /// If one link of a pin has a named point at the pin, the other link gets a point with the same name. A pass can
+    /// thus name the points of further pins.
     fn put(&mut self, placed: Vec<Placed>) {
         let mut points: Vec<Option<String>> = placed.iter().map(|_| None).collect();
         let nearest = 1e-12
@@ -151,7 +151,7 @@ impl<'a> Model<'a> {
         }
     }
 
-    /// A point of a link at this place; a missing point is added.
+    /// The name of a link's point at this place. If there is no such point, a point is added.
     pub(super) fn point(&mut self, link: usize, place: Vec2, nearest: f64, wanted: &str) -> String {
         self.point_at(link, place, nearest, wanted).unwrap_or_else(|| {
             let name = self.parts.point_names.legal(wanted);
@@ -160,7 +160,7 @@ impl<'a> Model<'a> {
         })
     }
 
-    /// A point of a link at this place, preferably with the wanted name.
+    /// The name of a link's point at this place. If several points lie there, the one called `wanted` is preferred.
     fn point_at(&self, link: usize, place: Vec2, nearest: f64, wanted: &str) -> Option<String> {
         let points = &self.parts.links[link].points;
         let here = || points.iter().filter(|(_, own)| (own - place).norm() <= nearest).map(|(name, _)| name);

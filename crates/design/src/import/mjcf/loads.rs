@@ -11,7 +11,7 @@ use roxmltree::Node;
 type Sum = Vec<(usize, f64)>;
 
 impl<'a> Model<'a> {
-    /// Reads the loads in the order of their numbers, frictions first.
+    /// Reads the loads: first frictions of joints, then tendons, then actuators.
     pub(super) fn read_loads(&mut self) -> Result<()> {
         for at in 0..self.joints.len() {
             let (node, link) = (self.joints[at].node, self.joints[at].link);
@@ -98,7 +98,8 @@ impl<'a> Model<'a> {
         Ok(())
     }
 
-    /// A moment, a force, a torsional spring or a torsional damper. Motors belong to the drives.
+    /// Reads an actuator as a moment, a force, a torsional spring or a torsional damper. Motors are read with the
+    /// drives.
     fn actuator(&mut self, node: Node<'a, 'a>) -> Result<()> {
         let name = node.attribute("name").unwrap_or_default();
         if name.ends_with(".motor") || name.ends_with(".motor.drives") || name.ends_with(".motor.brakes") {
@@ -132,7 +133,8 @@ impl<'a> Model<'a> {
         }
         let links = ("links", format!("[{}, {}]", self.link(first), self.link(second)));
         if stiffness != 0.0 {
-            // The model counts the whole turns of the start pose; a twist begins within half a turn.
+            // The model's angle includes whole turns of the start pose. The twist in a scenario begins between -pi and
+            // pi.
             let begun = self.parts.links[second].pose.angle - self.parts.links[first].pose.angle;
             let free = constant / -stiffness - begun + angle::wrapped(begun);
             let own = vec![links.clone(), ("stiffness_N_m_rad", number(-stiffness)), ("free_angle_rad", number(free))];
@@ -144,8 +146,8 @@ impl<'a> Model<'a> {
         Ok(())
     }
 
-    /// First and second link of the angle on which an actuator acts: the joints that count positive lead to the second
-    /// link, those that count negative to the first.
+    /// The two links whose relative angle is the coordinate of an actuator.
+    /// Joints with a positive factor lead to the second link, and joints with a negative factor lead to the first link.
     fn turned(&self, node: Node<'a, 'a>) -> Result<Option<[usize; 2]>> {
         let sum = match (node.attribute("joint"), node.attribute("tendon")) {
             (Some(joint), _) => self.joint(joint).map(|at| vec![(at, 1.0)]).unwrap_or_default(),
@@ -156,7 +158,8 @@ impl<'a> Model<'a> {
             (None, None) => Vec::new(),
         };
         let joints = |sign: f64| sum.iter().filter(move |(_, factor)| *factor == sign).map(|&(at, _)| at);
-        // Bodies follow the bodies that carry them.
+        // In the file, a body comes after the body that carries it. The largest index is therefore the end of the
+        // chain.
         let end = |sign: f64| joints(sign).max().map(|at| self.joints[at].link);
         let base = |sign: f64| joints(sign).min().map(|at| self.bodies[at].parent);
         Ok(match (end(-1.0), end(1.0)) {

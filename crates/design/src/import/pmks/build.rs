@@ -1,4 +1,5 @@
-//! The mechanism of the records: links that are not part of another link, pins in pairs, slides, drives and forces.
+//! Builds the mechanism from the records of a share link: links that are not part of another link, pins of two links
+//! each, slides, drives and forces.
 
 use super::records::{LinkLength, PmksForce, PmksJoint, PmksLink, PmksRecords};
 use crate::import::parts::{DrivePart, FRAME, JointPart, LinkMass, LinkPart, PartPair, Parts, SourceUnits};
@@ -7,16 +8,16 @@ use crate::sentences;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{Vec2, rotated, unit};
 
-/// Speed of an input without a speed: that of a new document (turns per minute).
+/// Speed of an input whose speed is zero: the speed in a new document of PMKS+ (turns per minute).
 const USUAL_SPEED: f64 = 20.0;
-/// Speed of a driven slide, for which a link has no place (lengths of the document per second).
+/// Speed of a driven slide (lengths of the document per second). A share link does not contain this speed.
 const SLIDE_SPEED: f64 = 5.0;
-/// Gravity in the analysis of forces (m/s^2).
+/// Acceleration of gravity along y in the force analysis of PMKS+ (m/s^2).
 const GRAVITY: f64 = -9.81;
-/// Half the last digit of an angle in a link (rad).
+/// Half of the last decimal place of an angle in a share link (rad).
 const ANGLE_DIGIT: f64 = 0.5e-3;
 
-/// Units of the document, and the size of its unit of moments of inertia (kg m^2).
+/// Units of the document, and its unit of moments of inertia (kg m^2).
 fn units(records: &PmksRecords) -> (SourceUnits, f64) {
     let force = if records.settings.is_pound { "lbf" } else { "N" };
     match records.settings.length {
@@ -28,7 +29,7 @@ fn units(records: &PmksRecords) -> (SourceUnits, f64) {
     }
 }
 
-/// The mechanism of the records.
+/// Builds the mechanism from the records of a share link.
 pub(super) fn parts(records: PmksRecords) -> Result<Parts> {
     let (units, inertia) = units(&records);
     let mut builder =
@@ -55,7 +56,7 @@ struct Builder {
     parts: Parts,
     /// Names of the joints in the scenario.
     pins: Vec<String>,
-    /// For each link of the records, its link in the scenario.
+    /// For each link of the records, its link in the scenario; `None` if the link is welded into another link.
     roots: Vec<Option<usize>>,
 }
 
@@ -85,7 +86,7 @@ impl Builder {
         found.ok_or_else(|| broken(of, sentences::the_link_has_no_joint(&id)))
     }
 
-    /// Adds the links that are not welded into another one.
+    /// Adds the links, except links that are welded into another link.
     fn links(&mut self, unit_of_inertia: f64) -> Result<()> {
         for at in 0..self.records.links.len() {
             let PmksLink { is_root, is_block, name, id, .. } = &self.records.links[at];
@@ -128,7 +129,7 @@ impl Builder {
         self.records.links.iter().zip(&self.roots).filter_map(at).collect()
     }
 
-    /// A pin: the ground, if it is fixed, then its links.
+    /// Adds the joints of a pin. The first link is the ground if the pin is fixed.
     fn pin(&mut self, index: usize) {
         let (joint, name) = (&self.records.joints[index], self.pins[index].clone());
         let mut links = self.links_at(joint);
@@ -154,7 +155,7 @@ impl Builder {
         }
     }
 
-    /// A slide of a block on the ground, or in a slot of a link.
+    /// Adds the slide of a block, on the ground or in a slot of a link.
     fn slide(&mut self, index: usize) -> Result<()> {
         let joint = &self.records.joints[index];
         let name = self.pins[index].clone();
@@ -197,7 +198,8 @@ impl Builder {
         self.roots[at].or_else(|| self.roots[self.records.links.iter().position(holds)?])
     }
 
-    /// World direction of a slide (rad). An angle that is a whole degree but for its last digit is that degree.
+    /// World direction of a slide (rad). An angle that differs from a whole degree only by its rounding is rounded to
+    /// this degree.
     fn direction(&self, index: usize) -> Result<f64> {
         let joint = &self.records.joints[index];
         if let Some([_, first, second]) = &joint.slot {

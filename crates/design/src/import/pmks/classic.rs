@@ -1,14 +1,15 @@
-//! Links of the older PMKS (`mech=`): one record for each joint, with the names of its links, its kind, its place, the
-//! direction of a slide in degrees, and four flags, of which the last one marks the input.
+//! Share links of the older PMKS (`mech=`), with one record for each joint.
+//! A record contains the names of the joint's links, its kind, its position, the direction of a slide in degrees, and
+//! four flags. The last flag marks the input.
 
 use crate::import::parts::{DrivePart, FRAME, JointPart, LinkPart, PartPair, Parts, SourceUnits};
 use crate::sentences;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
 
-/// Speed of the input if the link gives none (turns per minute).
+/// Speed of the input if the share link contains no speed (turns per minute).
 const USUAL_SPEED: f64 = 10.0;
-/// Links have no unit of lengths.
+/// Units that are assumed, because these share links contain no units.
 const UNITS: SourceUnits = SourceUnits { length: "mm", metres: 1e-3, mass: "kg", force: "N" };
 
 /// One joint.
@@ -21,7 +22,7 @@ struct ClassicJoint<'a> {
     is_input: bool,
 }
 
-/// The mechanism of a query with the parameter `mech`.
+/// Builds the mechanism from a query with the parameter `mech`.
 pub(super) fn parts(query: &str) -> Result<Parts> {
     let parameter = |name: &str| query.split('&').find_map(|part| part.strip_prefix(name)?.strip_prefix('='));
     let records = parameter("mech").unwrap_or_default().split('|').filter(|record| !record.trim().is_empty());

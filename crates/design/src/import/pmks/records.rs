@@ -1,8 +1,9 @@
-//! The records of a link: settings, joints, links and forces.
+//! The records of a share link: settings, joints, links and forces.
 //!
 //! Sections and records end with a dot, and fields with a comma.
-//! The sections are: flags, decimal numbers, whole numbers, units; then the joints, the links and the forces, each list
-//! ended by an empty record; then the selected part.
+//! The first four sections are flags, decimal numbers, whole numbers and units.
+//! Then follow the lists of joints, links and forces; an empty record ends each list. The last section is the selected
+//! part.
 
 use super::token::{Fields, checked, flags};
 use crate::import::parts::Parts;
@@ -43,9 +44,9 @@ pub(super) struct PmksJoint {
     pub(super) is_welded: bool,
     /// Direction of a slide (rad).
     pub(super) angle: f64,
-    /// Link on which a slot lies, and the two joints that give its direction.
+    /// For a slide in a slot: the link with the slot, and the two joints that give the slot's direction.
     pub(super) slot: Option<[String; 3]>,
-    /// Speed of this joint alone, which development versions write.
+    /// Whether the record contains a speed of this joint. Only development versions of PMKS+ write such speeds.
     pub(super) has_speed: bool,
 }
 
@@ -60,7 +61,7 @@ pub(super) struct PmksLink {
     pub(super) inertia: f64,
     pub(super) centre: Vec2,
     pub(super) joints: Vec<String>,
-    /// Links that are welded into this one.
+    /// Links that are welded into this link.
     pub(super) parts: Vec<String>,
 }
 
@@ -76,7 +77,7 @@ pub(super) struct PmksForce {
     pub(super) size: f64,
 }
 
-/// All records of a link.
+/// All records of a share link.
 #[derive(Debug)]
 pub(super) struct PmksRecords {
     pub(super) settings: PmksSettings,
@@ -87,7 +88,7 @@ pub(super) struct PmksRecords {
     pub(super) further: Vec<String>,
 }
 
-/// The records of a query.
+/// Reads the records of a query.
 pub(super) fn records(query: &str) -> Result<PmksRecords> {
     let mut sections = checked(query)?.split('.');
     let mut next = || sections.next().unwrap_or_default();
@@ -129,7 +130,7 @@ fn settings([bools, decimals, wholes, units]: [&str; 4]) -> Result<PmksSettings>
     Ok(PmksSettings { is_clockwise: is(0), has_forces: is(1) || is(7), speed, length, is_pound })
 }
 
-/// The first sign of a record, and the rest.
+/// The first `count` characters of a record, and the rest.
 fn first<'a>(fields: &Fields, text: &'a str, count: usize) -> Result<(&'a str, &'a str)> {
     text.split_at_checked(count).ok_or_else(|| fields.fault(sentences::the_record_ends_before(&"its name")))
 }

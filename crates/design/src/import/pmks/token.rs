@@ -1,13 +1,13 @@
-//! Numbers, flags and fields of a link.
+//! Numbers, flags and fields of a share link.
 
 use crate::sentences;
 use linkage::error::{Error, ErrorKind, Result};
 
 /// The digits of numbers, the smallest first.
 const DIGITS: &[u8; 64] = b"0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_-";
-/// The sign of the checksum is that of the length, to this base.
+/// The last character of a query is a checksum: the digit for the length of the query modulo this number.
 const CHECKED: usize = 62;
-/// Most digits of a number. More digits exceed the whole numbers that PMKS+ handles.
+/// Largest number of digits of a number. PMKS+ cannot handle larger whole numbers.
 const MOST_DIGITS: usize = 9;
 
 /// The query without its escapes `%..`.
@@ -27,11 +27,11 @@ pub(super) fn unescaped(query: &str) -> String {
     String::from_utf8(bytes).unwrap_or_else(|_| query.into())
 }
 
-/// The query without its last sign, which must agree with the length.
+/// The query without its last character, which must agree with the query's length.
 pub(super) fn checked(query: &str) -> Result<&str> {
     let sign = query.chars().next_back().unwrap_or_default();
     let body = &query[..query.len() - sign.len_utf8()];
-    // PMKS+ counts the units of UTF-16.
+    // PMKS+ measures the length in code units of UTF-16.
     let length = body.encode_utf16().count();
     let expected = char::from(DIGITS[length % CHECKED]);
     if sign == expected {
@@ -41,7 +41,7 @@ pub(super) fn checked(query: &str) -> Result<&str> {
     Err(Error::new(ErrorKind::Input, message).key("link").help(sentences::COPY_THE_WHOLE_LINK))
 }
 
-/// The fields of one record of a link.
+/// The fields of one record of a share link.
 pub(super) struct Fields<'a> {
     record: String,
     all: Vec<&'a str>,
@@ -49,12 +49,12 @@ pub(super) struct Fields<'a> {
 }
 
 impl<'a> Fields<'a> {
-    /// The fields of a record, which messages call `record`.
+    /// The fields of a record with this text. Messages call the record `record`.
     pub(super) fn of(record: String, text: &'a str) -> Fields<'a> {
         Fields { record, all: text.split(',').collect(), next: 0 }
     }
 
-    /// The next field; an error at the end of the record.
+    /// The next field. The end of the record is an error, whose message names the missing field `what`.
     pub(super) fn text(&mut self, what: &str) -> Result<&'a str> {
         let found = self.all.get(self.next);
         self.next += 1;
@@ -84,7 +84,7 @@ impl<'a> Fields<'a> {
     }
 }
 
-/// A whole number; a leading zero is its minus sign.
+/// Reads a whole number. A leading zero is the minus sign.
 fn number(text: &str) -> Option<f64> {
     let (sign, digits) = match text.strip_prefix('0') {
         Some(rest) => (-1.0, rest),
@@ -98,7 +98,7 @@ fn number(text: &str) -> Option<f64> {
     Some(sign * value as f64)
 }
 
-/// Flags packed in digits of six bits, the most significant digit first.
+/// Reads flags that are packed in digits of six bits. The most significant digit is the first.
 pub(super) fn flags(text: &str) -> Option<u64> {
     let digit = |byte: u8| DIGITS.iter().position(|&own| own == byte);
     text.bytes().try_fold(0_u64, |value, byte| Some((value << 6) | digit(byte)? as u64))

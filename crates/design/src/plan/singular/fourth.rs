@@ -1,22 +1,24 @@
 //! Groups of class IV and order 2: two base links on the outer joints A and K, and two leads BD and CE between them.
 //!
 //! S = BD x CE is treated as a point of either base link.
-//! The velocity component of S along a lead equals that of the lead's end, because rotation adds no component along a
-//! line through S.
+//! Along a lead, S and the lead's end have the same velocity component: rotation adds no component along a line through
+//! S.
 //! Two components determine a vector, so S has equal velocities on both base links:
 //! v_S = v_A + omega2 x AS = v_K + omega5 x KS.
 //! The directions of omega2 x AS and omega5 x KS are known, so v_S is the intersection of two lines.
 //! The accelerations of S on the two base links differ by d.
 //! Along the lead BD (unit vector u), d . u = omega5^2 (D - S) . u - omega2^2 (B - S) . u - omega3^2 |BD|.
-//! The same equation holds along CE with the quantities of that lead.
-//! Then the equation a_A + ... + d = a_K + ... is solved by the same construction as the equation of the velocities.
+//! Along CE, an equation of the same form holds with the quantities of CE. The two equations determine d.
+//! The equation a_A + ... + d = a_K + ... of the accelerations is then solved like the equation of the velocities.
 //!
 //! The drawing uses two false positions instead of this equation.
-//! Two values of the angular acceleration of the base link KDE are assumed. By the leads, each value gives an
-//! acceleration of S on the base link ACB. This acceleration depends linearly on the assumed value.
-//! The ends of all such accelerations therefore lie on one line, the line of false positions.
-//! As a point of ACB, S has the acceleration a_A + normal part + tangential part. The tangential part is across AS and
-//! has an unknown length, so the end of the acceleration lies on a line, the line of true positions.
+//! Two values of the angular acceleration of the base link KDE are assumed. Each value determines, by way of the leads,
+//! an acceleration of S as a point of the base link ACB.
+//! The acceleration of S depends linearly on the assumed value.
+//! The ends of these accelerations therefore lie on one line, the line of false positions.
+//! As a point of ACB, S has the acceleration a_A + normal part + tangential part.
+//! The tangential part is across AS and has an unknown length. The end of the acceleration therefore lies on a second
+//! line, the line of true positions.
 //! The two lines meet at the end of the true acceleration.
 
 use super::leads::{lead, named};
@@ -29,7 +31,7 @@ use linkage::error::Result;
 use linkage::math::{KeepNan, Motion, Vec2, cross, turned};
 use linkage::mechanism::{GROUND, Group, JointId, LinkId, Mechanism};
 
-/// A base link with position, velocity and acceleration of its outer joint, and the link beyond this joint.
+/// A base link; position, velocity and acceleration of its outer joint; and the link outside the group at this joint.
 struct Base {
     link: LinkId,
     outer: [Vec2; 3],
@@ -53,7 +55,8 @@ pub(super) fn point(mechanism: &Mechanism, group: &Group, motions: &[Motion]) ->
     if !(dead.abs() > PARALLEL) {
         return Err(wrong(both, " x ", |names| sentences::the_singular_point_lies_in_line(&names)));
     }
-    // Solves turned(arm1) w1 - turned(arm2) w2 = r for w1 and w2. The dot product with one arm eliminates one unknown.
+    // Solves turned(arm1) w1 - turned(arm2) w2 = r for w1 and w2. The dot product with an arm eliminates the unknown of
+    // this arm.
     let spins = |r: Vec2| {
         let turn = turned(arms[0]).dot(&arms[1]);
         [r.dot(&arms[1]) / turn, r.dot(&arms[0]) / turn]

@@ -11,7 +11,7 @@ pub(super) fn named(mechanism: &Mechanism, link: LinkId, joint: &Joint) -> Optio
     Some(named.map_or(&joint.name, |point| &point.name).clone())
 }
 
-/// A lead between two ends. The velocities of the ends are set to zero, because they are not yet known.
+/// A lead between two ends. The velocities of the ends are not known yet and are set to zero.
 pub(super) fn lead(link: LinkId, names: [String; 2], ends: [Vec2; 2]) -> AssurLead {
     let along = (ends[1] - ends[0]).normalize();
     AssurLead { names, ends, velocities: [Vec2::zeros(); 2], link, along }

@@ -36,19 +36,20 @@ impl AssurLead {
         cross(self.along, far - near) / self.length()
     }
 
-    /// Tip of the vector chain that begins with `far`, the acceleration of the lead's second end, and adds the two normal
-    /// parts of the acceleration of the singular point `at`.
-    /// The first part is omega^2 l between the lead's ends, with the lead's angular velocity `lead` (rad/s).
-    /// The second part is omega^2 l between the lead's first end and the point, with the angular velocity `base` of the
-    /// base link (rad/s). Both normal parts are parallel to the lead; the tangential parts are across the lead.
+    /// Adds two normal parts to `far`, the acceleration of the lead's second end, on the way to the acceleration of the
+    /// singular point `at`.
+    /// The first normal part is omega^2 l between the lead's ends, with the lead's angular velocity `lead` (rad/s).
+    /// The second normal part is omega^2 l between the lead's first end and the point, with the angular velocity `base`
+    /// of the base link (rad/s).
+    /// Both normal parts are parallel to the lead; the tangential parts are across the lead.
     pub(super) fn foot(&self, at: Vec2, far: Vec2, lead: f64, base: f64) -> Vec2 {
         far + self.along * (lead.powi(2) * self.length()) + (self.ends[0] - at) * base.powi(2)
     }
 }
 
 /// Construction of the singular point's acceleration from the accelerations of the leads' second ends.
-/// A line across each lead goes through the end of the lead's normal parts. The two lines meet at the end of the
-/// point's acceleration.
+/// Each lead gives a line: across the lead, through the end of the lead's normal parts.
+/// The two lines meet at the end of the point's acceleration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AssurTrial {
     /// Accelerations of the second ends of both leads (m/s^2).
@@ -65,8 +66,9 @@ pub enum AssurAcceleration {
     /// Class III: the accelerations of the leads' second ends are known.
     Known(AssurTrial),
     /// Class IV: the leads' second ends are on a link whose angular acceleration is unknown.
-    /// Two assumed values give two false positions of the acceleration. The true acceleration lies on the line through
-    /// both, and on a line across the arm from the base link's outer joint to the singular point.
+    /// Two assumed values of this angular acceleration give two false positions of the end of the point's acceleration.
+    /// The end of the true acceleration lies on the line through the two false positions.
+    /// It also lies on a line across the arm from the base link's outer joint to the singular point.
     FalsePositions(FalsePositions),
 }
 
@@ -75,7 +77,7 @@ pub enum AssurAcceleration {
 pub struct FalsePositions {
     /// Link with the unknown angular acceleration.
     pub driver: LinkId,
-    /// Assumed angular accelerations of this link (rad/s^2), each with the construction that follows.
+    /// The two assumed angular accelerations of `driver` (rad/s^2), each with the construction that results from it.
     pub trials: [(f64, AssurTrial); 2],
     /// Acceleration of the outer joint of the base link that carries the point (m/s^2).
     pub outer: Vec2,
@@ -113,7 +115,7 @@ impl SingularPoint {
     }
 }
 
-/// Vector with the components `parts` along the directions of two leads.
+/// The vector that has the components `parts` along the directions of two leads.
 pub(super) fn oblique(leads: [&AssurLead; 2], parts: [f64; 2]) -> Vec2 {
     let [first, second] = leads.map(|lead| lead.along);
     (turned(first) * parts[1] - turned(second) * parts[0]) / cross(first, second)
@@ -132,7 +134,7 @@ pub(super) fn trial(leads: [&AssurLead; 2], far: [Vec2; 2], feet: [Vec2; 2]) -> 
     AssurTrial { far, feet, at: oblique(leads, parts) }
 }
 
-/// Error about the two leads. The message contains both leads, separated by `between`.
+/// Error about two leads. `between` separates the names of the leads in the message.
 pub(super) fn wrong(leads: [&AssurLead; 2], between: &str, message: impl FnOnce(String) -> String) -> Error {
     let names = leads.map(|lead| pair(&lead.names[0], &lead.names[1]));
     Error::new(ErrorKind::Geometry, message(names.join(between))).help(sentences::TAKE_A_CRANK_ANGLE_A_LITTLE)

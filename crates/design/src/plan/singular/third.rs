@@ -1,10 +1,10 @@
 //! Groups of class III and order 3 with pins only: a base link DEF on three leads AD, BE and CF.
 //!
 //! S, the intersection of AD and BE, is treated as a point of the base link.
-//! The velocity component of S along each of the two leads equals that of the lead's outer end.
+//! Along each of these two leads, S and the lead's outer end have the same velocity component.
 //! The two components determine v_S. The third lead then gives the angular velocity omega of the base link.
 //! a_S and the angular acceleration alpha follow in the same way, without assumed values.
-//! Each pair of leads has such a point. The pair whose lines meet at the largest angle is used.
+//! Each pair of leads has such a point S. The program uses the pair whose lines meet at the largest angle.
 
 use super::leads::{lead, named};
 use super::point::{AssurAcceleration, AssurLead, PARALLEL, SingularPoint, meeting, oblique, trial, wrong};

@@ -1,4 +1,4 @@
-//! The numbers of a candidate with their derivatives by the variables of the task.
+//! The numbers of a candidate, with derivatives by the variables of the task.
 
 use std::collections::BTreeMap;
 
@@ -12,17 +12,17 @@ use crate::synthesize::bars::BarMass;
 use crate::synthesize::search::of_share;
 use crate::synthesize::task::{PointPosition, Task, TaskNumber};
 
-/// Numbers of a case that differ from those of the drawing, with `N` derivatives.
+/// Numbers of a candidate that differ from the drawing's numbers, each with `N` derivatives.
 pub(super) struct Dimensions<'a, const N: usize> {
     task: &'a Task,
     numbers: BTreeMap<CaseNumber, Dual<f64, N>>,
-    /// Variables as values (SI), with their derivatives by the fractions of their ranges.
+    /// Values of the variables (SI). Derivatives are with respect to the variables as fractions of their ranges.
     variables: Vec<Dual<f64, N>>,
 }
 
 impl<'a, const N: usize> Dimensions<'a, N> {
-    /// The numbers of the candidate with these fractions of the ranges.
-    /// The derivatives are those by the fractions `first`, `first + 1`, and so on.
+    /// The numbers of the candidate that `shares` define: the variables as fractions of their ranges.
+    /// The derivatives are with respect to the fractions `first` to `first + N - 1`.
     pub(super) fn of(task: &'a Task, shares: &[f64], first: usize) -> Self {
         let variable = |(index, share): (usize, &f64)| {
             let variable = &task.variables[index];
@@ -38,7 +38,7 @@ impl<'a, const N: usize> Dimensions<'a, N> {
         found
     }
 
-    /// All numbers of the case, with the numbers of the candidate in place of those of the drawing.
+    /// All numbers of the case. The candidate's numbers replace the drawing's numbers.
     ///
     /// # Errors
     /// The errors of [`CaseNumbers::lifted`].
@@ -68,14 +68,14 @@ impl<'a, const N: usize> Dimensions<'a, N> {
         }
     }
 
-    /// A point of a link in its frame (m).
+    /// Position of a point in the frame of its link (m).
     pub(super) fn local(&self, link: LinkId, point: usize) -> [Dual<f64, N>; 2] {
         let drawn = self.task.case.mechanism.links()[link].points[point].local;
         let number = |axis: usize| self.numbers.get(&CaseNumber::Point { link, point, axis }).copied();
         [0, 1].map(|axis| number(axis).unwrap_or(Dual::of(drawn[axis])))
     }
 
-    /// Moves a point with its joints and with the loads that act on it.
+    /// Moves a point, together with the joints and loads at this point.
     fn put(&mut self, place: &PointPosition) {
         let [a, b] = place.entries.map(|entry| self.number(entry));
         let (link, point) = (place.handle.link, place.handle.point);
@@ -115,7 +115,7 @@ impl<'a, const N: usize> Dimensions<'a, N> {
     }
 }
 
-/// Loads that act on a point of a link, each with the number of its end there.
+/// Loads that act on a point of a link. Each has the number of its end at this point.
 fn loads_at(case: &Case, link: LinkId, local: Vec2) -> impl Iterator<Item = (usize, usize)> {
     let ends = |(load, own)| load_places(own).into_iter().flatten().enumerate().map(move |(end, at)| (load, end, at));
     let all = case.loads.iter().enumerate().flat_map(ends);

@@ -1,7 +1,7 @@
 //! Distances between outlines of links, with their derivatives.
 //!
-//! The distance of two convex parts has the derivative n . (p2' - p1'), where n is the direction from the nearest point
-//! p1 of the first part to the nearest point p2 of the second, and both points are fixed in their links.
+//! Let p1 and p2 be the nearest points of two convex parts, fixed in their links, and n the direction from p1 to p2.
+//! The distance of the parts has the derivative n . (p2' - p1').
 //! A shift of the nearest points along their sides has no first-order effect.
 //! Parts that overlap have a negative distance: the depth of the overlap.
 
@@ -16,12 +16,12 @@ use scenario::clearance::{ClearanceQuestion, nearest};
 
 use super::dimensions::Dimensions;
 
-/// Distance up to which contacts are computed, divided by the mechanism's size.
+/// Largest distance at which nearest points are computed, divided by the mechanism's size.
 const FAR: f64 = 1e3;
-/// Radius that stands for a part of a single corner, divided by the mechanism's size.
+/// A part with a single corner is a disc. `DOT` is its radius, divided by the mechanism's size.
 const DOT: f64 = 1e-9;
 
-/// A corner of an outline: a point of its link that may vary, or a fixed position (m).
+/// A corner of an outline: a point of the link, whose position may vary, or a fixed position on the link (m).
 #[derive(Clone, Copy)]
 enum Corner {
     Point(usize),
@@ -37,14 +37,14 @@ struct Part {
 
 /// The pairs of parts whose distances are limited.
 pub(super) struct Gaps {
-    /// For every pair of bodies, the pairs of their parts.
+    /// For every pair of bodies, all pairs of a part of the first and a part of the second.
     pairs: Vec<Vec<[usize; 2]>>,
     parts: Vec<Part>,
     size: f64,
 }
 
 impl Gaps {
-    /// The pairs of a clearance question about the drawing.
+    /// The pairs of parts for a clearance question about the drawing.
     pub(super) fn of(question: &ClearanceQuestion, case: &Case) -> Self {
         let links = case.mechanism.links();
         let mut parts = Vec::new();
@@ -91,7 +91,7 @@ impl Gaps {
     }
 }
 
-/// A part in a state: its corners in world axes (m), and its shape in units of the mechanism's size.
+/// A part at one state: its corners (m, world), and its shape with lengths divided by the mechanism's size.
 struct Placed<const N: usize> {
     corners: Vec<[Dual<f64, N>; 2]>,
     shape: Box<dyn Shape>,
@@ -121,7 +121,8 @@ impl<const N: usize> Placed<N> {
         Placed { corners, shape }
     }
 
-    /// Pose of the shape: a single corner is a disc about its own origin, all other shapes have world coordinates.
+    /// Pose of the shape. A disc for a single corner is defined about its centre; all other shapes have world
+    /// coordinates.
     fn pose(&self, size: f64) -> Pose {
         match &self.corners[..] {
             [[x, y]] => Pose::translation(x.value / size, y.value / size),
@@ -129,12 +130,13 @@ impl<const N: usize> Placed<N> {
         }
     }
 
-    /// Nearest or deepest points of two parts, in units of the mechanism's size.
+    /// Nearest points of two parts, or deepest points if the parts overlap, with lengths divided by the mechanism's
+    /// size.
     fn contact(&self, other: &Self, size: f64) -> Option<Contact> {
         query::contact(&self.pose(size), &*self.shape, &other.pose(size), &*other.shape, FAR).ok().flatten()
     }
 
-    /// Distance of the points of a contact along its normal (m).
+    /// Distance between the two points of a contact, along the contact's normal (m).
     fn distance(&self, other: &Self, contact: &Contact, size: f64) -> Dual<f64, N> {
         let normal = Vec2::new(contact.normal1.x, contact.normal1.y);
         let at = |own: &Self, point: Vector| own.material(Vec2::new(point.x, point.y) * size);
@@ -142,7 +144,8 @@ impl<const N: usize> Placed<N> {
         (second[0] - first[0]) * Dual::of(normal.x) + (second[1] - first[1]) * Dual::of(normal.y)
     }
 
-    /// The point of the part's sides nearest to a world position (m), fixed in the link and moved with its corners.
+    /// The point on the part's sides that is nearest to a world position (m). The point keeps its fraction of the side
+    /// if the corners move.
     fn material(&self, place: Vec2) -> [Dual<f64, N>; 2] {
         let at = |corner: &[Dual<f64, N>; 2]| Vec2::new(corner[0].value, corner[1].value);
         let count = self.corners.len();

@@ -1,4 +1,4 @@
-//! The nonlinear programme in the form that the optimiser takes.
+//! The nonlinear programme in the form that the optimiser requires.
 
 use std::cell::RefCell;
 use std::convert::Infallible;
@@ -13,14 +13,14 @@ use super::rows::{Order, Rows};
 use super::sloped::Sloped;
 use super::wishes::Wishes;
 
-/// A point with the constraints there.
+/// A point of the programme with the constraints at this point.
 struct Visited {
     point: Vec<f64>,
     order: Order,
     constraints: Option<Vec<Sloped>>,
 }
 
-/// The programme of one candidate: smallest largest deviation within all constraints.
+/// The programme of one candidate: minimise the largest deviation, subject to all constraints.
 pub(super) struct Programme<'a, 'b> {
     wishes: &'a Wishes<'b>,
     rows: RefCell<&'a mut Rows<'b>>,
@@ -43,7 +43,7 @@ impl<'a, 'b> Programme<'a, 'b> {
         Programme { wishes, rows: RefCell::new(rows), lower, upper, count, last: RefCell::new(None) }
     }
 
-    /// Calls `read` with the constraints at a point; `None` stands for a candidate that cannot be assembled.
+    /// Calls `read` with the constraints at a point, or with `None` if the candidate cannot be assembled.
     fn visit<T>(&self, point: &[f64], order: Order, read: impl FnOnce(Option<&Vec<Sloped>>) -> T) -> T {
         let mut last = self.last.borrow_mut();
         let is_known = |own: &Visited| own.point == point && (own.order == order || own.order == Order::Slopes);
@@ -90,7 +90,7 @@ impl NonlinearInequalityValues for Programme<'_, '_> {
     type Values = Vec<f64>;
     type Error = Infallible;
 
-    /// The optimiser rejects points whose values are not numbers, and shortens its step.
+    /// A candidate that cannot be assembled gives NaN. The optimiser rejects such a point and shortens its step.
     fn nonlinear_inequalities(&self, point: &Vec<f64>) -> Result<Vec<f64>, ConstraintSolveError<Infallible>> {
         let values = |all: &Vec<Sloped>| all.iter().map(|own| own.value).collect();
         Ok(self.visit(point, Order::Values, |all| all.map_or_else(|| vec![f64::NAN; self.count], values)))

@@ -1,6 +1,6 @@
 //! The quantities of a candidate over a turn of the crank, with their exact derivatives by the variables.
 //!
-//! Side 1 places the mechanism. The crate `precise` then solves all its equations in dual numbers, from this pose.
+//! Side 1 computes the pose. From this pose, the crate `precise` solves all equations of the mechanism in dual numbers.
 
 use std::f64::consts::TAU;
 
@@ -22,10 +22,10 @@ use crate::synthesize::search::values;
 use crate::synthesize::target::at_speed;
 use crate::synthesize::task::{OutputQuantity, Task};
 
-/// Number of variables for which one solution gives the derivatives.
+/// Number of variables whose derivatives one solution in dual numbers gives.
 const WIDTH: usize = 16;
 
-/// Whether derivatives are computed with the values.
+/// Whether only values are computed, or also their derivatives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Order {
     Values,
@@ -37,7 +37,8 @@ pub(super) enum Order {
 pub(super) struct Row {
     /// The output (rad or m).
     pub(super) output: Sloped,
-    /// Derivative of the output by the crank angle in the sense of rotation (rad/rad or m/rad).
+    /// Derivative of the output with respect to the crank angle, which counts in the sense of rotation (rad/rad or
+    /// m/rad).
     pub(super) rate: Sloped,
     /// Square of the working point's acceleration, divided by the square of its limit. `None` without a limit.
     pub(super) acceleration: Option<Sloped>,
@@ -52,24 +53,24 @@ pub(super) struct Row {
 /// Position of the output link at one crank angle.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PoseRow {
-    /// Place of the working point (m), and angle of the link (rad). Zero if the task does not ask for it.
+    /// Position of the working point (m), and angle of the link (rad). Values that the task does not need are zero.
     pub(super) values: [Sloped; 3],
-    /// Derivatives by the crank angle in the sense of rotation (m/rad and rad/rad).
+    /// Derivatives with respect to the crank angle, which counts in the sense of rotation (m/rad and rad/rad).
     pub(super) rates: [f64; 3],
 }
 
 /// The quantities of a candidate.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Sampled {
-    /// At the crank angles of the frame.
+    /// Quantities at the crank angles `Rows::turns`.
     pub(super) rows: Vec<Row>,
-    /// At the crank angles of the precision points.
+    /// Positions of the output link at the crank angles of the precision points.
     pub(super) poses: Vec<PoseRow>,
     /// Mass of all moving links (kg).
     pub(super) mass: Sloped,
 }
 
-/// Channels whose sum, with factors, is a quantity.
+/// A quantity as a sum of channels, each times a factor.
 type Terms = Vec<(Channel, f64)>;
 
 /// Computes the rows of one candidate after another.
@@ -147,7 +148,7 @@ impl<'a> Rows<'a> {
         })
     }
 
-    /// Crank angles (rad) of the precision points, nearest to the positions of a candidate.
+    /// Crank angles (rad) at which a candidate comes nearest to the precision points.
     /// `None` if the candidate cannot be assembled over the whole turn.
     pub(super) fn turns_near(&mut self, shares: &[f64]) -> Option<Vec<f64>> {
         let values = values(self.task, shares);
@@ -156,9 +157,9 @@ impl<'a> Rows<'a> {
         Some(nearest(self.task, &self.evaluator, &self.turns))
     }
 
-    /// The quantities of a candidate that is given by fractions of the ranges of its variables, with positions of the
-    /// output link at the crank angles `extra` (rad).
-    /// `None` if the candidate cannot be assembled over the whole turn, or is singular in a row.
+    /// The quantities of a candidate, with positions of the output link at the crank angles `extra` (rad).
+    /// `shares` are the candidate's variables as fractions of their ranges.
+    /// `None` if the candidate cannot be assembled over the whole turn, or is singular at one of the crank angles.
     pub(super) fn at(&mut self, shares: &[f64], extra: &[f64], order: Order) -> Option<Sampled> {
         let values = values(self.task, shares);
         let turns: Vec<f64> = self.turns.iter().copied().chain(extra.iter().map(|turn| turn.rem_euclid(TAU))).collect();
@@ -184,7 +185,7 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// The quantities with the derivatives by `N` variables, from the variable `first` on.
+    /// The quantities with their derivatives by `N` variables, beginning with the variable `first`.
     /// `sorted` are the indices of the crank angles `turns` in ascending order.
     fn part<const N: usize>(
         &mut self,

@@ -1,6 +1,6 @@
 //! Values with their derivatives by all unknowns of an optimisation.
 
-/// A value with its derivatives by the unknowns. Without derivatives, `slopes` is empty.
+/// A value with its derivatives by the unknowns. `slopes` is empty if no derivatives are computed.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Sloped {
     pub(super) value: f64,

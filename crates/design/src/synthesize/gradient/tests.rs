@@ -1,4 +1,4 @@
-//! Derivatives of all constraints, compared with differences; searches with known solutions.
+//! Tests of the constraints' derivatives against difference quotients, and of searches whose solutions are known.
 
 use super::rows::Row;
 use super::*;
@@ -14,7 +14,7 @@ use linkage::mechanism::{AssemblyMode, LinkId};
 use scenario::Claim;
 use scenario::clearance::{ClearanceBody, ClearanceQuestion, Outline};
 
-/// A crank-rocker with a coupler point, a weight of the coupler and a spring to it.
+/// A crank-rocker with a coupler point. Only the coupler has mass.
 fn case() -> Case {
     Case::builder()
         .ground(&[("O", [0.0, 0.0]), ("C", [0.4, 0.05])])
@@ -150,7 +150,8 @@ fn derivatives_equal_differences() {
         let (ahead, back) = (side(1.0), side(-1.0));
         for ((exact, ahead), back) in exact.iter().zip(&ahead).zip(&back) {
             let difference = (ahead.value - back.value) / (2.0 * step);
-            // The difference has an error of the order of the square of the step and of rounding divided by the step.
+            // The error of the difference quotient is of the order of step^2, plus the rounding error divided by the
+            // step.
             largest = largest.larger((exact.slopes[unknown] - difference).abs() / (1.0 + difference.abs()));
         }
     }
@@ -186,7 +187,7 @@ fn largest(task: &Task, values: &[f64], of: impl Fn(&Row) -> f64) -> f64 {
 fn limits_are_kept() {
     let mut task = task(Vec::new(), phases());
     task.keep.truncate(1);
-    // A wide clearance is no limit, but the distances are computed.
+    // The required clearance is negative and sets no limit, but the distances are computed.
     task.clearance = Some(WantedClearance { question: outlines(&task.case), wanted: -1.0 });
     let free = search(&task, 2, &mut |_| {}).unwrap();
     let force = |values: &[f64]| largest(&task, values, |row| row.kept[0].value);
@@ -198,7 +199,8 @@ fn limits_are_kept() {
         keep: vec![LimitedQuantity { bounds: [0.0, 0.9 * most], ..task.keep[0].clone() }],
         ..task.clone()
     });
-    // The limits hold in the rows of the programme; between these rows, 3 degrees apart, curvature adds a little.
+    // The programme keeps the limits at its rows, which are 3 degrees apart. Between the rows, a quantity may exceed
+    // its limit a little.
     assert!(force(&quieter.values) < 0.902 * most && quieter.cost > free.cost, "{most} {}", force(&quieter.values));
     let wanted = least + 0.01;
     let wider =
@@ -212,7 +214,7 @@ fn masses_of_bars_follow_the_dimensions() {
     let shares = [0.5; 7];
     let numbers = dimensions::Dimensions::<7>::of(&task, &shares, 0);
     let mass = numbers.number_of(linkage::case::CaseNumber::Mass(LinkId(1)));
-    // The crank is a bar of 3 kg/m, and 0.06 m long between its bounds.
+    // The crank is a bar of 3 kg/m and 0.09 m long. The bounds of its length are 0.06 m apart.
     assert!((mass.value - 3.0 * 0.09).abs() < 1e-15 && (mass.slopes[0] - 3.0 * 0.06).abs() < 1e-15);
     let inertia = numbers.number_of(linkage::case::CaseNumber::Inertia(LinkId(1)));
     assert!((inertia.value - 3.0 * 0.09f64.powi(3) / 12.0).abs() < 1e-15);

@@ -1,15 +1,17 @@
-//! The task as a nonlinear programme: the smallest largest deviation from the required motion, within all limits.
+//! The task as a nonlinear programme: minimise the largest deviation from the required motion, within all limits.
 //!
 //! The unknowns are the variables of the task (fractions of their ranges), the largest deviation h, the level of every
-//! dwell, and the crank angle of every precision point that leaves it free.
+//! dwell, and every free crank angle of a precision point.
 //! The objective is h. All constraints have the form c <= 0.
 //! The output is u, a fraction of the stroke from its rearmost position.
 //!
 //! - Dwell: u stays within h / 2 of its level, so that its motion is at most h.
-//! - Moving phase: the rate of u in the wrong sense, times a crank angle of 20 deg, is at most h. Where two opposite
-//!   motions meet, both conditions hold at one crank angle, and the rate there is zero up to h.
-//! - Known levels: u differs by at most h, and also over the whole turn if it must follow a curve.
-//! - Precision points: their coordinates, divided by the extent of all points, and their angles differ by at most h.
+//! - Moving phase: the rate of u in the wrong sense, times a crank angle of 20 deg, is at most h.
+//!   At the crank angle between two opposite motions, the conditions of both phases apply, so the rate is zero up to h.
+//! - Known levels: u differs from a level by at most h. If u must follow a curve, it differs from the curve by at most
+//!   h over the whole turn.
+//! - Precision points: the angle of the output link differs from the required angle by at most h. So do the
+//!   coordinates, divided by the extent of all points.
 //!   Free crank angles ascend.
 //! - Stroke, acceleration, transmission angles, distances, mass and limited quantities stay within their limits.
 
@@ -25,11 +27,12 @@ pub(super) struct Wishes<'a> {
     task: &'a Task,
     /// Sense of the output that counts as forward: +1 or -1.
     forward: f64,
-    /// Rows at which the phases end, and the required curve; empty if the output need not follow it.
+    /// Rows at which the phases end, and the required curve. The curve is empty if the output need not follow a curve.
     frame: &'a Rater<'a>,
-    /// Phases that are dwells; each has a level.
+    /// Indices of the phases that are dwells. Each dwell has an unknown level.
     dwells: Vec<usize>,
-    /// For every precision point, the unknown that is its crank angle; `None` if the task gives the crank angle.
+    /// For every precision point, the index of the unknown for its crank angle; `None` if the task gives the crank
+    /// angle.
     turns: Vec<Option<usize>>,
 }
 
@@ -56,7 +59,7 @@ impl Output {
     }
 }
 
-/// Collects constraints at a point: values, and derivatives by all unknowns.
+/// Collects the constraints at a point of the programme: values, and derivatives by all unknowns.
 struct Collected<'a> {
     point: &'a [f64],
     deviation: usize,
@@ -108,13 +111,13 @@ impl<'a> Wishes<'a> {
         self.turns.contains(&Some(unknown))
     }
 
-    /// Crank angles (rad) of the precision points in a point of the programme.
+    /// The crank angles (rad) of the precision points that a point of the programme contains.
     pub(super) fn turns(&self, point: &[f64]) -> Vec<f64> {
         let pairs = self.task.points.all().iter().zip(&self.turns);
         pairs.map(|(own, unknown)| unknown.map_or(own.turn.unwrap_or(0.0), |unknown| point[unknown])).collect()
     }
 
-    /// Fractions of the variables' ranges in a point of the programme.
+    /// The task's variables, as fractions of their ranges, that a point of the programme contains.
     pub(super) fn shares<'b>(&self, point: &'b [f64]) -> &'b [f64] {
         &point[..self.task.variables.len()]
     }
@@ -124,8 +127,8 @@ impl<'a> Wishes<'a> {
         self.task.variables.len()
     }
 
-    /// The unknowns at a candidate: its fractions, the smallest deviation that it needs, its levels in dwells, and the
-    /// given crank angles `turns` (rad) of the precision points.
+    /// The point of the programme for a candidate. It consists of the fractions `shares`, the smallest deviation with
+    /// which the candidate keeps all constraints, its levels in dwells, and the free crank angles among `turns` (rad).
     pub(super) fn start(&self, found: &Sampled, shares: &[f64], turns: &[f64]) -> Vec<f64> {
         let output = Output::of(&found.rows, self.forward);
         let level = |dwell: &usize| {
@@ -140,9 +143,9 @@ impl<'a> Wishes<'a> {
         point
     }
 
-    /// The smallest deviation with which a point keeps all wishes.
+    /// The smallest deviation h with which a point keeps all constraints that contain h.
     fn needed(&self, found: &Sampled, point: &[f64]) -> f64 {
-        // A wish has the form c - width h <= 0. With h = 0 and h = 1, its width follows.
+        // Such a constraint has the form c - width h <= 0. Its values for h = 0 and h = 1 give c and the width.
         let with = |h: f64| {
             let mut point = point.to_vec();
             point[self.deviation()] = h;

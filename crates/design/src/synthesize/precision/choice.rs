@@ -1,4 +1,4 @@
-//! The best of many four-bars.
+//! Chooses the best of many four-bars.
 
 use crate::sentences;
 use std::cmp::Ordering;
@@ -7,9 +7,10 @@ use super::four_bar::{FourBarChecks, GivenFrames, GroundLink, PrecisionFourBar};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{Complex, KeepNan};
 
-/// Longest length divided by the shortest, above which a four-bar is hard to build.
+/// A four-bar whose longest length is more than this many times its shortest length is hard to build.
 const MOST_RATIO: f64 = 10.0;
-/// Two scanned four-bars count as similar if their joints are closer than this fraction of the longest length.
+/// If free rotations are scanned on a grid, two four-bars count as similar if their joints are closer than this
+/// fraction of the longest length.
 const SIMILAR: f64 = 0.05;
 /// Two four-bars count as the same if their joints are closer than this fraction of the longest length.
 const SAME: f64 = 1e-6;
@@ -19,19 +20,19 @@ const SAME: f64 = 1e-6;
 pub struct PrecisionSynthesis {
     /// The best four-bars, the best first.
     ///
-    /// Four-bars that keep one assembly mode come first; of these, the ones that keep the order of the positions; then
-    /// those with length ratios below 10; then those with a crank that turns fully; then those with the largest
-    /// smallest transmission angle.
+    /// The criteria, in decreasing priority: the four-bar keeps one assembly mode; it also keeps the order of the
+    /// positions; its length ratio is below 10; its crank turns fully; its smallest transmission angle is large.
     pub best: Vec<PrecisionFourBar>,
     /// Number of four-bars that pass all positions.
     pub found: usize,
-    /// Number of these that reach all positions in one assembly mode.
+    /// Number of four-bars that reach all positions in one assembly mode.
     pub keep_branch: usize,
-    /// Number of these that pass the positions in one assembly mode and in their order.
+    /// Number of four-bars that pass the positions in one assembly mode and in their order.
     pub keep_order: usize,
-    /// Number of these whose crank also turns fully.
+    /// Number of four-bars that pass the positions in one assembly mode and in their order, and whose crank turns
+    /// fully.
     pub turn_fully: usize,
-    /// Whether free rotations were scanned on a grid. `best` then has no two similar four-bars.
+    /// Whether free rotations were scanned on a grid. If they were, no two four-bars of `best` are similar.
     pub is_scanned: bool,
 }
 
@@ -49,7 +50,7 @@ impl Choice {
         Choice { given, wanted, all: none }
     }
 
-    /// Judges the four-bar of a crank and a rocker, and keeps it if it is one of the best.
+    /// Checks the four-bar of a crank and a rocker, and keeps the four-bar if it is one of the best.
     pub(super) fn offer(&mut self, links: [&GroundLink; 2]) {
         let Some(checks) = FourBarChecks::of(links, self.given.point) else { return };
         let all = &mut self.all;
@@ -89,7 +90,7 @@ impl Choice {
     }
 }
 
-/// Orders four-bars: the better is less.
+/// Orders four-bars: the better four-bar is `Less`.
 fn compare(a: &FourBarChecks, b: &FourBarChecks) -> Ordering {
     let merits = |own: &FourBarChecks| {
         [own.keeps_branch, own.keeps_branch && own.keeps_order, own.ratio < MOST_RATIO, own.turns_fully()]
@@ -97,7 +98,7 @@ fn compare(a: &FourBarChecks, b: &FourBarChecks) -> Ordering {
     merits(b).cmp(&merits(a)).then(b.transmission.total_cmp(&a.transmission))
 }
 
-/// Whether all joints of two four-bars are close together in position 1.
+/// Whether, in position 1, each joint of a four-bar is close to the same joint of another four-bar.
 fn are_near(a: &PrecisionFourBar, b: &PrecisionFourBar, share: f64) -> bool {
     let size = a.checks.lengths.into_iter().fold(0.0, f64::larger);
     let joints = |own: &PrecisionFourBar| -> [Complex; 4] {

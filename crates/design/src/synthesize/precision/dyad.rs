@@ -1,8 +1,8 @@
 //! Dyads in standard form, for three, four or five positions.
 //!
 //! A dyad is a chain of two vectors from a fixed pivot to a point with given displacements d_j.
-//! The rotations k_j of one vector Y are given, the rotations u_j of the other vector X are unknown (unit complex
-//! numbers):
+//! The rotations of the two vectors are complex numbers of magnitude 1.
+//! The rotations k_j of Y are given, and the rotations u_j of X are unknown:
 //!
 //! ```text
 //! X (u_j - 1) + Y (k_j - 1) = d_j,   j = 2 .. n
@@ -16,32 +16,34 @@
 //! u_r M_pq = E_r + u_q M_pr,   E_r = M_pq - M_pr - (u_p - 1) M_qr.
 //! ```
 //!
-//! Because u_r and u_q have the magnitude 1, `2 Re(A_r u_q) + B_r = 0` with `A_r = conj(E_r) M_pr` and
-//! `B_r = |E_r|^2 + |M_pr|^2 - |M_pq|^2`.
+//! Because u_r and u_q have the magnitude 1, the condition becomes `2 Re(A_r u_q) + B_r = 0`
+//! with `A_r = conj(E_r) M_pr` and `B_r = |E_r|^2 + |M_pr|^2 - |M_pq|^2`.
 //!
 //! - Three positions: no condition; u_2 and u_3 are free.
 //! - Four positions: u_p is free, and the condition has up to two roots u_q (Burmester's curve).
-//! - Five positions: two conditions r and s.
-//!   Both are linear in (u_q, conj u_q), so `u_q (A_r conj A_s - conj(A_r) A_s) = B_s conj A_r - B_r conj A_s`.
-//!   Its magnitude is 1 where `F = |B_s A_r - B_r A_s|^2 - 4 Im(A_r conj A_s)^2` is zero.
+//! - Five positions: there are two conditions, for the rows r and s.
+//!   The two conditions are linear in (u_q, conj u_q), so
+//!   `u_q (A_r conj A_s - conj(A_r) A_s) = B_s conj A_r - B_r conj A_s`.
+//!   The magnitude of u_q is 1 where `F = |B_s A_r - B_r A_s|^2 - 4 Im(A_r conj A_s)^2` is zero.
 //!   A is of degree 1 and B of degree 2 in u_p, so F is a real trigonometric polynomial of degree 3: six roots.
-//!   Two roots are trivial: all u_j = 1, and all u_j = k_j; X and Y are then infinite. Up to four dyads remain.
+//!   Two roots are trivial (all u_j = 1, and all u_j = k_j), with infinite X and Y. Up to four dyads remain.
 //!
-//! Newton's method polishes the dyads of five positions in equations without rotations,
-//! `|X + d_j - Y (k_j - 1)| = |X|`. Every dyad is verified in these equations.
+//! For five positions, Newton's method makes the dyads more exact.
+//! Its equations contain no u_j: `|X + d_j - Y (k_j - 1)| = |X|`.
+//! Every dyad is verified by these equations.
 
 use linkage::math::dense::Lu;
 use linkage::math::{Complex, KeepNan, harmonic};
 use std::f64::consts::TAU;
 
-/// Steps of a free rotation if there is only one.
+/// Number of grid steps per turn if one rotation is free.
 const STEPS_OF_ONE: usize = 180;
-/// Steps of each free rotation if there are two.
+/// Number of grid steps per turn for each rotation if two rotations are free.
 const STEPS_OF_TWO: usize = 24;
 /// Largest relative error of a dyad's length in any position.
 const PASSED: f64 = 1e-10;
-/// Smallest and largest magnitude of X, divided by the largest displacement. Vectors outside are not buildable, and
-/// near the trivial roots.
+/// Smallest and largest permitted magnitude of X, divided by the largest displacement.
+/// Vectors outside this range cannot be built, or come from the trivial roots.
 const SIZES: [f64; 2] = [1e-6, 1e4];
 /// Relative difference below which two dyads are the same.
 const SAME: f64 = 1e-7;
@@ -51,15 +53,15 @@ const DEGENERATE: f64 = 1e-12;
 /// A dyad in standard form.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StandardDyad {
-    /// Vector X in position 1, whose rotations were unknown (m).
+    /// Vector X in position 1 (m). Its rotations were unknown.
     pub free: Complex,
-    /// Vector Y in position 1, whose rotations were given (m).
+    /// Vector Y in position 1 (m). Its rotations were given.
     pub given: Complex,
-    /// Rotations of X from position 1 to every position, of magnitude 1; the first is 1.
+    /// Rotations of X from position 1 to every position, as complex numbers of magnitude 1. The first one is 1.
     pub turns: Vec<Complex>,
 }
 
-/// The rows of the standard form, with displacements divided by the largest one.
+/// The rows of the standard form. Displacements are divided by the largest displacement.
 struct Rows {
     /// k_j - 1 of positions 2 to n.
     turns: Vec<Complex>,
@@ -69,9 +71,9 @@ struct Rows {
     size: f64,
 }
 
-/// Dyads whose vector Y has the rotations `turns`, and whose end has the displacements `ways` (m), both since
-/// position 1. The lists have one entry for each of three to five positions; the first rotation is 1, the first
-/// displacement 0.
+/// Dyads whose vector Y has the rotations `turns`, and whose end has the displacements `ways` (m).
+/// Rotations and displacements count from position 1, so the first rotation is 1 and the first displacement is 0.
+/// The two lists have one entry for each of the three to five positions.
 /// Free rotations are scanned on a fixed grid.
 ///
 /// Returns `None` if the positions determine no dyad: all of them are rotations about one point, or translations.
@@ -92,7 +94,8 @@ pub fn dyads(turns: &[Complex], ways: &[Complex]) -> Option<Vec<StandardDyad>> {
     Some(found.into_iter().map(|dyad| rows.in_metres(dyad)).collect())
 }
 
-/// Rows in the order of the elimination: u_p is scanned or a root of F, u_q follows, then the other rows.
+/// Rows in the order of the elimination. First, u_p is scanned on a grid or is a root of F; u_q follows from u_p, and
+/// the rotations of the other rows follow last.
 struct Elimination {
     p: usize,
     q: usize,
@@ -104,7 +107,7 @@ impl Rows {
         self.turns[i] * self.ways[j] - self.turns[j] * self.ways[i]
     }
 
-    /// The order with the largest divisors; `None` if all minors are zero.
+    /// The order of elimination with the largest divisors; `None` if all minors are zero.
     fn order(&self) -> Option<Elimination> {
         let all = 0..self.turns.len();
         let pairs = all.clone().flat_map(|p| all.clone().map(move |q| (p, q))).filter(|(p, q)| p != q);
@@ -126,7 +129,7 @@ impl Rows {
         (e.conj() * pr, e.norm_sqr() + pr.norm_sqr() - pq.norm_sqr(), e)
     }
 
-    /// Dyads of three positions, on a grid of both rotations.
+    /// Dyads of three positions. The two free rotations are scanned on a grid.
     fn scanned(&self) -> Vec<StandardDyad> {
         let grid = || steps(STEPS_OF_TWO);
         let pairs = grid().flat_map(|a| grid().map(move |b| [a, b]));
@@ -168,7 +171,8 @@ impl Rows {
         found
     }
 
-    /// The rotations of all rows for u_p and u_q. Those of the other rows have the magnitude 1 only for a solution.
+    /// The rotations u_j of all rows, computed from u_p and u_q. Only for a solution do all of them have the magnitude
+    /// 1.
     fn all_turns(&self, order: &Elimination, p: Complex, q: Complex) -> Vec<Complex> {
         let turn = |row: usize| match row {
             _ if row == order.p => p,
@@ -199,7 +203,7 @@ impl Rows {
         self.turns.iter().zip(&self.ways).map(move |(turn, way)| way - y * turn)
     }
 
-    /// Newton's method on `|g_j|^2 + 2 Re(conj(X) g_j) = 0` for five positions; the unknowns are X and Y.
+    /// Newton's method for five positions: solves `|g_j|^2 + 2 Re(conj(X) g_j) = 0` for X and Y.
     fn polished(&self, [mut x, mut y]: [Complex; 2]) -> Option<[Complex; 2]> {
         let mut matrix = Lu::new(4);
         for _ in 0..30 {
@@ -254,13 +258,13 @@ fn is_same(a: &StandardDyad, b: &StandardDyad) -> bool {
     (a.free - b.free).norm() + (a.given - b.given).norm() <= SAME * size
 }
 
-/// Rotations by whole steps of a turn, without the rotation by zero.
+/// Rotations by multiples of a `count`-th of a turn, except the rotation by zero.
 fn steps(count: usize) -> impl Iterator<Item = Complex> {
     (1..count).map(move |k| Complex::from_polar(1.0, TAU * k as f64 / count as f64))
 }
 
 /// The numbers u of magnitude 1 with `2 Re(a u) + b = 0`.
-/// If rounding errors let the two roots vanish, the roots count as one.
+/// If the equation has no solution only because of rounding errors, the nearest double root is returned.
 fn unit_roots(a: Complex, b: f64) -> Option<[Complex; 2]> {
     let cos = -b / (2.0 * a.norm());
     (cos.abs() <= 1.0 + 1e-6).then(|| {

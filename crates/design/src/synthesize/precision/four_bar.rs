@@ -1,8 +1,11 @@
-//! A four-bar that passes precision points, with the checks of assembly mode, order, crank and transmission angle.
+//! A four-bar that passes precision points, with checks of its assembly mode, the order of the positions, its crank and
+//! its transmission angle.
 //!
-//! With the frame f, crank a, coupler b, rocker c and the crank's angle x from the line of the pivots, the diagonal AC
-//! has `d^2 = f^2 + a^2 - 2 f a cos x`. The dyad (b, c) can be assembled for `|b - c| <= d <= b + c`.
-//! A driven crank stays in one interval of x with these distances, and the dyad then keeps its assembly mode.
+//! Let f, a, b and c be the lengths of frame, crank, coupler and rocker, and x the crank's angle from the line of the
+//! pivots.
+//! The diagonal AC then has the length d with `d^2 = f^2 + a^2 - 2 f a cos x`.
+//! The dyad (b, c) can be assembled for `|b - c| <= d <= b + c`.
+//! The angle x of a driven crank stays in one interval for which this is true, and the dyad keeps its assembly mode.
 //! (For example Hunt, Kinematic Geometry of Mechanisms, 1978, section 4.1.)
 
 use crate::synthesize::transmission_angle;
@@ -18,14 +21,14 @@ const PASSED: f64 = 1e-9;
 /// Largest angle (rad) by which rounding may put a position outside the reachable interval.
 const AT_LIMIT: f64 = 1e-7;
 
-/// A link on the ground with its pin on the coupler.
+/// A link from the ground to the coupler: the crank or the rocker.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct GroundLink {
     /// Pivot on the ground (m).
     pub(super) pivot: Complex,
     /// Pin on the coupler in position 1 (m).
     pub(super) pin: Complex,
-    /// Rotations from position 1 to every position, of magnitude 1.
+    /// Rotations of the link from position 1 to every position, as complex numbers of magnitude 1.
     pub(super) turns: Vec<Complex>,
 }
 
@@ -39,10 +42,10 @@ impl GroundLink {
     }
 }
 
-/// Crank angles, from that in position 1 (rad, counter-clockwise positive).
+/// Range of the crank angle, measured from position 1 (rad, counter-clockwise positive).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CrankTravel {
-    /// The crank turns fully. The positions are passed in their order in this sense.
+    /// The crank turns fully. With the sense of rotation `sense`, it passes the positions in their order, if it can.
     FullTurn {
         /// +1 counter-clockwise, -1 clockwise.
         sense: f64,
@@ -62,9 +65,10 @@ pub struct FourBarChecks {
     pub mode: AssemblyMode,
     /// Crank angles of the motion through the positions.
     pub travel: CrankTravel,
-    /// Smallest transmission angle of this motion (rad), at most a right angle.
+    /// Smallest transmission angle over the motion `travel` (rad), at most a right angle.
     pub transmission: f64,
-    /// Longest length, including those from the working point to the pins, divided by the shortest of the four.
+    /// Longest length divided by the shortest of the four `lengths`. The longest length may also be a distance from the
+    /// working point to a pin.
     pub ratio: f64,
     /// Whether the driven crank reaches all positions in one assembly mode, without a dead point between them.
     pub keeps_branch: bool,
@@ -79,8 +83,8 @@ impl FourBarChecks {
         matches!(self.travel, CrankTravel::FullTurn { .. })
     }
 
-    /// The checks of a crank and a rocker with a working point in position 1; `None` if a link has no
-    /// length, if the coupler's length changes between the positions, or if a number overflows.
+    /// Checks the four-bar of a crank and a rocker. `point` is the working point in position 1.
+    /// `None` if a link has no length, if the coupler's length changes between the positions, or if a number overflows.
     pub(super) fn of([crank, rocker]: [&GroundLink; 2], point: Option<Complex>) -> Option<Self> {
         let (frame, coupler) = (rocker.pivot - crank.pivot, rocker.pin - crank.pin);
         let lengths = [frame, crank.arm(), coupler, rocker.arm()].map(|arm| arm.norm());
@@ -121,7 +125,7 @@ struct Motion {
 }
 
 impl Motion {
-    /// The motion through crank angles from the line of the pivots (rad).
+    /// The motion through these crank angles, measured from the line of the pivots (rad).
     fn of(lengths: [f64; 4], angles: &[f64]) -> Self {
         let intervals = reachable(lengths);
         if intervals.is_empty() {
@@ -133,7 +137,7 @@ impl Motion {
         let inside = |[from, to]: [f64; 2]| -> Vec<f64> {
             angles.iter().filter_map(|&angle| within(angle, from - AT_LIMIT, to + AT_LIMIT)).collect()
         };
-        // The first interval with the first position; rounding may put this position outside of all intervals.
+        // The first interval that contains the first position. Rounding may put this position outside all intervals.
         let has_first =
             |&interval: &[f64; 2]| within(angles[0], interval[0] - AT_LIMIT, interval[1] + AT_LIMIT).is_some();
         let own = intervals.into_iter().find(has_first).map(inside).unwrap_or_default();
@@ -149,9 +153,9 @@ impl Motion {
         }
     }
 
-    /// Smallest transmission angle (rad). Its extremes are at the ends, and where the crank is on the line of the
-    /// pivots.
-    /// `first` is the crank's angle from this line in position 1 (rad).
+    /// Smallest transmission angle (rad). The transmission angle has its extremes at the ends of the motion, and where
+    /// the crank is on the line of the pivots.
+    /// `first` is the crank's angle from the line of the pivots in position 1 (rad).
     fn transmission(&self, [frame, crank, coupler, rocker]: [f64; 4], first: f64) -> f64 {
         let diagonal = |x: f64| (frame * frame + crank * crank - 2.0 * frame * crank * x.cos()).larger(0.0).sqrt();
         let [from, to] = match self.travel {
@@ -179,17 +183,17 @@ fn reachable([frame, crank, coupler, rocker]: [f64; 4]) -> Vec<[f64; 2]> {
     }
 }
 
-/// The angle congruent to `angle` in an interval (rad).
+/// The angle in an interval (rad) that differs from `angle` by whole turns; `None` if there is no such angle.
 fn within(angle: f64, from: f64, to: f64) -> Option<f64> {
     (-1..=1).map(|k| angle + TAU * f64::from(k)).find(|own| *own >= from && *own <= to)
 }
 
-/// Whether angles (rad) follow each other within one turn in this sense.
+/// Whether a rotation in one sense passes these angles (rad) in their order within one turn.
 fn is_cyclic(angles: &[f64], sense: f64) -> bool {
     angles.windows(2).map(|pair| (sense * (pair[1] - pair[0])).rem_euclid(TAU)).sum::<f64>() < TAU
 }
 
-/// The frame of a link in position 1.
+/// The coordinate frame of a link in position 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PositionFrame {
     /// Origin (m).
@@ -199,7 +203,7 @@ pub struct PositionFrame {
 }
 
 impl PositionFrame {
-    /// A point (m) in the coordinates of the link. A coordinate below the rounding error is zero.
+    /// Converts a point (m) to the coordinates of the link. A coordinate below the rounding error is set to zero.
     #[must_use]
     pub fn local(&self, point: Complex) -> Complex {
         let at = (point - self.origin) * Complex::from_polar(1.0, -self.angle);
@@ -220,20 +224,23 @@ pub struct PrecisionFourBar {
     pub point: Option<Complex>,
     /// Frames of crank, coupler and rocker in position 1.
     pub frames: [PositionFrame; 3],
-    /// Rotations of the crank from position 1 to every position (rad), along the travel where the travel has them.
+    /// Rotations of the crank from position 1 to every position (rad), counted along the travel if the travel reaches
+    /// the position.
     pub crank_turns: Vec<f64>,
     /// The checks.
     pub checks: FourBarChecks,
 }
 
-/// The frames that the task gives; the x axis of any other link points from its first pin to its second.
+/// Data of link frames that the task gives. The x axis of any other link points from the link's first pin to its second
+/// pin.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct GivenFrames {
     /// Working point of the coupler in position 1 (m).
     pub(super) point: Option<Complex>,
     /// Crank angle in position 1 (rad).
     pub(super) crank: Option<f64>,
-    /// Angle of the coupler in position 1 (rad). The working point is then the frame's origin.
+    /// Angle of the coupler in position 1 (rad). If it is given, the working point is the origin of the coupler's
+    /// frame.
     pub(super) coupler: Option<f64>,
     /// Rocker angle in position 1 (rad).
     pub(super) rocker: Option<f64>,
@@ -278,7 +285,8 @@ mod tests {
         // Crank-rocker, double-crank.
         assert_eq!(reachable([4.0, 1.0, 3.5, 3.0]), Vec::<[f64; 2]>::new());
         assert_eq!(reachable([1.0, 4.0, 3.5, 3.0]), Vec::<[f64; 2]>::new());
-        // Stretched at 4 = 1.5 + 2.5: cos x = (9 + 4 - 16) / 12; the folded pose has a diagonal of 1 = 3 - 2.
+        // The dyad is stretched at the diagonal 4 = 1.5 + 2.5, so cos x = (9 + 4 - 16) / 12. It is folded at the
+        // diagonal 1 = 3 - 2.
         let [[from, to]] = reachable([3.0, 2.0, 1.5, 2.5])[..] else { panic!("one interval") };
         assert!((to + from).abs() < 1e-15 && (to - (-0.25f64).acos()).abs() < 1e-15);
         // Both limits: double-rocker.
@@ -292,7 +300,7 @@ mod tests {
         assert!(is_cyclic(&[3.0, 2.0, 1.0], -1.0) && !is_cyclic(&[0.0, 2.0, 1.0, 3.0], 1.0));
     }
 
-    /// A crank with positions on both sides of a dead point cannot be driven from one to the other.
+    /// A crank whose positions lie on both sides of a dead point cannot be driven from one side to the other.
     #[test]
     fn a_dead_point_between_positions_is_a_branch_defect() {
         let link = |pivot: f64, arm: f64, angles: [f64; 3]| GroundLink {

@@ -1,6 +1,6 @@
 //! Function generation: pairs of crank and rocker angles.
 //!
-//! Three pairs of world angles: with phi and psi measured from the line of the pivots, Freudenstein's equation
+//! Three pairs of world angles: if phi and psi are measured from the line of the pivots, Freudenstein's equation
 //! (Freudenstein 1955)
 //!
 //! ```text
@@ -11,7 +11,8 @@
 //!
 //! Three to five pairs with a free start: only the rotations from the first pair are given.
 //! The rocker U = 1 displaces its pin by `d_j = e^(i psi_j) - 1`. The crank W turns by phi_j, and the coupler Z by
-//! unknown angles. The frame is then W + Z - U; scale and rotation move it to the given pivots.
+//! unknown angles.
+//! The frame is then W + Z - U. A scaling and a rotation bring this vector to the given pivots.
 
 use crate::sentences;
 
@@ -24,15 +25,16 @@ use linkage::error::Result;
 use linkage::math::dense::Lu;
 use linkage::math::{Complex, KeepNan};
 
-/// Smallest pivot of the three equations, relative to the largest, for which they determine the lengths.
+/// The three equations determine the lengths if their smallest pivot in the elimination, divided by the largest pivot,
+/// is above this limit.
 const INDEPENDENT: f64 = 1e-12;
-/// Smallest frame, relative to the rocker, that counts as a length.
+/// A frame that is shorter than this fraction of the rocker counts as having no length.
 const FRAME: f64 = 1e-6;
 
-/// Start of the angles of a function generator.
+/// Meaning of the angles given for a function generator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FunctionStart {
-    /// The angles are world angles; only for three pairs.
+    /// The angles are world angles. This is possible only for three pairs.
     World,
     /// Only the differences from the first pair matter.
     Free,
@@ -51,7 +53,7 @@ pub struct FunctionSpec {
 
 impl FunctionSpec {
     /// The four-bars that couple all pairs of angles; at most `wanted` of the best.
-    /// The angles of their links crank and rocker are the given angles.
+    /// In these four-bars, the angles of the links `crank` and `rocker` equal the given angles.
     ///
     /// # Errors
     /// [`ErrorKind::Input`](linkage::error::ErrorKind::Input) for a wrong number of pairs, for numbers that are not
@@ -135,7 +137,7 @@ impl FunctionSpec {
         let none = || no_dyad(sentences::ROCKER_AND_CRANK_TURN_ALIKE, sentences::CHANGE_A_PAIR_OR_USE_A_PARALLELOGRAM);
         let one = Complex::new(1.0, 0.0);
         for dyad in dyads(&self.turns(0), &ways).ok_or_else(none)? {
-            // One solution has a coupler that turns with the rocker, and a crank and a frame without length.
+            // One solution is degenerate: its coupler turns with the rocker, and its crank and frame have no length.
             let frame = dyad.given + dyad.free - one;
             if frame.norm() > FRAME {
                 let scale = (self.pivots[1] - self.pivots[0]) / frame;

@@ -1,8 +1,10 @@
 //! Motion generation: a coupler in three, four or five poses.
 //!
-//! Every pair of dyads is a four-bar: W turns on the ground with unknown rotations, Z with the coupler.
-//! With three poses, a given pivot determines its pin: the centre of the circle through the pivot's three positions,
-//! seen from the coupler. A given pin determines its pivot: the centre of the circle through the pin's positions.
+//! Every pair of dyads is a four-bar. The vector W of a dyad turns about the pivot by unknown angles, and Z turns with
+//! the coupler.
+//! For three poses, a given pivot determines its pin: the centre of the circle through the three positions of the
+//! pivot, as seen from the coupler.
+//! A given pin determines its pivot: the centre of the circle through the three positions of the pin.
 //! (For example McCarthy, Geometric Design of Linkages, 2000, section 5.2.)
 
 use crate::sentences;
@@ -15,7 +17,8 @@ use crate::synthesize::wrong;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{Complex, KeepNan};
 
-/// Relative area below which three points lie on a line.
+/// Three points count as collinear if the area that they span, divided by the square of their distance, is below this
+/// limit.
 const ON_LINE: f64 = 1e-9;
 
 /// A pose of the coupler.
@@ -34,8 +37,9 @@ pub struct MotionSpec {
     pub poses: Vec<CouplerPose>,
     /// Given pivots on the ground (m); only for three poses.
     pub pivots: Vec<Complex>,
-    /// Given pins of the coupler (m), in the coupler's frame: from the working point, x axis at the pose's angle; only
-    /// for three poses. There are at most two given pivots and pins together.
+    /// Given pins of the coupler (m), only for three poses. At most two pivots and pins together are given.
+    /// The coordinates are in the coupler's frame: its origin is the working point, and its x axis has the angle of the
+    /// pose.
     pub pins: Vec<Complex>,
 }
 
@@ -92,7 +96,7 @@ impl MotionSpec {
         dyads(&self.turns(), &ways_from_first(&self.points())).ok_or_else(none)
     }
 
-    /// The links of given pivots and pins.
+    /// The links that the given pivots and pins determine.
     fn given_links(&self) -> Result<Vec<GroundLink>> {
         let first = self.poses[0];
         let of_pivot = |&pivot: &Complex| {
@@ -109,7 +113,7 @@ impl MotionSpec {
         self.pivots.iter().map(of_pivot).chain(self.pins.iter().map(of_pin)).collect()
     }
 
-    /// The link between a pivot and a pin of the coupler, both given.
+    /// The link between a pivot and a pin of the coupler.
     fn link(&self, pivot: Complex, pin: Complex) -> GroundLink {
         let arms: Vec<Complex> = self.poses.iter().map(|pose| at_pose(pose, pin) - pivot).collect();
         let turns = arms.iter().map(|arm| arm / arms[0] * (arms[0].norm() / arm.norm())).collect();
@@ -117,12 +121,13 @@ impl MotionSpec {
     }
 }
 
-/// A point of the coupler, in the coupler's frame, at a pose (m).
+/// World position of a pin at a pose (m). `pin` is given in the coupler's frame.
 fn at_pose(pose: &CouplerPose, pin: Complex) -> Complex {
     pose.point + pin * Complex::from_polar(1.0, pose.angle)
 }
 
-/// The link of a dyad whose given vector Z turns with the coupler and ends at `point` in position 1 (m).
+/// The link that a dyad describes. The dyad's given vector turns with the coupler, and ends at `point` in position 1
+/// (m).
 pub(super) fn of_motion(dyad: StandardDyad, point: Complex) -> GroundLink {
     let pin = point - dyad.given;
     GroundLink { pivot: pin - dyad.free, pin, turns: dyad.turns }

@@ -1,7 +1,7 @@
 //! Path generation with prescribed timing: a point of the coupler at given points and crank angles.
 //!
-//! The crank W has given rotations, and Z of the crank's dyad turns with the coupler by unknown angles.
-//! Each solution gives the coupler's rotations. The rocker's dyad is then a dyad of motion generation.
+//! In the crank's dyad, the crank W has given rotations, and Z turns with the coupler by unknown angles.
+//! Each solution for this dyad gives the coupler's rotations. The rocker's dyad is then found as for motion generation.
 //! (Sandor and Erdman, Advanced Mechanism Design, vol. 2, 1984, chapter 3.)
 
 use crate::sentences;
@@ -31,7 +31,8 @@ pub struct PathSpec {
 }
 
 impl PathSpec {
-    /// The four-bars whose coupler point passes all points at their crank angles; at most `wanted` of the best.
+    /// The four-bars whose coupler point passes every given point at the given crank angle; at most `wanted` of the
+    /// best.
     ///
     /// # Errors
     /// [`ErrorKind::Input`](linkage::error::ErrorKind::Input) for a wrong number of points, for numbers that are not
@@ -50,7 +51,8 @@ impl PathSpec {
         for own in dyads(&cranks, &ways).ok_or_else(none)? {
             let pin = first.point - own.free;
             let crank = GroundLink { pivot: pin - own.given, pin, turns: cranks.clone() };
-            // With five points, the crank's dyad is one of the solutions; its four-bar has no frame and is refused.
+            // For five points, one of the solutions is the crank's dyad itself. The four-bar would then have a frame
+            // without length, and is refused.
             let rockers = dyads(&own.turns, &ways).unwrap_or_default();
             let rockers = rockers.into_iter().map(|dyad| of_motion(dyad, first.point));
             rockers.for_each(|rocker| choice.offer([&crank, &rocker]));

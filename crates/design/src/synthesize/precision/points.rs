@@ -1,4 +1,4 @@
-//! Checks of given positions, common to all tasks.
+//! Checks of the given positions, for all kinds of precision points.
 
 use crate::sentences;
 use std::ops::RangeInclusive;
@@ -9,7 +9,8 @@ use linkage::math::{Complex, KeepNan};
 
 /// Numbers of positions for which closed forms exist.
 const COUNTS: RangeInclusive<usize> = 3..=5;
-/// Two positions coincide if they differ by less than this fraction of the largest displacement, or this angle (rad).
+/// Two positions coincide if their distance is at most this fraction of the largest displacement, and their rotations
+/// differ by at most this number (rad).
 const APART: f64 = 1e-9;
 
 /// Checks the number of positions and that their numbers are finite.
@@ -30,7 +31,7 @@ pub(super) fn check_positions(key: &str, count: usize, numbers: impl IntoIterato
 /// Checks that no two positions coincide. A position is a point (m), a rotation, or both.
 ///
 /// # Errors
-/// [`ErrorKind::Input`] that names the first two positions that coincide.
+/// [`ErrorKind::Input`] if two positions coincide. The error names the first two such positions.
 pub(super) fn check_apart(key: &str, points: &[Complex], turns: &[Complex]) -> Result<()> {
     let size = points.iter().map(|point| (point - points[0]).norm()).fold(0.0, f64::larger);
     let is_same = |i: usize, j: usize| {

@@ -1,5 +1,5 @@
 //! Refinement of one candidate: an evolution strategy across kinks and edges, then COBYLA.
-//! A candidate is given by fractions of the bounds of its dimensions.
+//! A candidate is given by its variables, as fractions of the ranges between their bounds.
 
 use std::cell::RefCell;
 use std::f64::consts::TAU;
@@ -13,8 +13,8 @@ use crate::synthesize::rating::{Rater, STEP};
 use crate::synthesize::task::{Task, TaskNumber, Variable};
 use linkage::mechanism::GroupKind;
 
-/// Lowest cost of a candidate that cannot be assembled over the whole turn.
-/// If no pose can be assembled, the cost is twice as high.
+/// Smallest cost of a candidate that cannot be assembled over the whole turn.
+/// The cost rises to twice this value if no pose can be assembled.
 const BROKEN: f64 = 100.0;
 /// Fraction of the allowed evaluations that the evolution strategy may use.
 const EVOLUTION: f64 = 0.5;
@@ -28,13 +28,14 @@ const LAST: f64 = 1e-5;
 const GROWTH: f64 = 1.5;
 /// Probability that a variable changes from parent to child.
 const CHANGED: f64 = 0.4;
-/// Initial step sizes of the runs of COBYLA. The runs follow one another, and each run starts from the best candidate
-/// so far.
+/// Initial step sizes of the successive runs of COBYLA. Each run starts from the best candidate so far.
 const RADII: [f64; 4] = [3e-2, 1e-2, 3e-3, 1e-3];
 /// A run of COBYLA ends if the relative change of the cost is below this limit.
 const SETTLED: f64 = 1e-7;
 
-/// Computes the cost of a candidate that is given by fractions of the bounds. The rows include all limits of phases.
+/// Computes the cost of a candidate. The candidate is given by its variables, as fractions of the ranges between their
+/// bounds.
+/// The rows include the ends of all phases.
 struct Bench<'a> {
     task: &'a Task,
     evaluator: Evaluator<'a>,
@@ -90,8 +91,7 @@ pub(super) fn refine(task: &Task, candidate: &Candidate) -> Candidate {
 /// Evolution strategy with one parent and one child. The better of the two becomes the parent.
 fn evolve(bench: &mut Bench, zero: Option<usize>, evaluations: usize, number: usize) {
     let mut rng = ChaCha8Rng::seed_from_u64(bench.task.effort.seed);
-    // Every candidate has a separate random stream. The numbers of these streams are above those of the blocks'
-    // streams.
+    // Every candidate has a separate random stream. The blocks of random candidates use streams with smaller numbers.
     rng.set_stream((1 << 40) + number as u64);
     let mut child = bench.best.clone();
     let mut step = FIRST;
@@ -99,8 +99,8 @@ fn evolve(bench: &mut Bench, zero: Option<usize>, evaluations: usize, number: us
         child.copy_from_slice(&bench.best);
         for (index, share) in child.iter_mut().enumerate() {
             if even(&mut rng) < CHANGED {
-                // The sum of four uniform numbers is approximately normal and has the variance 1 / 3. The factor makes
-                // the variance 1.
+                // The sum of four uniform numbers is approximately normal, with the variance 1 / 3. The factor raises
+                // the variance to 1.
                 let normal = (0..4).map(|_| even(&mut rng) - 0.5).sum::<f64>() * 3f64.sqrt();
                 *share += step * normal;
                 if zero != Some(index) {
@@ -119,7 +119,7 @@ fn evolve(bench: &mut Bench, zero: Option<usize>, evaluations: usize, number: us
 /// Runs COBYLA from the best candidate so far, with decreasing initial steps.
 fn approximate(bench: &mut Bench, zero: Option<usize>, evaluations: usize) {
     let each = evaluations / RADII.len();
-    // COBYLA would treat zero evaluations as no limit. COBYLA is therefore not called with zero evaluations.
+    // With zero evaluations, COBYLA would run without a limit. It is therefore not called in this case.
     if each == 0 {
         return;
     }
@@ -149,7 +149,7 @@ pub(in crate::synthesize) struct Candidate {
     pub(in crate::synthesize) cost: f64,
     /// Number of the candidate. Of two candidates with equal cost, the one with the lower number is kept.
     pub(in crate::synthesize) number: usize,
-    /// Number of poses that its refinement solved.
+    /// Number of poses that the refinement of the candidate solved.
     pub(in crate::synthesize) poses: u64,
 }
 
@@ -176,10 +176,10 @@ pub(in crate::synthesize) fn share_of(value: f64, variable: &Variable) -> f64 {
     if high > low { (value - low) / (high - low) } else { 0.0 }
 }
 
-/// The variable that is the crank's zero.
+/// Index of the variable that is the crank's zero, if this variable only shifts the motion along the crank angle and is
+/// therefore periodic.
 /// `None` if the zero is fixed, if its bounds do not span a full turn, if the mechanism has a higher group, or if the
 /// task has precision points.
-/// This variable is periodic, because it only shifts the motion along the crank angle.
 pub(in crate::synthesize) fn free_zero(task: &Task) -> Option<usize> {
     let TaskNumber::Free(index) = task.zero else { return None };
     let [low, high] = task.variables[index].bounds;

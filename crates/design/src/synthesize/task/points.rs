@@ -7,7 +7,7 @@ use linkage::math::{KeepNan, Vec2};
 /// A position that the output link must reach.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PrecisionPoint {
-    /// Crank angle (rad, from crank angle zero in the sense of rotation). `None` if the search chooses it.
+    /// Crank angle (rad, from crank angle zero in the sense of rotation). `None` if the search chooses the crank angle.
     pub turn: Option<f64>,
     /// World place of the working point (m). `None` if only the angle is required.
     pub place: Option<Vec2>,
@@ -15,7 +15,7 @@ pub struct PrecisionPoint {
     pub angle: Option<f64>,
 }
 
-/// The precision points of a task. The link reaches those with free crank angles in their order.
+/// The precision points of a task. The output link reaches the points with free crank angles in their order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PrecisionPoints {
     points: Vec<PrecisionPoint>,
@@ -24,8 +24,9 @@ pub struct PrecisionPoints {
 }
 
 impl PrecisionPoints {
-    /// Deviations of places are divided by the largest distance between two places, or by `size` (m) if there are fewer
-    /// than two places. Deviations of angles are in radians.
+    /// Stores the points and the length by which deviations of places are divided: the largest distance between two
+    /// places, or `size` (m) if there are fewer than two places.
+    /// Deviations of angles are in radians.
     pub fn of(points: Vec<PrecisionPoint>, size: f64) -> Self {
         let places: Vec<Vec2> = points.iter().filter_map(|point| point.place).collect();
         let apart = |a: &Vec2| places.iter().map(|b| (a - b).norm()).fold(0.0, f64::larger);
@@ -43,7 +44,8 @@ impl PrecisionPoints {
         self.points.is_empty()
     }
 
-    /// Deviations of a position from a point: of x and y divided by the extent, and of the angle (rad).
+    /// Deviations of a position from a point: the deviations of x and y, divided by the extent, and the deviation of
+    /// the angle (rad).
     /// A coordinate that is not required has the deviation 0.
     pub fn deviations(&self, point: &PrecisionPoint, place: Vec2, angle: f64) -> [f64; 3] {
         let apart = point.place.map_or(Vec2::zeros(), |wanted| (place - wanted) / self.extent);

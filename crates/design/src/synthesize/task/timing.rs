@@ -1,4 +1,4 @@
-//! Required motion of an output over one turn of the crank: phases of motion in either sense and of dwell.
+//! Required motion of an output over one turn of the crank, as phases: forward motion, backward motion or dwell.
 
 use crate::sentences;
 use std::f64::consts::TAU;
@@ -69,8 +69,8 @@ impl Timing {
     /// The timing of these phases.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] with the number of the phase (`phases[2]`) if the phases do not follow each other over a
-    /// whole turn, or contradict one another.
+    /// [`ErrorKind::Input`] if the phases do not follow one another over a whole turn, or contradict one another.
+    /// The error states the number of the phase, as in `phases[2]`.
     pub fn of(phases: Vec<Phase>) -> Result<Self> {
         let of_all = |message: String, help: &str| Err(wrong("phases", message).help(help));
         let of_one = |index: usize, message: String, help: &str| {
@@ -135,16 +135,16 @@ impl Timing {
         self.follow
     }
 
-    /// Level required at the end of a phase, either given or implied by the phases around it. `None` if the level is
-    /// unknown.
+    /// Level required at the end of a phase: the given level, or the level that follows from other phases. `None` if
+    /// the level is unknown.
     pub fn level(&self, phase: usize) -> Option<f64> {
         self.levels.as_ref().map(|levels| levels[phase]).or(self.phases[phase].level)
     }
 
-    /// Required output at the crank angle `crank` (rad, 0 to a full turn) as a fraction of the stroke (0 rearmost, 1
+    /// Required output at the crank angle `crank` (rad, 0 to a full turn), as a fraction of the stroke (0 rearmost, 1
     /// foremost).
-    /// The output lies on the smooth curve through all levels.
-    /// This curve is cycloidal, without jumps of the acceleration: u - sin(2 pi u) / 2 pi.
+    /// The required output follows a cycloidal curve through all levels, u - sin(2 pi u) / (2 pi), without jumps of the
+    /// acceleration.
     /// `None` if a level is unknown.
     pub fn wanted(&self, crank: f64) -> Option<f64> {
         let levels = self.levels.as_ref()?;
@@ -160,9 +160,9 @@ fn wrong(key: &str, message: String) -> Error {
     Error::new(ErrorKind::Input, message).key(key)
 }
 
-/// Levels at the ends of all phases: the given levels, and the levels that a dwell keeps.
-/// If there is only one motion forward and one back, the end of the forward motion has the level 1 and the end of the
-/// backward motion the level 0.
+/// Levels at the ends of all phases. A level is given, or a dwell keeps the level of the phase before.
+/// If there is only one forward motion and one backward motion, the forward motion ends at the level 1 and the backward
+/// motion at the level 0.
 fn levels(phases: &[Phase]) -> Option<Vec<f64>> {
     let alone = |sense: Sense| phases.iter().filter(|phase| phase.sense == sense).count() == 1;
     let simple = alone(Sense::Forward) && alone(Sense::Back);
@@ -175,7 +175,7 @@ fn levels(phases: &[Phase]) -> Option<Vec<f64>> {
         })
         .collect();
     let count = phases.len();
-    // Two passes are needed, because a dwell at the start of the turn has the level of the turn's end.
+    // Two passes are needed, because a dwell at the start of the turn keeps the level from the end of the turn.
     for index in 0..2 * count {
         let (own, before) = (index % count, (index + count - 1) % count);
         if phases[own].sense == Sense::Dwell && found[own].is_none() {
