@@ -200,7 +200,8 @@ impl TurnFigure {
             return fault(message, sentences::NAME_AN_INSTANT_OF_THE_GRID);
         };
         for row in (0..values.len()).step_by(LANES) {
-            // The last group may have fewer values than lanes. Copies of the last value fill its remaining lanes.
+            // The last group may have fewer values than lanes. Copies of the last value fill the remaining lanes of
+            // this group.
             tally.add(row, &std::array::from_fn(|lane| values[(row + lane).min(values.len() - 1)]));
         }
         Ok(SampledFigure { value: tally.value(), rows: tally.rows().into_iter().flatten().collect() })

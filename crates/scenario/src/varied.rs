@@ -128,8 +128,8 @@ impl VariedNumber {
 /// The text of a file with another name and with other `numbers`.
 /// Sections that are valid only for the original numbers are left out.
 /// If `numbers` is not empty, comments and the parts of the title that contain digits are left out too.
-/// The mass centre of a link is scaled with the link's farthest coordinate. Its moment of inertia is scaled with its
-/// mass.
+/// The mass centre of a link is scaled with the link's farthest coordinate. The moment of inertia of a link is scaled
+/// with the link's mass.
 pub fn with_numbers(text: &str, name: &str, numbers: &[(VariedNumber, f64)]) -> Result<String> {
     let bare = if numbers.is_empty() { text.to_string() } else { without_comments(text) };
     let mut document = document(&bare)?;

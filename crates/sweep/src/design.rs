@@ -42,7 +42,7 @@ pub enum DesignKind {
     },
 }
 
-/// A design of experiments with its axes. It gives the values of the varied numbers in any case.
+/// A design of experiments with its axes. The design gives the values of the varied numbers in any case.
 #[derive(Clone, Debug)]
 pub struct SweepDesign {
     kind: DesignKind,

@@ -108,7 +108,7 @@ fn group(
     Ok(RowGroup {
         values: (1..first).map(numbers).collect::<std::result::Result<_, _>>()?,
         figures: (first..last).map(numbers).collect::<std::result::Result<_, _>>()?,
-        // The column `last` is the state of the case. It is not read, because the reason determines the state.
+        // The column `last`, the state of the case, is not read, because the reason determines the state.
         reasons: texts(last + 1)?,
         verdicts: if is_proven { texts(last + 2)? } else { Vec::new() },
     })

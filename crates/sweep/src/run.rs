@@ -75,8 +75,8 @@ impl SweepTally {
     }
 }
 
-/// Solves the parts of a shard that are not stored yet. `progress` receives the numbers of cases after every part. If
-/// it returns `Break`, the sweep stops.
+/// Solves the parts of a shard that are not stored yet. `progress` receives the numbers of cases after every part.
+/// If `progress` returns `Break`, the sweep stops.
 /// If the proof of a case disagrees, the sweep stops after the part of this case; finished parts remain stored.
 ///
 /// # Errors

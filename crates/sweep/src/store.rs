@@ -174,8 +174,7 @@ impl SweepStore {
         File::open(self.part(part)).is_ok_and(ends)
     }
 
-    /// Writes the rows of a part. If a run is killed, its unfinished files remain until the parts are joined and
-    /// removed.
+    /// Writes the rows of a part. If a run is killed, unfinished files remain until the parts are joined and removed.
     pub(crate) fn write(&self, plan: &SweepPlan, part: u64, rows: &Rows) -> Result<()> {
         let at = self.part(part);
         put::<Failure>(&target(&at), |file| Ok(table::write(plan, rows, file)?)).map_err(|failure| failure.at(&at))
