@@ -24,7 +24,7 @@ linkage::sentences! {
     RAPIER_IN_SINGLE_PRECISION = "Rapier in single precision";
     // guard.rs
     the_engine_has_panicked(words, place) = "the engine has panicked (\"{words}\"), {place}";
-    CHECK_THAT_THE_POSE_CAN_BE_ASSEMBLED = "check that the mechanism can be assembled in this pose";
+    CHECK_THAT_THE_POSE_CAN_BE_ASSEMBLED = "check that the mechanism can be assembled at this input";
     BEGIN_THE_GRID_FARTHER_FROM_THE_DEAD = "begin the grid farther from the dead point";
     the_engine_ran_up_from_a_few(at, link, far) = "the engine started a few steps before the grid and arrived at the start of the grid, {at}, with link \"{link}\" {far} m off: the engine has passed a dead point";
     the_engine_loop_has_opened(gap, name, place) = "the engine's loop has opened by {gap} m at joint \"{name}\", {place}";

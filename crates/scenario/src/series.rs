@@ -27,8 +27,8 @@ pub struct OracleSeries {
     pub points: Vec<OraclePoint>,
     /// Values known to be wrong, each with a separate finding.
     pub expected: Vec<ExpectedCell>,
-    /// If all values are wrong: the finding that explains the error, and the values.
-    /// The values are then listed here and not in `points` and `expected`.
+    /// For a column in which every value is wrong: the finding that explains the error, and all values.
+    /// The lists `points` and `expected` are empty for such a column.
     pub wrong: Option<(String, Vec<ExpectedCell>)>,
 }
 
@@ -80,7 +80,7 @@ impl OracleSeries {
         self.magnitude.then(named)
     }
 
-    /// All values of the series as printed, including those known to be wrong.
+    /// All values of the series as printed, including the wrong values.
     pub fn all(&self) -> impl Iterator<Item = &OraclePoint> {
         let wrong = self.wrong.iter().flat_map(|(_, cells)| cells);
         let cells = self.expected.iter().chain(wrong).map(|cell| &cell.point);
@@ -94,8 +94,8 @@ impl OracleSeries {
 }
 
 impl Known<'_> {
-    /// These channels, for a table whose known error is `slack`.
-    /// If the table does not print trailing zeros, `digits` is the table's number of decimals.
+    /// The channels that an oracle may name, for a table whose published numbers have the known error `slack`.
+    /// `digits` is the number of decimals of a table that does not print trailing zeros; `None` for other tables.
     pub fn of_table(self, digits: Option<i32>, slack: f64) -> Self {
         Known { digits, slack, ..self }
     }
@@ -167,7 +167,7 @@ pub(super) fn instant(table: &mut TomlTable, case: &Case) -> Result<When> {
 pub(super) struct Rows {
     /// Name of the column.
     pub column: String,
-    /// The key under which the scenario names this column.
+    /// The scenario's key that names the column.
     pub key: &'static str,
     unit: &'static NamedUnit,
     is_time: bool,
@@ -201,7 +201,7 @@ impl Rows {
         !self.is_time && self.unit.suffix == "deg"
     }
 
-    /// The instant of a row in a motion with this [`end`], and the largest error of the instant (rad, m or s).
+    /// Instant of a row, and the largest rounding error of this instant (rad, m or s). The motion ends at [`end`].
     /// If a rounded time lies slightly beyond the motion, it is moved to the end of the motion.
     ///
     /// # Errors
@@ -232,7 +232,7 @@ const COLUMN_HELP: &str = sentences::NAME_THE_COLUMN_OF_CRANK;
 pub(super) const TIME_HELP: &str = sentences::GIVE_A_TIME_WITHIN_THE_RUN;
 
 /// The last instant (s) of a motion that forces determine.
-/// `None` for any other motion, or if the caller's grid replaces the file's grid.
+/// `None` if a law prescribes the motion, or if the caller replaces the grid of the file.
 pub(super) fn end(case: &Case) -> Option<f64> {
     let is_solved = case.is_free() && !case.grid.is_empty();
     is_solved.then(|| case.grid.ascending().last().map_or(0.0, |&row| case.grid.times[row]))

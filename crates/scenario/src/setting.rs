@@ -16,7 +16,7 @@ pub enum SettingOrigin {
 /// A setting.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum EngineSetting<T> {
-    /// Chosen by the proof or by the engine.
+    /// Free: the proof or the engine chooses the value.
     #[default]
     Free,
     /// Given, with its origin.

@@ -63,7 +63,7 @@ pub fn called(case: &Case, words: &[String]) -> std::result::Result<Vec<Channel>
     Ok(channels)
 }
 
-/// Default of [`engine_rel`]. The value is a choice and has no derivation.
+/// Default of [`engine_rel`]. This default is a choice and has no derivation.
 pub const ENGINE_REL: f64 = 1e-2;
 
 /// Reads the limit of the engine's error bound divided by a channel's scale. If the error bound exceeds this limit,

@@ -20,10 +20,11 @@ use super::source::Source;
 use linkage::error::Result;
 
 impl CaseSlopes {
-    /// The derivatives of the numbers of a scenario, which was read from its file with the start `asked`.
+    /// The derivatives of the numbers of a scenario. `asked` is the start with which the scenario was read from its
+    /// file.
     ///
     /// # Errors
-    /// The errors of [`Scenario::parse_as`], if the text of the scenario is not the text from which it was read.
+    /// The errors of [`Scenario::parse_as`], if `scenario.text` was changed after the scenario was read.
     pub fn of(scenario: &Scenario, asked: &StartRequest) -> Result<CaseSlopes> {
         let source = Source::new(&scenario.path, &scenario.text);
         let tree = source.tree()?;

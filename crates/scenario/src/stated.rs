@@ -102,8 +102,8 @@ impl<'a> FileSections<'a> {
         let (engine, tolerances) = (root.optional_table("engine")?, root.optional_table("tolerances")?);
         let (oracles, clearance) = (root.tables("oracle")?, root.optional_table("clearance")?);
         let (formulas, report) = (root.tables("formula")?, root.optional_table("report")?);
-        // The parameters were read first, because all other sections may use them. The section is only marked as
-        // requested here.
+        // All other sections may use parameters, so the parameters were read before these sections. This line only
+        // marks the section `[parameters]` as known.
         root.optional_table("parameters")?;
         let mut faults = Faults::none();
         let has_all = ground.is_ok() && links.is_ok() && drives.is_ok() && start.is_ok();
@@ -176,7 +176,7 @@ impl<'a> FileSections<'a> {
 
 impl FileSections<'_> {
     /// The error for missing assembly modes in a file that also has mistakes of another kind.
-    /// `None` if these mistakes may be the reason for the missing modes.
+    /// `None` if the mistakes of the other kind may be the reason for the missing modes.
     pub fn missing_modes(&self, asked: &StartRequest) -> Option<Error> {
         let (start, drives) = (self.start.as_ref()?, self.drives.as_ref()?);
         let asked = |structure: &Structure| asked.groups(&self.mechanism, structure).unwrap_or_default();

@@ -21,8 +21,8 @@ use linkage::trajectory::Trajectory;
 /// How one number follows from the values of a quantity at all instants.
 ///
 /// An extreme is taken over the instants of the grid, without interpolation.
-/// A mean is taken over time by the trapezoidal rule. If the first and the last instant of a turn are the same pose,
-/// this pose therefore does not count twice.
+/// A mean is taken over time by the trapezoidal rule. If a turn starts and ends in the same pose, the rule gives each
+/// of the two instants half a weight, so this pose does not count twice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Statistic {
     /// Largest value.
@@ -51,11 +51,11 @@ const STATISTICS: [(&str, Statistic); 6] = [
     ("range", Statistic::Range),
 ];
 
-/// The word before the input of a [`Statistic::At`].
+/// The characters before the input in the text of a [`Statistic::At`].
 const AT: &str = "at=";
 
-/// Largest difference between the input of a [`Statistic::At`] and the input of an instant that counts as the same
-/// (degrees or millimetres).
+/// An instant has the input of a [`Statistic::At`] if the two inputs differ by at most this limit (degrees or
+/// millimetres).
 const SAME_INPUT: f64 = 1e-6;
 
 impl fmt::Display for Statistic {
@@ -92,8 +92,8 @@ pub struct SampledFigure {
     /// The figure, in the unit of its quantity.
     pub value: f64,
     /// The row of the extreme; for a [`Statistic::Range`], the rows of the largest and of the smallest value.
-    /// Empty for a mean and a root mean square, because all instants determine them. Of several equal extremes, the
-    /// first row counts.
+    /// Empty for a mean and a root mean square: these depend on all instants. Of several equal extremes, the first row
+    /// counts.
     pub rows: Vec<usize>,
 }
 
@@ -134,7 +134,7 @@ impl FromStr for TurnFigure {
 pub struct FigureGrid {
     input: Input,
     inputs: Vec<f64>,
-    /// A mean without values yet.
+    /// A mean with the weights of the grid, before values are added.
     mean: Weighted,
 }
 
@@ -200,7 +200,8 @@ impl TurnFigure {
             return fault(message, sentences::NAME_AN_INSTANT_OF_THE_GRID);
         };
         for row in (0..values.len()).step_by(LANES) {
-            // The last value fills the remaining lanes.
+            // The last group may have fewer values than lanes. Copies of the last value fill the remaining lanes of
+            // this group.
             tally.add(row, &std::array::from_fn(|lane| values[(row + lane).min(values.len() - 1)]));
         }
         Ok(SampledFigure { value: tally.value(), rows: tally.rows().into_iter().flatten().collect() })

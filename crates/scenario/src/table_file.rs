@@ -17,7 +17,7 @@ use linkage::case::{Case, When};
 use linkage::error::{Advice, Error, ErrorKind, Place, Result};
 use linkage::mechanism::is_unseen;
 
-/// Inputs (rad or m), or times (s), that differ by at most this limit belong to the same row.
+/// An instant under `expect` denotes a row if their inputs (rad or m) or times (s) differ by at most this limit.
 const SAME: f64 = 1e-9;
 
 /// Memory for a row of a table during reading (bytes): the row's position in the text, and its instant.
@@ -97,7 +97,7 @@ fn series(
         bound: channel.to_si(number.half_unit + slack),
         digits: number.digits,
     };
-    // The slack widens the bound of the printed value, but not that of the correct value.
+    // The slack widens the bound of the printed value. The bound of the correct value contains no slack.
     let corrected = |row: usize, finding: &str, right: &Printed| ExpectedCell {
         point: point(row, &printed[row], known.slack),
         right: point(row, right, 0.0),
@@ -119,7 +119,7 @@ fn series(
     Ok(OracleSeries { name, channel, magnitude, points, expected, wrong })
 }
 
-/// The cells under `expect`: their rows, and the correct values in these rows.
+/// The single wrong cells, from the list `expect`: the row of each cell, and the correct value in this row.
 fn single_cells(
     table: &mut TomlTable,
     instants: &[(When, f64)],
@@ -152,7 +152,7 @@ fn single_cells(
     Ok(cells)
 }
 
-/// If a whole column is wrong: the finding under `finding`, and the correct values of all rows under `right`.
+/// For a column in which every value is wrong: the finding (key `finding`), and the correct values (table `right`).
 fn whole_column(table: &mut TomlTable, printed: &[Printed]) -> Result<Option<(String, Vec<Printed>)>> {
     let Some(finding) = finding(table)? else { return Ok(None) };
     let mut right = table.table("right")?;
@@ -184,7 +184,7 @@ fn slack(oracle: &mut TomlTable) -> Result<f64> {
     oracle.refuse("slack", sentences::found_explained_by(&slack, &why), help)
 }
 
-/// Printed values minus the channel's values, in SI; zero by default.
+/// Constant that the printed values contain in addition to the channel's values, in SI; zero by default.
 fn offset(table: &mut TomlTable, channel: &PrintedChannel) -> Result<f64> {
     match channel.family {
         Some(family) => Ok(table.optional_quantity("offset", family, Sign::Any)?.unwrap_or(0.0)),

@@ -105,10 +105,7 @@ impl Template {
     }
 
     /// The text of a scenario: the template with `dimensions` in place of its dimensions.
-    /// If `name` is allowed as the name of a scenario, the scenario has this name.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Input`] for a dimension that the template does not have.
+    /// The scenario gets the name `name` if this name is allowed for a scenario.
     pub fn scenario(&self, name: &str, dimensions: &[(String, f64)]) -> Result<String> {
         let mut document = self.document();
         if is_name(name)
@@ -128,8 +125,8 @@ impl Template {
     fn lacks(&self, key: &str) -> Error {
         let all = parameters(&self.document());
         let keys = || all.iter().map(|(key, _)| key.as_str());
-        // A key that consists of the unknown key and a unit is a better guess than the nearest spelling, so such a key
-        // is tried first.
+        // First, the unknown key with a unit added is tried, because such a key is a better guess than the nearest
+        // spelling.
         let with_unit = keys().find(|own| own.strip_prefix(key).is_some_and(|unit| unit.starts_with('_')));
         let near = with_unit.or_else(|| nearest(key, keys()));
         let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));
@@ -151,7 +148,7 @@ mod tests {
         let new: Vec<&str> = lines.map(|(_, new)| new.split(" #").next().unwrap()).collect();
         assert_eq!(new, ["name = \"mine\"", "crank_mm = 30", "density = 0.25"]);
         assert_eq!(changed.matches(" # ").count(), template.text.matches(" # ").count());
-        // If a scenario cannot have the name, the template's name is kept.
+        // If `name` is not allowed for a scenario, the template's name is kept.
         assert!(template.scenario("Mine!", &[]).unwrap().contains("name = \"four_bar\""));
     }
 

@@ -1,7 +1,7 @@
 //! Transfer functions, instant centres and acceleration poles, as arithmetic expressions of channels.
 //!
 //! Each solver or engine computes positions, velocities and accelerations by separate equations.
-//! The quantities of this file follow from these results.
+//! The quantities of this file are computed from these positions, velocities and accelerations.
 
 use super::reduced::{Found, input, of_link, one_drive};
 use formula::{FormulaTree, Operator};
@@ -98,7 +98,8 @@ fn centre(name: &str, case: &Case) -> Option<FormulaTree> {
     let links = || case.mechanism.links().iter();
     let is_pair = |one: &Link, other: &Link| one.name != other.name && of == format!("{}.{}", one.name, other.name);
     let (one, other) = links().find_map(|one| Some((one, links().find(|other| is_pair(one, other))?)))?;
-    // The velocity component of the link's point at the origin, from which the coordinate of the centre follows.
+    // Component of the velocity of the link's point that coincides with the origin of the frame.
+    // The coordinate of the instant centre follows from this component.
     let (velocity, across, sign) = match axis {
         "x_m" => ("vy_m_s", "x_m", Operator::Minus),
         "y_m" => ("vx_m_s", "y_m", Operator::Plus),

@@ -16,7 +16,7 @@ use linkage::mechanism::{Joint, JointId, Link, LinkId, Mechanism, TransmissionDe
 use std::f64::consts::FRAC_PI_2;
 
 /// Reads the keys of a type of transmission. The argument of type [`Link`] is the second member.
-/// For a cam whose lifts have units, also returns these units.
+/// The reader of cams also returns the units of the lifts, if the lifts have units.
 type ReadTransmission = fn(&mut TomlTable, &Link) -> Result<(TransmissionKind, Option<&'static UnitFamily>)>;
 
 /// Types of transmissions, each with its reader.

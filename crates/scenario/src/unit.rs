@@ -11,8 +11,8 @@ pub struct NamedUnit {
     /// Ending of keys in this unit, without the underscore before the ending.
     pub suffix: &'static str,
     factor: f64,
-    // Divisor, kept separate from the factor, because 150 / 1000 is the double nearest to 0.15, but 150 * 0.001 need
-    // not be this double.
+    // The divisor is kept separate from the factor because of rounding: 150 / 1000 is the double nearest to 0.15, but
+    // 150 * 0.001 need not be.
     divisor: f64,
 }
 
@@ -35,7 +35,7 @@ pub struct UnitFamily {
     pub noun: &'static str,
     /// Units, the SI unit first.
     pub units: &'static [NamedUnit],
-    /// Further units. Keys may end in them, but messages and channels name only `units`.
+    /// Further units. Keys may end in these units, but messages and channels use only the units in `units`.
     pub further: &'static [NamedUnit],
     /// Upper limit of the magnitude in SI, far beyond any real machine. A number above the limit is a mistake in the
     /// unit.
@@ -201,7 +201,7 @@ pub fn ending(key: &str) -> Option<(&'static UnitFamily, &'static NamedUnit)> {
     let all = ALL.iter().flat_map(|family| family.all().map(move |unit| (*family, unit)));
     let ends =
         |unit: &NamedUnit| key.strip_suffix(unit.suffix).is_some_and(|rest| rest.len() > 1 && rest.ends_with('_'));
-    // Of several units with the same length, the first unit is kept.
+    // If several families contain the longest unit, the first family is kept.
     all.filter(|(_, unit)| ends(unit)).rev().max_by_key(|(_, unit)| unit.suffix.len())
 }
 

@@ -40,7 +40,8 @@ pub struct VariedNumber {
 }
 
 /// Keys and sections that are valid only for the original numbers.
-/// `engine` is one of them, because the best settings of an engine depend on the dimensions.
+/// The section `engine` is valid only for the original numbers, because the best settings of an engine depend on the
+/// dimensions.
 const OWN: [&str; 5] = ["oracle", "formula", "source", "engine", "clearance"];
 
 /// All numbers of a file that an exercise may change, in the order of the file.
@@ -117,7 +118,8 @@ impl VariedNumber {
         while (wanted / step).round() == 0.0 {
             step /= 10.0;
         }
-        // Printed with the decimals of the step and read back, so that the file shows no binary rounding errors.
+        // The number is printed with the decimals of the step and read back, so that the file shows no binary rounding
+        // errors.
         let decimals = (-step.log10() + 1e-9).ceil().larger(0.0) as usize;
         format!("{:.decimals$}", (wanted / step).round() * step).parse().unwrap_or(wanted)
     }
@@ -126,10 +128,8 @@ impl VariedNumber {
 /// The text of a file with another name and with other `numbers`.
 /// Sections that are valid only for the original numbers are left out.
 /// If `numbers` is not empty, comments and the parts of the title that contain digits are left out too.
-/// The mass centre of a link is scaled with the link's farthest coordinate, its moment of inertia with its mass.
-///
-/// # Errors
-/// [`ErrorKind::Input`] if the text is not TOML, or if the numbers are not those of this text.
+/// The mass centre of a link is scaled with the link's farthest coordinate. The moment of inertia of a link is scaled
+/// with the link's mass.
 pub fn with_numbers(text: &str, name: &str, numbers: &[(VariedNumber, f64)]) -> Result<String> {
     let bare = if numbers.is_empty() { text.to_string() } else { without_comments(text) };
     let mut document = document(&bare)?;
@@ -142,8 +142,8 @@ pub fn with_numbers(text: &str, name: &str, numbers: &[(VariedNumber, f64)]) -> 
         let kept: Vec<&str> = title.split(", ").filter(|part| !has_digit(part)).collect();
         document["title"] = value(kept.join(", "));
     }
-    // For every link: magnitude of the farthest coordinate, and the ratio of its new to its old value. `heavier` has
-    // the ratio of the new to the old mass.
+    // `stretched` has two numbers for every link: the magnitude of its farthest coordinate, and the new value of this
+    // coordinate divided by the old value. `heavier` has the new mass of every link divided by the old mass.
     let mut stretched: BTreeMap<&str, (f64, f64)> = BTreeMap::new();
     let mut heavier: BTreeMap<&str, f64> = BTreeMap::new();
     for (number, new) in numbers {

@@ -198,7 +198,7 @@ impl Solver for Simbody {
                     run.load(&loads).map_err(stopped)?;
                 }
                 let found = run.read(reactions).map_err(stopped)?;
-                // The condition is negated, so that a NaN gap also stops the run.
+                // The condition is written with `!`, so that a gap that is not a number (NaN) also stops the run.
                 if !found.loops.iter().all(|closed| closed.gap <= 2.0 * tolerance(case)) {
                     let gaps: Vec<f64> = found.loops.iter().map(|closed| closed.gap).collect();
                     let widest = gaps.iter().copied().fold(0.0, f64::larger);

@@ -148,7 +148,7 @@ impl Linkage {
     pub(super) fn stopped(&self, case: &Case, failure: &Failure) -> Error {
         let t = failure.time.unwrap_or(0.0) * self.sense;
         let at = case.told(case.crank().at(t).value);
-        // The comparison is written so that a NaN gap counts as the largest gap.
+        // A gap that is not a number (NaN) counts as larger than all gaps before it.
         let widest = failure.gaps.iter().zip(&self.tree.cut).reduce(|a, b| if a.0 >= b.0 { a } else { b });
         let gap = widest.map_or(String::new(), |(gap, &joint)| {
             sentences::joint_open_by(&case.mechanism.joints()[joint].name, &format_args!("{gap:.3e}"))

@@ -3,7 +3,7 @@
 //! Under prescribed motion the pose follows from the constraints alone, and every state is projected onto the
 //! constraints.
 //! The error of the pose is at most the tolerance of the projection times a factor that depends on the pose.
-//! The integrator's error before the projection does not matter.
+//! The integrator's error before the projection does not affect the projected pose.
 
 use super::model::inertia;
 use linkage::case::Case;
@@ -19,13 +19,15 @@ const ULPS: f64 = 20.0;
 /// Bound on the error of a channel, in the channel's unit.
 /// The bound depends on the constraint tolerance `tolerance` (m) and the integrator's accuracy `accuracy`.
 ///
-/// In a free motion the integrator contributes too: each step may have an error (rad) equal to the accuracy.
-/// Every output time ends a step. If output times are dense, a tighter accuracy therefore hardly reduces the errors.
+/// In a free motion, the integrator adds errors: the error of each step (rad) may be as large as the accuracy.
+/// Every output time is also the end of an integration step.
+/// If output times are dense, a tighter accuracy therefore hardly reduces the errors.
 /// On the shipped run-ups the errors are 5e-9 to 5e-7 of the channel's scale at an accuracy of 1e-8.
 ///
 /// A constraint error rotates a link by an angle equal to the constraint error divided by the link's length.
 /// The rotation is largest for the shortest link.
-/// The pose amplifies an error of the angles again in the velocities, and once more in accelerations and forces.
+/// A factor that depends on the pose amplifies the errors of the angles: once more in the velocities, and twice more in
+/// accelerations and forces.
 /// Rates of constraints are kept below the tolerance times the drive's speed. Accelerations follow from positions and
 /// velocities.
 pub(super) fn bound(case: &Case, [tolerance, accuracy]: [f64; 2], channel: &ChannelKind) -> f64 {
@@ -37,14 +39,15 @@ pub(super) fn bound(case: &Case, [tolerance, accuracy]: [f64; 2], channel: &Chan
     let mass: f64 =
         case.mechanism.links().ids().skip(1).map(|link| inertia(case, link)).map(|own| own.mass + own.extra_mass).sum();
     let turned = case.start.0.iter().fold(speed * longest, |max: f64, pose| max.larger(pose.angle.abs())).larger(1.0);
-    // Positions are world coordinates. Far from the origin the rounding errors of positions exceed those of lengths in
-    // the mechanism, so the bound includes the distance from the origin.
+    // Positions are world coordinates. A position far from the origin has larger rounding errors than a length in the
+    // mechanism. The bound therefore includes the distance from the origin.
     let reach = case.start.0.iter().fold(size, |max: f64, pose| max.larger(pose.origin.norm() + size));
 
     let place = POSE * tolerance + ULPS * f64::EPSILON * reach;
     let integrated = if case.is_free() { accuracy * case.grid.len() as f64 } else { 0.0 };
     let closed = place / shortest + f64::EPSILON * turned;
-    // `angle` and `linear` give the errors of the derivatives of order `k` of an angle and of a position.
+    // `angle(k)` is the error of the `k`-th derivative of an angle, and `linear(k)` that of the `k`-th derivative of a
+    // position.
     let angle = |k: i32| (POSE.powi(k) * closed + integrated) * speed.powi(k);
     let linear = |k: i32| POSE.powi(k) * place * speed.powi(k) + angle(k) * size;
     let force = mass * (linear(2) + (POSE * closed + integrated) * case.gravity.norm());

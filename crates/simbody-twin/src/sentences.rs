@@ -17,7 +17,7 @@ linkage::sentences! {
     the_engine_accuracy_is(accuracy) = "the engine's accuracy is {accuracy}";
     // model.rs
     SHORTEN_THE_GRID_TO_THE_CRANK = "shorten the grid to the inputs before the dead point";
-    CHECK_THAT_THE_POSE_CAN_BE_ASSEMBLED = "check that the pose can be assembled there";
+    CHECK_THAT_THE_POSE_CAN_BE_ASSEMBLED = "check that the mechanism can be assembled at this input";
     simbody_stopped_at(t, at, gap, message) = "Simbody stopped at t = {t:.6} s, {at}{gap}: {message}";
     joint_open_by(case, gap) = ", joint \"{case}\" open by {gap} m";
     simbody_cannot_take_the_mechanism(message) = "Simbody cannot represent the mechanism: {message}";

@@ -142,8 +142,8 @@ fn plain(words: &str) -> String {
 }
 
 /// Computes the forces and moments that act on the bodies in addition to gravity.
-/// The first argument has positions and velocities of all bodies. The accelerations and forces in the first argument
-/// are 0.
+/// The first argument has positions and velocities of all bodies. The accelerations and forces of the bodies in the
+/// first argument are 0.
 /// The second argument receives three numbers for every body: the force at the mass centre (N, world axes) and the
 /// moment about the mass centre (N m).
 /// The numbers of the second argument are 0 on entry.
@@ -157,9 +157,9 @@ struct Acting {
 
 /// Passes a call from Simbody on to Rust. If the Rust code panics, the loads are set to NaN, so Simbody ends the run.
 unsafe extern "C" fn acting(user: *mut c_void, bodies: *const BodyState, loads: *mut f64) {
-    // SAFETY: `user` is the box that the run keeps as long as the run exists, and Simbody calls from one thread at a
-    // time.
-    // The numbers of bodies and of loads (three per body) are those with which the run was built.
+    // SAFETY: `user` points to the box of data, which exists as long as the run. Simbody calls this function from one
+    // thread at a time.
+    // The run was built with the same numbers of bodies and of loads (three per body).
     let (acting, bodies, loads) = unsafe {
         let acting = &mut *user.cast::<Acting>();
         let count = acting.count;
@@ -197,8 +197,8 @@ impl LinkageRun {
         let call = kept.is_some().then_some(acting as Callback);
         told(|text, size| {
             let IntegrationSettings { accuracy, tolerance, time_scale, .. } = settings;
-            // SAFETY: pointers and counts are those of slices that outlive the call, and the shim copies the data that
-            // it keeps.
+            // SAFETY: pointers and counts describe slices that outlive the call. The shim copies all data that it needs
+            // after the call.
             // The model has checked that every body and every loop refers only to bodies that were added before it.
             // The callback's data is kept until the run is freed.
             // The shim writes at most `size` bytes of text.
@@ -227,12 +227,12 @@ impl LinkageRun {
         };
         let mut run = LinkageRun { raw, _acting: kept, state, time: 0.0, pace: (settings.steps, settings.time_scale) };
         // Simbody accepts a free mobilizer without inertia, but the acceleration of such a mobilizer is not finite. The
-        // state is therefore read here, and a number that is not finite is an error.
+        // state is therefore read here: a number that is not finite gives an error at the start of the run.
         run.read(false)?;
         Ok(run)
     }
 
-    /// Integrates to exactly `time` (s). After a failure the run can no longer be used.
+    /// Integrates up to the time `time` (s), without passing it. After a failure the run can no longer be used.
     ///
     /// # Errors
     /// A `time` before the time already reached; any failure in Simbody. The error has Simbody's message, the time
@@ -242,8 +242,8 @@ impl LinkageRun {
             return Err(Failure::of(sentences::is_asked_for_after(&time, &self.time)));
         }
         let (raw, (steps, time_scale)) = (self.raw.as_ptr(), self.pace);
-        // If the number of steps is too large for an integer, the cast gives the largest integer, so the limit stays
-        // valid.
+        // If the number of steps is too large for an integer, the cast gives the largest integer, which still serves as
+        // a limit.
         let intervals = (time - self.time) / time_scale;
         let steps = (steps as f64 * if intervals < 1.0 { 1.0 } else { intervals }) as usize;
         // SAFETY: the run is alive and has no other user. The shim writes at most `size` bytes of text.
@@ -274,7 +274,7 @@ impl LinkageRun {
         Ok(())
     }
 
-    /// Reads the state. Without `reactions`, forces are not read.
+    /// Reads the state. If `reactions` is `false`, forces and moments are not read.
     ///
     /// # Errors
     /// The errors of Simbody, as in [`LinkageRun::advance`].

@@ -1,4 +1,4 @@
-//! The description of a linkage. The description is checked before any part of it reaches C++.
+//! The description of a linkage, which is checked before any part reaches C++.
 
 use crate::ffi::{Act, LinkageRun, RawBody};
 use crate::parts::{Failure, Inertia, IntegrationSettings, LoopClosure, SimbodyBody, SimbodyJoint};
@@ -74,7 +74,7 @@ impl SimbodyModel {
         self.run_under(settings, None)
     }
 
-    /// Does the same as [`SimbodyModel::run`], with forces from `act` on the bodies.
+    /// Like [`SimbodyModel::run`], but with the forces and moments that `act` computes for the bodies.
     ///
     /// # Errors
     /// The errors of [`SimbodyModel::run`].

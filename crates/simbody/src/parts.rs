@@ -9,7 +9,7 @@ pub const GROUND: usize = 0;
 /// Positions (m) and unit vectors of axes are in the frame of the body to which they belong.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SimbodyJoint {
-    /// A revolute joint. The coordinate of the joint is the angle of the child minus that of the parent (rad).
+    /// A revolute joint. The coordinate of the joint is the angle of the child minus the angle of the parent (rad).
     Pin {
         /// Position on the parent (m).
         on_parent: [f64; 2],
@@ -40,7 +40,8 @@ pub struct Inertia {
     /// Moment of inertia about the mass centre (kg m^2).
     pub inertia: f64,
     /// Additional mass at the mass centre, only for the integrator (kg).
-    /// Gravity does not act on this mass. When reactions are read, applied forces balance the inertia of this mass.
+    /// Gravity does not act on this mass. When reactions are read, applied forces balance the inertia forces of this
+    /// mass.
     /// The results are exact if every degree of freedom is prescribed, because accelerations then do not depend on
     /// masses.
     /// The mass is needed because Simbody cannot move a free mobilizer without inertia.
@@ -60,7 +61,7 @@ pub struct Law {
 /// A body of the tree.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SimbodyBody {
-    /// The parent body: a body that was added before, or [`GROUND`].
+    /// Number of the parent: a body that was added earlier, or [`GROUND`].
     pub parent: usize,
     /// The joint to the parent.
     pub joint: SimbodyJoint,
@@ -77,13 +78,14 @@ pub struct SimbodyBody {
     pub law: Option<Law>,
 }
 
-/// A revolute joint that closes a loop. Both bodies are already in the tree. The memory layout is that of C.
+/// A revolute joint that closes a loop. The two bodies of this joint are already in the tree. The memory layout is that
+/// of C.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoopClosure {
     /// First and second body.
     pub bodies: [usize; 2],
-    /// Position of the joint on each of the two bodies, in the frame of the respective body (m).
+    /// Position of the joint on the first and on the second body (m), each in the frame of that body.
     pub places: [[f64; 2]; 2],
 }
 

@@ -30,7 +30,7 @@ sentences! {
     the_accuracy_is_it_must_lie(accuracy) = "the accuracy is {accuracy}, but must lie between 0 and 1";
     IT_HOLDS_A_NUMBER_THAT_IS_NOT_FINITE = "the body or loop contains a number that is not finite";
     bodies_and_cannot_be_joined(first, second) = "bodies {first} and {second} cannot be joined";
-    THE_AXIS_OF_ITS_SLIDER_IS_NO_UNIT = "the axis of its slider is not a unit vector";
+    THE_AXIS_OF_ITS_SLIDER_IS_NO_UNIT = "the axis of the body's slider is not a unit vector";
     A_MASS_OR_A_MOMENT_OF_INERTIA = "a mass or a moment of inertia is negative";
     its_parent_is_which_has_not_been(parent) = "the parent of the body is {parent}, which has not been added";
 }

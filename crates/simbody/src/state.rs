@@ -52,7 +52,7 @@ impl BodyState {
 pub struct LoopState {
     /// Force of the first body on the second (N, world axes).
     pub force: [f64; 2],
-    /// Opening of the loop (m): distance between the positions of the closing joint on its two bodies.
+    /// Opening of the loop (m): distance between the joint's point on the first body and its point on the second body.
     pub gap: f64,
 }
 

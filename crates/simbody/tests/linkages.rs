@@ -20,7 +20,7 @@ fn body(parent: usize, joint: SimbodyJoint, inertia: Inertia, coordinate: f64) -
 
 /// A parallelogram with cranks of length 1 from (0, 0) and (2, 0).
 /// The first crank is driven; the coupler only translates.
-/// The coordinates of the coupler and the second crank have an error of `off` (rad).
+/// The start coordinates of the coupler and of the second crank are wrong by `off` (rad).
 fn parallelogram(coupler: Inertia, start: f64, rate: f64, off: f64) -> SimbodyModel {
     let mut model = SimbodyModel::new([0.0, -G]);
     let first = SimbodyBody { law: Some(Law { rate }), ..body(GROUND, pin([0.0, 0.0]), rod(1.0, 1.0), start) };
@@ -44,7 +44,7 @@ fn the_library_is_a_simbody_3() {
 fn forces_in_a_parallelogram_are_those_of_statics() {
     // The coupler of 3 kg only translates, on a circle of radius 1 at 4 rad/s.
     // The acceleration of the coupler is a = -16 e, where e is the unit vector along the crank.
-    // The forces of the coupler's two joints add up to m (a - g).
+    // The two joint forces on the coupler add up to m (a - g).
     // The force of each joint follows from the moments about the coupler's middle and about the second pivot.
     // The second crank turns uniformly, and its weight acts at half its length.
     let (start, rate, t) = (0.7, 4.0, 0.2);
@@ -55,7 +55,7 @@ fn forces_in_a_parallelogram_are_those_of_statics() {
     let (cos, sin) = (angle.cos(), angle.sin());
     let total = [3.0 * -16.0 * cos, 3.0 * (-16.0 * sin + G)];
     // The coupler does not turn, so the y components of force in its two joints are equal.
-    // About the second pivot, the x component on the second crank balances the moments of the y component and of the
+    // Moments about the second pivot: the x component of the force on the second crank balances the y component and the
     // crank's weight.
     let half = total[1] / 2.0;
     let on_second = [(-half * cos - 1.0 * G * cos / 2.0) / sin, -half];
@@ -102,8 +102,8 @@ fn all_links_may_be_massless() {
     let mut run = model.run(IntegrationSettings::default()).unwrap();
     run.advance(0.1).unwrap();
     let state = run.read(true).unwrap();
-    // The loaded crank needs 6 N m. The coupler's axial force exerts this moment, and the drive supplies the same
-    // moment.
+    // The loaded crank needs a moment of 6 N m. The axial force in the coupler exerts this moment, and the drive
+    // supplies 6 N m.
     close_to(state.loops[0].force, [-6.0 / 1.1_f64.sin(), 0.0], 1e-11);
     assert!((state.bodies[0].drive - 6.0).abs() < 1e-11);
 }

@@ -148,7 +148,7 @@ impl Spread {
         }
     }
 
-    /// The quantile: a value is below it with the probability `part`.
+    /// The quantile: a random value of the axis is less than the quantile with the probability `part`.
     pub(crate) fn quantile(self, part: f64) -> f64 {
         match self {
             Spread::Steps { from, to, .. } | Spread::Uniform { from, to } => from + (to - from) * part,

@@ -1,6 +1,6 @@
 //! Designs of experiments: the values of the varied numbers in each case.
-//! The numbers of a case depend only on the design and on the index of the case, so any part of the cases can be
-//! computed alone.
+//! The numbers of a case depend only on the design and on the index of the case. Any part of the cases can therefore be
+//! computed without the other cases.
 
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
@@ -42,7 +42,7 @@ pub enum DesignKind {
     },
 }
 
-/// A design with its axes; gives the numbers of any case.
+/// A design of experiments with its axes. The design gives the values of the varied numbers in any case.
 #[derive(Clone, Debug)]
 pub struct SweepDesign {
     kind: DesignKind,
@@ -108,7 +108,7 @@ impl SweepDesign {
         self.cases
     }
 
-    /// The varied numbers, in their order.
+    /// The varied numbers, in the order in which they were given.
     #[must_use]
     pub fn axes(&self) -> &[SweepAxis] {
         &self.axes
@@ -154,7 +154,7 @@ impl SweepDesign {
     }
 }
 
-/// The random numbers of a case: every case has another stream.
+/// The random numbers of a case. The generator has a separate stream for every case.
 fn random(seed: u64, index: u64) -> ChaCha8Rng {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     random.set_stream(index);
@@ -175,7 +175,8 @@ fn mixed(number: u64) -> u64 {
 }
 
 /// Image of `index` under a pseudo-random permutation of the numbers below `count`.
-/// A Feistel network permutes the numbers below the next power of four. It is applied until the image is below `count`.
+/// A Feistel network permutes the numbers below the next power of four. The network is applied again until the image is
+/// below `count`.
 /// Source: J. Black, P. Rogaway, Ciphers with arbitrary finite domains, CT-RSA 2002, section 3.
 fn shuffled(index: u64, count: u64, key: u64) -> u64 {
     let half = (u64::BITS - (count - 1).leading_zeros()).div_ceil(2);
@@ -229,7 +230,7 @@ mod tests {
     }
 
     /// Means, variances and correlations of ten thousand cases, within five standard errors of independent numbers.
-    /// The deviations of Sobol's sequence and of the Latin hypercube are smaller.
+    /// Sobol's sequence and the Latin hypercube have smaller deviations than random numbers.
     #[test]
     fn samples_have_the_moments_of_their_distributions() {
         let cases = 10_000;

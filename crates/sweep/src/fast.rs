@@ -1,6 +1,8 @@
-//! Batches of cases that differ only in points, masses and moments of inertia of links, for a crank at constant speed,
-//! dyads with three pins without loads, and figures of channels.
-//! The figures equal, bit by bit, those of a case that is read and solved alone. All other cases are solved that way.
+//! Cases of a sweep that are solved in batches. The cases of a batch differ only in points, masses and moments of
+//! inertia of links. The mechanism has a crank at constant speed, dyads with three pins, and no loads other than
+//! moments of resistance. All figures are figures of channels.
+//! The figures of a batch equal, bit by bit, the figures of a case that is read and solved alone. Cases that do not
+//! suit a batch are read and solved alone.
 
 use analytic::assur::batch::{CaseBatch, PoseQuantity, PoseTally};
 use formula::{FormulaGraph, NodeShape, Program, Rounded};
@@ -15,15 +17,15 @@ use scenario::{
 use crate::axis::SweepAxis;
 use crate::figure::{angle_of_sine, is_plain_dyad};
 
-/// How a figure follows from the quantities of poses, given by their places in the list.
+/// How a figure follows from the statistics of a batch. Numbers such as `at` are indices in the list of statistics.
 enum FastFigure {
-    /// A statistic, or its square root if `is_root`, divided by `unit`.
+    /// The statistic `at`, or its square root if `is_root`, divided by `unit`.
     Value { at: usize, is_root: bool, unit: f64 },
-    /// The input at an extreme.
+    /// The input at the extreme that this statistic has found.
     Place(usize),
-    /// The smallest transmission angle of these dyads.
+    /// The smallest transmission angle, from the statistics of all dyads.
     TransmissionAngle(std::ops::Range<usize>),
-    /// A statistic of an expression of whole columns, or the input at its extreme.
+    /// A statistic of an expression of columns, or the input at the extreme of this expression.
     Expression { figure: TurnFigure, is_place: bool, columns: Vec<usize>, program: Program },
 }
 
@@ -39,7 +41,7 @@ pub(crate) struct FastCases {
     values: Vec<f64>,
 }
 
-/// The figures of a case, as they are prepared.
+/// The figures of a case, and the statistics that these figures need.
 struct Figures<'a> {
     case: &'a Case,
     grid: FigureGrid,
@@ -48,7 +50,7 @@ struct Figures<'a> {
 }
 
 impl FastCases {
-    /// Prepares the cases of a sweep; `None` if they must be read and solved one by one.
+    /// Prepares the cases of a sweep. `None` if the cases cannot be solved in batches.
     pub(crate) fn of(axes: &[SweepAxis], figures: &[CaseFigure], family: &ScenarioFamily) -> Option<FastCases> {
         let member = family.member(&[]).ok()?;
         let keys: Vec<String> = axes.iter().map(|axis| axis.key.clone()).collect();
@@ -62,7 +64,7 @@ impl FastCases {
         Some(FastCases { renumbering, batch: CaseBatch::of(case)?, tallies, figures, deepest, grid, inputs, values })
     }
 
-    /// Writes the figures for the varied numbers `values`. `false` if the case must be read and solved alone.
+    /// Writes the figures for the varied numbers `values`. Returns `false` if the case must be read and solved alone.
     pub(crate) fn solve(&mut self, values: &[f64], found: &mut [f64]) -> bool {
         let mut is_written = false;
         let renumbering = &mut self.renumbering;
@@ -124,12 +126,14 @@ impl Figures<'_> {
             }
             FigureKind::Reach(_) | FigureKind::Verdict(_) => return None,
         };
-        // Parameters, reduced quantities and transfer functions of a claim have numbers that may vary.
+        // Only channels are allowed in the claim: parameters, reduced quantities and transfer functions have numbers
+        // that may vary from case to case.
         let claim = Claim::of_channels(&own.quantity, &self.case.all_channels()).ok()?;
         if let (NodeShape::Name(_), [(_, printed)]) = (&claim.tree.shape, &claim.channels[..]) {
             let (tally, unit) = (self.grid.tally(own.statistic)?, printed.to_si(1.0));
-            // The root and the unit are applied to the extreme alone.
-            // The input at an extreme needs all values with root and unit, which may make different values equal.
+            // For the value of an extreme, square root and unit are applied only to this value.
+            // For the input at an extreme, square root and unit are applied to all values, because rounding may make
+            // different values equal.
             let is_late = !is_place && !matches!(own.statistic, Statistic::Mean | Statistic::Rms);
             let mut quantity = self.quantity(printed)?;
             let is_root = is_late && printed.magnitude;
@@ -174,7 +178,7 @@ impl Figures<'_> {
         Some(quantity)
     }
 
-    /// The place of a statistic.
+    /// Index of a statistic in the list. A statistic that is not in the list yet is added.
     fn place(&mut self, tally: PoseTally) -> usize {
         let known = self.tallies.iter().position(|own| own.is_like(&tally));
         known.unwrap_or_else(|| {

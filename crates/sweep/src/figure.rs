@@ -12,7 +12,7 @@ use linkage::solver::{Sampler, Solver};
 use linkage::trajectory::{Channel, Trajectory};
 use scenario::{CaseFigure, Claim, FigureKind, Scenario};
 
-/// The solution of a case, as far as the figures need it.
+/// The part of a case's solution that the figures need.
 struct SolvedCase {
     trajectory: Trajectory,
     /// Smallest sine of a transmission angle.
@@ -63,7 +63,7 @@ pub(crate) fn all(figures: &[CaseFigure], scenario: &Scenario, values: &mut [f64
 
 fn solved(case: &Case, channels: &[Channel], needs_poses: bool) -> Result<SolvedCase> {
     let mut sine = f64::NAN;
-    // Like `solve`, only the part of the mechanism on which the requested channels depend is solved.
+    // Only the part of the mechanism on which the requested channels depend is solved, as the command `solve` does.
     // A transmission angle needs all links.
     let wanted = if needs_poses { case.clone() } else { case.wanting_only(channels).scene()?.case };
     let mut sampler = Sampler::new(&wanted);
@@ -93,7 +93,7 @@ fn sine_of(case: &Case, group: GroupId, motions: &PerLink<Motion>) -> Option<f64
     transmission_sine(&case.mechanism, own, &Pose::of(motions)).map(f64::abs)
 }
 
-/// The angle of a sine (deg, at most 90).
+/// The acute angle with this sine (deg, at most 90).
 pub(crate) fn angle_of_sine(sine: f64) -> f64 {
     sine.smaller(1.0).asin().to_degrees()
 }

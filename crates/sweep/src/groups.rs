@@ -23,11 +23,11 @@ pub struct RowGroup {
     pub figures: Vec<Vec<f64>>,
     /// Why a case was refused; `None` for a solved case.
     pub reasons: Vec<Option<String>>,
-    /// Verdicts of the proven cases; empty if the sweep proves no case.
+    /// Verdict of the proof of each case, if the case is proven. The list is empty if the sweep proves no case.
     pub verdicts: Vec<Option<String>>,
 }
 
-/// Reads the row groups of the table of a sweep, in their order.
+/// Reads the row groups of the table of a sweep, in the order of the table.
 pub struct SweepGroups {
     reader: SerializedFileReader<File>,
     path: PathBuf,
@@ -108,7 +108,7 @@ fn group(
     Ok(RowGroup {
         values: (1..first).map(numbers).collect::<std::result::Result<_, _>>()?,
         figures: (first..last).map(numbers).collect::<std::result::Result<_, _>>()?,
-        // Column `last` is the state, which follows from the reason.
+        // The column `last`, the state of the case, is not read, because the reason determines the state.
         reasons: texts(last + 1)?,
         verdicts: if is_proven { texts(last + 2)? } else { Vec::new() },
     })
@@ -119,7 +119,7 @@ fn contradiction() -> ParquetError {
     ParquetError::General(sentences::ITS_PARTS_CONTRADICT_EACH_OTHER.into())
 }
 
-/// The values of a column, with `none` where a row has no value.
+/// The values of a column. A row without a value gets the value of `none`.
 fn column<T: DataType, V>(
     mut reader: ColumnReaderImpl<T>,
     rows: usize,

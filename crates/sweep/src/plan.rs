@@ -13,7 +13,7 @@ use crate::fast::FastCases;
 use crate::figure;
 use crate::sentences;
 
-/// Everything on which the table of a sweep depends.
+/// Everything that determines the table of a sweep.
 #[derive(Clone, Debug)]
 pub struct SweepPlan {
     /// Text of the scenario.
@@ -21,7 +21,7 @@ pub struct SweepPlan {
     /// Path of the scenario, for messages and for the tables that the scenario names.
     /// The path is not stored, because it may differ between machines.
     pub path: PathBuf,
-    /// Numbers that replace those of the file in all cases.
+    /// Values of keys in all cases. These values replace the values in the file.
     pub set: Vec<(String, f64)>,
     /// The values of the varied numbers in each case.
     pub design: SweepDesign,
@@ -40,7 +40,7 @@ pub struct SweepPlan {
 pub struct CaseResult {
     /// Reason why the case could not be solved; all figures are then NaN. `None` for a solved case.
     pub refusal: Option<String>,
-    /// Verdict of the proof, or the message of the error that ended it; `None` without a proof.
+    /// Verdict of the proof, or the message of the error that ended the proof; `None` for a case that is not proven.
     pub verdict: Option<String>,
 }
 
@@ -133,7 +133,7 @@ impl SweepPlan {
         serde_json::to_string_pretty(&stored).expect("texts and numbers") + "\n"
     }
 
-    /// Reads the stored form of a plan.
+    /// [`ErrorKind::Input`] if the text is not a plan that this version has stored.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] if the text is not a plan that this version has stored.
@@ -204,7 +204,7 @@ impl SweepPlan {
 pub struct CaseSolver<'a> {
     plan: &'a SweepPlan,
     family: ScenarioFamily<'a>,
-    /// Solves cases in batches; `None` if the plan does not allow this.
+    /// Solver of batches; `None` if the plan does not allow batches.
     fast: Option<FastCases>,
 }
 

@@ -12,7 +12,7 @@ use crate::sentences;
 use crate::store::SweepStore;
 use crate::table::Rows;
 
-/// One of several equal shares of a sweep's parts.
+/// One of several shares of a sweep's parts. The shares are equal, up to one part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
     /// Number of the share, from 1.
@@ -25,7 +25,7 @@ impl Shard {
     /// All parts.
     pub const WHOLE: Shard = Shard { number: 1, count: 1 };
 
-    /// The parts of this share.
+    /// The indices of the parts in this share.
     pub fn parts(self, plan: &SweepPlan) -> impl Iterator<Item = u64> {
         (self.number - 1..plan.parts()).step_by(self.count as usize)
     }
@@ -42,7 +42,7 @@ fn cases_of(plan: &SweepPlan, parts: impl Iterator<Item = u64>) -> u64 {
     parts.map(|part| plan.cases_of(part).count() as u64).sum()
 }
 
-/// Counts of cases so far.
+/// Numbers of cases since the start of the run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SweepTally {
     /// Cases solved in this run.
@@ -56,7 +56,7 @@ pub struct SweepTally {
 }
 
 impl SweepTally {
-    /// Number of cases that are done, in this run or an earlier one.
+    /// Number of finished cases, from this run and from earlier runs.
     #[must_use]
     pub fn cases(&self) -> u64 {
         self.solved + self.refused + self.stored
@@ -75,8 +75,8 @@ impl SweepTally {
     }
 }
 
-/// Solves the parts of a shard that are not stored yet. `progress` receives the counts after every part, and stops the
-/// sweep with a break.
+/// Solves the parts of a shard that are not stored yet. `progress` receives the numbers of cases after every part.
+/// If `progress` returns `Break`, the sweep stops.
 /// If the proof of a case disagrees, the sweep stops after the part of this case; finished parts remain stored.
 ///
 /// # Errors
@@ -92,7 +92,7 @@ pub fn run(
     let (stored, open): (Vec<u64>, Vec<u64>) = shard.parts(plan).partition(|part| store.has(*part));
     tally.stored = cases_of(plan, stored.into_iter());
     let mut failed = None;
-    // Idle solvers. A thread takes one for its next part, so that the file is read only once for each thread.
+    // Idle solvers. A thread takes an idle solver for its next part, so each thread reads the scenario file only once.
     let solvers: Mutex<Vec<CaseSolver>> = Mutex::default();
     let waiting = || solvers.lock().unwrap_or_else(PoisonError::into_inner);
     let part = |part: u64| {
@@ -128,7 +128,7 @@ fn solved(plan: &SweepPlan, solver: &mut CaseSolver, part: u64) -> Rows {
     };
     let (mut values, mut found) = (vec![0.0; axes], vec![0.0; figures]);
     for case in cases {
-        // A panic is a bug; the case is refused with its message, and the sweep continues.
+        // A panic is a bug in the program. The case is refused with the panic's message, and the sweep continues.
         let result = guarded(|| solver.solve(case, &mut values, &mut found)).unwrap_or_else(|panic| {
             found.fill(f64::NAN);
             let text = one_line(panic_text(panic.as_ref()).unwrap_or_default());

@@ -28,7 +28,7 @@ linkage::sentences! {
     is_wanted_twice(name) = "two columns would be called `{name}`";
     NAME_EVERY_COLUMN_ONCE = "ask for each figure once";
     no_plan(error) = "`sweep.json` is not the plan of a sweep: {error}";
-    IT_IS_OF_ANOTHER_VERSION = "it was written by another version";
+    IT_IS_OF_ANOTHER_VERSION = "another version of the program wrote the file";
     RUN_THE_SWEEP_WITH_THIS_VERSION = "run the sweep again with this version, in a new directory";
     // run.rs
     a_case_panicked(panic) = "bug in the program: {panic}";
@@ -44,5 +44,5 @@ linkage::sentences! {
     NAME_THE_SHARDS_OF_ONE_SWEEP = "name the directories that the shards of one sweep have written";
     RUN_THE_MISSING_SHARD = "run the missing shard, or name the directory that contains it";
     // summary.rs
-    ITS_PARTS_CONTRADICT_EACH_OTHER = "its columns and rows do not match the plan of the sweep";
+    ITS_PARTS_CONTRADICT_EACH_OTHER = "the table's columns and rows do not match the plan of the sweep";
 }

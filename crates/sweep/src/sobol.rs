@@ -2,13 +2,14 @@
 //!
 //! Source: S. Joe, F. Y. Kuo, Constructing Sobol sequences with better two-dimensional projections, SIAM J. Sci.
 //! Comput. 30 (2008), 2635-2654, with the direction numbers of `new-joe-kuo-6`. Coordinates have 52 bits, and any point
-//! is computed directly. Available libraries give single precision, or the points one after the other only.
+//! is computed directly. Available libraries compute in single precision, or cannot compute a point without the points
+//! before it.
 
 /// Number of bits of a coordinate.
 const BITS: usize = 52;
 
-/// For each dimension after the first: the coefficients of the primitive polynomial, as the bits of one number, and the
-/// initial direction numbers, as many as the degree of the polynomial.
+/// For each dimension after the first: the coefficients of the primitive polynomial, and the initial direction numbers.
+/// The coefficients are the bits of one number. The polynomial's degree is the number of initial direction numbers.
 const DIRECTIONS: [(u64, &[u64]); 39] = [
     (0, &[1]),
     (1, &[1, 3]),
@@ -66,9 +67,9 @@ impl Sobol {
         Sobol(std::iter::once(first).chain(further).take(dimensions).collect())
     }
 
-    /// A coordinate of the point `index`, as a 52-bit integer.
+    /// The coordinate `dimension` of the point `index`, as a 52-bit integer.
     pub(crate) fn bits(&self, index: u64, dimension: usize) -> u64 {
-        // Gray code: consecutive points differ in one direction number.
+        // The index is converted to a Gray code: consecutive points then differ in one direction number.
         let (mut gray, mut sum) = (index ^ (index >> 1), 0);
         while gray != 0 {
             sum ^= self.0[dimension][gray.trailing_zeros() as usize];
@@ -122,7 +123,7 @@ mod tests {
         }
     }
 
-    /// Among the first 2^k points, each interval of length 2^-k has exactly one point in every dimension.
+    /// Among the first 2^k points, each interval of length 2^-k contains exactly one point, in every dimension.
     #[test]
     fn every_dimension_is_stratified() {
         let sobol = Sobol::of(MOST);

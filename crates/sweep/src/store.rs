@@ -31,7 +31,7 @@ pub(crate) fn broken(path: &Path, error: &dyn std::fmt::Display) -> Error {
         .help(sentences::CHOOSE_ANOTHER_DIRECTORY)
 }
 
-/// An error while a table is written; errors of the file system are kept apart.
+/// An error while a table is written. Errors of the file system are a separate variant.
 enum Failure {
     Io(io::Error),
     Table(ParquetError),
@@ -46,7 +46,8 @@ impl Failure {
     }
 }
 
-/// A table of this program at `at`, in a directory with its plan. After a loss of power, a part may be empty.
+/// Where a table is written: at `at`, in place of an earlier table of this program. An existing file may be empty,
+/// because the computer may have lost power while the file was written.
 fn target(at: &Path) -> OutputTarget<'_> {
     OutputTarget::Made(at, &|bytes| bytes.is_empty() || bytes.starts_with(b"PAR1"))
 }
@@ -88,7 +89,7 @@ impl SweepStore {
                 fs::create_dir_all(directory).map_err(|error| broken(directory, &error))?;
                 let target = OutputTarget::Made(&at, &|_| false);
                 let write = |mut file: &File| io::Write::write_all(&mut file, text.as_bytes());
-                // Another process of the same sweep has written the plan meanwhile.
+                // `AlreadyExists`: another process of the same sweep has written the plan since the check.
                 match replace::<io::Error>(&target, write) {
                     Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
                         return SweepStore::open(directory, plan);
@@ -156,13 +157,14 @@ impl SweepStore {
         &self.directory
     }
 
-    /// The file of a part. It exists until the parts are joined.
+    /// The file of a part. The file exists until the parts are joined.
     #[must_use]
     pub fn part(&self, part: u64) -> PathBuf {
         self.directory.join(PARTS).join(format!("{part:09}.parquet"))
     }
 
-    /// Whether a part is stored. A part whose end is missing after a loss of power counts as not stored.
+    /// Whether a part is stored. If the end of a part's file is missing, for example after a loss of power, the part
+    /// counts as not stored.
     #[must_use]
     pub fn has(&self, part: u64) -> bool {
         let ends = |mut file: File| {
@@ -172,7 +174,7 @@ impl SweepStore {
         File::open(self.part(part)).is_ok_and(ends)
     }
 
-    /// Writes the rows of a part. Unfinished files of a killed run are removed with the parts when they are joined.
+    /// Writes the rows of a part. If a run is killed, unfinished files remain until the parts are joined and removed.
     pub(crate) fn write(&self, plan: &SweepPlan, part: u64, rows: &Rows) -> Result<()> {
         let at = self.part(part);
         put::<Failure>(&target(&at), |file| Ok(table::write(plan, rows, file)?)).map_err(|failure| failure.at(&at))

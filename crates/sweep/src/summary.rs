@@ -50,7 +50,8 @@ impl Goal {
     }
 }
 
-/// Reasons of refusals, counted. The key is the reason without digits; the value has the first such reason in full.
+/// Reasons of refusals, counted. The key is the reason without digits. The value is the first such reason with its
+/// digits, and the number of such reasons.
 pub type Reasons = BTreeMap<String, (String, u64)>;
 
 /// Largest number of different reasons that are counted.
@@ -79,7 +80,7 @@ pub struct SweepSummary {
     pub figures: Vec<Option<FigureSpread>>,
     /// The best cases, the best one first.
     pub best: Vec<SweepRow>,
-    /// A sample of the solved cases: those whose index is a multiple of a fixed number.
+    /// A sample of the solved cases: all cases whose index is a multiple of a fixed number.
     pub sample: Vec<SweepRow>,
 }
 
@@ -123,7 +124,7 @@ impl SweepSummary {
                 if is_solved && case % every == 0 {
                     summary.sample.push(of(row));
                 }
-                // Of cases with equal figures, the first is the best.
+                // If two cases have the same figure, the case with the smaller index ranks first.
                 let at = summary.best.partition_point(|own| goal.rank(own.figures[goal.figure]) <= rank);
                 if is_solved && !rank.is_nan() && at < BEST {
                     summary.best.insert(at, of(row));

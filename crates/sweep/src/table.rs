@@ -41,7 +41,7 @@ pub(crate) struct Rows {
 
 /// State of a case.
 pub const SOLVED: &str = "solved";
-/// State of a case without a solution.
+/// State of a case that could not be solved.
 pub const REFUSED: &str = "refused";
 
 fn schema(plan: &SweepPlan) -> Result<TypePtr, ParquetError> {
@@ -68,7 +68,7 @@ fn schema(plan: &SweepPlan) -> Result<TypePtr, ParquetError> {
     Type::group_type_builder("cases").with_fields(fields).build().map(Arc::new)
 }
 
-/// Plan and units, which the joined table has.
+/// The metadata of the joined table: the plan and the units.
 fn metadata(plan: &SweepPlan) -> Vec<KeyValue> {
     let units = serde_json::Value::Object(plan.columns().map(|(name, unit)| (name.into(), unit.into())).collect());
     let entry = |key: &str, value: String| KeyValue::new(key.to_string(), value);
@@ -76,7 +76,7 @@ fn metadata(plan: &SweepPlan) -> Vec<KeyValue> {
 }
 
 fn properties(plan: &SweepPlan, metadata: Option<Vec<KeyValue>>) -> WriterPropertiesPtr {
-    // The values of figures are nearly all different: a dictionary or a compression of them only costs time.
+    // Nearly all values of figures are different, so a dictionary or a compression would only cost time.
     let mut properties = WriterProperties::builder()
         .set_created_by(format!("linkproof {}", env!("CARGO_PKG_VERSION")))
         .set_key_value_metadata(metadata)
@@ -149,7 +149,7 @@ pub(crate) fn write(plan: &SweepPlan, rows: &Rows, to: &File) -> Result<(), Parq
     Ok(())
 }
 
-/// Joins the tables of all parts, in their order, without decoding them.
+/// Joins the tables of all parts, in the order of the parts, without decoding the tables.
 pub(crate) fn join(
     plan: &SweepPlan,
     parts: impl Iterator<Item = impl AsRef<Path>>,

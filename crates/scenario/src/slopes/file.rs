@@ -299,7 +299,8 @@ impl<'a> SlopeFile<'a> {
             }
             for (side, (guide, key)) in own.kind.axes().into_iter().flatten().zip(["axis", "second_axis"]).enumerate() {
                 let angle = self.quantity(&part, key, &[&ANGLE], KeySort::Dimension).unwrap_or_default();
-                // The case has exact guides along the axes of the frame; the sine of the angle is not exact there.
+                // The case stores exact directions for guides along the axes of the frame. For such a guide, sine and
+                // cosine computed from the angle would have rounding errors.
                 let axis = [angle.chained(guide.x, -guide.y), angle.chained(guide.y, guide.x)];
                 self.put_place(Some(&axis), |axis| CaseNumber::Guide { joint, side, axis });
             }

@@ -20,7 +20,8 @@ linkage::words! {
         Law = "law",
         /// A number of a load.
         Load = "load",
-        /// A component of gravity, the start of a motion, the zero of an input, or the input of a row of a load.
+        /// Another number: a component of gravity, the start of a motion, the zero of an input, or an input in the
+        /// table of a load.
         Other = "other",
     }
 }
@@ -45,8 +46,8 @@ pub struct CaseSlopes {
     pub keys: Vec<CaseKey>,
     /// The numbers of the case with their derivatives by the keys, per unit of the key.
     pub numbers: BTreeMap<CaseNumber, Slope>,
-    /// Derivatives of tables of loads, by the index of the load and that of the table. For every key, the derivative is
-    /// another table.
+    /// Derivatives of the tables of loads, by the index of the load and the index of the table. The derivative of a
+    /// table by a key is a table.
     pub tables: BTreeMap<(usize, usize), Vec<(usize, Course)>>,
     /// Keys without a known derivative, each with the part of the file that uses it.
     pub untold: Vec<(usize, String)>,

@@ -108,7 +108,7 @@ impl<'a> SlopeFile<'a> {
         let mut points = Vec::with_capacity(rows.len());
         for row in &rows {
             let crank = self.quantity(row, "crank", &INPUTS, KeySort::Other)?;
-            // This key shifts the points of the table, which is not differentiated.
+            // A change of this key shifts the points of the table. The derivative for such a shift is not computed.
             self.put_untold(&crank, &row.path);
             points.push((crank.value, self.quantity(row, key, &[family], KeySort::Load)?));
         }

@@ -3,12 +3,12 @@
 use std::collections::BTreeMap;
 use std::ops::{Add, Mul, Sub};
 
-/// A number with its derivatives by keys. Derivatives by all other keys are zero.
+/// A number with its derivatives by keys. A derivative that is not listed is zero.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Slope {
     /// The number.
     pub value: f64,
-    /// Its derivatives, by the index of the key.
+    /// Derivatives of the number, by the index of the key.
     pub by: BTreeMap<usize, f64>,
 }
 
@@ -19,7 +19,8 @@ impl Slope {
         Slope { value, by: BTreeMap::new() }
     }
 
-    /// A function of this number that has this value and this derivative here.
+    /// A function of this number, by the chain rule.
+    /// `value` is the function's value at this number, and `slope` the function's derivative at this number.
     #[must_use]
     pub fn chained(&self, value: f64, slope: f64) -> Slope {
         let by = self.by.iter().map(|(key, own)| (*key, own * slope)).filter(|(_, own)| *own != 0.0);
