@@ -64,7 +64,7 @@ pub(crate) struct Beside<'a> {
 
 /// The page of a proof. `tell` puts the advice into words.
 pub(crate) fn page(proof: &Proof, beside: &Beside, tell: Tell) -> String {
-    filled_page(proof, beside, &Judged::of(proof, tell), tell, &SCRIPT.concat())
+    filled_page(proof, beside, &Judged::of(proof, tell), tell, &[&SCRIPT.concat(), "setUp(null);\n"].concat())
 }
 
 /// The page of a proof under `linkproof watch`. If the motion is not judged yet, `words` stand in place of the verdict.
@@ -79,7 +79,7 @@ pub(crate) fn watched(proof: &Proof, beside: &Beside, words: Option<&str>, tell:
 /// The script of the frame in which the pages of `linkproof watch` are shown.
 pub(super) fn watching_script() -> String {
     let [watched, taken] = WATCHED;
-    ["const run = () => {", &SCRIPT.concat(), watched, "};", taken].concat()
+    ["const run = (view) => {", &SCRIPT.concat(), watched, "};", taken].concat()
 }
 
 /// The parts of a page that depend on the verdict, as HTML.

@@ -10,6 +10,8 @@ use scenario::Scenario;
 
 /// Longest time for which a request waits for a change.
 const PATIENCE: Duration = Duration::from_secs(20);
+/// Longest time for which solver and proof leave the processor to the browser, which draws the first picture.
+const DRAWING: Duration = Duration::from_millis(100);
 /// A new draft is sent together with its first results if these come within this time.
 const TOGETHER: Duration = Duration::from_millis(40);
 
@@ -27,6 +29,8 @@ struct State {
     outcome: Outcome,
     /// Version at which the page last changed.
     page_since: u64,
+    /// Newest version that a browser has drawn.
+    drawn: u64,
     /// The newest draft that was read without mistakes, until its proof begins.
     unproven: Option<(u64, Scenario)>,
 }
@@ -50,6 +54,7 @@ impl Desk {
             disk_since: 1,
             outcome: Outcome::default(),
             page_since: 1,
+            drawn: 0,
             unproven: None,
         };
         Desk { file, state: Mutex::new(state), changed: Condvar::new() }
@@ -133,15 +138,25 @@ impl Desk {
         }
     }
 
+    /// Waits until a browser has drawn the page of a draft, or for a while. A newer draft ends the wait.
+    pub(super) fn wait_for_drawing(&self, draft: u64) {
+        let is_open = |state: &mut State| state.draft == draft && state.drawn < state.page_since;
+        drop(self.changed.wait_timeout_while(self.state(), DRAWING, is_open));
+    }
+
     /// The newest results about a draft; `None` if there is a newer draft.
     pub(super) fn outcome(&self, draft: u64) -> Option<Outcome> {
         Some(self.state().outcome.clone()).filter(|outcome| outcome.draft == draft)
     }
 
-    /// Waits for a change after the version `after`, or for a while, and returns the state for the page.
+    /// Waits for a change after the version `after`, which the browser has drawn, or for a while.
+    /// Returns the state for the page.
     pub(super) fn told(&self, after: u64) -> String {
+        let mut now = self.state();
+        now.drawn = now.drawn.max(after);
+        self.changed.notify_all();
         let is_old = |state: &mut State| state.version <= after;
-        let now = self.changed.wait_timeout_while(self.state(), PATIENCE, is_old);
+        let now = self.changed.wait_timeout_while(now, PATIENCE, is_old);
         let (now, _) = now.unwrap_or_else(PoisonError::into_inner);
         let is_unsolved = |state: &mut State| state.outcome.draft < state.draft;
         let now = self.changed.wait_timeout_while(now, TOGETHER, is_unsolved);

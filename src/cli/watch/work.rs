@@ -58,6 +58,7 @@ pub(super) fn move_drafts(desk: &Desk) {
             // First the page has positions only, because such a page is small.
             let first = moved(&scenario.clone().only(&["positions".into()])?, PICTURE_BYTES)?;
             publish(Outcome { stage: DraftStage::Moving, ..first.clone() });
+            desk.wait_for_drawing(draft);
             desk.leave(draft, scenario.clone());
             let page = moved(&scenario, PAGE_BYTES)?.page;
             publish(Outcome { stage: DraftStage::Solved, page, ..first });

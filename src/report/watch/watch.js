@@ -156,20 +156,26 @@ function showParameters(parameters) {
   }
 }
 
+/** Longest time (ms) for which the next request waits until a page is painted; hidden tabs paint nothing. */
+const PAINTING = 200;
+
 /** Shows a page, and notes the time after the browser has painted it. */
-function showPage(text, stage) {
-  const told = () => window.linkproofShown.push({ stage, at: performance.timeOrigin + performance.now() });
-  frame.then((own) => {
-    own.linkproofTake(text, stage === 'moving');
-    requestAnimationFrame(() => setTimeout(told, 0));
+async function showPage(text, stage) {
+  const own = await frame;
+  own.linkproofTake(text, stage === 'moving');
+  await new Promise((done) => {
+    requestAnimationFrame(() => setTimeout(done, 0));
+    setTimeout(done, PAINTING);
   });
+  window.linkproofShown.push({ stage, at: performance.timeOrigin + performance.now() });
 }
 
-function show(now) {
+/** Shows a state. Ends when its page is painted. */
+async function show(now) {
   state = now;
   window.linkproofGround = now.ground;
   const isCurrent = now.shown === now.draft;
-  if (isCurrent && now.page !== null) showPage(now.page, now.stage);
+  const painted = isCurrent && now.page !== null ? showPage(now.page, now.stage) : null;
   if (typeof now.text === 'string') {
     const delay = saved === null ? 0 : LATER;
     const isEdited = saved !== null && text.value !== base;
@@ -192,8 +198,10 @@ function show(now) {
   }
   numberLines();
   tellKept();
+  await painted;
 }
 
+/** Shows every change. The next request tells the program that the last change is painted. */
 async function follow() {
   for (;;) {
     try {
@@ -202,7 +210,7 @@ async function follow() {
       const now = await answer.json();
       if (now.version !== version) {
         version = now.version;
-        show(now);
+        await show(now).catch(console.error);
       }
     } catch {
       say('the program has ended: start it again, and open its new address', 'wrong');

@@ -14,11 +14,12 @@ mod groups;
 mod lanes;
 mod many;
 mod poses;
+mod registers;
 mod tally;
 
 use std::f64::consts::PI;
 
-use pulp::{Arch, Simd, WithSimd};
+use pulp::Arch;
 use wide::f64x8;
 
 use self::anchors::Anchors;
@@ -27,6 +28,7 @@ use self::lanes::{Eight, TILE, Window};
 pub use self::many::CaseBatch;
 pub use self::poses::Poses;
 use self::poses::{ALPHA, DIRECTION, Layout, OMEGA};
+use self::registers::{OnRegisters, Registers, dispatch};
 pub use self::tally::{PoseQuantity, PoseTally, rrr_sine, spans};
 use crate::PoseSolver;
 use linkage::case::Case;
@@ -129,7 +131,7 @@ impl<'a> Batch<'a> {
         if let Some(groups) = &self.groups {
             let asked = Asked { cranks, omega, alpha, deepest };
             let anchors = &mut self.anchors;
-            self.arch.dispatch(Tiles { case: self.case, groups, anchors, asked, work: &mut self.work, out });
+            dispatch(self.arch, Tiles { case: self.case, groups, anchors, asked, work: &mut self.work, out });
         }
         for (row, &crank) in cranks.iter().enumerate() {
             let is_placed = self.is_vectorised() && out.is_placed(row);
@@ -214,11 +216,11 @@ fn units(angles: [f64; TILE]) -> [Eight; 2] {
     [Eight(cos), Eight(sin)]
 }
 
-impl WithSimd for Tiles<'_, '_> {
+impl OnRegisters for Tiles<'_, '_> {
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
+    fn run<R: Registers>(self, on: R) {
         let Tiles { case, groups, anchors, asked, work, out } = self;
         for (cranks, tile) in asked.cranks.chunks(TILE).zip(out.tiles()) {
             // Unused rows repeat the last crank angle.
@@ -228,9 +230,9 @@ impl WithSimd for Tiles<'_, '_> {
             if let Some(anchors) = anchors {
                 anchors.fill(&own, groups, work);
             }
-            for part in 0..Window::<S>::PARTS {
-                let mut tile = Window { simd, columns: &mut *tile, part };
-                let mut work = Window { simd, columns: &mut *work, part };
+            for part in 0..Window::<R>::PARTS {
+                let mut tile = Window { on, columns: &mut *tile, part };
+                let mut work = Window { on, columns: &mut *work, part };
                 groups.move_links(asked.deepest, &mut tile, &mut work);
                 if asked.deepest >= Stage::Reactions {
                     groups.load_joints(&mut tile, &mut work);

@@ -165,7 +165,8 @@ function setUpBelow() {
   setUpReduced();
 }
 
-function setUp() {
+/** Sets up the page. A `view` of an earlier page is shown afterwards, by `resume`. */
+function setUp(view) {
   const has = { script: true, engines: hasEngine, ...setUpPicture() };
   setUpSpeeds();
   setUpEngines();
@@ -190,7 +191,7 @@ function setUp() {
   byId('back').addEventListener('click', () => step(-1));
   byId('on').addEventListener('click', () => step(1));
   byId('controls').hidden = motion === null && page.channels.length === 0;
+  if (view !== null) return;
   goTo(0);
   if (!window.matchMedia('(prefers-reduced-motion: reduce)').matches) setPlaying(true);
 }
-setUp();

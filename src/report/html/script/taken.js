@@ -24,7 +24,7 @@ window.linkproofTake = (text, isPicture) => {
   const [top, isPart] = [window.scrollY, isPicture && hadData && hasData];
   if (isPart) takePicture(next);
   else takeAll(next);
-  current = hasData ? run() : null;
+  current = hasData ? run(view) : null;
   if (current !== null && view !== null) current.resume(view);
   if (!isPart) window.scrollTo(0, top);
 };

@@ -101,5 +101,6 @@ function setUpDragging() {
     taken = null;
   });
 }
+setUp(view);
 setUpDragging();
 return { end, resume };

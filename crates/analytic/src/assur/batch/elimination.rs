@@ -3,19 +3,18 @@
 //! Every pose has its own row order: if a lower row has the larger pivot in one pose, the two rows are exchanged for
 //! this pose only.
 
-use pulp::Simd;
-
 use super::lanes::{Choice, Lanes, Window};
+use super::registers::Registers;
 
 /// Factored systems of order `N`.
 #[derive(Clone, Copy)]
-pub(super) struct Factors<S: Simd, const N: usize> {
-    rows: [[Lanes<S>; N]; N],
+pub(super) struct Factors<R: Registers, const N: usize> {
+    rows: [[Lanes<R>; N]; N],
     /// Inverses of the diagonal.
-    inverse: [Lanes<S>; N],
+    inverse: [Lanes<R>; N],
     /// For each step k, in order: the poses in which row k was exchanged with a lower row.
-    exchanges: [[Choice<S>; N]; N],
-    pub(super) determinant: Lanes<S>,
+    exchanges: [[Choice<R>; N]; N],
+    pub(super) determinant: Lanes<R>,
 }
 
 /// Number of columns in the working memory for the factors of a system of order `n`.
@@ -23,10 +22,10 @@ pub(super) const fn columns(n: usize) -> usize {
     n * n + n + n * (n - 1) / 2
 }
 
-impl<S: Simd, const N: usize> Factors<S, N> {
+impl<R: Registers, const N: usize> Factors<R, N> {
     #[inline(always)]
     #[expect(clippy::needless_range_loop, reason = "rows and columns are named as in the formula")]
-    pub(super) fn of(mut rows: [[Lanes<S>; N]; N], one: Lanes<S>) -> Self {
+    pub(super) fn of(mut rows: [[Lanes<R>; N]; N], one: Lanes<R>) -> Self {
         let (mut determinant, mut inverse, mut exchanges) = (one, [one; N], [[one.exceeds(one); N]; N]);
         for k in 0..N {
             for row in k + 1..N {
@@ -52,7 +51,7 @@ impl<S: Simd, const N: usize> Factors<S, N> {
 
     /// Solves A x = b.
     #[inline(always)]
-    pub(super) fn solve(&self, b: [Lanes<S>; N]) -> [Lanes<S>; N] {
+    pub(super) fn solve(&self, b: [Lanes<R>; N]) -> [Lanes<R>; N] {
         let mut x = b;
         for k in 0..N {
             for row in k + 1..N {
@@ -75,7 +74,7 @@ impl<S: Simd, const N: usize> Factors<S, N> {
 
     /// Solves A^T x = b.
     #[inline(always)]
-    pub(super) fn solve_transposed(&self, b: [Lanes<S>; N]) -> [Lanes<S>; N] {
+    pub(super) fn solve_transposed(&self, b: [Lanes<R>; N]) -> [Lanes<R>; N] {
         let mut x = b;
         for row in 0..N {
             x[row] = x[row] * self.inverse[row];
@@ -98,12 +97,12 @@ impl<S: Simd, const N: usize> Factors<S, N> {
 
     /// Writes the factors to the working memory, from `column` on.
     #[inline(always)]
-    pub(super) fn keep(&self, work: &mut Window<S>, mut column: usize) {
-        let mut put = |lanes: Lanes<S>| {
+    pub(super) fn keep(&self, work: &mut Window<R>, mut column: usize) {
+        let mut put = |lanes: Lanes<R>| {
             work.put(column, lanes);
             column += 1;
         };
-        let (one, zero) = (Lanes::splat(self.determinant.simd, 1.0), Lanes::splat(self.determinant.simd, 0.0));
+        let (one, zero) = (Lanes::splat(self.determinant.on, 1.0), Lanes::splat(self.determinant.on, 0.0));
         for k in 0..N {
             self.rows[k].into_iter().for_each(&mut put);
             put(self.inverse[k]);
@@ -116,8 +115,8 @@ impl<S: Simd, const N: usize> Factors<S, N> {
     /// Reads the factors from the working memory. The determinant is not stored, so the determinant of the result has
     /// no meaning.
     #[inline(always)]
-    pub(super) fn kept(work: &Window<S>, mut column: usize) -> Self {
-        let (one, zero) = (Lanes::splat(work.simd, 1.0), Lanes::splat(work.simd, 0.0));
+    pub(super) fn kept(work: &Window<R>, mut column: usize) -> Self {
+        let (one, zero) = (Lanes::splat(work.on, 1.0), Lanes::splat(work.on, 0.0));
         let none = zero.exceeds(one);
         let mut factors =
             Factors { rows: [[one; N]; N], inverse: [one; N], exchanges: [[none; N]; N], determinant: one };

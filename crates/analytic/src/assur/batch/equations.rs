@@ -5,20 +5,22 @@
 //! The sources of the equations are named in these two modules.
 //! If the motion of the driving links has the same bits as in these two modules, the results have the same bits too.
 
-use pulp::Simd;
-
 use super::bodies::Body;
 use super::groups::{Arm, Driver, Dyad, Groups, Part};
 use super::lanes::{Lanes, Plane, Window};
 use super::poses::{ACCELERATION, ALPHA, DIRECTION, OMEGA, ORIGIN, VELOCITY};
+use super::registers::Registers;
 use linkage::case::STANDSTILL;
 use linkage::math::Vec2;
 use linkage::trajectory::Stage;
 
+/// Their unrolled elimination on pairs of registers would take the compiler minutes.
+const NO_CHAINS: &str = "higher groups are solved on single registers";
+
 /// Acceleration of the tip of the vector v on a rotating link, relative to the foot of v.
 /// This acceleration is v rotated by 90 degrees, times alpha, minus omega^2 v.
 #[inline(always)]
-pub(super) fn swung<S: Simd>(v: Plane<S>, omega: Lanes<S>, alpha: Lanes<S>) -> Plane<S> {
+pub(super) fn swung<R: Registers>(v: Plane<R>, omega: Lanes<R>, alpha: Lanes<R>) -> Plane<R> {
     v.turned() * alpha - v * (omega * omega)
 }
 
@@ -26,16 +28,17 @@ impl Groups {
     /// Computes the motion of all links up to the stage `deepest`.
     /// Directions and rates of the driving links must already be in their columns.
     #[inline(always)]
-    pub(super) fn move_links<S: Simd>(&self, deepest: Stage, tile: &mut Window<S>, work: &mut Window<S>) {
+    pub(super) fn move_links<R: Registers>(&self, deepest: Stage, tile: &mut Window<R>, work: &mut Window<R>) {
         for driver in &self.drivers {
             driver.turn(deepest, tile);
         }
         // `reach` becomes NaN as soon as one group cannot be assembled.
-        let mut reach = Lanes::splat(tile.simd, 0.0);
+        let mut reach = Lanes::splat(tile.on, 0.0);
         for (part, first) in &self.parts {
             let own = match part {
                 Part::Dyad(dyad) => dyad.turn(deepest, tile, work, *first),
-                Part::Chain(chain) => chain.turn(deepest, tile, work, *first),
+                Part::Chain(chain) if !R::IS_PAIR => chain.turn(deepest, tile, work, *first),
+                Part::Chain(_) => unreachable!("{NO_CHAINS}"),
             };
             reach = reach + own;
         }
@@ -46,8 +49,8 @@ impl Groups {
     /// error.
     /// Returns 0 for all other poses.
     #[inline(always)]
-    pub(super) fn standstill<S: Simd>(&self, tile: &Window<S>) -> Lanes<S> {
-        let (zero, doubt) = (Lanes::splat(tile.simd, 0.0), Lanes::splat(tile.simd, f64::NAN));
+    pub(super) fn standstill<R: Registers>(&self, tile: &Window<R>) -> Lanes<R> {
+        let (zero, doubt) = (Lanes::splat(tile.on, 0.0), Lanes::splat(tile.on, f64::NAN));
         let mut found = zero;
         for loaded in self.bodies().filter(|body| body.resistance.is_some()) {
             let speed = tile.get(loaded.link + OMEGA).abs();
@@ -62,11 +65,12 @@ impl Groups {
     /// Computes the reactions from the last group to the first, then the reactions and balancing moments of the driving
     /// links.
     #[inline(always)]
-    pub(super) fn load_joints<S: Simd>(&self, tile: &mut Window<S>, work: &mut Window<S>) {
+    pub(super) fn load_joints<R: Registers>(&self, tile: &mut Window<R>, work: &mut Window<R>) {
         for (part, first) in self.parts.iter().rev() {
             match part {
                 Part::Dyad(dyad) => dyad.hold(self.gravity, tile, work, *first),
-                Part::Chain(chain) => chain.hold(self.gravity, tile, work, *first),
+                Part::Chain(chain) if !R::IS_PAIR => chain.hold(self.gravity, tile, work, *first),
+                Part::Chain(_) => unreachable!("{NO_CHAINS}"),
             }
         }
         for (index, driver) in self.drivers.iter().enumerate() {
@@ -79,10 +83,10 @@ impl Groups {
 
 impl Driver {
     #[inline(always)]
-    fn turn<S: Simd>(&self, deepest: Stage, tile: &mut Window<S>) {
+    fn turn<R: Registers>(&self, deepest: Stage, tile: &mut Window<R>) {
         let link = self.body.link;
-        let zero = Plane::splat(tile.simd, Vec2::zeros());
-        let (is_plain, ground) = (self.pivot == Vec2::zeros(), Plane::splat(tile.simd, self.ground));
+        let zero = Plane::splat(tile.on, Vec2::zeros());
+        let (is_plain, ground) = (self.pivot == Vec2::zeros(), Plane::splat(tile.on, self.ground));
         let arm = tile.vector(link + DIRECTION).rotate(-self.pivot);
         tile.put_vector(link + ORIGIN, if is_plain { ground } else { arm + self.ground });
         if deepest >= Stage::Velocities {
@@ -98,7 +102,7 @@ impl Driver {
 
     /// World position of the joint.
     #[inline(always)]
-    fn pole<S: Simd>(&self, tile: &Window<S>) -> Plane<S> {
+    fn pole<R: Registers>(&self, tile: &Window<R>) -> Plane<R> {
         match self.pivot == Vec2::zeros() {
             true => tile.vector(self.body.link + ORIGIN),
             false => self.body.point(self.pivot, tile),
@@ -110,9 +114,9 @@ impl Arm {
     /// Position, velocity and acceleration of the outer joint, in world axes. Quantities beyond the stage `deepest` are
     /// 0.
     #[inline(always)]
-    fn base<S: Simd>(&self, deepest: Stage, tile: &Window<S>) -> [Plane<S>; 3] {
-        let zero = Plane::splat(tile.simd, Vec2::zeros());
-        let (Some(base), local) = self.base else { return [Plane::splat(tile.simd, self.base.1), zero, zero] };
+    fn base<R: Registers>(&self, deepest: Stage, tile: &Window<R>) -> [Plane<R>; 3] {
+        let zero = Plane::splat(tile.on, Vec2::zeros());
+        let (Some(base), local) = self.base else { return [Plane::splat(tile.on, self.base.1), zero, zero] };
         let vector = tile.vector(base + DIRECTION).rotate(local);
         let place = tile.vector(base + ORIGIN) + vector;
         if deepest < Stage::Velocities {
@@ -133,18 +137,24 @@ impl Dyad {
     /// Computes the motion of both links. Returns r1 x r2 (m^2), or NaN for poses that cannot be assembled.
     /// The operations and their order are the same as in [`crate::assur::groups::Rrr`], so that the bits are the same.
     #[inline(always)]
-    fn turn<S: Simd>(&self, deepest: Stage, tile: &mut Window<S>, work: &mut Window<S>, column: usize) -> Lanes<S> {
+    fn turn<R: Registers>(
+        &self,
+        deepest: Stage,
+        tile: &mut Window<R>,
+        work: &mut Window<R>,
+        column: usize,
+    ) -> Lanes<R> {
         let [first, second] = &self.arms;
         let ([p1, v1, a1], [p2, v2, a2]) = (first.base(deepest, tile), second.base(deepest, tile));
         let d = p2 - p1;
         let d_squared = d.dot(d);
         let along = (d_squared + (first.squared - second.squared)) * 0.5;
-        let square = (Lanes::splat(tile.simd, self.range[1]) - d_squared) * (d_squared - self.range[0]);
+        let square = (Lanes::splat(tile.on, self.range[1]) - d_squared) * (d_squared - self.range[0]);
         let product = square.sqrt() * self.half;
         let r1 = (d * along + d.turned() * product) * d_squared.inverse();
         let r2 = r1 - d;
         let inverse = product.inverse();
-        let mut rates = [(Lanes::splat(tile.simd, 0.0), Lanes::splat(tile.simd, 0.0)); 2];
+        let mut rates = [(Lanes::splat(tile.on, 0.0), Lanes::splat(tile.on, 0.0)); 2];
         if deepest >= Stage::Velocities {
             let quotient = (v2 - v1) * inverse;
             rates = [(quotient.dot(r2), rates[0].1), (quotient.dot(r1), rates[1].1)];
@@ -156,7 +166,7 @@ impl Dyad {
         }
         let places = [(r1, p1, v1, a1), (r2, p2, v2, a2)];
         for ((arm, (omega, alpha)), (r, p, v, a)) in self.arms.iter().zip(rates).zip(places) {
-            let (link, span) = (arm.body.link, Plane::splat(tile.simd, arm.inverse_span));
+            let (link, span) = (arm.body.link, Plane::splat(tile.on, arm.inverse_span));
             let direction = Plane { x: span.dot(r), y: span.cross(r) };
             tile.put_vector(link + DIRECTION, direction);
             let is_at_origin = arm.outer == Vec2::zeros();
@@ -185,26 +195,26 @@ impl Dyad {
     /// The rate of s is s' = (r1 . r2) (omega2 - omega1) / (l1 l2), and `pace` (s) is the time between two poses.
     /// The magnitude |s| must be larger than `least`, and |s'| times `pace` smaller than `share` times |s|.
     #[inline(always)]
-    pub(super) fn doubt<S: Simd>(
+    pub(super) fn doubt<R: Registers>(
         &self,
         pace: f64,
         [least, share]: [f64; 2],
-        tile: &Window<S>,
-        work: &Window<S>,
+        tile: &Window<R>,
+        work: &Window<R>,
         column: usize,
-    ) -> Lanes<S> {
+    ) -> Lanes<R> {
         let (r1, r2) = (work.vector(column), work.vector(column + 2));
         let turn = tile.get(self.arms[1].body.link + OMEGA) - tile.get(self.arms[0].body.link + OMEGA);
         let product = r1.cross(r2).abs();
         let change = (r1.dot(r2) * turn).abs() * (pace / share);
-        let (clear, unclear) = (Lanes::splat(tile.simd, 0.0), Lanes::splat(tile.simd, f64::NAN));
-        let far = product.exceeds(Lanes::splat(tile.simd, least * self.product)).of(clear, unclear);
+        let (clear, unclear) = (Lanes::splat(tile.on, 0.0), Lanes::splat(tile.on, f64::NAN));
+        let far = product.exceeds(Lanes::splat(tile.on, least * self.product)).of(clear, unclear);
         product.exceeds(change).of(far, unclear)
     }
 
     /// Computes the reactions in the three joints.
     #[inline(always)]
-    fn hold<S: Simd>(&self, gravity: Vec2, tile: &mut Window<S>, work: &Window<S>, column: usize) {
+    fn hold<R: Registers>(&self, gravity: Vec2, tile: &mut Window<R>, work: &Window<R>, column: usize) {
         let [first, second] = &self.arms;
         let (r1, r2, inverse) = (work.vector(column), work.vector(column + 2), work.get(column + 4));
         let pole = work.vector(column + 5);
@@ -221,22 +231,27 @@ impl Dyad {
 impl Body {
     /// World position of a point of the link.
     #[inline(always)]
-    pub(super) fn point<S: Simd>(&self, local: Vec2, tile: &Window<S>) -> Plane<S> {
+    pub(super) fn point<R: Registers>(&self, local: Vec2, tile: &Window<R>) -> Plane<R> {
         tile.vector(self.link + ORIGIN) + tile.vector(self.link + DIRECTION).rotate(local)
     }
 
     /// Returns the resultant of all known forces on the link and their moment about the world point `pole`.
     /// The operations and their order are the same as in the module `assur::forces`.
     #[inline(always)]
-    pub(super) fn resultant<S: Simd>(&self, gravity: Vec2, pole: Plane<S>, tile: &Window<S>) -> (Plane<S>, Lanes<S>) {
+    pub(super) fn resultant<R: Registers>(
+        &self,
+        gravity: Vec2,
+        pole: Plane<R>,
+        tile: &Window<R>,
+    ) -> (Plane<R>, Lanes<R>) {
         let (origin, direction) = (tile.vector(self.link + ORIGIN), tile.vector(self.link + DIRECTION));
         let (omega, alpha) = (tile.get(self.link + OMEGA), tile.get(self.link + ALPHA));
         let arm = direction.rotate(self.mass_centre);
         let acceleration = tile.vector(self.link + ACCELERATION) + arm.turned() * alpha - arm * (omega * omega);
-        let mut force = (Plane::splat(tile.simd, gravity) - acceleration) * self.mass;
+        let mut force = (Plane::splat(tile.on, gravity) - acceleration) * self.mass;
         let mut moment = alpha * -self.inertia;
         if let Some(size) = self.resistance {
-            let zero = Lanes::splat(tile.simd, 0.0);
+            let zero = Lanes::splat(tile.on, 0.0);
             let backwards = zero.exceeds(omega).of(zero + size, zero);
             force = force + Vec2::zeros();
             moment = moment + omega.exceeds(zero).of(zero - size, backwards);

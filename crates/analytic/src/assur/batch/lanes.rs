@@ -1,13 +1,13 @@
-//! One number or plane vector for several poses at once, on the widest registers of the machine.
+//! One number or plane vector for several poses at once, on the registers of the machine.
 //!
 //! Every operation is an IEEE 754 operation on each lane separately, without fused multiply-add.
 //! A lane's value therefore does not depend on its neighbours or on the number of lanes.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use pulp::Simd;
-
 use linkage::math::Vec2;
+
+use super::registers::Registers;
 
 /// Number of poses in a tile, which are adjacent in memory.
 pub(super) const TILE: usize = 8;
@@ -19,112 +19,110 @@ pub(super) struct Eight(pub(super) [f64; TILE]);
 
 /// One number per pose.
 #[derive(Clone, Copy)]
-pub(super) struct Lanes<S: Simd> {
-    pub(super) simd: S,
-    value: S::f64s,
+pub(super) struct Lanes<R: Registers> {
+    pub(super) on: R,
+    values: R::Values,
 }
 
 macro_rules! lane_by_lane {
-    ($($operation:ident $name:ident $on_lanes:ident)*) => { $(
-        impl<S: Simd> $operation for Lanes<S> {
+    ($($operation:ident $name:ident)*) => { $(
+        impl<R: Registers> $operation for Lanes<R> {
             type Output = Self;
             #[inline(always)]
             fn $name(self, other: Self) -> Self {
-                Lanes { value: self.simd.$on_lanes(self.value, other.value), ..self }
+                Lanes { values: self.on.$name(self.values, other.values), ..self }
             }
         }
-        impl<S: Simd> $operation<f64> for Lanes<S> {
+        impl<R: Registers> $operation<f64> for Lanes<R> {
             type Output = Self;
             #[inline(always)]
             fn $name(self, other: f64) -> Self {
-                self.$name(Lanes { value: self.simd.splat_f64s(other), ..self })
+                self.$name(Self::splat(self.on, other))
             }
         }
     )* };
 }
 
-lane_by_lane! { Add add add_f64s  Sub sub sub_f64s  Mul mul mul_f64s  Div div div_f64s }
+lane_by_lane! { Add add  Sub sub  Mul mul  Div div }
 
-impl<S: Simd> Neg for Lanes<S> {
+impl<R: Registers> Neg for Lanes<R> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        Lanes { value: self.simd.neg_f64s(self.value), ..self }
+        Lanes { values: self.on.neg(self.values), ..self }
     }
 }
 
-impl<S: Simd> Lanes<S> {
+impl<R: Registers> Lanes<R> {
     #[inline(always)]
-    pub(super) fn splat(simd: S, value: f64) -> Self {
-        Lanes { simd, value: simd.splat_f64s(value) }
+    pub(super) fn splat(on: R, value: f64) -> Self {
+        Lanes { on, values: on.splat(value) }
     }
 
     #[inline(always)]
     pub(super) fn sqrt(self) -> Self {
-        Lanes { value: self.simd.sqrt_f64s(self.value), ..self }
+        Lanes { values: self.on.sqrt(self.values), ..self }
     }
 
     #[inline(always)]
     pub(super) fn abs(self) -> Self {
-        Lanes { value: self.simd.abs_f64s(self.value), ..self }
+        Lanes { values: self.on.abs(self.values), ..self }
     }
 
     /// The lanes in which this number is greater than `other`; `false` if either number is NaN.
     #[inline(always)]
-    pub(super) fn exceeds(self, other: Self) -> Choice<S> {
-        Choice { simd: self.simd, mask: self.simd.greater_than_f64s(self.value, other.value) }
+    pub(super) fn exceeds(self, other: Self) -> Choice<R> {
+        Choice { on: self.on, choices: self.on.exceeds(self.values, other.values) }
     }
 
-    /// The lanes as the first numbers of a column.
+    /// The part `part` of a column.
     #[inline(always)]
-    pub(super) fn to_column(self) -> [f64; TILE] {
-        let mut column = Eight([0.0; TILE]);
-        S::as_mut_simd_f64s(&mut column.0).0[0] = self.value;
-        column.0
+    pub(super) fn of(on: R, column: &[f64; TILE], part: usize) -> Self {
+        Lanes { on, values: on.read(column, part) }
     }
 
-    /// The first numbers of a column as lanes.
+    /// Writes the part `part` of a column.
     #[inline(always)]
-    pub(super) fn of_column(simd: S, column: &[f64; TILE]) -> Self {
-        Lanes { simd, value: S::as_simd_f64s(column).0[0] }
+    pub(super) fn put(self, column: &mut [f64; TILE], part: usize) {
+        self.on.write(column, part, self.values);
     }
 
     /// 1 / self.
     #[inline(always)]
     pub(super) fn inverse(self) -> Self {
-        Self::splat(self.simd, 1.0) / self
+        Self::splat(self.on, 1.0) / self
     }
 }
 
 /// A choice per pose.
 #[derive(Clone, Copy)]
-pub(super) struct Choice<S: Simd> {
-    simd: S,
-    mask: S::m64s,
+pub(super) struct Choice<R: Registers> {
+    on: R,
+    choices: R::Choices,
 }
 
-impl<S: Simd> Choice<S> {
+impl<R: Registers> Choice<R> {
     /// Returns the first number in the lanes where the choice is true, elsewhere the second.
     #[inline(always)]
-    pub(super) fn of(self, chosen: Lanes<S>, other: Lanes<S>) -> Lanes<S> {
-        Lanes { simd: self.simd, value: self.simd.select_f64s(self.mask, chosen.value, other.value) }
+    pub(super) fn of(self, chosen: Lanes<R>, other: Lanes<R>) -> Lanes<R> {
+        Lanes { on: self.on, values: self.on.choose(self.choices, chosen.values, other.values) }
     }
 
     /// Returns both numbers, exchanged in the lanes where the choice is true.
     #[inline(always)]
-    pub(super) fn exchanged(self, a: Lanes<S>, b: Lanes<S>) -> (Lanes<S>, Lanes<S>) {
+    pub(super) fn exchanged(self, a: Lanes<R>, b: Lanes<R>) -> (Lanes<R>, Lanes<R>) {
         (self.of(b, a), self.of(a, b))
     }
 }
 
 /// One plane vector per pose.
 #[derive(Clone, Copy)]
-pub(super) struct Plane<S: Simd> {
-    pub(super) x: Lanes<S>,
-    pub(super) y: Lanes<S>,
+pub(super) struct Plane<R: Registers> {
+    pub(super) x: Lanes<R>,
+    pub(super) y: Lanes<R>,
 }
 
-impl<S: Simd> Add for Plane<S> {
+impl<R: Registers> Add for Plane<R> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
@@ -132,7 +130,7 @@ impl<S: Simd> Add for Plane<S> {
     }
 }
 
-impl<S: Simd> Add<Vec2> for Plane<S> {
+impl<R: Registers> Add<Vec2> for Plane<R> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Vec2) -> Self {
@@ -140,7 +138,7 @@ impl<S: Simd> Add<Vec2> for Plane<S> {
     }
 }
 
-impl<S: Simd> Sub for Plane<S> {
+impl<R: Registers> Sub for Plane<R> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
@@ -148,7 +146,7 @@ impl<S: Simd> Sub for Plane<S> {
     }
 }
 
-impl<S: Simd> Neg for Plane<S> {
+impl<R: Registers> Neg for Plane<R> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
@@ -156,9 +154,9 @@ impl<S: Simd> Neg for Plane<S> {
     }
 }
 
-impl<S: Simd, T: Copy> Mul<T> for Plane<S>
+impl<R: Registers, T: Copy> Mul<T> for Plane<R>
 where
-    Lanes<S>: Mul<T, Output = Lanes<S>>,
+    Lanes<R>: Mul<T, Output = Lanes<R>>,
 {
     type Output = Self;
     #[inline(always)]
@@ -167,19 +165,19 @@ where
     }
 }
 
-impl<S: Simd> Plane<S> {
+impl<R: Registers> Plane<R> {
     #[inline(always)]
-    pub(super) fn splat(simd: S, v: Vec2) -> Self {
-        Plane { x: Lanes::splat(simd, v.x), y: Lanes::splat(simd, v.y) }
+    pub(super) fn splat(on: R, v: Vec2) -> Self {
+        Plane { x: Lanes::splat(on, v.x), y: Lanes::splat(on, v.y) }
     }
 
     #[inline(always)]
-    pub(super) fn dot(self, other: Self) -> Lanes<S> {
+    pub(super) fn dot(self, other: Self) -> Lanes<R> {
         self.x * other.x + self.y * other.y
     }
 
     #[inline(always)]
-    pub(super) fn cross(self, other: Self) -> Lanes<S> {
+    pub(super) fn cross(self, other: Self) -> Lanes<R> {
         self.x * other.y - self.y * other.x
     }
 
@@ -201,59 +199,43 @@ impl<S: Simd> Plane<S> {
     }
 }
 
-/// View of as many poses of one tile as fit into a register.
+/// View of the poses of one tile that are solved at once.
 #[derive(Debug)]
-pub(super) struct Window<'a, S: Simd> {
-    pub(super) simd: S,
+pub(super) struct Window<'a, R: Registers> {
+    pub(super) on: R,
     pub(super) columns: &'a mut [Eight],
     /// Index of this part of the tile.
     pub(super) part: usize,
 }
 
-impl<S: Simd> Window<'_, S> {
+impl<R: Registers> Window<'_, R> {
     /// Number of parts in a tile.
-    pub(super) const PARTS: usize = TILE / S::F64_LANES;
+    pub(super) const PARTS: usize = TILE / R::LANES;
 
     #[inline(always)]
-    pub(super) fn get(&self, column: usize) -> Lanes<S> {
-        self.of(&self.columns[column])
+    pub(super) fn get(&self, column: usize) -> Lanes<R> {
+        Lanes::of(self.on, &self.columns[column].0, self.part)
     }
 
     #[inline(always)]
-    pub(super) fn put(&mut self, column: usize, lanes: Lanes<S>) {
-        S::as_mut_simd_f64s(&mut self.columns[column].0).0[self.part] = lanes.value;
+    pub(super) fn put(&mut self, column: usize, lanes: Lanes<R>) {
+        lanes.put(&mut self.columns[column].0, self.part);
     }
 
-    /// The same part of a column that is not in the tile.
+    /// Adds to the same part of a column that is not in the tile.
     #[inline(always)]
-    pub(super) fn of(&self, column: &Eight) -> Lanes<S> {
-        self.in_array(&column.0)
-    }
-
-    #[inline(always)]
-    pub(super) fn in_array(&self, column: &[f64; TILE]) -> Lanes<S> {
-        Lanes { simd: self.simd, value: S::as_simd_f64s(column).0[self.part] }
-    }
-
-    #[inline(always)]
-    pub(super) fn put_in(&self, column: &mut [f64; TILE], lanes: Lanes<S>) {
-        S::as_mut_simd_f64s(column).0[self.part] = lanes.value;
-    }
-
-    #[inline(always)]
-    pub(super) fn add_to(&self, column: &mut [f64; TILE], lanes: Lanes<S>) {
-        let sum = self.in_array(column) + lanes;
-        self.put_in(column, sum);
+    pub(super) fn add_to(&self, column: &mut [f64; TILE], lanes: Lanes<R>) {
+        (Lanes::of(self.on, column, self.part) + lanes).put(column, self.part);
     }
 
     /// Returns the vector with its components at `column` and the next column.
     #[inline(always)]
-    pub(super) fn vector(&self, column: usize) -> Plane<S> {
+    pub(super) fn vector(&self, column: usize) -> Plane<R> {
         Plane { x: self.get(column), y: self.get(column + 1) }
     }
 
     #[inline(always)]
-    pub(super) fn put_vector(&mut self, column: usize, v: Plane<S>) {
+    pub(super) fn put_vector(&mut self, column: usize, v: Plane<R>) {
         self.put(column, v.x);
         self.put(column + 1, v.y);
     }

@@ -5,13 +5,14 @@ use linkage::input::Input;
 use linkage::math::{KeepNan, unit};
 use linkage::mechanism::{Joint, Link};
 use linkage::trajectory::Stage;
-use pulp::{Arch, Simd, WithSimd};
+use pulp::Arch;
 
 use super::STEP;
 use super::groups::{Groups, Part};
 use super::lanes::{Eight, TILE, Window};
 use super::poses::{ALPHA, DIRECTION, Layout, OMEGA};
-use super::tally::PoseTally;
+use super::registers::{OnRegisters, Registers, dispatch_in_pairs};
+use super::tally::{BLOCK, PoseTally};
 use crate::assur::groups::SolutionPlan;
 
 /// Lower limit of the magnitude of the sine of every transmission angle.
@@ -39,15 +40,16 @@ pub struct CaseBatch {
     omega: f64,
     /// Largest time between two instants (s).
     pace: f64,
-    tile: Vec<Eight>,
+    /// The tiles of a block, one after the other.
+    tiles: Vec<Eight>,
     work: Vec<Eight>,
     arch: Arch,
 }
 
 /// The crank in one tile.
 #[derive(Clone, Debug)]
-struct CrankTile {
-    angles: Eight,
+pub(super) struct CrankTile {
+    pub(super) angles: Eight,
     direction: [Eight; 2],
 }
 
@@ -100,7 +102,7 @@ impl CaseBatch {
             is_ascending: rows.is_sorted(),
             omega,
             pace: (widest / omega).abs(),
-            tile: vec![Eight([0.0; TILE]); layout.columns()],
+            tiles: vec![Eight([0.0; TILE]); BLOCK * layout.columns()],
             work: vec![Eight([0.0; TILE]); groups.columns],
             groups,
             arch: Arch::new(),
@@ -130,7 +132,7 @@ impl CaseBatch {
     pub fn solve(&mut self, deepest: Stage, tallies: &mut [PoseTally]) -> bool {
         tallies.iter_mut().for_each(|own| own.start(&self.case, self.layout));
         let arch = self.arch;
-        arch.dispatch(AllTiles { batch: self, deepest, tallies })
+        dispatch_in_pairs(arch, AllTiles { batch: self, deepest, tallies })
     }
 }
 
@@ -142,25 +144,26 @@ struct AllTiles<'a> {
 }
 
 impl CaseBatch {
-    /// Solves the tile `index` of the grid, or the start pose if `index` is `None`. `doubt` becomes NaN in the lanes of
-    /// poses that may be near a dead point.
+    /// Solves the tile of a crank, and writes it to the place `place` of the block. `doubt` becomes NaN where a dead
+    /// point may be near.
     #[inline(always)]
-    fn solve_tile<S: Simd>(
+    fn solve_tile<R: Registers>(
         &mut self,
-        simd: S,
+        on: R,
         deepest: Stage,
-        index: Option<usize>,
-        tallies: &mut [PoseTally],
+        crank: Option<usize>,
+        place: usize,
         doubt: &mut Eight,
     ) {
-        let CaseBatch { groups, cranks, start, omega, pace, tile, work, .. } = self;
-        let (link, crank) = (groups.drivers[0].body.link, index.map_or(&*start, |index| &cranks[index]));
+        let CaseBatch { groups, cranks, start, omega, pace, tiles, work, layout, .. } = self;
+        let (link, crank) = (groups.drivers[0].body.link, crank.map_or(&*start, |index| &cranks[index]));
+        let tile = &mut tiles[place * layout.columns()..][..layout.columns()];
         [tile[link + DIRECTION], tile[link + DIRECTION + 1]] = crank.direction;
         tile[link + OMEGA] = Eight([*omega; TILE]);
         tile[link + ALPHA] = Eight([0.0; TILE]);
-        for part in 0..Window::<S>::PARTS {
-            let mut tile = Window { simd, columns: &mut *tile, part };
-            let mut work = Window { simd, columns: &mut *work, part };
+        for part in 0..Window::<R>::PARTS {
+            let mut tile = Window { on, columns: &mut *tile, part };
+            let mut work = Window { on, columns: &mut *work, part };
             groups.move_links(deepest, &mut tile, &mut work);
             if deepest >= Stage::Reactions {
                 groups.load_joints(&mut tile, &mut work);
@@ -171,30 +174,34 @@ impl CaseBatch {
                 let own = dyad.doubt(*pace, [CLEAR_SINE, CLEAR_CHANGE], &tile, &work, *first);
                 tile.add_to(&mut doubt.0, own);
             }
-            for own in &mut *tallies {
-                own.add(index.unwrap_or(0) * TILE, &crank.angles, &tile);
-            }
         }
     }
 }
 
-impl WithSimd for AllTiles<'_> {
+impl OnRegisters for AllTiles<'_> {
     type Output = bool;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> bool {
+    fn run<R: Registers>(self, on: R) -> bool {
         let AllTiles { batch, deepest, tallies } = self;
         let mut doubt = Eight([0.0; TILE]);
         if tallies.iter().any(PoseTally::needs_start) {
-            batch.solve_tile(simd, Stage::Positions, None, &mut [], &mut Eight([0.0; TILE]));
-            if !(batch.is_ascending && tallies.iter_mut().all(|own| own.begin(&batch.tile))) {
+            batch.solve_tile(on, Stage::Positions, None, 0, &mut Eight([0.0; TILE]));
+            if !(batch.is_ascending && tallies.iter_mut().all(|own| own.begin(&batch.tiles))) {
                 return false;
             }
         }
         // The check for dead points needs velocities.
         let deepest = if deepest < Stage::Velocities { Stage::Velocities } else { deepest };
-        for index in 0..batch.cranks.len() {
-            batch.solve_tile(simd, deepest, Some(index), tallies, &mut doubt);
+        for first in (0..batch.cranks.len()).step_by(BLOCK) {
+            let block = first..batch.cranks.len().min(first + BLOCK);
+            for index in block.clone() {
+                batch.solve_tile(on, deepest, Some(index), index - first, &mut doubt);
+            }
+            let (cranks, columns) = (&batch.cranks[block], batch.layout.columns());
+            for own in &mut *tallies {
+                own.add(on, first * TILE, cranks, &mut batch.tiles, columns);
+            }
         }
         let rows = batch.case.grid.len();
         tallies.iter_mut().for_each(|own| own.tally.truncate(rows));

@@ -2,17 +2,20 @@
 
 use std::array;
 
+use super::lanes::{Eight, Lanes, TILE, Window};
+use super::many::CrankTile;
+use super::poses::{ACCELERATION, ALPHA, DIRECTION, Layout, OMEGA, ORIGIN, VELOCITY};
+use super::registers::Registers;
+use crate::assur::turns::{crossing, principal};
 use linkage::case::Case;
-use linkage::math::tally::{LanePeak, Tally, Weighted};
+use linkage::math::tally::{LanePeak, Tally};
 use linkage::math::{Vec2, cross, rotated};
 use linkage::mechanism::{GroupId, JointId, LinkId};
 use linkage::trajectory::OfPoint;
-use pulp::Simd;
 
-use super::lanes::{Eight, Lanes, TILE, Window};
-use super::poses::{ACCELERATION, ALPHA, DIRECTION, Layout, OMEGA, ORIGIN, VELOCITY};
-use crate::assur::turns::{crossing, principal};
-
+/// Number of tiles that are solved before their statistics are computed. All columns of a block stay in the fastest
+/// cache, and a statistic stays in registers during a block.
+pub(super) const BLOCK: usize = 8;
 /// Numbers of the rows of a tile.
 const COUNT: [f64; TILE] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
 
@@ -82,6 +85,32 @@ pub struct PoseTally {
     reading: Reading,
     /// Zero if all values so far are finite, otherwise NaN.
     fault: Eight,
+}
+
+/// Replaces every value of a block by an expression of it. A closure would not be vectorised.
+macro_rules! change {
+    ($on:expr, $block:expr, |$value:ident| $changed:expr) => {
+        for values in &mut *$block {
+            for part in 0..Window::<R>::PARTS {
+                let $value = Lanes::of($on, &values.0, part);
+                $changed.put(&mut values.0, part);
+            }
+        }
+    };
+}
+
+/// Adds an expression of every value of a block, and of the number of its tile, to the sum of its lane.
+macro_rules! sum {
+    ($on:expr, $sums:expr, $block:expr, |$value:ident, $tile:ident, $part:ident| $summand:expr) => {
+        for $part in 0..Window::<R>::PARTS {
+            let mut sum = Lanes::of($on, &$sums, $part);
+            for ($tile, values) in $block.iter().enumerate() {
+                let $value = Lanes::of($on, &values.0, $part);
+                sum = sum + $summand;
+            }
+            sum.put(&mut $sums, $part);
+        }
+    };
 }
 
 /// Where a quantity is read in a case.
@@ -158,74 +187,107 @@ impl PoseTally {
         last.x > 0.0 || last.y.abs() > 1e-6
     }
 
-    /// Adds the rows of a part of a tile. The values have the same bits as those of the
+    /// Adds the rows of a block. The values have the same bits as those of the
     /// [sampler](linkage::solver::Sampler).
-    /// `row` is the first row of the tile, and `given` has the angles of the crank.
+    /// `row` is the first row of the block, `cranks` has the angles of the crank, and every tile has `columns` columns.
     #[inline(always)]
-    pub(super) fn add<S: Simd>(&mut self, row: usize, given: &Eight, tile: &Window<S>) {
-        let mut values = match &mut self.reading {
-            Reading::Column(column) => tile.get(*column),
-            Reading::Given => tile.of(given),
-            Reading::Size(column) => {
+    pub(super) fn add<R: Registers>(
+        &mut self,
+        on: R,
+        row: usize,
+        cranks: &[CrankTile],
+        tiles: &mut [Eight],
+        columns: usize,
+    ) {
+        let mut block = [Eight([0.0; TILE]); BLOCK];
+        let block = &mut block[..cranks.len()];
+        // Reads the values of all rows. A closure would not be vectorised.
+        macro_rules! read {
+            (|$tile:ident| $value:expr) => {
+                for (columns, values) in tiles.chunks_exact_mut(columns).zip(&mut *block) {
+                    for part in 0..Window::<R>::PARTS {
+                        let $tile = Window { on, columns: &mut *columns, part };
+                        let value = $value;
+                        value.put(&mut values.0, part);
+                    }
+                }
+            };
+        }
+        match &mut self.reading {
+            Reading::Given => block.iter_mut().zip(cranks).for_each(|(values, crank)| *values = crank.angles),
+            Reading::Column(column) => read!(|tile| tile.get(*column)),
+            Reading::Size(column) => read!(|tile| {
                 let force = tile.vector(*column);
                 force.dot(force).sqrt()
-            }
-            Reading::Square(column) => {
+            }),
+            Reading::Square(column) => read!(|tile| {
                 let force = tile.vector(*column);
                 force.dot(force)
-            }
-            Reading::Angle(first, last, turns) => angles(*first, last, turns, tile),
-            Reading::Point(first, local, reading) => point(*first, *local, *reading, tile),
-            Reading::Sine(links, spans, lengths) => {
+            }),
+            Reading::Angle(first, last, turns) => read!(|tile| angles(*first, last, turns, &tile)),
+            Reading::Point(first, local, reading) => read!(|tile| point(*first, *local, *reading, &tile)),
+            Reading::Sine(links, spans, lengths) => read!(|tile| {
                 let a = tile.vector(links[0] + DIRECTION).rotate(spans[0]);
                 let b = tile.vector(links[1] + DIRECTION).rotate(spans[1]);
                 a.cross(b).abs() / *lengths
-            }
-        };
+            }),
+        }
         if self.unit != 1.0 {
-            values = values / self.unit;
+            change!(on, block, |value| value / self.unit);
         }
-        tile.add_to(&mut self.fault.0, values * 0.0);
-        add(&mut self.tally, row, values, tile);
+        sum!(on, self.fault.0, block, |value, _tile, part| value * 0.0);
+        add(&mut self.tally, on, row, block);
     }
 }
 
-/// [`Tally::add`] for a part of a tile.
-/// The arms call functions, because the compiler would not vectorise closures.
+/// [`Tally::add`] for a block.
 #[inline(always)]
-fn add<S: Simd>(tally: &mut Tally, row: usize, values: Lanes<S>, part: &Window<S>) {
+fn add<R: Registers>(tally: &mut Tally, on: R, row: usize, block: &mut [Eight]) {
     match tally {
-        Tally::Max(own) => raise(own, row, values, part),
-        Tally::Min(own) => raise(own, row, -values, part),
-        Tally::MaxAbs(own) => raise(own, row, values.abs(), part),
+        Tally::Max(own) => raise(own, on, row, block),
+        Tally::Min(own) => {
+            change!(on, block, |value| -value);
+            raise(own, on, row, block);
+        }
+        Tally::MaxAbs(own) => {
+            change!(on, block, |value| value.abs());
+            raise(own, on, row, block);
+        }
         Tally::Range([most, least]) => {
-            raise(most, row, values, part);
-            raise(least, row, -values, part);
+            raise(most, on, row, block);
+            change!(on, block, |value| -value);
+            raise(least, on, row, block);
         }
-        Tally::Mean(own) => sum(own, row, values, part),
-        Tally::Rms(own) => sum(own, row, values * values, part),
+        Tally::Mean(own) => {
+            let weights = &own.weights[row / TILE..];
+            sum!(on, own.sums, block, |value, tile, part| Lanes::of(on, &weights[tile], part) * value);
+        }
+        Tally::Rms(own) => {
+            let weights = &own.weights[row / TILE..];
+            sum!(on, own.sums, block, |value, tile, part| Lanes::of(on, &weights[tile], part) * (value * value));
+        }
         Tally::At(wanted, value) => {
-            let first = row + part.part * S::F64_LANES;
-            if (first..first + S::F64_LANES).contains(wanted) {
-                *value = values.to_column()[*wanted - first];
-            }
+            let place = wanted.checked_sub(row).and_then(|own| Some(block.get(own / TILE)?.0[own % TILE]));
+            *value = place.unwrap_or(*value);
         }
-        Tally::Column(all) => all.extend_from_slice(&values.to_column()[..S::F64_LANES]),
+        Tally::Column(all) => all.extend(block.iter().flat_map(|values| values.0)),
     }
 }
 
 #[inline(always)]
-fn raise<S: Simd>(peak: &mut LanePeak, row: usize, scores: Lanes<S>, part: &Window<S>) {
-    let (best, at) = (part.in_array(&peak.scores), part.in_array(&peak.rows));
-    let is_better = scores.exceeds(best);
-    part.put_in(&mut peak.scores, is_better.of(scores, best));
-    part.put_in(&mut peak.rows, is_better.of(part.in_array(&COUNT) + row as f64, at));
-}
-
-#[inline(always)]
-fn sum<S: Simd>(own: &mut Weighted, row: usize, values: Lanes<S>, part: &Window<S>) {
-    let weights = part.in_array(&own.weights[row / TILE]);
-    part.add_to(&mut own.sums, weights * values);
+fn raise<R: Registers>(peak: &mut LanePeak, on: R, row: usize, block: &[Eight]) {
+    for part in 0..Window::<R>::PARTS {
+        let (mut best, mut at) = (Lanes::of(on, &peak.scores, part), Lanes::of(on, &peak.rows, part));
+        let mut now = Lanes::of(on, &COUNT, part) + row as f64;
+        for scores in block {
+            let scores = Lanes::of(on, &scores.0, part);
+            let is_better = scores.exceeds(best);
+            (best, at) = (is_better.of(scores, best), is_better.of(now, at));
+            now = now + TILE as f64;
+        }
+        best.put(&mut peak.scores, part);
+        at.put(&mut peak.rows, part);
+    }
 }
 
 /// Direction of a link in a row of a tile.
@@ -234,20 +296,20 @@ fn direction(tile: &[Eight], first: usize, row: usize) -> Vec2 {
 }
 
 /// Angles of a link, as [`Turns`](crate::assur::turns::Turns) counts them.
-fn angles<S: Simd>(first: usize, last: &mut Vec2, turns: &mut f64, tile: &Window<S>) -> Lanes<S> {
+fn angles<R: Registers>(first: usize, last: &mut Vec2, turns: &mut f64, tile: &Window<R>) -> Lanes<R> {
     let mut found = [0.0; TILE];
-    for (lane, angle) in found[..S::F64_LANES].iter_mut().enumerate() {
-        let now = direction(tile.columns, first, tile.part * S::F64_LANES + lane);
+    for (lane, angle) in found[..R::LANES].iter_mut().enumerate() {
+        let now = direction(tile.columns, first, tile.part * R::LANES + lane);
         *turns += crossing(*last, now);
         *last = now;
         *angle = principal(now) + std::f64::consts::TAU * *turns;
     }
-    Lanes::of_column(tile.simd, &found)
+    Lanes::of(tile.on, &found, 0)
 }
 
 /// A coordinate of a point, of its velocity or of its acceleration.
 #[inline(always)]
-fn point<S: Simd>(first: usize, local: Vec2, reading: OfPoint, tile: &Window<S>) -> Lanes<S> {
+fn point<R: Registers>(first: usize, local: Vec2, reading: OfPoint, tile: &Window<R>) -> Lanes<R> {
     let arm = tile.vector(first + DIRECTION).rotate(local);
     let place = tile.vector(first + ORIGIN) + arm;
     let omega = tile.get(first + OMEGA);

@@ -1,38 +1,37 @@
 //! Joint reactions of higher groups on pins, for several poses at once.
 
-use pulp::Simd;
-
 use super::Chain;
 use crate::assur::batch::elimination::Factors;
 use crate::assur::batch::lanes::{Lanes, Plane, Window};
+use crate::assur::batch::registers::Registers;
 use crate::assur::groups::Hangs;
 use linkage::math::Vec2;
 
 impl Chain {
     /// Computes the reactions in all joints.
     #[inline(always)]
-    pub(in crate::assur::batch) fn hold<S: Simd>(
+    pub(in crate::assur::batch) fn hold<R: Registers>(
         &self,
         gravity: Vec2,
-        tile: &mut Window<S>,
-        work: &mut Window<S>,
+        tile: &mut Window<R>,
+        work: &mut Window<R>,
         first: usize,
     ) {
         match self.nodes.len() {
-            4 => self.hold_by::<S, 4>(gravity, tile, work, first),
-            _ => self.hold_by::<S, 6>(gravity, tile, work, first),
+            4 => self.hold_by::<R, 4>(gravity, tile, work, first),
+            _ => self.hold_by::<R, 6>(gravity, tile, work, first),
         }
     }
 
     #[inline(always)]
-    fn hold_by<S: Simd, const N: usize>(
+    fn hold_by<R: Registers, const N: usize>(
         &self,
         gravity: Vec2,
-        tile: &mut Window<S>,
-        work: &mut Window<S>,
+        tile: &mut Window<R>,
+        work: &mut Window<R>,
         first: usize,
     ) {
-        let (zero, none) = (Lanes::splat(tile.simd, 0.0), Plane::splat(tile.simd, Vec2::zeros()));
+        let (zero, none) = (Lanes::splat(tile.on, 0.0), Plane::splat(tile.on, Vec2::zeros()));
         let (mut forces, mut moments) = ([none; N], [zero; N]);
         for (index, node) in self.nodes.iter().enumerate() {
             let pole = node.body.point(node.own, tile);
@@ -47,7 +46,7 @@ impl Chain {
                 moments[parent] = moments[parent] + work.vector(self.arrow(first, arrow)).cross(forces[index]);
             }
         }
-        let factors = Factors::<S, N>::kept(work, self.first_factor(first));
+        let factors = Factors::<R, N>::kept(work, self.first_factor(first));
         let multipliers = factors.solve_transposed(moments.map(|moment| -moment));
         let mut cut = [none; N];
         for (index, closing) in self.closings.iter().enumerate() {
@@ -68,7 +67,7 @@ impl Chain {
     /// Sums the forces from the outermost link inwards. Moments are not passed on, because a pin transmits only a
     /// force.
     #[inline(always)]
-    fn gather<S: Simd>(&self, forces: &mut [Plane<S>]) {
+    fn gather<R: Registers>(&self, forces: &mut [Plane<R>]) {
         for (index, node) in self.nodes.iter().enumerate().rev() {
             if let Hangs::Arrow(arrow) = node.hangs {
                 let parent = self.arrows[arrow].node;

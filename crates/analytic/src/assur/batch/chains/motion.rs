@@ -3,13 +3,12 @@
 //! Every pose starts from link directions interpolated between two anchors (see `batch::anchors`).
 //! One Newton correction of these directions gives the pose; a second Jacobian is assembled at the corrected pose.
 
-use pulp::Simd;
-
 use super::{Chain, OF_START};
 use crate::assur::batch::elimination::Factors;
 use crate::assur::batch::equations::swung;
 use crate::assur::batch::lanes::{Lanes, Plane, Window};
 use crate::assur::batch::poses::{ACCELERATION, ALPHA, DIRECTION, OMEGA, ORIGIN, VELOCITY};
+use crate::assur::batch::registers::Registers;
 use crate::assur::groups::Hangs;
 use linkage::math::Vec2;
 use linkage::trajectory::Stage;
@@ -22,28 +21,28 @@ impl Chain {
     /// Computes the motion of all links. Returns NaN for poses that one Newton correction does not reach on the branch,
     /// and 0 for all other poses.
     #[inline(always)]
-    pub(in crate::assur::batch) fn turn<S: Simd>(
+    pub(in crate::assur::batch) fn turn<R: Registers>(
         &self,
         deepest: Stage,
-        tile: &mut Window<S>,
-        work: &mut Window<S>,
+        tile: &mut Window<R>,
+        work: &mut Window<R>,
         first: usize,
-    ) -> Lanes<S> {
+    ) -> Lanes<R> {
         match self.nodes.len() {
-            4 => self.turn_by::<S, 4>(deepest, tile, work, first),
-            _ => self.turn_by::<S, 6>(deepest, tile, work, first),
+            4 => self.turn_by::<R, 4>(deepest, tile, work, first),
+            _ => self.turn_by::<R, 6>(deepest, tile, work, first),
         }
     }
 
     #[inline(always)]
-    fn turn_by<S: Simd, const N: usize>(
+    fn turn_by<R: Registers, const N: usize>(
         &self,
         deepest: Stage,
-        tile: &mut Window<S>,
-        work: &mut Window<S>,
+        tile: &mut Window<R>,
+        work: &mut Window<R>,
         first: usize,
-    ) -> Lanes<S> {
-        let one = Lanes::splat(tile.simd, 1.0);
+    ) -> Lanes<R> {
+        let one = Lanes::splat(tile.on, 1.0);
         for (index, node) in self.nodes.iter().enumerate() {
             tile.put_vector(node.body.link + DIRECTION, start(work, first + OF_START * index));
         }
@@ -53,21 +52,21 @@ impl Chain {
                     let arm = tile.vector(base + DIRECTION).rotate(local);
                     (arm, tile.vector(base + ORIGIN) + arm)
                 }
-                None => (Plane::splat(tile.simd, local), Plane::splat(tile.simd, local)),
+                None => (Plane::splat(tile.on, local), Plane::splat(tile.on, local)),
             };
             work.put_vector(self.root(first, index), arm);
             work.put_vector(self.root(first, index) + 2, place);
         }
-        let (jacobian, gaps) = self.assembled::<S, N>(tile, work, first);
+        let (jacobian, gaps) = self.assembled::<R, N>(tile, work, first);
         let changes = Factors::of(jacobian, one).solve(gaps);
-        let mut largest = Lanes::splat(tile.simd, 0.0);
+        let mut largest = Lanes::splat(tile.on, 0.0);
         for (node, change) in self.nodes.iter().zip(changes) {
             let direction = tile.vector(node.body.link + DIRECTION);
             tile.put_vector(node.body.link + DIRECTION, direction - direction.turned() * change);
             // The sum of all changes is tested, not the maximum, because a sum keeps NaN.
             largest = largest + change.abs();
         }
-        let (jacobian, _) = self.assembled::<S, N>(tile, work, first);
+        let (jacobian, _) = self.assembled::<R, N>(tile, work, first);
         let factors = Factors::of(jacobian, one);
         self.put_links(tile, work, first);
         if deepest >= Stage::Velocities {
@@ -79,24 +78,24 @@ impl Chain {
         if deepest >= Stage::Reactions {
             factors.keep(work, self.first_factor(first));
         }
-        let (zero, none) = (Lanes::splat(tile.simd, 0.0), Lanes::splat(tile.simd, f64::NAN));
-        let is_near = Lanes::splat(tile.simd, LAST_CHANGE).exceeds(largest);
+        let (zero, none) = (Lanes::splat(tile.on, 0.0), Lanes::splat(tile.on, f64::NAN));
+        let is_near = Lanes::splat(tile.on, LAST_CHANGE).exceeds(largest);
         let is_kept = (factors.determinant * self.branch).exceeds(zero);
         is_near.of(is_kept.of(zero, none), none)
     }
 
     /// From the link directions, computes the arrows, the gaps of the contours and the Jacobian of these gaps.
     #[inline(always)]
-    fn assembled<S: Simd, const N: usize>(
+    fn assembled<R: Registers, const N: usize>(
         &self,
-        tile: &Window<S>,
-        work: &mut Window<S>,
+        tile: &Window<R>,
+        work: &mut Window<R>,
         first: usize,
-    ) -> ([[Lanes<S>; N]; N], [Lanes<S>; N]) {
+    ) -> ([[Lanes<R>; N]; N], [Lanes<R>; N]) {
         for (index, arrow) in self.arrows.iter().enumerate() {
             work.put_vector(self.arrow(first, index), tile.vector(arrow.link + DIRECTION).rotate(arrow.local));
         }
-        let zero = Lanes::splat(tile.simd, 0.0);
+        let zero = Lanes::splat(tile.on, 0.0);
         let (mut jacobian, mut gaps) = ([[zero; N]; N], [zero; N]);
         for (index, closing) in self.closings.iter().enumerate() {
             let mut gap = Plane { x: zero, y: zero };
@@ -116,7 +115,7 @@ impl Chain {
 
     /// Computes the origins of all links.
     #[inline(always)]
-    fn put_links<S: Simd>(&self, tile: &mut Window<S>, work: &mut Window<S>, first: usize) {
+    fn put_links<R: Registers>(&self, tile: &mut Window<R>, work: &mut Window<R>, first: usize) {
         for (index, node) in self.nodes.iter().enumerate() {
             let place = match node.hangs {
                 Hangs::Root(root) => work.vector(self.root(first, root) + 2),
@@ -132,24 +131,24 @@ impl Chain {
     }
 
     #[inline(always)]
-    fn put_velocities<S: Simd, const N: usize>(
+    fn put_velocities<R: Registers, const N: usize>(
         &self,
-        factors: &Factors<S, N>,
-        tile: &mut Window<S>,
-        work: &mut Window<S>,
+        factors: &Factors<R, N>,
+        tile: &mut Window<R>,
+        work: &mut Window<R>,
         first: usize,
     ) {
         for (index, &(base, _)) in self.roots.iter().enumerate() {
             let column = self.root(first, index);
             let velocity = match base {
                 Some(base) => tile.vector(base + VELOCITY) + work.vector(column).turned() * tile.get(base + OMEGA),
-                None => Plane::splat(tile.simd, Vec2::zeros()),
+                None => Plane::splat(tile.on, Vec2::zeros()),
             };
             work.put_vector(column + 2, velocity);
         }
-        let mut rates = [Lanes::splat(tile.simd, 0.0); N];
+        let mut rates = [Lanes::splat(tile.on, 0.0); N];
         for (index, closing) in self.closings.iter().enumerate() {
-            let mut rate = Plane::splat(tile.simd, Vec2::zeros());
+            let mut rate = Plane::splat(tile.on, Vec2::zeros());
             for (root, sign) in closing.ends {
                 rate = rate - work.vector(self.root(first, root) + 2) * sign;
             }
@@ -173,11 +172,11 @@ impl Chain {
     }
 
     #[inline(always)]
-    fn put_accelerations<S: Simd, const N: usize>(
+    fn put_accelerations<R: Registers, const N: usize>(
         &self,
-        factors: &Factors<S, N>,
-        tile: &mut Window<S>,
-        work: &mut Window<S>,
+        factors: &Factors<R, N>,
+        tile: &mut Window<R>,
+        work: &mut Window<R>,
         first: usize,
     ) {
         for (index, &(base, _)) in self.roots.iter().enumerate() {
@@ -187,13 +186,13 @@ impl Chain {
                     let swing = swung(work.vector(column), tile.get(base + OMEGA), tile.get(base + ALPHA));
                     tile.vector(base + ACCELERATION) + swing
                 }
-                None => Plane::splat(tile.simd, Vec2::zeros()),
+                None => Plane::splat(tile.on, Vec2::zeros()),
             };
             work.put_vector(column + 2, acceleration);
         }
-        let mut rates = [Lanes::splat(tile.simd, 0.0); N];
+        let mut rates = [Lanes::splat(tile.on, 0.0); N];
         for (index, closing) in self.closings.iter().enumerate() {
-            let mut second = Plane::splat(tile.simd, Vec2::zeros());
+            let mut second = Plane::splat(tile.on, Vec2::zeros());
             for (root, sign) in closing.ends {
                 second = second - work.vector(self.root(first, root) + 2) * sign;
             }
@@ -225,7 +224,7 @@ impl Chain {
 
 /// Start direction of a link: its direction at the anchor, rotated by the interpolating polynomial.
 #[inline(always)]
-fn start<S: Simd>(work: &Window<S>, column: usize) -> Plane<S> {
+fn start<R: Registers>(work: &Window<R>, column: usize) -> Plane<R> {
     let way = work.get(column + 2);
     let mut angle = work.get(column + 7);
     for power in (3..7).rev() {
@@ -233,7 +232,7 @@ fn start<S: Simd>(work: &Window<S>, column: usize) -> Plane<S> {
     }
     let angle = angle * way;
     let square = angle * angle;
-    let (mut sine, mut cosine) = (Lanes::splat(work.simd, 0.0), Lanes::splat(work.simd, 0.0));
+    let (mut sine, mut cosine) = (Lanes::splat(work.on, 0.0), Lanes::splat(work.on, 0.0));
     for odd in [11.0, 9.0, 7.0, 5.0, 3.0] {
         sine = (sine + 1.0) * square * (-1.0 / (odd * (odd - 1.0)));
         cosine = (cosine + 1.0) * square * (-1.0 / ((odd + 1.0) * odd));

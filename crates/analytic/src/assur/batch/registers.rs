@@ -1,0 +1,189 @@
+//! The machine's vector registers, one by one or in pairs.
+//!
+//! Division and square root take many cycles until their result is there. Two independent registers overlap these times.
+
+use pulp::{Arch, Simd, WithSimd};
+
+use super::lanes::TILE;
+
+/// The instructions that poses need, on one or several registers.
+pub(super) trait Registers: Copy {
+    /// One number per pose.
+    type Values: Copy;
+    /// One choice per pose.
+    type Choices: Copy;
+    /// Number of poses that are solved at once.
+    const LANES: usize;
+    /// Whether each value takes a pair of registers.
+    const IS_PAIR: bool;
+
+    fn splat(self, value: f64) -> Self::Values;
+    fn add(self, a: Self::Values, b: Self::Values) -> Self::Values;
+    fn sub(self, a: Self::Values, b: Self::Values) -> Self::Values;
+    fn mul(self, a: Self::Values, b: Self::Values) -> Self::Values;
+    fn div(self, a: Self::Values, b: Self::Values) -> Self::Values;
+    fn neg(self, a: Self::Values) -> Self::Values;
+    fn sqrt(self, a: Self::Values) -> Self::Values;
+    fn abs(self, a: Self::Values) -> Self::Values;
+    /// Where `a` is greater than `b`.
+    fn exceeds(self, a: Self::Values, b: Self::Values) -> Self::Choices;
+    /// `a` where the choice is true, elsewhere `b`.
+    fn choose(self, choice: Self::Choices, a: Self::Values, b: Self::Values) -> Self::Values;
+    /// Reads the part `part` of a column.
+    fn read(self, column: &[f64; TILE], part: usize) -> Self::Values;
+    /// Writes the part `part` of a column.
+    fn write(self, column: &mut [f64; TILE], part: usize, values: Self::Values);
+}
+
+/// Work that runs on registers of any width.
+pub(super) trait OnRegisters {
+    type Output;
+
+    fn run<R: Registers>(self, on: R) -> Self::Output;
+}
+
+struct Singly<W>(W);
+
+impl<W: OnRegisters> WithSimd for Singly<W> {
+    type Output = W::Output;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> W::Output {
+        self.0.run(Single(simd))
+    }
+}
+
+struct InPairs<W>(W);
+
+impl<W: OnRegisters> WithSimd for InPairs<W> {
+    type Output = W::Output;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> W::Output {
+        match 2 * S::F64_LANES <= TILE {
+            true => self.0.run(Pair(simd)),
+            false => self.0.run(Single(simd)),
+        }
+    }
+}
+
+/// Runs `work` on single registers.
+pub(super) fn dispatch<W: OnRegisters>(arch: Arch, work: W) -> W::Output {
+    arch.dispatch(Singly(work))
+}
+
+/// Runs `work` on pairs of registers, or on single ones if a pair is wider than a tile.
+pub(super) fn dispatch_in_pairs<W: OnRegisters>(arch: Arch, work: W) -> W::Output {
+    arch.dispatch(InPairs(work))
+}
+
+/// One register of the instruction set `S`.
+#[derive(Clone, Copy)]
+struct Single<S: Simd>(S);
+
+/// Two registers of the instruction set `S`.
+#[derive(Clone, Copy)]
+struct Pair<S: Simd>(S);
+
+// Plain values and tuples: arrays of registers would take the compiler minutes.
+macro_rules! on_single {
+    ($($name:ident $on_register:ident ($($operand:ident),*);)*) => { $(
+        #[inline(always)]
+        fn $name(self, $($operand: Self::Values),*) -> Self::Values {
+            self.0.$on_register($($operand),*)
+        }
+    )* };
+}
+
+macro_rules! on_pair {
+    ($($name:ident $on_register:ident ($($operand:ident),*);)*) => { $(
+        #[inline(always)]
+        fn $name(self, $($operand: Self::Values),*) -> Self::Values {
+            (self.0.$on_register($($operand.0),*), self.0.$on_register($($operand.1),*))
+        }
+    )* };
+}
+
+macro_rules! arithmetic {
+    ($on:ident) => {
+        $on! {
+            add add_f64s (a, b);
+            sub sub_f64s (a, b);
+            mul mul_f64s (a, b);
+            div div_f64s (a, b);
+            neg neg_f64s (a);
+            sqrt sqrt_f64s (a);
+            abs abs_f64s (a);
+        }
+    };
+}
+
+impl<S: Simd> Registers for Single<S> {
+    type Values = S::f64s;
+    type Choices = S::m64s;
+    const LANES: usize = S::F64_LANES;
+    const IS_PAIR: bool = false;
+
+    arithmetic! { on_single }
+
+    #[inline(always)]
+    fn splat(self, value: f64) -> Self::Values {
+        self.0.splat_f64s(value)
+    }
+
+    #[inline(always)]
+    fn exceeds(self, a: Self::Values, b: Self::Values) -> Self::Choices {
+        self.0.greater_than_f64s(a, b)
+    }
+
+    #[inline(always)]
+    fn choose(self, choice: Self::Choices, a: Self::Values, b: Self::Values) -> Self::Values {
+        self.0.select_f64s(choice, a, b)
+    }
+
+    #[inline(always)]
+    fn read(self, column: &[f64; TILE], part: usize) -> Self::Values {
+        S::as_simd_f64s(column).0[part]
+    }
+
+    #[inline(always)]
+    fn write(self, column: &mut [f64; TILE], part: usize, values: Self::Values) {
+        S::as_mut_simd_f64s(column).0[part] = values;
+    }
+}
+
+impl<S: Simd> Registers for Pair<S> {
+    type Values = (S::f64s, S::f64s);
+    type Choices = (S::m64s, S::m64s);
+    const LANES: usize = 2 * S::F64_LANES;
+    const IS_PAIR: bool = true;
+
+    arithmetic! { on_pair }
+
+    #[inline(always)]
+    fn splat(self, value: f64) -> Self::Values {
+        (self.0.splat_f64s(value), self.0.splat_f64s(value))
+    }
+
+    #[inline(always)]
+    fn exceeds(self, a: Self::Values, b: Self::Values) -> Self::Choices {
+        (self.0.greater_than_f64s(a.0, b.0), self.0.greater_than_f64s(a.1, b.1))
+    }
+
+    #[inline(always)]
+    fn choose(self, choice: Self::Choices, a: Self::Values, b: Self::Values) -> Self::Values {
+        (self.0.select_f64s(choice.0, a.0, b.0), self.0.select_f64s(choice.1, a.1, b.1))
+    }
+
+    #[inline(always)]
+    fn read(self, column: &[f64; TILE], part: usize) -> Self::Values {
+        let registers = S::as_simd_f64s(column).0;
+        (registers[2 * part], registers[2 * part + 1])
+    }
+
+    #[inline(always)]
+    fn write(self, column: &mut [f64; TILE], part: usize, values: Self::Values) {
+        let registers = S::as_mut_simd_f64s(column).0;
+        (registers[2 * part], registers[2 * part + 1]) = values;
+    }
+}
