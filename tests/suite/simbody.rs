@@ -119,7 +119,8 @@ fn instants_may_be_unordered_and_before_the_start() {
     assert_eq!(solve(&default(), &shipped("crank_rocker.toml").case.on(Grid::default()).unwrap()).times().len(), 0);
 }
 
-/// A four-bar with the links of its joints named in reverse order, moved, mirrored, heavier, and without masses.
+/// Eight variants of a four-bar: unchanged, mirrored, a thousand times as heavy, moved far away, with the two links of
+/// every joint exchanged, with one link without mass, with no masses, and with point masses.
 /// All variants carry loads.
 #[test]
 fn variants_of_a_four_bar_agree() {

@@ -75,7 +75,9 @@ fn evidence(multiples: f64, mut round: f64) -> f64 {
 const INDEPENDENT: i32 = 3;
 
 /// Whether instants at unequal steps are multiples of a chosen step.
-/// A round common divisor is evidence for a chosen step, for example if the numbers of all rows have trailing zeros.
+/// The instants are counted in units of the last printed digit.
+/// If their common divisor is a round number (many factors 2 and 5), the step was probably chosen by a person: for
+/// example, if all instants end in zeros.
 /// By chance, n independent whole degrees have a common divisor d only with the probability 1 / d^n.
 fn are_multiples(values: &[Rounded], unit: f64, sort: Sort) -> bool {
     let (mut divisor, mut count) = (0u64, 0i32);

@@ -208,8 +208,8 @@ mod tests {
     use super::*;
     use scenario::{Formulas, of_repository};
 
-    /// A formula's value decides nothing if its error exceeds 1e-6 of the scale and a thousand times the mechanism's
-    /// error.
+    /// A formula's value decides nothing if its error exceeds both 1e-6 of the scale and a thousand times the
+    /// mechanism's error.
     #[test]
     fn lost_digits_count_only_if_the_mechanism_has_them() {
         let case = of_repository("scenarios/crank_rocker.toml").case;

@@ -263,7 +263,7 @@ fn signed(operator: Operator, what: &FormulaTree) -> String {
     format!("{sign} {}", rest.trim_start())
 }
 
-/// Written forms of a number times an entry, each with its complexity.
+/// The known ways to write the product `coefficient * entry` as a formula, each with its complexity.
 /// The number is written as a product of known quantities. A constant factor may also be 1 plus or minus such a
 /// product.
 fn written(monomials: &Monomials, coefficient: f64, entry: &Entry, operator: Operator) -> Vec<(FormulaTree, usize)> {

@@ -132,7 +132,8 @@ impl Held {
         Held { is_analytic: true, ..self }
     }
 
-    /// Reads a table by a mapping. A column with the name of a channel, unit included, needs no mapping.
+    /// Reads a table; `mapping` states which channels or instants its columns contain. A column with the name of a
+    /// channel, unit included, needs no mapping.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for an unknown column or channel, with its location.

@@ -566,7 +566,8 @@ impl Chain {
         &self.trains
     }
 
-    /// Computes the multipliers of the closing joints, given coordinates and transmissions in place: J^T lambda = -Q.
+    /// Computes in place the multipliers of the closing joints, of the given coordinates and of the transmissions:
+    /// J^T lambda = -Q.
     /// First come the forces on the second links of the closing joints (N), x and y alternating.
     /// Next are the driving moments on the nodes with given joints (N m; for a slide, the force along the axis
     /// times [`Chain::size`]).

@@ -133,7 +133,7 @@ fn goes_with<'a>(
     }
 }
 
-/// Whether a part has the form of an angle or a time.
+/// Whether a part of a formula contains the crank angle or the time outside function calls.
 fn is_turning(part: &FormulaTree) -> bool {
     match &part.shape {
         NodeShape::Name(name) => INPUTS.contains(&name.as_str()),
