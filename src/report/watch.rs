@@ -17,7 +17,7 @@ pub(crate) const SCRIPT: &str = include_str!("watch/watch.js");
 /// Largest number of mistakes on the page.
 const MOST: usize = 50;
 
-/// The page around the frame. It has no data; its script asks for them.
+/// The page around the frame. The page contains no data; its script requests them.
 pub(crate) fn shell(file: &str) -> String {
     filled(TEMPLATE, &[("file", &escaped(file)), ("style", STYLE), ("version", env!("CARGO_PKG_VERSION"))])
 }

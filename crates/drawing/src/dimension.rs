@@ -32,7 +32,7 @@ pub struct Dimension {
 /// What a dimension measures. Places are indices of [`places`](crate::places).
 #[derive(Clone, Debug, PartialEq)]
 pub enum Measure {
-    /// Distance between two places of a link. The list of lengths determines one place after another.
+    /// Distance between two points of a link. The list of lengths determines one place after another.
     Length {
         /// The place from which the length is measured. Earlier lengths determine this place.
         from: usize,
@@ -42,13 +42,13 @@ pub enum Measure {
         /// Where the length is drawn.
         line: DimensionLine,
     },
-    /// Horizontal (0) or vertical (1) distance of places of the ground from its first pivot.
+    /// Horizontal or vertical distance of points of the ground from the first pivot.
     Offset {
         /// 0 for horizontal, 1 for vertical.
         axis: usize,
         /// The first pivot.
         from: usize,
-        /// All places that have this distance from the first pivot.
+        /// All points that have this distance from the first pivot.
         to: Vec<usize>,
         /// Row of the dimension line: the number of shorter distances on the same side.
         row: usize,
@@ -76,7 +76,7 @@ pub enum Measure {
 pub enum DimensionLine {
     /// Beside an edge of the link.
     Edge,
-    /// Along a thin line between the two places.
+    /// Along a thin line between the two points.
     Across,
     /// Along a dimension line outside the link. The number is the row of the line; row 0 is nearest to the link.
     Outside(usize),
@@ -96,12 +96,12 @@ pub fn dimensions(mechanism: &Mechanism) -> Vec<Dimension> {
     all
 }
 
-/// Largest distance of a place from the first place (m).
+/// Largest distance of a point from the first point (m).
 fn extent(all: &[Vec2]) -> f64 {
     all.iter().map(|at| (at - all[0]).norm()).fold(0.0, f64::larger)
 }
 
-/// Indices of the places of a link that do not coincide with an earlier place.
+/// Indices of the points of a link, without the points that coincide with an earlier point.
 fn distinct(all: &[Vec2]) -> Vec<usize> {
     let size = extent(all);
     let is_new = |k: usize| all[..k].iter().all(|other| (other - all[k]).norm() > SAME * size);
@@ -172,8 +172,8 @@ fn in_a_plane(all: &[Vec2], own: &[usize], hull: &[usize]) -> Vec<(usize, usize,
     found
 }
 
-/// Sine of the angle at the place `at` between two other places.
-/// Its inverse is the factor by which errors of the two distances to `at` grow.
+/// Sine of the angle at the point `at` between the directions to two other points.
+/// Errors of the two distances to `at` grow by the inverse of this sine.
 fn sine(all: &[Vec2], at: usize, a: usize, b: usize) -> f64 {
     let (a, b) = (all[a] - all[at], all[b] - all[at]);
     cross(a, b).abs() / (a.norm() * b.norm())
@@ -205,8 +205,9 @@ fn offsets(mechanism: &Mechanism) -> Vec<Dimension> {
 
 /// Angles of the guides of a link that are not multiples of 90 degrees.
 /// On the ground, they are measured from the horizontal.
-/// On other links, they are measured from the line between the guide's point and the place farthest from this point.
-/// On a link with a single place, they are measured from the link's first guide.
+/// On other links, the angles of guides are measured from the line between the guide's point and the point farthest
+/// from it.
+/// On a link with a single point, the angles of guides are measured from the link's first guide.
 fn angles(mechanism: &Mechanism, link: LinkId) -> Vec<Dimension> {
     let all = places(mechanism, link);
     let size = extent(&all);

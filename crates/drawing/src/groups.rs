@@ -104,7 +104,7 @@ fn parts(mechanism: &Mechanism, structure: &Structure) -> Vec<Part> {
     parts
 }
 
-/// The side of an outer joint on the link that is solved before the part. `own` are the links of the part.
+/// The point of an outer joint on the link that is solved before the drawn group. `own` are the links of the group.
 fn solved_side(joint: &Joint, own: &[LinkId]) -> JointSide {
     if own.contains(&joint.first.link) { joint.second } else { joint.first }
 }

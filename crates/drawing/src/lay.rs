@@ -15,13 +15,13 @@ use linkage::mechanism::{
 /// A joint is open if its gap is larger than this fraction of the mechanism's size.
 const OPEN: f64 = 1e-6;
 /// Gaps smaller than this fraction of the largest gap are ignored.
-/// They arise only because the least-squares solution spreads the largest gap over the joints.
+/// Such small gaps arise only because the least-squares solution spreads the largest gap over the joints.
 const SEEN: f64 = 1e-2;
 
 /// A mechanism at one instant, assembled completely or in part.
 #[derive(Clone, Debug)]
 pub struct Laid {
-    /// Where every link is.
+    /// Pose of every link, and how it was determined.
     pub places: Vec<LinkPlacement>,
     /// Joints that stay open: the joint, and the two world points (m) that should coincide.
     pub gaps: Vec<(JointId, [Vec2; 2])>,
@@ -92,7 +92,7 @@ impl Laid {
         )
     }
 
-    /// Poses of all links from which the configurations of a group are computed.
+    /// Poses of all links: the input from which the configurations of a group are computed.
     /// In a group with driven joints, these joints have the coordinates `angles`.
     fn pose_for(&self, mechanism: &Mechanism, structure: &Structure, group: &Group, angles: &[f64]) -> Pose {
         let mut pose = self.pose();

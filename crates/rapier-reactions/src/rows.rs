@@ -1,5 +1,5 @@
 //! Constraint rows of a joint as Rapier lays them, and the impulse that they transmit together.
-//! These are plain numbers, the same for both precisions of Rapier.
+//! The types of this module contain plain numbers in double precision, for both precisions of Rapier.
 
 use crate::plane::{Vec2, cross, turned};
 

@@ -84,8 +84,8 @@ fn local(pose: &LinkPose, place: Vec2) -> Vec2 {
 pub(super) enum PartPair {
     /// A pin. Both links have a point of this name, and the two points coincide.
     Pin(String),
-    /// A slide through a point of the first link and a point of the second. `axes` are its directions in the frames of
-    /// the two links (rad).
+    /// A slide through a point of the first link and a point of the second. `axes` are the directions of the slide in
+    /// the frames of the two links (rad).
     Slide { points: [String; 2], axes: [f64; 2] },
 }
 

@@ -67,7 +67,7 @@ impl<'a> Evaluator<'a> {
 
     /// Computes the output at the crank angles `turns` into `curve`.
     /// These crank angles (rad) are measured from crank angle zero in the sense of rotation.
-    /// They ascend from the first angle to the angle one turn later.
+    /// The crank angles ascend over one turn: the last angle is one turn after the first.
     /// At crank angle zero, the crank has the world direction `zero` (rad).
     ///
     /// # Errors

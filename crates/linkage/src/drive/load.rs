@@ -433,7 +433,7 @@ impl Load {
         if let &Load::Resistance { link, moment } = self { Some((link, moment)) } else { None }
     }
 
-    /// Whether the load depends on the sizes of speeds, in addition to their signs.
+    /// Whether the load depends on the magnitudes of speeds, and not only on their signs.
     #[must_use]
     pub fn is_viscous(&self) -> bool {
         self.nature().is_viscous

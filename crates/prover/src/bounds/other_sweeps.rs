@@ -37,7 +37,7 @@ pub struct OtherSweeps<T> {
     /// Ratio of the numbers of sweeps of successive runs.
     pub factor: f64,
     /// Largest [growth](OtherSweeps::growth) over the position channels; 0 if no growth is known.
-    /// For a judgement of the engine's own forces: the largest growth over these forces.
+    /// If the forces that the engine itself exerts are judged: the largest growth over these forces instead.
     pub growth: f64,
 }
 

@@ -109,7 +109,7 @@ pub(crate) fn scales_beyond(errors: &[f64], trajectory: &Trajectory, built: &Bui
     trajectory.channels().iter().enumerate().map(of).collect()
 }
 
-/// Sizes that follow from the data of a case. These sizes do not depend on which parts of the case move.
+/// Sizes that follow from the data of a case. These natural sizes are the same whichever links move.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Built {
     /// Size of the mechanism (m).
@@ -394,8 +394,8 @@ mod tests {
         assert_eq!([3e-9, 4e-8, 1.0].map(|own| built.unless(own, Unit::Newton)), [30.0, 4e-8, 1.0]);
     }
 
-    /// The crank rotates by 6 rad in 4 s, coordinates reach 3 m, and forces reach 500 N. The size of each quantity that
-    /// vanishes follows from these values.
+    /// The crank rotates by 6 rad in 4 s, coordinates reach 3 m, and forces reach 500 N. The natural size of each
+    /// quantity whose channels are all zero follows from this rotation, this time, and these coordinates and forces.
     #[test]
     fn sizes_of_zero_channels_follow_from_the_crank() {
         let names =

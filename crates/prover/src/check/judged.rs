@@ -60,7 +60,7 @@ pub enum FormulaOutcome {
     Open {
         /// Why the judgement is inconclusive.
         reason: String,
-        /// Actions that would decide the judgement.
+        /// What the user can do to get a conclusive judgement.
         advice: Vec<Advice>,
     },
 }

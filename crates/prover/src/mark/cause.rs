@@ -1,4 +1,4 @@
-//! The causes of wrong answers. Reports put them into words.
+//! The causes of wrong answers, as data. Reports put these causes into words.
 
 /// A cell of a sheet: number of the position and of the quantity, from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -41,7 +41,7 @@ const ON_KNOT: f64 = 1e-6;
 /// A drive counts as standing still below this fraction of its top speed. The limit exceeds the rounding error of a
 /// law's formula.
 const STANDSTILL: f64 = 1e-9;
-/// Number of instants that may be left out with any step: the two ends of a motion.
+/// Number of instants that may be left out, however small the step is: the two ends of a motion.
 const ENDS: usize = 2;
 
 /// Doubtful channels of an engine's runs, by row of the grid.

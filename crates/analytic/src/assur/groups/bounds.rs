@@ -31,8 +31,8 @@ impl Bound {
     pub(in crate::assur) const REST: Bound =
         Bound { about: Vec2::new(0.0, 0.0), speed: 0.0, second: 0.0, turn: 0.0, spin: 0.0 };
 
-    /// Bounds of a link that turns at a constant speed. The point `about` on its axis has the given speed and
-    /// acceleration.
+    /// Bounds of a link that turns at a constant speed. The link turns about the point `about`, whose speed and
+    /// acceleration are given.
     pub(super) fn driven(about: Vec2, [speed, second]: [f64; 2], turn: f64) -> Self {
         Bound { about, speed, second, turn, spin: 0.0 }
     }

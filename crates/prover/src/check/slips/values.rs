@@ -78,8 +78,8 @@ fn put(
         everywhere: false,
         marks: Vec::new(),
     };
-    // A corrected number leaves the units unchanged. A correction of a number without confused digits ranks after
-    // missing terms.
+    // A corrected number leaves the units unchanged. If the wrong number has no confused digits, its correction ranks
+    // after missing terms.
     let rank = (false, !is_confused, changed[0].0 != trial.index, SlipKind::Value);
     tried.put(trial, changed, slip, rank);
 }
