@@ -1,6 +1,6 @@
 //! Dimensions: the lengths and angles that define the links of a mechanism and its ground.
 //!
-//! A link with n places has 2 n - 3 lengths. If all places are on one line, it has n - 1 lengths.
+//! A link with n points has 2 n - 3 lengths. If all points are on one line, the link has n - 1 lengths.
 //! The ground has horizontal and vertical distances from its first pivot.
 //! Guide angles that are multiples of 90 degrees, and distances of zero, are visible without a number.
 
@@ -12,7 +12,7 @@ use super::pins::pivots;
 use linkage::math::{KeepNan, Vec2, cross};
 use linkage::mechanism::{CamContact, GROUND, JointId, LinkId, Mechanism, TransmissionKind};
 
-/// Two places count as one if their distance is below this fraction of the link's size. Distances below this limit are
+/// Two points count as one if their distance is below this fraction of the link's size. Distances below this limit are
 /// zero.
 const SAME: f64 = 1e-9;
 /// Angles below this (rad) are zero.
@@ -29,14 +29,14 @@ pub struct Dimension {
     pub text: String,
 }
 
-/// What a dimension measures. Places are indices of [`places`](crate::places).
+/// What a dimension measures. Points are given by their indices in the result of [`places`](crate::places).
 #[derive(Clone, Debug, PartialEq)]
 pub enum Measure {
-    /// Distance between two points of a link. The list of lengths determines one place after another.
+    /// Distance between two points of a link. The list of lengths determines one point after another.
     Length {
-        /// The place from which the length is measured. Earlier lengths determine this place.
+        /// The point from which the length is measured. Earlier lengths determine this point.
         from: usize,
-        /// The place that the length determines. On a line, the length suffices; otherwise the neighbouring length in
+        /// The point that the length determines. On a line, the length suffices; otherwise the neighbouring length in
         /// the list is needed too.
         to: usize,
         /// Where the length is drawn.
@@ -115,7 +115,7 @@ fn lengths(mechanism: &Mechanism, link: LinkId) -> Vec<Dimension> {
         0 | 1 => Vec::new(),
         2 => on_a_line(&all, &own),
         _ => {
-            // A corner may coincide with an earlier place.
+            // A corner may coincide with an earlier point.
             let near = SAME * extent(&all);
             let index = |corner: &Vec2| own.iter().copied().find(|&k| (all[k] - corner).norm() <= near);
             let mut hull: Vec<usize> = hull.iter().filter_map(index).collect();
@@ -133,8 +133,8 @@ fn lengths(mechanism: &Mechanism, link: LinkId) -> Vec<Dimension> {
     pairs.into_iter().map(of).collect()
 }
 
-/// Lengths from the first place of a bar to all other places.
-/// Lengths on the same side of the first place are drawn in separate rows.
+/// Lengths from the first point of a bar to all other points.
+/// Lengths on the same side of the first point are drawn in separate rows.
 fn on_a_line(all: &[Vec2], own: &[usize]) -> Vec<(usize, usize, DimensionLine)> {
     let (Some(&first), true) = (own.first(), own.len() > 1) else { return Vec::new() };
     let mut others: Vec<usize> = own[1..].to_vec();
@@ -145,7 +145,7 @@ fn on_a_line(all: &[Vec2], own: &[usize]) -> Vec<(usize, usize, DimensionLine)> 
     (0..others.len()).map(|index| (first, others[index], line(index))).collect()
 }
 
-/// Lengths that divide the hull of a plate into triangles, followed by two lengths for every other place.
+/// Lengths that divide the hull of a plate into triangles, followed by two lengths for every other point.
 fn in_a_plane(all: &[Vec2], own: &[usize], hull: &[usize]) -> Vec<(usize, usize, DimensionLine)> {
     let count = hull.len();
     // All triangles have one corner in common. The thinnest triangle decides how exactly the lengths define the plate.
@@ -173,7 +173,7 @@ fn in_a_plane(all: &[Vec2], own: &[usize], hull: &[usize]) -> Vec<(usize, usize,
 }
 
 /// Sine of the angle at the point `at` between the directions to two other points.
-/// Errors of the two distances to `at` grow by the inverse of this sine.
+/// The errors of the two distances to `at` are magnified by 1 / sine.
 fn sine(all: &[Vec2], at: usize, a: usize, b: usize) -> f64 {
     let (a, b) = (all[a] - all[at], all[b] - all[at]);
     cross(a, b).abs() / (a.norm() * b.norm())
@@ -281,7 +281,7 @@ mod tests {
     fn a_plate_has_two_lengths_for_each_place_after_the_first_two() {
         assert_eq!(counted(&[(0.0, 0.0), (2.0, 0.0), (0.0, 1.0)]), 3);
         assert_eq!(counted(&[(0.0, 0.0), (2.0, 0.0), (0.0, 1.0), (0.4, 0.2), (1.0, 0.0)]), 7);
-        // A place that coincides with an earlier place needs no length.
+        // A point that coincides with an earlier point needs no length.
         assert_eq!(counted(&[(0.0, 0.0), (2.0, 0.0), (0.0, 1.0), (2.0, 1e-12)]), 3);
     }
 

@@ -32,7 +32,7 @@ pub struct Laid {
     pub faults: Vec<Error>,
     /// Assembly mode of each group that is placed.
     pub modes: Vec<GroupPlacement>,
-    /// Preliminary poses, used for links without a place.
+    /// Preliminary poses, used for links whose pose is not known.
     /// In these poses, links on driven joints have the right pose relative to each other.
     shape: Option<Pose>,
 }
@@ -80,7 +80,8 @@ impl Laid {
     }
 
     /// The poses of all links.
-    /// For a link without a place, the pose in `shape` is taken. If `shape` is `None`, the link is at the origin.
+    /// For a link whose pose is not known, the pose in `shape` is taken. If `shape` is `None`, the link is at the
+    /// origin.
     fn pose(&self) -> Pose {
         let shape = |link: LinkId| self.shape.as_ref().map_or(LinkPose::GROUND, |shape| shape.0[link]);
         Pose(
@@ -150,7 +151,7 @@ pub fn lay(mechanism: &Mechanism, structure: &Structure, angles: &[f64], starts:
 }
 
 /// Assembles a mechanism that has no structure, because it has too few or too many links or joints.
-/// The function places the dyads that it finds.
+/// The function assembles the dyads that it finds.
 pub fn lay_loose(mechanism: &Mechanism, drivers: &[DrivingLink], angles: &[f64], fault: Error) -> Laid {
     let mut laid = Laid::start(mechanism, drivers, angles);
     laid.faults.push(fault);

@@ -48,7 +48,7 @@ pub(super) struct LinkPart {
 
 impl LinkPart {
     /// A link whose frame has its origin at the first of `places` (world) and its x axis towards the second.
-    /// If the link has a single place, its frame has the direction `otherwise` (rad).
+    /// If `places` has only one entry, the frame has the direction `otherwise` (rad).
     pub(super) fn through(name: String, places: Vec<(String, Vec2)>, otherwise: f64) -> LinkPart {
         let origin = places.first().map_or(Vec2::zeros(), |(_, place)| *place);
         let along = places.iter().map(|(_, place)| place - origin).find(|along| along.norm() > 0.0);

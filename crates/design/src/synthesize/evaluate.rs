@@ -161,8 +161,8 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// World place of the output link's working point (m), or the origin without such a point, and angle of the output
-    /// link (rad), in a recorded row.
+    /// Position and angle of the output link in a recorded row: world position of its working point (m; the origin if
+    /// it has none), and angle (rad).
     pub(super) fn position(&self, row: usize) -> (Vec2, f64) {
         let (link, point) = self.task.output.working_point();
         let motion = &self.recorded[row][link];

@@ -33,7 +33,7 @@ pub enum MarkCause {
         /// Unit that the sheet asks for.
         asked: &'static str,
     },
-    /// The decimal point is at the wrong place. The field is the power of ten by which the number is too large.
+    /// The decimal point is at the wrong position. The field is the power of ten by which the number is too large.
     DecimalPoint(i32),
     /// Twice the value.
     Twice,

@@ -54,8 +54,8 @@ impl ImpulseReader {
     }
 }
 
-/// The reactions of the impulse joints of a snapshot. `stances` has the place and direction of each joint's constraint
-/// rows in the step.
+/// The reactions of the impulse joints of a snapshot. `stances` has the position and direction of each joint's
+/// constraint rows in the step.
 pub(super) fn from_impulses(
     world: &WorldRef,
     snapshot: &Snapshot,
