@@ -277,7 +277,7 @@ fn random_mechanisms_agree() {
 
 /// A measure of how near a run comes to a singular pose.
 /// The measure is the largest speed, or the square root of the largest acceleration, divided by the crank's speed.
-/// Lengths are about a metre, so linear and angular speeds are of similar size.
+/// Lengths are about a metre, so linear and angular speeds have similar magnitudes.
 /// The effect of a small error grows with the square of `nearness`.
 fn nearness(case: &Case, truth: &Trajectory) -> f64 {
     let crank = case.crank().at(0.0).rate.abs();

@@ -39,7 +39,7 @@ pub struct DerivationSheet {
 const PLACE: char = '#';
 /// Upper limit of the number of Newton steps in the search for the correction of a subexpression at an instant.
 const STEPS: usize = 30;
-/// To measure a slope, the correction is changed by this fraction of its size.
+/// To measure a slope, the correction is changed by this fraction of its magnitude.
 const DIFFERENCE: f64 = 1e-6;
 
 /// Correct value of a formula at an instant.

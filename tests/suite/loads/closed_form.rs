@@ -46,7 +46,7 @@ fn rod(phi: f64) -> [f64; 2] {
 }
 
 /// Checks that both solvers find the balancing moment `moment`, a function of the crank angle (rad).
-/// The tolerance is the rounding error of `size`.
+/// The tolerance is the rounding error of a moment of the magnitude `size`.
 fn balances(loads: &str, size: f64, moment: impl Fn(f64) -> f64) {
     let scenario = slider_crank(loads);
     let case = &scenario.case;

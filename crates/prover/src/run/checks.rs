@@ -63,7 +63,7 @@ pub(super) fn of_sides(case: &Case, sides: EachSide<&Observed>, known: &Known) -
 struct Worst<'a> {
     channel: &'a Channel,
     row: usize,
-    /// The difference and the allowed difference, both divided by the size of the channel's numbers.
+    /// The difference and the allowed difference, both divided by the magnitude of the channel's numbers.
     relative: f64,
     allowed: f64,
 }

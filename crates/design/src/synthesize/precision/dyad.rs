@@ -47,7 +47,7 @@ const PASSED: f64 = 1e-10;
 const SIZES: [f64; 2] = [1e-6, 1e4];
 /// Relative difference below which two dyads are the same.
 const SAME: f64 = 1e-7;
-/// Relative size below which all minors count as zero.
+/// Relative magnitude below which all minors count as zero.
 const DEGENERATE: f64 = 1e-12;
 
 /// A dyad in standard form.
