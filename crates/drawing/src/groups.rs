@@ -182,7 +182,7 @@ impl Whole<'_> {
         Mechanism::unchecked(mechanism.links().entries().map(strip).collect(), joints)
     }
 
-    /// Moves a joint's side on the link `solved` to the ground, at the position that the link's pose gives.
+    /// The joint with the ground in place of the link `solved`, at the position that the pose of this link gives.
     /// `None` if the link has no pose.
     fn grounded(&self, joint: &Joint, solved: LinkId) -> Option<Joint> {
         let pose = self.places[solved].pose()?;

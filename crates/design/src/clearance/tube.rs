@@ -311,7 +311,7 @@ struct Row<'a> {
     /// Rate of the sum per unit of the variable, and the largest deviation of the sum from a change at this rate.
     rate: f64,
     bend: f64,
-    /// Whether the sum must be zero at the middle. Otherwise the solver's pose gives the sum at the middle.
+    /// Whether the sum must be zero at the middle. If not, the solver's pose gives the sum at the middle.
     is_zero: bool,
 }
 

@@ -134,7 +134,7 @@ pub(super) struct Parts {
     /// Remarks for the user: parts of the source that were not understood, and assumptions of the import.
     pub(super) told: Vec<String>,
     /// Whether coordinates are written with all digits.
-    /// Otherwise they are rounded to the twelfth digit of the mechanism's size.
+    /// If not, coordinates are rounded to the twelfth digit of the mechanism's size.
     pub(super) is_exact: bool,
     /// Step to which the source rounds its coordinates, in the source's length; 0 if the source has more than twelve
     /// digits.

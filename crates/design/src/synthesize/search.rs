@@ -55,7 +55,7 @@ pub struct SearchResult {
     pub values: Vec<f64>,
     /// Sense of the output that counts as forward: +1 or -1.
     pub forward: f64,
-    /// Cost of the best candidate. With an evolution strategy: a sum of squares of fractions of the stroke.
+    /// Cost of the best candidate. With an evolution strategy: a sum of squared terms, each a fraction of the stroke.
     /// With exact derivatives: the largest deviation plus ten times the largest violation of a limit.
     pub cost: f64,
     /// Cost of the best random candidate before refinement, computed at fewer crank angles than `cost`. NaN if no

@@ -19,7 +19,7 @@ pub struct PlotAxis {
     /// The ticks of angles have usual steps, such as 30 or 45 degrees. The steps of long ranges are multiples of a
     /// turn, and the steps of very short ranges are round numbers.
     pub degrees: bool,
-    /// Whether the axis ends at round numbers. Otherwise the axis ends at the extreme values of the curves.
+    /// Whether the axis ends at round numbers. If not, the axis ends at the extreme values of the curves.
     pub rounded: bool,
 }
 

@@ -156,8 +156,8 @@ impl JudgedFormula {
         let bound = formula.error.unwrap_or(0.0) + rounding + mechanism.error;
         let (value, right) = (found.value, mechanism.value);
         let at = FormulaAtInstant { time, crank, input, formula: value, mechanism: right, difference, bound };
-        // Digits count as lost only if the mechanism's value is much more accurate than the formula's value. Otherwise
-        // the formula is not the cause of the inaccuracy.
+        // Digits count as lost only if the mechanism's value is much more accurate than the formula's value. If both
+        // values are inaccurate, the formula is not the cause.
         let has_lost = !(found.error <= TELLING * self.scale) && !(found.error <= NO_WORSE * mechanism.error);
         // At the end of a function's domain, such as acos at 1, the derivative is not finite although the value is
         // right. A derivative that is not finite therefore counts as an instant with lost digits.

@@ -118,8 +118,7 @@ impl Words {
     }
 }
 
-/// If the word is the name of a channel in any unit, returns the name in SI units. Otherwise returns the word
-/// unchanged.
+/// If the word is the name of a channel in any unit, returns the name in SI units. Returns any other word unchanged.
 fn in_si(word: &str) -> String {
     PrintedChannel::named(word).map_or_else(|| word.into(), |own| own.channel.to_string())
 }

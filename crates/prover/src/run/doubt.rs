@@ -196,7 +196,8 @@ mod tests {
         Scenario::parse(text, std::path::Path::new("x.toml")).unwrap_or_else(|error| panic!("{error}")).case
     }
 
-    /// Three numbers of instants: with velocities left out, with positions left out, and usable with a smaller step.
+    /// Counts instants: instants whose velocities are left out, instants whose positions are left out, and instants
+    /// that would be usable with a smaller step.
     /// At steps of 1.1 ms, the values within 17.6 ms on either side of a jump are doubtful.
     fn left_out(file: &str) -> ([usize; 2], f64) {
         let case = parsed(&text(file));

@@ -109,8 +109,8 @@ impl Observed {
 pub(super) struct Stopped {
     pub(super) error: Error,
     pub(super) kept: Option<Box<Trajectory>>,
-    /// `None` if enough work was allowed. Otherwise the work that the first runs need, or the allowed work if the first
-    /// runs were made.
+    /// `None` if enough work was allowed. If too little work was allowed: the work that the first runs need, or, if
+    /// the first runs were made, the allowed work.
     pub(super) spent: Option<f64>,
 }
 

@@ -10,8 +10,8 @@
 //!   At the crank angle between two opposite motions, the conditions of both phases apply, so the rate is zero up to h.
 //! - Known levels: u differs from a level by at most h. If u must follow a curve, it differs from the curve by at most
 //!   h over the whole turn.
-//! - Precision points: the angle of the output link differs from the required angle by at most h. So do the
-//!   coordinates, divided by the extent of all points.
+//! - Precision points: the angle of the output link differs from the required angle by at most h. The coordinates,
+//!   divided by the extent of all points, also differ from the required coordinates by at most h.
 //!   Free crank angles ascend.
 //! - Stroke, acceleration, transmission angles, distances, mass and limited quantities stay within their limits.
 
