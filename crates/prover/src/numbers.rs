@@ -127,8 +127,8 @@ const SHOWN: usize = 6;
 /// Units written with a decimal prefix, each with the smallest value that is written with the prefix kilo.
 const PREFIXED: [(&str, f64); 4] = [("N", 1e4), ("N m", 1e4), ("W", 1e3), ("Pa", 1e3)];
 
-/// A quantity in an SI unit, with six significant digits and the decimal prefix that suits its magnitude: `115.101
-/// kN`.
+/// A quantity in an SI unit, with six significant digits and the decimal prefix that suits its magnitude:
+/// `115.101 kN`.
 #[must_use]
 pub fn quantity(value: f64, unit: &str) -> String {
     let least = PREFIXED.iter().find(|(own, _)| *own == unit).map_or(f64::INFINITY, |(_, least)| *least);

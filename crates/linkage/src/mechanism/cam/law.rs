@@ -137,7 +137,7 @@ impl CamLaw {
 
     /// Angular distance (rad) from the given cam angle to the nearest end of a piece.
     /// At the end of a piece the third derivative jumps.
-    /// For a law by one smooth curve instead of pieces, the result is pi.
+    /// A law by a harmonic or a formula has no pieces; the result is then pi.
     #[must_use]
     pub fn to_knot(&self, angle: f64) -> f64 {
         let away = |end: f64| ((angle - end + PI).rem_euclid(TAU) - PI).abs();
