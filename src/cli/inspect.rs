@@ -164,7 +164,7 @@ fn drawing_of(drawn: Drawn, wish: &PictureOptions) -> Made {
 }
 
 /// The structures for the driven joint or the driving link called `name`.
-/// For the name `all`, these are the structures for all joints that no further drive moves.
+/// For the name `all`, the result contains the structure for every joint that no drive other than the crank's moves.
 fn drivers(case: &Case, name: &str) -> Result<Drivers> {
     let (links, joints) = (case.mechanism.links(), case.mechanism.joints());
     let is_open = |id: &JointId| case.drives.further().iter().all(|drive| drive.joint != *id);

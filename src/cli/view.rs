@@ -96,7 +96,7 @@ fn is_film(bytes: &[u8]) -> bool {
 
 /// The recording's path, as its layout states it.
 /// If layout and recording are in one directory, the path is the file name, so that both can be moved together.
-/// Otherwise the path is absolute.
+/// If they are in different directories, the path is absolute.
 fn seen_from(layout: &Path, recording: &Path) -> PathBuf {
     match recording.file_name() {
         Some(name) if layout.parent() == recording.parent() => name.into(),

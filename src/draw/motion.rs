@@ -67,8 +67,9 @@ impl Course {
     /// The motion of a case, with `count` positions.
     /// If the driving link turns fully, the positions are equally spaced over one revolution from the start. The end of
     /// the revolution is left out.
-    /// Otherwise the positions are equally spaced in the input over the grid of the case, with both ends.
-    /// The positions are equally spaced in time if there are several drives, if the input turns back within the grid or
+    /// If the driving link does not turn fully, the positions are equally spaced in the input over the grid of the
+    /// case, including both ends of the grid.
+    /// The positions are equally spaced in time if there are several drives, if the input reverses within the grid or
     /// cannot be followed over the grid, or if the driving link swings freely.
     ///
     /// # Errors

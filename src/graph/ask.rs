@@ -78,7 +78,7 @@ impl Question {
     /// Reads the user's words about a scenario.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] with the place of the mistake.
+    /// [`ErrorKind::Input`] with the position of the mistake in the text.
     pub(crate) fn of(words: &Words, scenario: &Scenario) -> Result<Question> {
         let names = Claim::names(&scenario.case);
         let charts = match words.show.is_empty() {
@@ -228,13 +228,13 @@ fn vector(text: &str, scenario: &Scenario) -> std::result::Result<[Claim; 2], Fo
     Err(FormulaFault { message: sentences::there_is_no_vector(&text), at: 0..text.len(), help })
 }
 
-/// An error with its place in the text of an option.
+/// An error with its position in the text of an option.
 fn placed(key: &'static str, text: &str, from: usize, fault: &FormulaFault) -> Error {
     let at = from + fault.at.start..from + fault.at.end;
     scenario::formula::refused(key, text, &FormulaFault { at, ..fault.clone() })
 }
 
-/// The parts of a text between commas outside parentheses, with their places.
+/// The pieces of a text between commas outside parentheses, with their positions.
 fn items(text: &str) -> Vec<(usize, &str)> {
     let (mut depth, mut from, mut parts) = (0, 0, Vec::new());
     for (at, sign) in text.char_indices().chain([(text.len(), ',')]) {

@@ -17,7 +17,7 @@ const WORST: usize = 3;
 /// The verdict in one line: scenario, verdict, how much was judged, and the step.
 /// Each channel of the scenario counts once, even if there are several engines or if a force is judged twice: computed
 /// from the motion, and exerted by the engine.
-/// In contrast, the number of results includes everything that was judged.
+/// The number of results, in contrast, counts everything that was judged, for every engine.
 #[must_use]
 pub fn verdict_line(proof: &Proof) -> String {
     let (checks, all) = (proof.all_checks().count(), judged::of(proof).len());

@@ -1,4 +1,5 @@
-//! Wrong and open formulas in words: a block for each, with its place, its size and its cause.
+//! Wrong and open formulas in words: a block for each formula, with the wrong position, the largest difference and the
+//! cause.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;

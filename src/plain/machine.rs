@@ -119,7 +119,7 @@ fn loads(case: &Case) -> String {
     some(&all, SHOWN)
 }
 
-/// A load with its constant size, and the links on which it acts.
+/// A load with its constant numbers, such as the force, and the links on which the load acts.
 fn load(case: &Case, own: &Load) -> String {
     let (mut links, mut sizes) = (Vec::new(), Vec::new());
     for part in own.clone().parts() {

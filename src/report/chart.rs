@@ -13,7 +13,7 @@ const GRID: Style = solid("#d4d4d4", 0.15);
 pub(super) const DASHED: Style = Style { dash: "1.6 1.2", ..solid(GREY, 0.3) };
 /// Font size of numbers (mm).
 pub(super) const SMALL: f64 = 3.0;
-/// Distance between the marks of parties that fail at the same place (mm).
+/// Horizontal distance between the marks of parties that fail at the same value of the horizontal axis (mm).
 pub(super) const ASIDE: f64 = 2.6;
 /// Size of small marks, divided by the usual size. Bounds have small marks, and so have crosses (`Filling::Cross`).
 pub(super) const SMALLER: f64 = 0.55;

@@ -43,7 +43,7 @@ pub(crate) fn graphs(scenario: &Scenario, found: &Found, curves: &Curves) -> Gra
     let mut graphs = vec![
         reduced([sentences::REDUCED_MOMENT_OF_INERTIA, "I*", "kg m^2"], |row| row.inertia, means.inertia, inertia),
         // If the inertia is constant, its derivative is only rounding error.
-        // The reference size of the derivative is therefore at least the largest inertia, so that such a derivative
+        // The reference value of the derivative is therefore at least the largest inertia, so that such a derivative
         // counts as constant.
         CrankGraph { size: inertia.greatest.1.larger(slope.greatest.1), ..rate },
         reduced(

@@ -36,7 +36,7 @@ pub(super) fn position(sheet: &AnswerSheet, row: usize) -> String {
     format!("{}", (shown * 1e6).round() / 1e6 + 0.0)
 }
 
-/// A table of answers that the student fills in. Its comment names the sheet to which the answers belong.
+/// A table of answers that the student fills in. A comment in the table names the sheet to which the answers belong.
 pub(crate) fn empty_answers(id: &str, sheet: &AnswerSheet) -> Result<String> {
     let header = [vec![positions_of(sheet).to_string()], sheet.columns.iter().map(|own| own.name.clone()).collect()];
     let rows = (0..sheet.right.len()).map(|row| {

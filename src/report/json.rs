@@ -292,7 +292,7 @@ impl Failure {
 }
 
 impl Document {
-    /// An empty document. Its advice does not name command-line options.
+    /// An empty document. The advice in this document does not name command-line options.
     #[must_use]
     pub fn new() -> Self {
         Document::told_by(Advice::to_string)

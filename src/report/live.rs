@@ -71,7 +71,7 @@ pub(crate) struct State {
 }
 
 /// Playback speed: log time that passes per second of the clock.
-/// This is the playback speed of the layout, reduced if a revolution would be too fast to follow.
+/// The value is the playback speed of the layout, reduced if a revolution would be too fast to follow.
 pub(crate) fn pace(reel: &Reel) -> f64 {
     let usual = speed(reel.slow, reel.turn);
     if reel.slow == 1.0 && reel.turn > 0.0 { usual.smaller(reel.turn / TURN) } else { usual }

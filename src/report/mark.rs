@@ -190,8 +190,8 @@ pub(crate) fn json(all: &[StudentMarks], options: MarkOptions) -> String {
     pretty(&json!({ "schema": 1, "criterion": criterion, "students": list(all, student) }))
 }
 
-/// The page of the class. If `has_pages`, each name is a link to the student's page in the same directory.
-/// Otherwise the page also has a section for each student, and each name is a link to this section.
+/// The page of the class. If `has_pages`, each name is a link to the student's page in the same directory. If not, the
+/// page has a section for each student, and each name is a link to this section.
 pub(crate) fn class_page(all: &[StudentMarks], options: MarkOptions, has_pages: bool) -> String {
     let language = options.language;
     let title = words::marks_of_the_class(language);

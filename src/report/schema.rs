@@ -65,7 +65,8 @@ fn of_key(key: &FileKey, path: &str) -> Value {
     value
 }
 
-/// A section: with fixed keys, with names as keys, or with names that represent numbers.
+/// The schema of a section, for three kinds of keys: fixed keys, names that the user chooses, and names that represent
+/// numbers.
 fn table(path: &str) -> Value {
     let named = format!("{path}.*");
     match (section(path), section(&named)) {

@@ -69,7 +69,7 @@ fn described(info: &EngineInfo) -> String {
     }
 }
 
-/// The section on the forces that an engine itself exerts. It follows the table of the engine's channels.
+/// The section on the forces that an engine itself exerts, printed after the table of the engine's channels.
 /// The section is a table, or a single line if there are `several` engines.
 fn own_section(engine: &EngineProof, several: bool, width: Option<usize>, text: &mut String) {
     let Some(own) = &engine.own_forces else { return };

@@ -17,7 +17,7 @@ pub(crate) const SCRIPT: &str = include_str!("watch/watch.js");
 /// Largest number of mistakes on the page.
 const MOST: usize = 50;
 
-/// The page around the frame. It has no data; its script asks for them.
+/// The page around the frame. The page contains no data; its script requests them.
 pub(crate) fn shell(file: &str) -> String {
     filled(TEMPLATE, &[("file", &escaped(file)), ("style", STYLE), ("version", env!("CARGO_PKG_VERSION"))])
 }
@@ -130,7 +130,7 @@ pub(crate) enum RequestKind {
     Keep,
     /// Change a parameter, in the unit of its key.
     Parameter { key: String, value: f64 },
-    /// Move a point, on each link from one place to another (m, in the frame of the link).
+    /// Move a point, on each link from one position to another (m, in the frame of the link).
     Point { name: String, places: Vec<(String, [Vec2; 2])> },
 }
 
@@ -153,7 +153,7 @@ impl Request {
     }
 }
 
-/// A link, and two places in its frame.
+/// A link, and two positions in its frame.
 fn place(value: &Value) -> Option<(String, [Vec2; 2])> {
     let at = |key: &str| Some(Vec2::new(value[key][0].as_f64()?, value[key][1].as_f64()?));
     Some((value["link"].as_str()?.into(), [at("from")?, at("to")?]))

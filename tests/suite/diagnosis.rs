@@ -39,7 +39,7 @@ enum Outcome {
     Named,
     /// A cause other than the fault is named, and the fault is mentioned as an equally good explanation.
     Mentioned,
-    /// A cause other than the fault is named as explaining everything.
+    /// The diagnosis explains everything by a cause other than the fault, and does not mention the fault.
     Wrong,
     /// No cause is named as explaining everything.
     Nothing,

@@ -52,7 +52,7 @@ fn graph(arguments: &str) -> String {
 struct Seen {
     /// Dash pattern and corners of every curve.
     curves: Vec<(String, Vec<[f64; 2]>)>,
-    /// Texts with their places, and whether they are vertical.
+    /// Texts with their positions on the sheet, and whether they are vertical.
     texts: Vec<(String, [f64; 2], bool)>,
     size: [f64; 2],
 }
@@ -325,7 +325,7 @@ fn mistakes_are_placed_and_answered() {
         let (code, out, error) = given(&Place::new(), &[&["graph", ROCKER, "-o", "-"], arguments].concat());
         assert!(code == 2 && out.is_empty() && error.contains(told), "{arguments:?}: {code} {error}");
     }
-    // The place of a mistake is counted from the beginning of the option's text.
+    // The position of a mistake is counted from the beginning of the option's text.
     let (_, _, error) = given(&Place::new(), &["graph", ROCKER, "-o", "-", "--show", "joint.A.f_N,joint.Z.f_N"]);
     assert!(error.contains("--show:1:13") || error.contains("--show:1:12"), "{error}");
 }

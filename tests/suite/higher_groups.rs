@@ -32,7 +32,7 @@ fn nearness(trajectory: &Trajectory, crank: f64) -> f64 {
 }
 
 /// Returns, for each stage, the largest difference of the two sides.
-/// Each difference is divided by the size of the channel's numbers and by the square of `nearness`.
+/// Each difference is divided by the magnitude of the channel's numbers and by the square of `nearness`.
 /// Also returns the number of solved mechanisms, and the number of mechanisms whose start pose is the drawn pose.
 fn worst(family: &Family, among: Among, tries: usize) -> ([f64; 5], usize, usize) {
     let mut random = RandomSource::from_seed(7);

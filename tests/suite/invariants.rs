@@ -20,7 +20,7 @@ const COUNT: u32 = 128;
 /// Crank angle between the points of a difference quotient (rad).
 /// The angle is a little above eps^(1/5), where truncation error and rounding error are equal.
 const TURN: f64 = 1e-3;
-/// Bound on the rounding error of a difference quotient, divided by the value's size and by the condition number.
+/// Bound on the rounding error of a difference quotient, divided by the value's magnitude and by the condition number.
 /// The bound is ten units in the last place of the value, divided by the crank angle of the quotient.
 /// The largest error of these mechanisms is a quarter of the bound.
 const NOISE: f64 = 10.0 * f64::EPSILON / TURN;
@@ -45,7 +45,7 @@ impl Around {
         &self.states[3]
     }
 
-    /// Checks that `rate` is the derivative of `of`, whose values are of size `scale`.
+    /// Checks that `rate` is the derivative of `of`; the values of `of` have the magnitude `scale`.
     /// The test computes the derivative by a five-point rule at one spacing and at twice this spacing.
     /// The difference of the two results is 15 times the error of the finer one, and therefore bounds this error.
     fn is_slope(&self, what: &str, scale: f64, of: impl Fn(&State) -> f64, rate: f64) -> Result<(), TestCaseError> {
@@ -56,7 +56,7 @@ impl Around {
         within(what, (fine - rate).abs(), (fine - coarse).abs() + noise)
     }
 
-    /// Checks that the vector `rate` is the derivative of the vectors `of`, whose values are of size `scale`.
+    /// Checks that the vector `rate` is the derivative of the vectors `of`, which have the magnitude `scale`.
     fn are_slopes(&self, what: &str, scale: f64, of: impl Fn(&State) -> Vec2, rate: Vec2) -> Result<(), TestCaseError> {
         self.is_slope(what, scale, |s| of(s).x, rate.x)?;
         self.is_slope(what, scale, |s| of(s).y, rate.y)

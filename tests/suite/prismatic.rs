@@ -50,8 +50,8 @@ fn motion_matches_the_closed_forms() {
 }
 
 /// Fourth-order differences with steps h and 2h.
-/// Their truncation error is (h w)^4 / 30 for a motion with harmonics up to a few times w.
-/// Their rounding error is 1e-16 / h for a length of 1.
+/// The truncation error of these differences is (h w)^4 / 30 for a motion with harmonics up to a few times w.
+/// The rounding error is 1e-16 / h for a length of 1.
 #[test]
 fn velocities_and_accelerations_are_derivatives() {
     let h = 1e-4;

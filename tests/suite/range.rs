@@ -399,7 +399,7 @@ fn coinciding_configurations_have_no_velocities() {
 /// Velocities are divided by a determinant of the order of 1 / k; the relative error of this determinant is k times the
 /// relative error of the angles.
 /// Accelerations are divided by the same determinant again.
-/// Relative to their size, however, velocities and accelerations both lose a factor of k^2.
+/// In relative terms, however, the errors of velocities and of accelerations both grow by a factor of k^2.
 /// The angles of the two sides differ by up to 2.5 epsilon k.
 /// Relative differences between the two sides are up to 2.1 epsilon k^2 for velocities and 6.4 epsilon k^2 for
 /// accelerations.

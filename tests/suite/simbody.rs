@@ -119,7 +119,8 @@ fn instants_may_be_unordered_and_before_the_start() {
     assert_eq!(solve(&default(), &shipped("crank_rocker.toml").case.on(Grid::default()).unwrap()).times().len(), 0);
 }
 
-/// A four-bar with the links of its joints named in reverse order, moved, mirrored, heavier, and without masses.
+/// Eight variants of a four-bar: unchanged, mirrored, a thousand times as heavy, moved far away, with the two links of
+/// every joint exchanged, with one link without mass, with no masses, and with point masses.
 /// All variants carry loads.
 #[test]
 fn variants_of_a_four_bar_agree() {
@@ -276,7 +277,7 @@ fn random_mechanisms_agree() {
 
 /// A measure of how near a run comes to a singular pose.
 /// The measure is the largest speed, or the square root of the largest acceleration, divided by the crank's speed.
-/// Lengths are about a metre, so linear and angular speeds are of similar size.
+/// Lengths are about a metre, so linear and angular speeds have similar magnitudes.
 /// The effect of a small error grows with the square of `nearness`.
 fn nearness(case: &Case, truth: &Trajectory) -> f64 {
     let crank = case.crank().at(0.0).rate.abs();

@@ -52,7 +52,7 @@ const COMPRESSOR_SPEED: f64 = 104.719_755_119_659_78;
 /// Each printed formula of a rate is the derivative of the printed formula before it.
 /// Fourth-order differences have a truncation error of h^4 / 30 times the harmonics, which are small for the length
 /// ratio 1 / 4.
-/// Their rounding error is 1e-16 / h.
+/// The rounding error of the differences is 1e-16 / h.
 #[test]
 fn val_compressor_printed_rates_are_derivatives() {
     let h = 1e-3;

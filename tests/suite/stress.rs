@@ -52,7 +52,7 @@ fn the_rounding_of_a_large_crank_angle_is_in_the_bound() {
     }
 }
 
-/// Symptom: at a gear ratio of 1000, angular accelerations of the analytic sides differed by 5e-9 of their size.
+/// Symptom: at a gear ratio of 1000, angular accelerations of the analytic sides differed by 5e-9 of their magnitude.
 /// The bound was 1e-11.
 /// Cause: in a fast wheel, terms of the size omega^2 cancel, and the bound did not contain the rounding error of these
 /// terms.

@@ -24,7 +24,8 @@ use scenario::Scenario;
 #[derive(Clone, Copy, Debug, Default)]
 struct Differences {
     cramer: [f64; 2],
-    /// Differences of the method of class change: angles, angular velocities and angular accelerations.
+    /// Differences between the method of class change and the solver: in the links' directions, angular velocities and
+    /// angular accelerations.
     /// The differences are zero if the layout does not allow the method.
     change: [f64; 3],
     assur_point: f64,

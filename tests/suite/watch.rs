@@ -84,7 +84,7 @@ fn a_draft_is_solved_judged_changed_and_kept() {
     assert_eq!(state["parameters"][0], json!({ "key": "crank_mm", "value": 40.0 }));
     assert_eq!(state["ground"], json!([["O", 0.0, 0.0], ["C", 0.1, 0.0]]));
     assert!(state["page"].as_str().unwrap().contains("AGREE"));
-    // A mistake, at its place.
+    // A mistake in the file is reported at its position.
     watched.post(
         "draft",
         &json!({ "text": given.replace("links = [\"ground\", \"crank\"]", "links = [\"ground\", \"crnk\"]") }),

@@ -22,7 +22,7 @@ pub fn chosen(values: &[Rounded]) -> bool {
 /// Whether printed instants in degrees are exact values that someone chose, and not rounded values.
 /// Whole degrees at equal steps count as chosen if the first instant is a multiple of the step.
 /// Whole degrees at unequal steps, such as 0, 30, 45, 60 and 90, count as chosen if they have a common divisor.
-/// This common divisor must be improbable for random whole numbers.
+/// The divisor must be so large that random whole numbers would hardly have it in common.
 /// All other instants are judged as by [`chosen`].
 pub fn degrees_chosen(values: &[Rounded]) -> bool {
     let are_whole = values.iter().all(|at| at.value.fract() == 0.0);
@@ -75,7 +75,9 @@ fn evidence(multiples: f64, mut round: f64) -> f64 {
 const INDEPENDENT: i32 = 3;
 
 /// Whether instants at unequal steps are multiples of a chosen step.
-/// A round common divisor is evidence for a chosen step, for example if the numbers of all rows have trailing zeros.
+/// The instants are counted in units of the last printed digit.
+/// If their common divisor is a round number (many factors 2 and 5), the step was probably chosen by a person: for
+/// example, if all instants end in zeros.
 /// By chance, n independent whole degrees have a common divisor d only with the probability 1 / d^n.
 fn are_multiples(values: &[Rounded], unit: f64, sort: Sort) -> bool {
     let (mut divisor, mut count) = (0u64, 0i32);
@@ -142,8 +144,8 @@ mod tests {
             (361, &(|row: f64| format!("{}", (row * 10.0).round() / 1e3)) as &dyn Fn(f64) -> String, true),
             (4, &|row| format!("{:.6}", 0.01 * row), true),
             (100, &|row| format!("{row}"), true),
-            // The step is 2.777... ms. After rounding, the instants of three rows look equally spaced, but they are not
-            // exact.
+            // The step is 2.777... ms. After rounding, the instants of three rows look equally spaced, but the rounded
+            // instants are not exact.
             (3, &|row| format!("{:.0}", 2.7777 * row), false),
             (9, &|row| format!("{:.6}", row / 780.0), false),
             (73, &|row| format!("{:.6}", row / 780.0), false),
@@ -171,7 +173,7 @@ mod tests {
             (["0.000", "17.000", "46.000", "63.000", "90.000"], degrees, true),
             (["0.000", "0.200", "0.500", "0.600", "1.000"], any, true),
             (["0.0000", "0.0333", "0.0667", "0.2000", "0.5000"], any, false),
-            // These instants are rounded multiples of a step. By chance they look equally spaced.
+            // The instants in the next row are rounded multiples of a step. By chance they look equally spaced.
             (["2.068378", "9.362942", "16.657506", "23.952070", "31.246634"], degrees, false),
         ] {
             assert_eq!(chosen(&of(&texts.map(Into::into))), expected, "{texts:?}");

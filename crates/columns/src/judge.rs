@@ -60,8 +60,8 @@ pub struct Beside<'a> {
 }
 
 /// The reference of two columns.
-/// The reference is the second column if the second column, but not the first, comes from an analytic side.
-/// Otherwise the first column is the reference.
+/// The second column is the reference if it comes from an analytic side and the first column does not.
+/// In all other cases, the first column is the reference.
 #[derive(Clone, Copy, Debug)]
 pub struct ScaleColumn {
     /// Index of the reference column: 0 or 1.

@@ -1,4 +1,4 @@
-//! Rows of a table with a header. Cells are separated by commas and are not all numbers.
+//! Rows of a table with a header. Commas separate the cells; some cells contain words instead of numbers.
 
 use std::borrow::Cow;
 use std::ops::Range;

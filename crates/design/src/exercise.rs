@@ -28,8 +28,8 @@ pub struct VariationWish {
     /// The numbers that are changed.
     pub sorts: Vec<NumberSort>,
     /// Smallest transmission angle (rad). The sine of this angle is the lower limit of each group's determinant.
-    /// If three quarters of the group's smallest determinant in the original are less than the sine, they are the
-    /// limit.
+    /// If three quarters of the group's smallest determinant in the original are less than the sine, this smaller
+    /// value is the limit.
     pub transmission: f64,
 }
 

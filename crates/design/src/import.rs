@@ -1,7 +1,8 @@
 //! Mechanisms of other programs as scenarios: share links of PMKS+, models for MuJoCo, files of Linkage.
 //!
-//! A reader turns a source into `Parts`: links in their start pose, joints, drives and loads.
-//! The writer turns these parts into the text of a scenario, and finds the assembly modes of the start pose and a grid.
+//! A reader converts a source into `Parts`: links in their start pose, joints, drives and loads.
+//! The writer converts these parts into the text of a scenario, and finds the assembly modes of the start pose and a
+//! grid.
 //! Parts of the source that a reader does not understand are listed by name.
 
 mod finish;

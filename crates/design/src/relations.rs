@@ -58,7 +58,7 @@ impl Mimics {
     }
 
     /// The points of joints whose positions depend on relations.
-    /// These points lie on links whose way to the ground in the tree contains a joint other than the driven joint.
+    /// These points lie on links whose path to the ground in the tree contains a joint other than the driven joint.
     fn placed(&self, model: &RigidModel) -> Vec<PinError> {
         let mut moved = vec![false; model.case.mechanism.links().len()];
         for body in &model.bodies {

@@ -233,8 +233,8 @@ fn body(case: &Case, start: &State, branch: &TreeBranch) -> Body {
         JointKind::Revolute => Freedom::Hinge(joint.on(branch.link).expect("a branch's joint is on its link")),
         JointKind::Prismatic { .. } => {
             let axis = joint.axis_on(branch.link).expect("a branch's joint is on its link");
-            // A slide is measured from the first link to the second. Its sign therefore depends on which of the two
-            // links is the child.
+            // A slide is measured from the first link to the second. The sign of the axis therefore depends on which
+            // of the two links is the child.
             Freedom::Slide(axis * if branch.link == joint.second.link { 1.0 } else { -1.0 })
         }
     };

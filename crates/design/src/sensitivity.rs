@@ -124,8 +124,8 @@ fn claim(figure: &TurnFigure, case: &Case) -> Result<Claim> {
     Ok(claim)
 }
 
-/// The rows that determine the figures, in ascending order. If a figure is a mean or a root mean square, these are all
-/// rows.
+/// The rows that determine the figures, in ascending order. If any figure is a mean or a root mean square, every row
+/// is returned.
 fn rows(sampled: &[(SampledFigure, Vec<f64>)], count: usize) -> Vec<usize> {
     if sampled.iter().any(|(found, _)| found.rows.is_empty()) {
         return (0..count).collect();

@@ -1,6 +1,6 @@
 //! Dimensions: the lengths and angles that define the links of a mechanism and its ground.
 //!
-//! A link with n places has 2 n - 3 lengths. If all places are on one line, it has n - 1 lengths.
+//! A link with n points has 2 n - 3 lengths. If all points are on one line, the link has n - 1 lengths.
 //! The ground has horizontal and vertical distances from its first pivot.
 //! Guide angles that are multiples of 90 degrees, and distances of zero, are visible without a number.
 
@@ -12,7 +12,7 @@ use super::pins::pivots;
 use linkage::math::{KeepNan, Vec2, cross};
 use linkage::mechanism::{CamContact, GROUND, JointId, LinkId, Mechanism, TransmissionKind};
 
-/// Two places count as one if their distance is below this fraction of the link's size. Distances below this limit are
+/// Two points count as one if their distance is below this fraction of the link's size. Distances below this limit are
 /// zero.
 const SAME: f64 = 1e-9;
 /// Angles below this (rad) are zero.
@@ -29,26 +29,26 @@ pub struct Dimension {
     pub text: String,
 }
 
-/// What a dimension measures. Places are indices of [`places`](crate::places).
+/// What a dimension measures. Points are given by their indices in the result of [`places`](crate::places).
 #[derive(Clone, Debug, PartialEq)]
 pub enum Measure {
-    /// Distance between two places of a link. The list of lengths determines one place after another.
+    /// Distance between two points of a link. The list of lengths determines one point after another.
     Length {
-        /// The place from which the length is measured. Earlier lengths determine this place.
+        /// The point from which the length is measured. Earlier lengths determine this point.
         from: usize,
-        /// The place that the length determines. On a line, the length suffices; otherwise the neighbouring length in
+        /// The point that the length determines. On a line, the length suffices; otherwise the neighbouring length in
         /// the list is needed too.
         to: usize,
         /// Where the length is drawn.
         line: DimensionLine,
     },
-    /// Horizontal (0) or vertical (1) distance of places of the ground from its first pivot.
+    /// Horizontal or vertical distance of points of the ground from the first pivot.
     Offset {
         /// 0 for horizontal, 1 for vertical.
         axis: usize,
         /// The first pivot.
         from: usize,
-        /// All places that have this distance from the first pivot.
+        /// All points that have this distance from the first pivot.
         to: Vec<usize>,
         /// Row of the dimension line: the number of shorter distances on the same side.
         row: usize,
@@ -76,7 +76,7 @@ pub enum Measure {
 pub enum DimensionLine {
     /// Beside an edge of the link.
     Edge,
-    /// Along a thin line between the two places.
+    /// Along a thin line between the two points.
     Across,
     /// Along a dimension line outside the link. The number is the row of the line; row 0 is nearest to the link.
     Outside(usize),
@@ -96,12 +96,12 @@ pub fn dimensions(mechanism: &Mechanism) -> Vec<Dimension> {
     all
 }
 
-/// Largest distance of a place from the first place (m).
+/// Largest distance of a point from the first point (m).
 fn extent(all: &[Vec2]) -> f64 {
     all.iter().map(|at| (at - all[0]).norm()).fold(0.0, f64::larger)
 }
 
-/// Indices of the places of a link that do not coincide with an earlier place.
+/// Indices of the points of a link, without the points that coincide with an earlier point.
 fn distinct(all: &[Vec2]) -> Vec<usize> {
     let size = extent(all);
     let is_new = |k: usize| all[..k].iter().all(|other| (other - all[k]).norm() > SAME * size);
@@ -115,7 +115,7 @@ fn lengths(mechanism: &Mechanism, link: LinkId) -> Vec<Dimension> {
         0 | 1 => Vec::new(),
         2 => on_a_line(&all, &own),
         _ => {
-            // A corner may coincide with an earlier place.
+            // A corner may coincide with an earlier point.
             let near = SAME * extent(&all);
             let index = |corner: &Vec2| own.iter().copied().find(|&k| (all[k] - corner).norm() <= near);
             let mut hull: Vec<usize> = hull.iter().filter_map(index).collect();
@@ -133,8 +133,8 @@ fn lengths(mechanism: &Mechanism, link: LinkId) -> Vec<Dimension> {
     pairs.into_iter().map(of).collect()
 }
 
-/// Lengths from the first place of a bar to all other places.
-/// Lengths on the same side of the first place are drawn in separate rows.
+/// Lengths from the first point of a bar to all other points.
+/// Lengths on the same side of the first point are drawn in separate rows.
 fn on_a_line(all: &[Vec2], own: &[usize]) -> Vec<(usize, usize, DimensionLine)> {
     let (Some(&first), true) = (own.first(), own.len() > 1) else { return Vec::new() };
     let mut others: Vec<usize> = own[1..].to_vec();
@@ -145,7 +145,7 @@ fn on_a_line(all: &[Vec2], own: &[usize]) -> Vec<(usize, usize, DimensionLine)> 
     (0..others.len()).map(|index| (first, others[index], line(index))).collect()
 }
 
-/// Lengths that divide the hull of a plate into triangles, followed by two lengths for every other place.
+/// Lengths that divide the hull of a plate into triangles, followed by two lengths for every other point.
 fn in_a_plane(all: &[Vec2], own: &[usize], hull: &[usize]) -> Vec<(usize, usize, DimensionLine)> {
     let count = hull.len();
     // All triangles have one corner in common. The thinnest triangle decides how exactly the lengths define the plate.
@@ -172,8 +172,8 @@ fn in_a_plane(all: &[Vec2], own: &[usize], hull: &[usize]) -> Vec<(usize, usize,
     found
 }
 
-/// Sine of the angle at the place `at` between two other places.
-/// Its inverse is the factor by which errors of the two distances to `at` grow.
+/// Sine of the angle at the point `at` between the directions to two other points.
+/// The errors of the two distances to `at` are magnified by 1 / sine.
 fn sine(all: &[Vec2], at: usize, a: usize, b: usize) -> f64 {
     let (a, b) = (all[a] - all[at], all[b] - all[at]);
     cross(a, b).abs() / (a.norm() * b.norm())
@@ -205,8 +205,9 @@ fn offsets(mechanism: &Mechanism) -> Vec<Dimension> {
 
 /// Angles of the guides of a link that are not multiples of 90 degrees.
 /// On the ground, they are measured from the horizontal.
-/// On other links, they are measured from the line between the guide's point and the place farthest from this point.
-/// On a link with a single place, they are measured from the link's first guide.
+/// On other links, the angles of guides are measured from the line between the guide's point and the point farthest
+/// from it.
+/// On a link with a single point, the angles of guides are measured from the link's first guide.
 fn angles(mechanism: &Mechanism, link: LinkId) -> Vec<Dimension> {
     let all = places(mechanism, link);
     let size = extent(&all);
@@ -280,7 +281,7 @@ mod tests {
     fn a_plate_has_two_lengths_for_each_place_after_the_first_two() {
         assert_eq!(counted(&[(0.0, 0.0), (2.0, 0.0), (0.0, 1.0)]), 3);
         assert_eq!(counted(&[(0.0, 0.0), (2.0, 0.0), (0.0, 1.0), (0.4, 0.2), (1.0, 0.0)]), 7);
-        // A place that coincides with an earlier place needs no length.
+        // A point that coincides with an earlier point needs no length.
         assert_eq!(counted(&[(0.0, 0.0), (2.0, 0.0), (0.0, 1.0), (2.0, 1e-12)]), 3);
     }
 

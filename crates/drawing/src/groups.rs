@@ -1,8 +1,7 @@
-//! Driving links and groups, each drawn separately, in the order in which they are solved.
-//!
-//! A part is one driving link or one group, drawn at its pose.
-//! Links that are solved before the part are drawn as ground: joints with these links have a hatched pivot or hatched
-//! rails.
+//! Driving links and Assur groups, each drawn separately at its pose, in the order of solution.
+//! In this module, "group" also means a driving link outside Assur groups.
+//! Links that are solved before a group are drawn as ground in the drawing of the group: joints with these links have
+//! a hatched pivot or hatched rails.
 
 use super::mark::{Mark, MarkRole};
 use super::paper::figure::sub;
@@ -19,23 +18,24 @@ use linkage::mechanism::{
     roman,
 };
 
-/// Largest enlargement of a small part, relative to the scale of the largest part.
+/// Largest enlargement of a small group, relative to the scale of the largest group.
 const ENLARGED: f64 = 2.5;
 /// If a point is nearer to a joint than this (mm on paper), only the joint's name is shown.
 const SAME: f64 = 1e-6;
 
-/// A driving link outside groups, or a group.
+/// An Assur group, or a driving link outside Assur groups.
 struct Part {
     heading: Vec<String>,
     links: Vec<LinkId>,
-    /// Joints between links of the part.
+    /// Joints between links of the group.
     inner: Vec<JointId>,
-    /// Joints to the ground or to links that are solved before the part.
+    /// Joints to the ground or to links that are solved before the group.
     outer: Vec<JointId>,
     trains: Vec<TransmissionId>,
 }
 
-/// The parts of a structure as cells. Each part has a scale at which its drawing fits into the size `room` (mm).
+/// The drawings of all groups of a structure, each as a cell. Each group has a scale at which its drawing fits into
+/// the size `room` (mm).
 /// `places` are the placements of the links. `drives` gives the senses of the arrows at driven joints.
 pub fn group_cells(
     mechanism: &Mechanism,
@@ -104,7 +104,7 @@ fn parts(mechanism: &Mechanism, structure: &Structure) -> Vec<Part> {
     parts
 }
 
-/// The side of an outer joint on the link that is solved before the part. `own` are the links of the part.
+/// The point of an outer joint on the link that is solved before the drawn group. `own` are the links of the group.
 fn solved_side(joint: &Joint, own: &[LinkId]) -> JointSide {
     if own.contains(&joint.first.link) { joint.second } else { joint.first }
 }
@@ -118,7 +118,7 @@ struct Whole<'a> {
 }
 
 impl Whole<'_> {
-    /// The cell of a part, at the scale at which an area of the size `size` (m) fits into the size `room` (mm).
+    /// The cell of a group, at the scale at which an area of the size `size` (m) fits into the size `room` (mm).
     fn cell(&self, part: Part, size: Vec2, room: Vec2) -> SheetCell {
         let wheels = self.wheels(&part);
         let scale = fit(size, room - Vec2::repeat(2.0 * AROUND));
@@ -152,8 +152,8 @@ impl Whole<'_> {
         self.places[side.link].pose().map(|pose| pose.point(side.local))
     }
 
-    /// A mechanism with the points, masses and joints of one part. All links keep their numbers.
-    /// In the outer joints of the part, links that are solved before the part are replaced by the ground.
+    /// A mechanism with the points, masses and joints of one group. All links keep their numbers. In the outer joints
+    /// of the group, the ground replaces the links that are solved before the group.
     /// An exception is an outer prismatic joint whose block is on a link that is solved before: the link stays, to show
     /// the block.
     fn apart(&self, part: &Part) -> Mechanism {
@@ -182,7 +182,7 @@ impl Whole<'_> {
         Mechanism::unchecked(mechanism.links().entries().map(strip).collect(), joints)
     }
 
-    /// Moves a joint's side on the link `solved` to the ground, at the position that the link's pose gives.
+    /// The joint with the ground in place of the link `solved`, at the position that the pose of this link gives.
     /// `None` if the link has no pose.
     fn grounded(&self, joint: &Joint, solved: LinkId) -> Option<Joint> {
         let pose = self.places[solved].pose()?;
@@ -203,7 +203,7 @@ impl Whole<'_> {
     }
 
     /// Adds arrows at driven joints.
-    /// Adds a pivot at each block and each wheel of links that are solved before the part.
+    /// Adds a pivot at each block and each wheel of links that are solved before the group.
     fn add_signs(&self, part: &Part, sketch: &mut Sketch) {
         let unit = sketch.unit;
         let joints = || part.inner.iter().chain(&part.outer);
@@ -230,8 +230,9 @@ impl Whole<'_> {
     }
 
     /// Marks of wheels, racks, cams and strands of belts, each with its link.
-    /// A transmission that the part contains is shown completely, including its marks on links that are solved before.
-    /// For other transmissions, only the marks on the part's links are shown, without strands.
+    /// A transmission that the group contains is shown completely, including its marks on links that are solved
+    /// before.
+    /// For other transmissions, only the marks on the group's links are shown, without strands.
     fn wheels(&self, part: &Part) -> Vec<(LinkId, Mark)> {
         let of = |id: TransmissionId| {
             let is_own = part.trains.contains(&id);
@@ -242,7 +243,7 @@ impl Whole<'_> {
         self.mechanism.transmissions().ids().flat_map(of).collect()
     }
 
-    /// The positions of a part's joints in the world (m), with the joints' names.
+    /// The positions of a group's joints in the world (m), with the joints' names.
     /// The subscript of an outer joint is the number of the link that is solved before.
     fn joint_names(&self, part: &Part) -> Vec<(Vec2, String)> {
         let place = |joint: &Joint| {
@@ -254,7 +255,7 @@ impl Whole<'_> {
         inner.chain(outer).filter_map(|(own, number)| Some((place(own)?, own.name.clone() + &number))).collect()
     }
 
-    /// All points that the cell of a part must contain (m).
+    /// All points that the cell of a group must contain (m).
     fn extent(&self, part: &Part, wheels: &[(LinkId, Mark)]) -> Vec<Vec2> {
         let places = part.links.iter().flat_map(|&link| {
             body::places(self.mechanism, link).into_iter().map(move |local| JointSide { link, local })

@@ -156,10 +156,10 @@ impl Guide {
         (near != 0.0).then(|| Mark::line(MarkRole::Bar, ends))
     }
 
-    /// Marks of a fixed guide: its rails or its bore, with hatching, and its centre line.
+    /// Marks of a fixed guide: its hatched rails or its hatched bore, and its centre line.
     /// Rails are interrupted at pivots.
-    /// Where a rail lies on an earlier rail, it is not hatched again, because the lines of a second hatching would fill
-    /// the gaps of the first.
+    /// Where a rail lies on an earlier rail, the later rail is not hatched, because the lines of a second hatching
+    /// would fill the gaps of the first.
     fn fixed(&self, pivots: &[Vec2], drawn: &mut Vec<[Vec2; 2]>) -> Vec<Mark> {
         let u = self.unit;
         let (role, ends) =

@@ -15,13 +15,13 @@ use linkage::mechanism::{
 /// A joint is open if its gap is larger than this fraction of the mechanism's size.
 const OPEN: f64 = 1e-6;
 /// Gaps smaller than this fraction of the largest gap are ignored.
-/// They arise only because the least-squares solution spreads the largest gap over the joints.
+/// Such small gaps arise only because the least-squares solution spreads the largest gap over the joints.
 const SEEN: f64 = 1e-2;
 
 /// A mechanism at one instant, assembled completely or in part.
 #[derive(Clone, Debug)]
 pub struct Laid {
-    /// Where every link is.
+    /// Pose of every link, and how it was determined.
     pub places: Vec<LinkPlacement>,
     /// Joints that stay open: the joint, and the two world points (m) that should coincide.
     pub gaps: Vec<(JointId, [Vec2; 2])>,
@@ -32,7 +32,7 @@ pub struct Laid {
     pub faults: Vec<Error>,
     /// Assembly mode of each group that is placed.
     pub modes: Vec<GroupPlacement>,
-    /// Preliminary poses, used for links without a place.
+    /// Preliminary poses, used for links whose pose is not known.
     /// In these poses, links on driven joints have the right pose relative to each other.
     shape: Option<Pose>,
 }
@@ -80,7 +80,8 @@ impl Laid {
     }
 
     /// The poses of all links.
-    /// For a link without a place, the pose in `shape` is taken. If `shape` is `None`, the link is at the origin.
+    /// For a link whose pose is not known, the pose in `shape` is taken. If `shape` is `None`, the link is at the
+    /// origin.
     fn pose(&self) -> Pose {
         let shape = |link: LinkId| self.shape.as_ref().map_or(LinkPose::GROUND, |shape| shape.0[link]);
         Pose(
@@ -92,7 +93,7 @@ impl Laid {
         )
     }
 
-    /// Poses of all links from which the configurations of a group are computed.
+    /// Poses of all links: the input from which the configurations of a group are computed.
     /// In a group with driven joints, these joints have the coordinates `angles`.
     fn pose_for(&self, mechanism: &Mechanism, structure: &Structure, group: &Group, angles: &[f64]) -> Pose {
         let mut pose = self.pose();
@@ -150,7 +151,7 @@ pub fn lay(mechanism: &Mechanism, structure: &Structure, angles: &[f64], starts:
 }
 
 /// Assembles a mechanism that has no structure, because it has too few or too many links or joints.
-/// The function places the dyads that it finds.
+/// The function assembles the dyads that it finds.
 pub fn lay_loose(mechanism: &Mechanism, drivers: &[DrivingLink], angles: &[f64], fault: Error) -> Laid {
     let mut laid = Laid::start(mechanism, drivers, angles);
     laid.faults.push(fault);

@@ -106,7 +106,8 @@ roles! {
     /// Cylinder of a moving link, in which a piston slides.
     Cylinder = "cylinder": Link, Paper, 0.6, Links;
     /// Pitch circle of a wheel, with a stroke that turns with the wheel.
-    /// Also the pitch line of a rack, the profile of a cam, and the roller or face that touches the cam.
+    /// The same style is used for the pitch line of a rack, the profile of a cam, and the roller or face that touches
+    /// the cam.
     Wheel = "wheel": Link, None, 0.45, Links;
     /// Strand of a belt.
     Strand = "strand": Link, None, 0.45, Links;

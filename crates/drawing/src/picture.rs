@@ -42,7 +42,7 @@ const TINT: f64 = 0.14;
 /// Colour of faults.
 pub const ALARM: &str = "#d11149";
 
-/// Where a link is.
+/// Pose of a link in a picture, and how well it is known.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LinkPlacement {
     /// Exact pose.

@@ -24,7 +24,7 @@ linkage::sentences! {
     paths_without_numbers(names) = "paths too small for numbers: {names}";
     // paths.rs
     the_font_lacks(letters) = "boxes are drawn for letters that the font of bitmaps and PDF lacks: {letters}";
-    WRITE_AN_SVG = "write an SVG, whose letters come from the viewer, or use Latin, Greek or Cyrillic letters";
+    WRITE_AN_SVG = "write an SVG (the viewing program supplies its letters), or use only Latin, Greek or Cyrillic letters";
     // plot/panel.rs
     the_chart_cannot_be_drawn(error) = "the chart cannot be drawn: {error}";
     // paper/document.rs

@@ -167,7 +167,7 @@ fn draw_legend(sheet: &mut DrawnFigure, mut at: Vec2, row: &[(LinkId, String)]) 
     }
 }
 
-/// Draws a scale bar. It represents a round length, which is written beside the bar.
+/// Draws a scale bar for a round length, which is written beside the bar.
 fn scale(sheet: &mut DrawnFigure, at: Vec2, scale: f64) {
     let long = round_up(LONGEST * scale / 2.0);
     let end = at + Vec2::new(long / scale, 0.0);

@@ -33,7 +33,7 @@ pub fn sealed(text: &str, place: &Path) -> String {
 pub fn is_sealed(bytes: &[u8]) -> bool {
     let Ok(text) = std::str::from_utf8(bytes) else { return false };
     // The file's seal is the first or the last seal in the text.
-    // Any seal between them may be a quotation of another file's seal.
+    // Any seal between the first and the last may be a quotation of another file's seal.
     [text.find(MARK), text.rfind(MARK)].into_iter().flatten().any(|found| {
         let digits = found + MARK.len()..found + MARK.len() + DIGITS;
         let Some(told) = text.get(digits.clone()) else { return false };

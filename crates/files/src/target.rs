@@ -25,7 +25,7 @@ pub enum OutputTarget<'a> {
     Made(&'a Path, &'a dyn Fn(&[u8]) -> bool),
 }
 
-/// Destination of the content of a target.
+/// The path or file to which the content is written.
 pub(super) enum Place {
     /// The content goes to a path that is already open or that is not a regular file.
     Open(PathBuf),

@@ -1,4 +1,4 @@
-//! Formulas as a graph in which each common part occurs only once.
+//! Formulas as a graph in which each common subexpression occurs only once.
 
 use crate::sentences;
 use std::collections::{BTreeMap, BTreeSet};
@@ -229,8 +229,8 @@ impl FormulaGraph {
     }
 
     /// The given nodes and all nodes on which they depend, arguments first.
-    /// A node for which `is_done` is true is left out. Its arguments are left out too, unless another node needs them.
-    /// A common part of several formulas is visited once.
+    /// A node for which `is_done` is true is left out, and so are its arguments, unless another node needs them.
+    /// A common subexpression of several formulas is visited once.
     pub(crate) fn needed_but(&self, nodes: &[NodeId], is_done: &dyn Fn(NodeId) -> bool) -> Vec<NodeId> {
         let mut needed: BTreeSet<NodeId> = nodes.iter().copied().filter(|id| !is_done(*id)).collect();
         let mut next: Vec<NodeId> = needed.iter().copied().collect();

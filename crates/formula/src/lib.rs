@@ -1,10 +1,10 @@
 #![doc = include_str!("../README.md")]
-//! - [`FormulaTree`]: a formula as written, with the position of every part.
-//! - [`FormulaGraph`]: many formulas in one graph, which contains each common part only once. The graph also forms
-//!   derivatives.
+//! - [`FormulaTree`]: a formula as written, with the position of every subexpression.
+//! - [`FormulaGraph`]: many formulas in one graph, which contains each common subexpression only once. The graph also
+//!   forms derivatives.
 //! - [`Program`]: the part of a graph on which the requested nodes depend, evaluated for many inputs.
 //! - [`Rounded`]: a number with a bound on its error.
-//! - [`DerivationSheet`]: a derivation stored part by part, to search for its errors.
+//! - [`DerivationSheet`]: a derivation stored as a list of subexpressions, to search for its errors.
 //! - [`Products`]: products of powers of known quantities, to recognise a number by its value.
 
 mod derivative;

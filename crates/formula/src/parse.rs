@@ -96,7 +96,7 @@ fn whole(input: &mut Input<'_>) -> Read<FormulaTree> {
     }
 }
 
-/// The fault of a character at a position where an operator or the end of a part is expected.
+/// The fault of a character at a position where an operator or the end of an operand is expected.
 fn no_operator<T>(sign: char, at: usize) -> Read<T> {
     let own = at..at + sign.len_utf8();
     if sign == ',' {
@@ -134,7 +134,7 @@ fn sum(input: &mut Input<'_>) -> Read<FormulaTree> {
     expression(operand).prefix(sign).infix(between).parse_next(input)
 }
 
-/// A minus or plus sign before a part.
+/// A minus or plus sign before an operand.
 fn sign<'a>(input: &mut Input<'a>) -> Read<Prefix<Input<'a>, FormulaTree, ErrMode<Found>>> {
     let at = input.current_token_start();
     let first = input.chars().next();
@@ -153,8 +153,8 @@ fn sign<'a>(input: &mut Input<'a>) -> Read<Prefix<Input<'a>, FormulaTree, ErrMod
 }
 
 fn negative(part: FormulaTree) -> FormulaTree {
-    // The range of the text begins one byte before the part.
-    // The byte before the part is the minus or a space behind the minus.
+    // The range of the text begins one byte before the operand.
+    // The byte before the operand is the minus or a space behind the minus.
     let at = part.at.start.saturating_sub(1)..part.at.end;
     FormulaTree { shape: NodeShape::Negative(Box::new(part)), at }
 }

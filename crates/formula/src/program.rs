@@ -3,7 +3,8 @@
 use crate::graph::{FormulaGraph, Node, NodeId};
 use crate::rounded::Rounded;
 
-/// Formulas ready to be evaluated. Each common part is stored once. Arguments precede the nodes that use them.
+/// Formulas ready to be evaluated. Each common subexpression is stored once. Arguments precede the nodes that use
+/// them.
 /// Parts that do not depend on any input are evaluated beforehand.
 #[derive(Clone, Debug)]
 pub struct Program {

@@ -185,7 +185,7 @@ fn not_below_zero(number: f64) -> f64 {
     if number < 0.0 { 0.0 } else { number }
 }
 
-/// The larger of two sizes; infinite if a size is NaN.
+/// The larger of two magnitudes; infinite if one of them is NaN.
 fn larger(one: f64, other: f64) -> f64 {
     match one.is_nan() || other.is_nan() {
         true => f64::INFINITY,

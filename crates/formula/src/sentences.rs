@@ -23,7 +23,7 @@ sentences! {
     LN_TAKES_A_POSITIVE_NUMBER = "ln takes a positive number";
     A_NEGATIVE_BASE_TAKES_A_WHOLE = "a negative base needs a whole exponent, and a base of zero needs an exponent that is not negative";
     A_DIVISOR_MUST_NOT_BE_ZERO = "a divisor must not be zero";
-    ITS_PARTS_MUST_HAVE_VALUES = "every part of the operation must have a value";
+    ITS_PARTS_MUST_HAVE_VALUES = "every operand and argument of the operation must have a value";
     is_undefined(what) = "{what} is undefined";
     WHAT_IT_STANDS_FOR_HAS_NO_VALUE = "the definition of this name has no value";
     // graph.rs
@@ -45,9 +45,9 @@ sentences! {
     is_no_finite_number(written) = "`{written}` is not a finite number";
     THIS_IS_NOT_CLOSED = "this `(` is not closed";
     ADD_A_NUMBER_A_NAME_OR_A_CALL = "add a number, a name or a call";
-    a_part_is_missing_before(sign) = "a part is missing before `{sign}`";
+    a_part_is_missing_before(sign) = "an operand or argument is missing before `{sign}`";
     THE_FORMULA_ENDS_WHERE_A_PART = "the formula is incomplete at its end";
-    A_PART_IS_MISSING_BEFORE_THIS_OPERATOR = "a part is missing before this operator";
+    A_PART_IS_MISSING_BEFORE_THIS_OPERATOR = "an operand is missing before this operator";
     has_no_meaning_in_a_formula(sign) = "`{sign}` has no meaning in a formula";
     NUMBERS_NAMES_AND_FUNCTIONS_MAKE = "numbers, names, + - * / ^ ( ) and functions make up a formula";
     USE_PARENTHESES = "use parentheses: ( )";

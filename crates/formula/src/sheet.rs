@@ -1,5 +1,5 @@
-//! A derivation stored part by part and evaluated at several instants.
-//! After a change of one part, only the parts that depend on the changed part are evaluated again.
+//! A derivation stored as a list of subexpressions and evaluated at several instants.
+//! After a change of one subexpression, only the subexpressions that depend on it are evaluated again.
 
 use std::collections::BTreeMap;
 
@@ -7,37 +7,39 @@ use crate::graph::Node;
 use crate::rounded::Rounded;
 use crate::tree::{FormulaTree, NodeShape, Operator};
 
-/// A part of the sheet. The arguments of a part are earlier parts, with smaller indices.
+/// A subexpression in the list. The arguments of a subexpression stand earlier in the list, with smaller indices.
 #[derive(Clone, Copy, Debug)]
 enum Part {
-    /// Position of another part that the formula refers to by name.
+    /// Position of the subexpression to which the formula refers by name.
     Named(usize),
     Own(Node<usize>),
 }
 
-/// Formulas of a derivation, part by part, and their values at several instants.
+/// All subexpressions of the formulas of a derivation, and their values at several instants.
 #[derive(Clone, Debug, Default)]
 pub struct DerivationSheet {
     parts: Vec<Part>,
-    /// Indices of the parts of every formula. A part is listed before its arguments.
+    /// Indices of the subexpressions of every formula. A subexpression is listed before its arguments.
     formulas: Vec<Vec<usize>>,
     names: BTreeMap<String, usize>,
     /// Inputs, by instant.
     inputs: Vec<Vec<Rounded>>,
-    /// Values of all parts, for each instant.
+    /// Values of all subexpressions, for each instant.
     values: Vec<Vec<Rounded>>,
     /// Values after a change, each with the number of the change for which it was calculated.
     changed: Vec<(u32, Rounded)>,
     change: u32,
-    /// Number of evaluations so far, counted per part and instant. Callers add their own evaluations to this number.
+    /// Number of evaluations so far, counted per subexpression and instant. Callers add their own evaluations to this
+    /// number.
     pub operations: u64,
 }
 
-/// Prefix of names such as `#12`. In a tree made for a change, the name `#12` denotes part 12.
+/// Prefix of names such as `#12`. In a tree made for a change, the name `#12` denotes the subexpression with the index
+/// 12.
 const PLACE: char = '#';
-/// Upper limit of the number of Newton steps in the search for the correction of a part at an instant.
+/// Upper limit of the number of Newton steps in the search for the correction of a subexpression at an instant.
 const STEPS: usize = 30;
-/// To measure a slope, the correction is changed by this fraction of its size.
+/// To measure a slope, the correction is changed by this fraction of its magnitude.
 const DIFFERENCE: f64 = 1e-6;
 
 /// Correct value of a formula at an instant.
@@ -133,21 +135,21 @@ impl DerivationSheet {
         }
     }
 
-    /// Positions of the parts of a formula, in the order of [`FormulaTree::parts`]. A part is listed before its
-    /// arguments.
+    /// Positions of the subexpressions of a formula, in the order of [`FormulaTree::parts`]. A subexpression is listed
+    /// before its arguments.
     /// Formulas are numbered in the order in which they were added.
     #[must_use]
     pub fn places(&self, formula: usize) -> &[usize] {
         &self.formulas[formula]
     }
 
-    /// Position of the part with this name.
+    /// Position of the subexpression with this name.
     #[must_use]
     pub fn named(&self, name: &str) -> Option<usize> {
         self.names.get(name).copied()
     }
 
-    /// Positions of the arguments of a part; empty for names and numbers.
+    /// Positions of the arguments of a subexpression; empty for names and numbers.
     #[must_use]
     pub fn arguments(&self, place: usize) -> Vec<usize> {
         let Part::Own(node) = self.parts[place] else { return Vec::new() };
@@ -158,7 +160,7 @@ impl DerivationSheet {
         }
     }
 
-    /// A tree that refers to the unchanged part at a position.
+    /// A tree that refers to the unchanged subexpression at a position.
     pub fn placeholder(place: usize) -> FormulaTree {
         FormulaTree::name(format!("{PLACE}{place}"))
     }
@@ -169,7 +171,7 @@ impl DerivationSheet {
         name.strip_prefix(PLACE)?.parse().ok()
     }
 
-    /// The value of the unchanged part at an instant.
+    /// The value of the unchanged subexpression at an instant.
     pub fn value(&self, place: usize, instant: usize) -> Rounded {
         self.values[instant][place]
     }
@@ -177,7 +179,7 @@ impl DerivationSheet {
     /// The positions `places` and all later positions that depend on `places`, in the order of evaluation.
     pub fn depending(&mut self, places: &[usize]) -> Vec<usize> {
         let Some(&first) = places.iter().min() else { return Vec::new() };
-        // This loop evaluates no part. The visit of a part therefore counts as a sixteenth of an operation.
+        // This loop evaluates nothing. The visit of a subexpression therefore counts as a sixteenth of an operation.
         self.operations += (self.parts.len() - first) as u64 / 16;
         self.change += 1;
         let mut found = Vec::new();
@@ -196,7 +198,8 @@ impl DerivationSheet {
         found
     }
 
-    /// The value of the last formula at an instant, after each tree of `changes` has replaced the part at its position.
+    /// The value of the last formula at an instant, after each tree of `changes` has replaced the subexpression at the
+    /// tree's position.
     /// `depending` is the result of [`DerivationSheet::depending`] for the positions of `changes`.
     /// If a tree uses a name that is unknown before the tree's position, the name has the value NaN.
     pub fn changed(&mut self, changes: &[(usize, FormulaTree)], depending: &[usize], instant: usize) -> Rounded {
@@ -212,7 +215,7 @@ impl DerivationSheet {
         self.current(self.parts.len() - 1, instant)
     }
 
-    /// The value of the last formula at an instant, if the first part of `depending` has the value `number`.
+    /// The value of the last formula at an instant, if the first subexpression in `depending` has the value `number`.
     fn with_number(&mut self, number: Rounded, depending: &[usize], instant: usize) -> Rounded {
         self.change += 1;
         let Some((&first, rest)) = depending.split_first() else { return Rounded::exact(f64::NAN) };
@@ -256,10 +259,10 @@ impl DerivationSheet {
         }
     }
 
-    /// Corrects a part so that the last formula is correct at an instant. Returns the correction and its uncertainty.
-    /// The correction is the amount to add to the part (`Plus`) or the missing factor (`Times`).
+    /// Corrects a subexpression so that the last formula is correct at an instant. Returns the correction and its
+    /// uncertainty. The correction is the amount to add to the subexpression (`Plus`) or the missing factor (`Times`).
     /// Newton's method starts at the correction `from`. `None` if the method finds no correction.
-    /// `depending` is the result of [`DerivationSheet::depending`] for the part.
+    /// `depending` is the result of [`DerivationSheet::depending`] for the position of the corrected subexpression.
     pub fn amount(
         &mut self,
         operator: Operator,

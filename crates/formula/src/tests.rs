@@ -320,7 +320,7 @@ fn a_power_is_as_accurate_as_its_base_and_exponent() {
     }
 }
 
-/// A common part of two formulas is evaluated once.
+/// A common subexpression of two formulas is evaluated once.
 #[test]
 fn common_parts_are_evaluated_once() {
     let mut graph = FormulaGraph::new(&["x"], 0);

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::ops::Range;
 
-/// An operator between two parts.
+/// An operator between two operands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Operator {
     /// `+`
@@ -41,33 +41,33 @@ impl Operator {
     }
 }
 
-/// Precedence of a minus sign before a part: -x^2 is -(x^2), -x*y is (-x)*y.
+/// Precedence of a minus sign before an operand: -x^2 is -(x^2), -x*y is (-x)*y.
 const NEGATION: u8 = 3;
 /// Precedence of a number, a name or a call.
 const WHOLE: u8 = 5;
 
-/// Kind of a part of a formula.
+/// Kind of a node in a formula's expression tree.
 #[derive(Clone, Debug, PartialEq)]
 pub enum NodeShape {
     /// A number.
     Number(f64),
     /// A name of an input or of another formula.
     Name(String),
-    /// The negative of a part.
+    /// The negative of an expression.
     Negative(Box<FormulaTree>),
-    /// Two parts and the operator between them.
+    /// Two operands and the operator between them.
     Pair(Operator, Box<[FormulaTree; 2]>),
     /// A function with its arguments.
     Call(Function, Vec<FormulaTree>),
 }
 
-/// A formula, or a part of one.
+/// A formula, or a subexpression of a formula.
 #[derive(Clone, Debug, PartialEq)]
 #[must_use]
 pub struct FormulaTree {
-    /// Kind of the part.
+    /// Kind of the root node of this tree.
     pub shape: NodeShape,
-    /// Byte range of the part in the text.
+    /// Byte range of the subexpression in the text.
     pub at: Range<usize>,
 }
 
@@ -82,7 +82,7 @@ impl FormulaTree {
         FormulaTree::of(NodeShape::Name(name.into()))
     }
 
-    /// Two parts and an operator between them.
+    /// Two operands and the operator between them.
     pub fn pair(operator: Operator, left: FormulaTree, right: FormulaTree) -> FormulaTree {
         FormulaTree::of(NodeShape::Pair(operator, Box::new([left, right])))
     }
@@ -92,7 +92,7 @@ impl FormulaTree {
         FormulaTree::of(NodeShape::Call(function, arguments))
     }
 
-    /// The negative of a part. The negative of a negative is the inner part.
+    /// The negative of an expression. The negative of a negative is the inner expression.
     pub fn negative(&self) -> FormulaTree {
         match &self.shape {
             NodeShape::Negative(inner) => (**inner).clone(),

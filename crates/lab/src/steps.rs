@@ -4,7 +4,7 @@ use linkage::case::Case;
 use linkage::engine::{Engine, Settings};
 use linkage::math::KeepNan;
 
-/// Time (s) from the first to the last instant of a case, where t = 0 is one of the instants.
+/// Time (s) from the first to the last of the following instants: all instants of the grid, and t = 0.
 pub(crate) fn span(case: &Case) -> f64 {
     let end = |of: fn(f64, f64) -> f64| case.grid.times.iter().copied().fold(0.0, of);
     end(f64::larger) - end(f64::smaller)

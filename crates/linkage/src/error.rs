@@ -175,7 +175,8 @@ impl Error {
         self
     }
 
-    /// Rewords the error: `change` turns the old message into the new message. All other parts of the error are kept.
+    /// Rewords the error: `change` converts the old message into the new message. All other parts of the error are
+    /// kept.
     pub fn map_message(mut self, change: impl FnOnce(&str) -> String) -> Self {
         self.0.message = change(&self.0.message);
         self

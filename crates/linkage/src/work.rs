@@ -147,7 +147,8 @@ impl WorkTally {
     }
 }
 
-/// A cloned tally starts at zero. Otherwise the same work would be added to the thread's counts twice.
+/// A cloned tally starts at zero. With the counts of the original, the same work would be added to the thread's counts
+/// twice.
 impl Clone for WorkTally {
     fn clone(&self) -> Self {
         WorkTally::default()

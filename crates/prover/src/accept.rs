@@ -18,8 +18,8 @@ const INSTANTS: usize = 5;
 /// Each stored bound is enlarged by this fraction of itself, because the stored numbers are rounded.
 const WRITTEN: f64 = 0.05;
 
-/// If the ratio of the accepted bound and the found bound exceeds this number in either direction, agreement proves
-/// nothing. The channel is then known much less accurately now, or its accepted bound was much too wide.
+/// If the accepted bound and the bound of the present run differ by more than this factor, agreement proves nothing:
+/// the channel is now known much less accurately, or its accepted bound was much too wide.
 const WIDER: f64 = 100.0;
 
 /// Two times count as the same instant if they differ by at most this fraction of the larger time.
@@ -64,7 +64,7 @@ fn rounded_up(bound: f64) -> f64 {
     if rounded >= bound { rounded } else { bound }
 }
 
-/// A value found now and its accepted counterpart.
+/// A value of the present run and its accepted counterpart.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Moved {
     /// Name of the channel.
@@ -73,9 +73,9 @@ pub struct Moved {
     pub figure: ChannelFigure,
     /// Accepted value, in the channel's unit.
     pub accepted: f64,
-    /// Value found now, in the channel's unit.
+    /// Value of the present run, in the channel's unit.
     pub found: f64,
-    /// Largest difference that the accepted bound and the found bound together allow.
+    /// Largest difference that the accepted bound and the bound of the present run together allow.
     pub bound: f64,
 }
 
@@ -93,22 +93,22 @@ pub enum ChannelFigure {
 }
 
 impl Moved {
-    /// Difference of the accepted and the found value, divided by the largest difference that the bounds of both values
-    /// allow.
+    /// Difference between the accepted value and the value of the present run, divided by the largest difference that
+    /// the bounds of both values allow.
     #[must_use]
     pub fn bounds(&self) -> f64 {
         share((self.found - self.accepted).abs(), self.bound)
     }
 }
 
-/// A channel with an accepted or found bound so wide that agreement proves nothing.
+/// A channel whose accepted or present bound is so wide that agreement proves nothing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wider {
     /// Name of the channel.
     pub channel: String,
     /// Accepted bound, in the channel's unit.
     pub accepted: f64,
-    /// Bound found now, in the channel's unit.
+    /// Bound of the present run, in the channel's unit.
     pub found: f64,
 }
 
@@ -117,24 +117,25 @@ pub struct Wider {
 pub struct FigureComparison {
     /// Number of channels found.
     pub channels: usize,
-    /// Values whose accepted and found numbers differ by more than the bounds of both allow, in the order of channels.
+    /// Values for which the accepted number and the number of the present run differ by more than the two bounds
+    /// allow, in the order of channels.
     pub moved: Vec<Moved>,
     /// Channels whose bound is now much wider than the accepted bound.
     pub wider: Vec<Wider>,
-    /// Channels whose accepted bound is much wider than the bound found now.
+    /// Channels whose accepted bound is much wider than the bound of the present run.
     /// An accepted bound of this width would have allowed almost any similar value.
     pub looser: Vec<Wider>,
     /// Channels without accepted values.
     pub new: Vec<String>,
-    /// Accepted channels that are missing in the found values.
+    /// Accepted channels that the present run does not have.
     pub gone: Vec<String>,
-    /// Whether the grids of the accepted and the found run have different instants. Values on different grids are not
-    /// compared.
+    /// Whether the grids of the accepted run and of the present run have different instants. Values on different grids
+    /// are not compared.
     pub is_other_grid: bool,
-    /// Verdict words of the accepted and the found proof; `None` if both are `agree`.
+    /// Verdict words of the accepted proof and of the present proof; `None` if both are `agree`.
     pub proof: Option<[String; 2]>,
     /// The verdict.
-    /// - Disagree: the found proof disagrees, or values, channels or the grid have changed.
+    /// - Disagree: the present proof disagrees, or values, channels or the grid have changed.
     /// - Otherwise inconclusive: a bound has changed much, one of the two proofs does not agree, or the run has no
     ///   channel.
     /// - Otherwise agree.
@@ -229,7 +230,7 @@ fn is_same_grid(accepted: &Accepted, found: &Accepted) -> bool {
         && accepted.times.iter().zip(&found.times).all(is_same)
 }
 
-/// Pairs every accepted value of a channel with the found value on the same grid.
+/// Pairs every accepted value of a channel with the value of the present run on the same grid.
 fn pairs(kept: &AcceptedChannel, found: &AcceptedChannel, times: &[f64]) -> Vec<Moved> {
     // Angles that differ by a constant number of whole revolutions describe the same motion, so whole revolutions are
     // subtracted.

@@ -34,7 +34,8 @@ pub fn error_in(value: f64, unit: &str) -> String {
 }
 
 /// A number with at most `digits` significant digits.
-/// Sizes from a thousandth to a hundred thousand are written as plain decimals, all other sizes with an exponent.
+/// Numbers with a magnitude from a thousandth to a hundred thousand are written as plain decimals, all other numbers
+/// with an exponent.
 #[must_use]
 pub fn significant(value: f64, digits: usize) -> String {
     if !value.is_finite() {
@@ -126,7 +127,8 @@ const SHOWN: usize = 6;
 /// Units written with a decimal prefix, each with the smallest value that is written with the prefix kilo.
 const PREFIXED: [(&str, f64); 4] = [("N", 1e4), ("N m", 1e4), ("W", 1e3), ("Pa", 1e3)];
 
-/// A quantity in an SI unit, with six significant digits and the decimal prefix of its size: `115.101 kN`.
+/// A quantity in an SI unit, with six significant digits and the decimal prefix that suits its magnitude:
+/// `115.101 kN`.
 #[must_use]
 pub fn quantity(value: f64, unit: &str) -> String {
     let least = PREFIXED.iter().find(|(own, _)| *own == unit).map_or(f64::INFINITY, |(_, least)| *least);
@@ -150,7 +152,7 @@ pub fn with_unit(number: &str, unit: &str) -> String {
     if unit.is_empty() { number.into() } else { format!("{number} {}", shown(unit)) }
 }
 
-/// Whether a value is written as plain decimals: its size is from a thousandth to a hundred thousand.
+/// Whether a value is written as plain decimals: its magnitude is from a thousandth to a hundred thousand.
 fn is_plain(value: f64) -> bool {
     (1e-3..1e5).contains(&value.abs())
 }

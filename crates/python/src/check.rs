@@ -118,7 +118,7 @@ impl FormulaCheck {
     /// One row for each side, formula and order of the derivative. The values of a row are those at the worst instant.
     ///
     /// `t_s` is in s, `input` in rad or m. `value`, `mechanism`, `difference` and `bound` are in the unit of the row.
-    /// For a derivative, they are in this unit per s or per s^2.
+    /// In the rows of a first or second derivative, these four numbers are in this unit per s or per s^2.
     #[getter]
     fn formulas(&self) -> Table {
         let all = self.judged();

@@ -77,7 +77,7 @@ impl Scenario {
         self.changes.instants.as_ref().map(|own| own.key == INPUT)
     }
 
-    /// This scenario with other changes.
+    /// This scenario with `changes` in place of its present changes.
     fn with(&self, changes: Changes) -> Result<Scenario, Error> {
         match &self.built {
             None => Scenario::of_text(&self.inner.text, self.inner.path.clone(), changes),

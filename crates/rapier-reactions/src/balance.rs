@@ -4,7 +4,7 @@
 //! joint forces and loads about the mass centre.
 //! A joint has one unknown for each locked coordinate, and for each free coordinate along which it may exert a force.
 //! Where bodies can move freely, there are more equations than unknowns.
-//! The forces are then those of Gauss's principle of least constraint (1829). They minimise the sum of the squared
+//! The forces are then chosen by Gauss's principle of least constraint (1829): they minimise the sum of the squared
 //! residuals of the equations, each divided by mass or moment of inertia. These forces reproduce the accelerations
 //! along the locked coordinates exactly. The residual is the acceleration along the free coordinates that the loads do
 //! not explain.
@@ -30,8 +30,8 @@ const SHARE: f64 = 0.1;
 pub(crate) struct Transmitted {
     /// For every joint, force on body 2 along x and y of joint frame 1 (N), and moment (N m).
     pub(crate) components: Vec<[f64; 3]>,
-    /// Part of m a - loads that no joint force explains, as a fraction of m a - loads. Both are root sums of squares,
-    /// each square divided by the mass or moment of inertia.
+    /// Part of m a - loads that no joint force explains, as a fraction of m a - loads. Numerator and denominator are
+    /// root sums of squares, each square divided by the mass or moment of inertia.
     pub(crate) residual: f64,
 }
 

@@ -57,7 +57,7 @@ impl ModelJoint {
         self.joint_type.locked().contains(&coordinate) || self.efforts[coordinate]
     }
 
-    /// Where the joint is and acts if the bodies have these placements.
+    /// Position and lines of action of the joint if the bodies have these placements.
     ///
     /// As in Rapier, the constraint rows act on body 1 at the origin of joint frame 2, moved back along the locked
     /// axes.

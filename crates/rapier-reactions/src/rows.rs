@@ -1,5 +1,5 @@
 //! Constraint rows of a joint as Rapier lays them, and the impulse that they transmit together.
-//! These are plain numbers, the same for both precisions of Rapier.
+//! The types of this module contain plain numbers in double precision, for both precisions of Rapier.
 
 use crate::plane::{Vec2, cross, turned};
 
@@ -58,8 +58,8 @@ impl JointRows {
     /// The angular impulse is about the point where the rows act.
     ///
     /// `rows` are the numbers of `ImpulseJoint::impulses`.
-    /// `separate` is `None` if one of the bodies is a link of a multibody.
-    /// Otherwise it has the inverses of mass (1/kg) and moment of inertia (1/(kg m^2)) of both bodies.
+    /// For two separate bodies, `separate` contains the inverses of mass (1/kg) and moment of inertia (1/(kg m^2)) of
+    /// both bodies. `None` if one of the bodies is a link of a multibody.
     /// The inverses of a body that is not dynamic are 0.
     /// Between two separate bodies, Rapier makes the rows of a joint orthogonal. The impulses of the orthogonal rows
     /// are not components of a force.

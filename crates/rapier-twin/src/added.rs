@@ -5,7 +5,8 @@
 //! In a multibody, Rapier accepts a point mass that does not lie in a joint: the mass matrix of the chain is regular.
 //! A link that lacks mass or inertia gets an added mass or inertia.
 //! The link also gets the load m a + J alpha - m g of the added part.
-//! With the true accelerations, the motion is that of the case: (M + M') a = f + M' a reduces to M a = f.
+//! If the accelerations in this load are the true ones, the motion is that of the case: (M + M') a = f + M' a reduces
+//! to M a = f.
 //! The load in a step uses the accelerations of the step before.
 //! The resulting error is of first order, as is the error of the engine's step. An error of the accelerations decays
 //! from step to step, because the added mass M' is smaller than the total mass: M' / (M + M') is below 1.

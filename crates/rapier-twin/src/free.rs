@@ -182,8 +182,8 @@ impl Acting {
         }
     }
 
-    /// Whether a trial step is needed. It is needed if a link is at rest at the start and has a load or reducer losses
-    /// that depend on its sense of rotation, or if a joint with friction is at rest at the start.
+    /// Whether a trial step is needed. There are two cases: a link is at rest at the start and has a load or reducer
+    /// losses that depend on its sense of rotation; or a joint with friction is at rest at the start.
     fn must_try(&self, case: &Case) -> bool {
         let losses = case.crank().moving_motor().is_some_and(|motor| motor.efficiency < 1.0);
         let mut sensed = case

@@ -29,8 +29,8 @@ impl Ghost {
     /// too.
     /// `None` if nothing has to be subtracted.
     pub(super) fn of(case: &Case, unloaded: bool) -> Option<Self> {
-        // The flywheel of a crank adds a moment only in accelerated motion. A flywheel of a slide is a mass with
-        // weight.
+        // The flywheel of a crank adds a moment only in accelerated motion. A flywheel on a driven slide is modelled
+        // as a mass, which also has a weight.
         let tree = SpanningTree::none(&case.mechanism);
         let only_cranks = case.drives.iter().all(|drive| drive.input == Input::Angle);
         let flywheels_idle = case.is_steady() && only_cranks;

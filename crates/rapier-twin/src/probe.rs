@@ -3,7 +3,7 @@
 //! A separate world is placed in the pose at t - h. One or two steps make its velocities consistent with pose and
 //! drives.
 //! All degrees of freedom are driven, so the velocities are unique.
-//! Then the world is placed in the pose at t with these velocities, and a step of h is done.
+//! With these velocities, the world is placed in the pose at t and makes a step of h.
 //! The impulses of this step give the reactions y(h) at t with an error proportional to h.
 //! A second probe with h / 2 gives the extrapolated result 2 y(h / 2) - y(h).
 //! Only poses are read from the trajectory, not velocities or accelerations.

@@ -13,7 +13,7 @@ pub(super) const NODES: usize = POINTS + 8;
 /// of the grid slightly from the steps.
 const ON_A_STEP: f64 = 1e-9;
 
-/// An instant, as a step and the fraction of a step since then.
+/// An instant: the number of a step, and the time since this step as a fraction of the step size.
 /// The step is normally the last one before the instant, so that the fraction is from 0 to 1.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {

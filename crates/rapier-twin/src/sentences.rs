@@ -8,8 +8,8 @@ linkage::sentences! {
     the_engine_has_slipped_into(names, t, at) = "the engine slipped into another assembly mode of the group ({names}) before t = {t:.6} s, {at}: the engine has passed a dead point";
     // engine.rs
     CENTRED_SECOND_DIFFERENCES_OF_THE_ENGINE = "centred second differences of the engine's positions";
-    READ_AS_THE_BODIES_VELOCITIES = "read as the bodies' velocities, one step old; omega from the rotation in a step; where a drive's speed changes, centred differences of positions";
-    READ_AS_GENERALISED_VELOCITIES_ONE_STEP = "read as generalised velocities, one step old, and carried along the tree; where a drive's speed changes, centred differences of positions";
+    READ_AS_THE_BODIES_VELOCITIES = "the bodies' velocities as read from the engine, one step old; omega from the rotation in a step; where a drive's speed changes, centred differences of positions";
+    READ_AS_GENERALISED_VELOCITIES_ONE_STEP = "the joints' speeds as read from the engine, one step old, added up from the ground along the spanning tree; where a drive's speed changes, centred differences of positions";
     THE_ENGINE_IMPULSES_IN_TINY = "the engine's impulses in tiny extra steps, each started from a pose of the run";
     THE_ENGINE_IMPULSES_IN_TINY_STEPS = "the engine's impulses in tiny extra steps, each started from a pose of the run; the impulse of each joint is read in a world whose spanning tree is cut at this joint";
     THE_ENGINE_IMPULSES = "the engine's impulses";

@@ -6,7 +6,7 @@
 //! Consider the line from a link's pin in the tree to its cut pin.
 //! Rotation of the link moves the cut pin across this line, not along it.
 //! The rows are therefore laid along and across the line on the more mobile of the two links.
-//! Then each sweep leaves at most half of the error.
+//! With these directions, each sweep leaves at most half of the error.
 //! With mobilities a and b >= a of the two links and an angle mu between their lines, the remaining fraction is a cos^2
 //! mu / (a cos^2 mu + b).
 //! If the rows have other directions than along and across this line, the remaining fraction may come close to 1.

@@ -125,7 +125,7 @@ impl Window {
     }
 
     /// Stores the state after a step. The stored poses belong to the end of this step. The stored velocities belong to
-    /// the start of the step's last substep. Without substeps, this is the end of the previous step.
+    /// the start of the step's last substep. Without substeps, this instant is the end of the previous step.
     pub(super) fn push(&mut self, guard: &Guard, case: &Case) {
         let (row, _) = self.ring.push().as_chunks_mut();
         for (own, (centre, frame)) in row.iter_mut().zip(guard.centres().iter().zip(guard.frames())).skip(1) {

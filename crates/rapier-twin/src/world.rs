@@ -12,7 +12,7 @@ use linkage::mechanism::{Joint, JointId, JointSide, LinkId, LinkPose, Transmissi
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LinkAngle {
     /// The angle itself, including full turns.
-    /// For a link of the tree, it is the sum of the joint coordinates from the ground to the link.
+    /// For a link of the tree, the angle is the sum of the joint coordinates from the ground to the link.
     Whole(f64),
     /// Full turns (rad), to be added to the angle of the link's direction between -pi and pi.
     /// A separate body has a direction only; the arc tangent is computed on demand.

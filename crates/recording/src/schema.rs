@@ -25,7 +25,8 @@ pub const fn grid_fields(input: Input) -> [&'static str; 3] {
 pub enum MessageContent {
     /// Values in SI units.
     Values,
-    /// Errors in small units such as um. Single precision is enough for them, because people read only three digits.
+    /// Errors in small units such as um. Single precision is enough for errors, because people read only three of
+    /// their digits.
     Errors,
 }
 

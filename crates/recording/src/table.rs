@@ -78,8 +78,8 @@ impl<'a> ChannelTable<'a> {
     }
 }
 
-/// Topic of a subject's values on a side. With "error" in place of a side, the result is the topic of the errors of
-/// these values.
+/// Topic of a subject's values on a side. If `side` is "error", the result is the topic of the errors in the subject's
+/// values.
 pub fn topic_name(side: &str, subject: ChannelSubject, of: &str) -> String {
     let word = subject.word();
     if of.is_empty() { format!("/{side}/{word}") } else { format!("/{side}/{word}/{of}") }

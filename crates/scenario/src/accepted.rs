@@ -183,8 +183,8 @@ fn number(value: f64, bound: f64) -> String {
     }
     let decimals = -(bound / 10.0).log10().floor();
     let magnitude = |value: f64| value.abs().log10().floor();
-    // The first rounding may carry over and add a digit, as from 9.96 to 10.0. The number is therefore rounded a second
-    // time, which cannot carry over again.
+    // The first rounding may carry over and add a digit, as from 9.96 to 10.0. The number is therefore rounded a
+    // second time. The second rounding cannot carry over again.
     let rounded = digits(value, magnitude(value) + decimals).parse().unwrap_or(value);
     if rounded == 0.0 {
         return "0.0".into();

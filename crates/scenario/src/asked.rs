@@ -19,7 +19,7 @@ pub struct StartRequest {
     /// NUMBER is the position in the list of [`configurations`](linkage::mechanism::assembly::configurations) at the
     /// start, counted from 1.
     pub modes: Vec<String>,
-    /// Input at t = 0 (rad or m). It replaces `crank` in `[start]`, or `start` of the first drive.
+    /// Requested input at t = 0 (rad or m), in place of `crank` in `[start]` or of `start` of the first drive.
     /// Modes of the file also apply at the requested input.
     /// Approximate positions (`near`) apply at the file's input only. These positions choose a configuration at the
     /// file's input.

@@ -20,7 +20,7 @@ const MAGNITUDES: [(&str, &str, &str); 2] = [("v_m_s", "v", "_m_s"), ("a_m_s2", 
 pub struct Claim {
     /// Text of the claim.
     pub text: String,
-    /// The text as parsed. Its names denote channels and figures.
+    /// The expression tree of the text. The names in the tree denote channels and figures.
     /// A reduced quantity, transfer function or instant centre is replaced by its arithmetic expression of channels.
     pub tree: FormulaTree,
     /// The channels in the claim, with their names in the expression tree.

@@ -262,8 +262,8 @@ pub fn read(table: &mut TomlTable, drive: &Drive) -> Result<EngineSettings> {
     }
 }
 
-/// A whole number within `range`. If the range has no upper limit, the message for another number says that an engine
-/// needs at least one. Otherwise the message is about the number of extrapolations.
+/// A whole number within `range`. For a number outside a range without an upper limit, the message says that an engine
+/// needs at least one. For a range with an upper limit, the message is about the number of extrapolations.
 fn whole(table: &mut TomlTable, key: &str, range: RangeInclusive<usize>) -> Result<EngineSetting<usize>> {
     let Some(number) = table.optional_integer(key)? else { return Ok(EngineSetting::Free) };
     if let Some(count) = usize::try_from(number).ok().filter(|count| range.contains(count)) {

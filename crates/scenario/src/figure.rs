@@ -155,7 +155,8 @@ fn distance(entry: &mut TomlTable, case: &Case) -> Result<(MechanismFigure, Stri
     };
     let places = [places(entry, case, first)?, places(entry, case, second)?];
     // A distance between two points of one link only repeats the file.
-    // The distance is therefore measured between two links, so that it depends on how the solver assembles these links.
+    // The two points are therefore taken on different links: their distance then results from the solved pose, not
+    // from the file alone.
     let has = |link: LinkId, of: &[JointSide]| of.iter().any(|side| side.link == link);
     let measured = |this: usize| places[this].iter().find(|side| !has(side.link, &places[1 - this])).copied();
     let (Some(first), Some(second)) = (measured(0), measured(1)) else {

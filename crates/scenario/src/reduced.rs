@@ -16,7 +16,7 @@ struct Quantity {
     name: &'static str,
     /// Symbol of the quantity's unit.
     unit: &'static str,
-    /// Whether the quantity is reduced to a slide. Otherwise it is reduced to an angle.
+    /// Whether the quantity is reduced to a slide; if not, the quantity is reduced to an angle.
     of_slide: bool,
     tree: fn(&Case) -> Found,
 }

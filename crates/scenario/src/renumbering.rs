@@ -84,7 +84,9 @@ struct LinkNumbers {
     places: Vec<Vec2>,
 }
 
-/// Computes the numbers of all links of a case from varied numbers of its file.
+/// Recomputes the points, masses and moments of inertia of links, and the positions of joints on them, from the varied
+/// values of the file.
+/// Links that do not depend on these values stay unchanged.
 pub struct Renumbering {
     /// Parameters, with the numbers that were last computed.
     parameters: Vec<Parameter>,

@@ -384,7 +384,7 @@ linkage::sentences! {
     keep_one_of_the_two_2(help) = "keep one of the two: {help}";
     A_COLUMN_OF_CRANK_ANGLES = "a column of crank angles and a column of times are both named";
     A_CRANK_ANGLE_AND_A_TIME = "a crank angle and a time are both given";
-    A_NUMBER_HOLDS_AT_A_CRANK = "a number belongs to a crank angle (of the nominal motion, if forces determine the motion) or to a time";
+    A_NUMBER_HOLDS_AT_A_CRANK = "give either a crank angle or a time for each number; if forces determine the motion, the crank angle is that of the nominal motion";
     CHANNELS_ARE_NAMED_LIKE_POINT = "channels are named like \"point.A.x_mm\", \"link.crank.angle_deg\", \"link.crank.omega_rad_s\", \"joint.A.fx_N\" or \"drive.torque_N_m\"";
     of_what_moves(suggestion) = "channels of a moving part: {suggestion}";
     add_to_want_or_take_the_published(stage) = "add \"{stage}\" to `want`, or remove the published numbers";

@@ -73,7 +73,7 @@ pub(super) struct Known<'a> {
 }
 
 impl OracleSeries {
-    /// The y component of a series of magnitudes.
+    /// The channel of the vector's y component, if the values of the series are magnitudes of a vector.
     #[must_use]
     pub fn y(&self) -> Option<Channel> {
         let named = || Channel::named(&format!("joint.{}.fy_N", self.channel.of)).expect("joints have this channel");

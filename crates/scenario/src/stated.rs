@@ -83,7 +83,8 @@ impl<'a> FileSections<'a> {
     pub fn read(root: &mut TomlTable<'a>, asked: &StartRequest) -> Result<FileSections<'a>> {
         check_format(root)?;
         let (name, title, source) = (name(root), root.string("title"), root.optional_string("source"));
-        // All sections are fetched before they are read. Otherwise a misspelt section name would cause further errors.
+        // All sections are fetched before any section is read. If the sections were fetched one by one, a misspelt
+        // section name would cause further errors.
         let (ground, links, joints) = (root.table("ground"), root.table("links"), root.tables("joints")?);
         let drives = match asked.without_drive {
             true => root.table_or_tables("drive"),

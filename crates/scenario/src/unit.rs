@@ -152,7 +152,7 @@ pub fn of_input_rate(input: Input) -> &'static UnitFamily {
     }
 }
 
-/// Units that scenario files do not support: ending of the key, name, and size in a supported unit.
+/// Units that scenario files do not support: ending of the key, name, and value in a supported unit.
 static UNSUPPORTED: [(&str, &str, &str); 11] = [
     ("inch", "inches", "1 in = 25.4 mm"),
     ("ft", "feet", "1 ft = 304.8 mm"),
@@ -167,7 +167,7 @@ static UNSUPPORTED: [(&str, &str, &str); 11] = [
     ("N_mm", "newton millimetres", "1 N·mm = 1e-3 N·m"),
 ];
 
-/// Name and size of the unsupported unit at the end of a key.
+/// Name of the unsupported unit at the end of a key, and its value in a supported unit.
 #[must_use]
 pub fn unsupported(suffix: &str) -> Option<(&'static str, &'static str)> {
     let named = |(own, ..): &&(&str, &str, &str)| own.eq_ignore_ascii_case(suffix);

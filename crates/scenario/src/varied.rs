@@ -1,7 +1,8 @@
 //! The numbers of a scenario file that an exercise may change, and the text of the file with other numbers.
 //!
 //! If the file has parameters, an exercise changes only the parameters.
-//! Otherwise it changes the coordinates of the points, the speed of the drive, the masses and the loads.
+//! Without parameters, an exercise changes the coordinates of the points, the speed of the drive, the masses and the
+//! loads.
 
 use crate::sentences;
 use std::collections::BTreeMap;

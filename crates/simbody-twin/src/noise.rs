@@ -46,8 +46,8 @@ pub(super) fn bound(case: &Case, [tolerance, accuracy]: [f64; 2], channel: &Chan
     let place = POSE * tolerance + ULPS * f64::EPSILON * reach;
     let integrated = if case.is_free() { accuracy * case.grid.len() as f64 } else { 0.0 };
     let closed = place / shortest + f64::EPSILON * turned;
-    // `angle(k)` is the error of the `k`-th derivative of an angle, and `linear(k)` that of the `k`-th derivative of a
-    // position.
+    // `angle(k)` is the error of the `k`-th derivative of an angle, and `linear(k)` is the error of the `k`-th
+    // derivative of a position.
     let angle = |k: i32| (POSE.powi(k) * closed + integrated) * speed.powi(k);
     let linear = |k: i32| POSE.powi(k) * place * speed.powi(k) + angle(k) * size;
     let force = mass * (linear(2) + (POSE * closed + integrated) * case.gravity.norm());

@@ -278,7 +278,7 @@ impl LinkageRun {
     ///
     /// # Errors
     /// The errors of Simbody, as in [`LinkageRun::advance`].
-    /// Also an error if a number is not finite.
+    /// An error also if a number of the state is not finite.
     pub fn read(&mut self, reactions: bool) -> Result<&SimbodyState, Failure> {
         let SimbodyState { bodies, loops } = &mut self.state;
         let raw = self.raw.as_ptr();

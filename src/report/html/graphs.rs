@@ -13,8 +13,8 @@ use linkage::trajectory::{Channel, Trajectory};
 
 /// Number of intervals of the motor's curve.
 const POINTS: u32 = 240;
-/// The speed axis of the motor's curve ends at this multiple of the largest speed of the run or of the no-load speed,
-/// whichever is larger.
+/// Two speeds are compared: the largest speed of the run and the no-load speed of the motor.
+/// The speed axis of the motor's curve ends at this multiple of the larger one.
 const BEYOND: f64 = 1.15;
 
 /// Graphs over the crank angle.

@@ -24,7 +24,7 @@ const MARK: f64 = 1.3;
 /// Font size of the legend (mm).
 const LETTER: f64 = 3.4;
 
-/// The map of a family. Its panels are positions, rates and forces.
+/// The map of a family, with one panel each for positions, rates and forces.
 pub(crate) fn map(family: &StressFamily, outcomes: &[&StressOutcome]) -> String {
     let names = names(outcomes);
     let title = format!("{}: {}", family.name, family.title);

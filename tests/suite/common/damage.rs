@@ -223,7 +223,8 @@ fn damage(random: &mut RandomSource, text: &mut String) -> String {
     }
 }
 
-/// Replaces the grid: reversed, empty, of one instant, far away, very fine, with contradictory keys, or a list.
+/// Replaces the grid by an unusual or wrong grid: reversed, empty, with one instant, far away, very fine, with
+/// contradictory keys, or as a list.
 fn grid(random: &mut RandomSource, text: &mut String) -> String {
     const GRIDS: [&str; 14] = [
         "from_deg = 360\nto_deg = 0\nstep_deg = 1",

@@ -1,6 +1,6 @@
 //! Constant columns.
 //! If the other columns of a file omit trailing zeros, a `0` counts as printed with as many digits as these columns.
-//! Otherwise a `0` may be a rounded value.
+//! If no other column omits trailing zeros, a `0` may be a rounded value.
 
 use super::digits::Format;
 use super::{scenario, solved};

@@ -57,7 +57,7 @@ fn twelve_positions_of_a_turn_are_drawn_and_numbered() {
     let expected: Vec<String> = (1..12).map(|k| format!("position {k}")).collect();
     assert_eq!(thin(&document), expected);
     // The crank is link 1.
-    // The crank pin passes twelve places, 30 deg apart, on a circle around O.
+    // The crank pin has twelve positions, 30 deg apart, on a circle around O.
     let all = dots(&document);
     let pin = &all["#0072b2"];
     assert_eq!(pin.len(), 12);
@@ -65,8 +65,8 @@ fn twelve_positions_of_a_turn_are_drawn_and_numbered() {
     for (k, at) in pin.iter().enumerate() {
         let (arm, next) = (at - centre, pin[(k + 1) % 12] - centre);
         let turn = (arm.x * next.y - arm.y * next.x).atan2(arm.dot(&next)).to_degrees();
-        // Error of the angle between two places that are rounded to 0.01 mm, at a radius of more than 5 mm: 2 * 0.0071
-        // mm / 5 mm = 0.16 deg.
+        // Error of the angle between two positions that are rounded to 0.01 mm, at a radius of more than 5 mm:
+        // 2 * 0.0071 mm / 5 mm = 0.16 deg.
         assert!(arm.norm() > 5.0);
         assert_within!(turn - 30.0, 0.17, "{k}");
     }

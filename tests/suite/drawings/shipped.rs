@@ -110,13 +110,13 @@ fn number(text: &str) -> (f64, f64) {
     (value, 0.5 * ulp)
 }
 
-/// Side of the line through the places `a` and `b` on which the place `c` lies: 1 for left, -1 for right.
+/// Side of the line from point `a` to point `b` on which point `c` lies: 1 for left, -1 for right.
 fn side(all: &[Vec2], a: usize, b: usize, c: usize) -> f64 {
     cross(all[b] - all[a], all[c] - all[a]).signum()
 }
 
-/// The places of a moving link (mm), from its lengths in their order.
-/// From `shown`, only the sides and senses are taken, not the distances.
+/// The points of a moving link (mm), reconstructed from the lengths in the drawing, in their order.
+/// `shown` decides only on which side of a line or in which sense a point lies, not the distances.
 fn rebuilt(shown: &[Vec2], lengths: &[(usize, usize, f64)]) -> BTreeMap<usize, Vec2> {
     let mut built: BTreeMap<usize, Vec2> = BTreeMap::new();
     let Some(&(first, second, length)) = lengths.first() else { return built };
@@ -134,7 +134,7 @@ fn rebuilt(shown: &[Vec2], lengths: &[(usize, usize, f64)]) -> BTreeMap<usize, V
                 rest = &more[1..];
             }
             None => {
-                // A place with only one length lies on the line through the first two places.
+                // A point with only one length lies on the line through the first two points.
                 let way = (shown[to] - shown[from]).dot(&(shown[second_of(lengths)] - shown[from])).signum();
                 built.insert(to, built[&from] + Vec2::new(way * length, 0.0));
                 rest = more;
@@ -148,8 +148,8 @@ fn second_of(lengths: &[(usize, usize, f64)]) -> usize {
     lengths[0].1
 }
 
-/// The places of the ground (mm).
-/// If a drawing gives no horizontal or no vertical distance for a place, this distance from the first pivot is zero.
+/// The points of the ground (mm), reconstructed from the numbers in the drawing.
+/// If a drawing gives no horizontal or no vertical distance for a point, this distance from the first pivot is zero.
 fn rebuilt_ground(count: usize, shown: &[Vec2], drawn: &[(&Dimension, f64)]) -> BTreeMap<usize, Vec2> {
     let mut built: BTreeMap<usize, Vec2> = (0..count).map(|k| (k, Vec2::zeros())).collect();
     for (own, value) in drawn {
@@ -186,7 +186,8 @@ fn compare(name: &str, mechanism: &Mechanism, link: LinkId, all: &[Dimension]) {
     for a in 0..shown.len() {
         for b in 0..a {
             let wanted = (shown[a] - shown[b]).norm();
-            // A place for which the drawing gives no length coincides with a place for which the drawing gives lengths.
+            // A point for which the drawing gives no length coincides with a point for which the drawing gives
+            // lengths.
             let of = |k: usize| plain.keys().copied().find(|own| (shown[*own] - shown[k]).norm() <= 1e-8 * size);
             if wanted <= 1e-8 * size && of(a).is_none() {
                 continue;

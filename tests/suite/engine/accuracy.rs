@@ -135,7 +135,7 @@ fn regress_64_loops_open_by_the_local_error_of_a_step() {
 /// For angles, the required accuracy is 1e-6.
 /// For reactions in all joints and the balancing moment, the required accuracy is 3e-6 by differences, 1e-7 with
 /// extrapolation and 1e-6 by probe.
-/// Loops close to 1e-7 of the mechanism's size.
+/// The openings of the loops are at most 1e-7 of the mechanism's size.
 #[test]
 fn regress_70_two_substeps_meet_all_accuracy_goals_at_once() {
     let case = whole("crank_rocker");

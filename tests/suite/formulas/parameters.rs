@@ -66,7 +66,7 @@ step_deg = "90/ratio"
 "#;
 
 /// The short name `b` of a parameter `b_mm` has the unit of the key that uses it, if both measure the same quantity.
-/// Otherwise `b` has the SI unit.
+/// For a key of another quantity, `b` has the SI unit.
 /// A whole key, such as `b_mm`, is the number as given, without conversion.
 #[test]
 fn numbers_may_be_expressions_of_parameters() {

@@ -26,8 +26,8 @@ fn found(scenario: &Scenario, quantity: &str) -> Vec<[f64; 3]> {
 }
 
 /// The reduced model computes the reduced inertia and the reduced moment from transfer functions.
-/// Each side computes the channels of the same names from kinetic energy and power; the test compares them with the
-/// model.
+/// Each side computes the reduced inertia and the reduced moment from kinetic energy and power; the test compares the
+/// results with those of the model.
 #[test]
 fn reduced_quantities_match_the_equation_of_motion() {
     for name in ["crank_rocker", "crank_rocker_runup", "class3_group", "compressor", "ov7_base", "quick_return"] {

@@ -1,4 +1,4 @@
-//! Files of Linkage. The places of the points are those from which the files were made by hand.
+//! Files of Linkage. The test compares the points with the coordinates from which the files were made by hand.
 
 use super::{imported, proven};
 use crate::cli::tools::Table;

@@ -1,4 +1,4 @@
-//! Links of PMKS+. The places of the points are those from which the links were made by hand.
+//! Links of PMKS+. The test compares the points with the coordinates from which the links were made by hand.
 
 use super::{data, imported, proven};
 use crate::cli::tools::{Place, Table};

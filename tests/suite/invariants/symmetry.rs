@@ -14,7 +14,7 @@ use crate::common::spec::{Spec, Start};
 use crate::common::states;
 
 /// Bound on the rounding difference between the solutions of one problem in two forms.
-/// The bound is relative to the size of the compared quantity times the square of the condition number.
+/// The bound is this constant times the quantity's magnitude and the square of the condition number.
 /// The largest measured difference is a tenth of the bound.
 const ROUNDING: f64 = 1e-12;
 

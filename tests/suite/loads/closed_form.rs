@@ -46,7 +46,7 @@ fn rod(phi: f64) -> [f64; 2] {
 }
 
 /// Checks that both solvers find the balancing moment `moment`, a function of the crank angle (rad).
-/// The tolerance is the rounding error of `size`.
+/// The tolerance is the rounding error of a moment of the magnitude `size`.
 fn balances(loads: &str, size: f64, moment: impl Fn(f64) -> f64) {
     let scenario = slider_crank(loads);
     let case = &scenario.case;
@@ -69,7 +69,8 @@ fn val_a_constant_force_on_the_slider() {
 #[test]
 fn val_a_force_that_follows_the_rod() {
     // The force acts at pin A, so it loads only the crank. The force points along the rod at the angle b.
-    // Its moment on the crank at the angle phi is r F (cos b, sin b) . (-sin phi, cos phi) = r F sin(b - phi).
+    // At the crank angle phi, the moment of this force on the crank is
+    // r F (cos b, sin b) . (-sin phi, cos phi) = r F sin(b - phi).
     // The balancing moment is the negative of this moment.
     let load = "[[loads]]\ntype = \"force\"\nlink = \"rod\"\npoint = \"A\"\nx_N = 20\ny_N = 0\nframe = \"link\"";
     balances(load, 10.0, |phi| -20.0 * R * (rod(phi)[0] - phi).sin());

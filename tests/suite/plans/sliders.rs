@@ -204,7 +204,8 @@ step_deg = 0.5
             let under = plan.tips.iter().find(|tip| tip.kind == TipKind::Coincident).unwrap();
             assert_eq!(under.letter, "k2'");
         }
-        // The block does not translate, and the rod's point under it moves along the rod.
+        // The block only turns about the fixed pivot K, so the point of the rod that coincides with K has a velocity
+        // along the rod.
         let rod = scenario.case.mechanism.link_named("rod").unwrap();
         let along = state(&scenario.case, degrees).motions[rod].direction;
         let under = plans.velocity.vector("v_K2'").unwrap().value;

@@ -13,7 +13,7 @@ use prover::bounds::{difference, magnitudes};
 use crate::common::assert_within;
 use crate::common::random::for_each;
 
-/// Largest difference in any channel, divided by the size of the channel's values.
+/// Largest difference in any channel, divided by the magnitude of the channel's values.
 fn apart(one: &Trajectory, two: &Trajectory) -> f64 {
     let sizes = magnitudes(one);
     let errors = difference(one, two).unwrap();

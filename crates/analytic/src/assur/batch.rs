@@ -104,8 +104,7 @@ impl<'a> Batch<'a> {
     }
 
     /// Number of poses so far that were solved one by one.
-    /// In a vectorised case, these are the poses for which the vectorised solution failed; in any other case, all
-    /// poses.
+    /// In a vectorised case, the poses for which the vectorised solution failed; in any other case, all poses.
     #[must_use]
     pub fn solved_singly(&self) -> usize {
         self.singly
@@ -259,7 +258,8 @@ mod tests {
 
     /// The vector sine and cosine differ from the functions of the standard library by at most one unit in the last
     /// place of 1.
-    /// At most half of this unit is the error of the standard library; the rest is the error of the vector functions.
+    /// Up to half a unit of the difference may be the rounding error of the standard library; the remainder is the
+    /// error of the vector functions.
     #[test]
     fn sines_and_cosines_match_the_standard_library() {
         for k in -400_000..400_000 {

@@ -7,7 +7,7 @@
 //! If the gauge cannot leave its range even with this deviation, the dyad stays on one branch.
 //! For a dyad on the ground and on driving links of constant speed ratio, M is known.
 //! If the deviation for the whole step is too large for a proof, the step is divided.
-//! The division ends when every part is proven or the change point is found.
+//! The division ends when the proof holds for every part of the step, or when a change point is found.
 //! For a dyad on other dyads, M follows from the bounds of the dyads that carry it.
 //! These bounds grow from dyad to dyad, and with the inverse of the sine of each dyad's transmission angle.
 //! If these bounds give no proof, the estimate of [`super::watch`] decides.

@@ -33,7 +33,7 @@ use linkage::mechanism::{AssemblyMode, GROUND, Group, GroupId, GroupKind, LinkId
 use linkage::work::{Count, WorkTally};
 
 /// Two configurations of a dyad are compared with an expected pose.
-/// The ratio of the squared distances, nearer to farther, must be below this value.
+/// The squared distance of the nearer configuration, divided by that of the farther one, must be below this value.
 const NEARER: f64 = 0.04;
 
 /// An Assur group, prepared for solving.
@@ -50,7 +50,7 @@ pub enum Step {
     Rpp(Rpp),
     /// PRP dyad.
     Prp(Prp),
-    /// RRR dyad of bodies of changing shape.
+    /// RRR dyad whose bodies change their shape.
     Shaped(Box<Shaped>),
     /// Any other group.
     Chain(Chain),

@@ -419,8 +419,8 @@ impl<'a> PoseSolver<'a> {
 
     /// The last state with its links' angles (rad).
     /// If turns are [counted](PoseSolver::counting_turns), the angles include whole turns.
-    /// Otherwise only driving links with a given world angle have their present angles. All other links have their
-    /// angles in the start pose.
+    /// If turns are not counted, only driving links with a given world angle have their present angles. All other
+    /// links have their angles in the start pose.
     pub fn with_angles(&mut self) -> &State {
         if let Some(turns) = &self.turns {
             // Skip the frame, which does not turn, and a crank, whose angle is given as an input.

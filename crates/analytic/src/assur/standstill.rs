@@ -7,7 +7,8 @@ use linkage::error::Result;
 use linkage::math::KeepNan;
 use linkage::trajectory::Stage;
 
-/// Largest number of joints at rest whose friction is varied. All combinations of their senses are solved.
+/// Largest number of joints at rest whose friction is varied. The forces are solved for all combinations of the senses
+/// of friction in these joints.
 const MOST_RESTING: usize = 8;
 
 /// For every friction of [`Case::frictions`], the instants of the grid at which its contact stands still.

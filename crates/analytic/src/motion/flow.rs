@@ -31,13 +31,13 @@ enum Bound {
     TooFast,
     /// The motor leaves its branch towards lower speeds.
     TooSlow,
-    /// A knot of the loads' tables behind the crank.
+    /// The crank reaches the next lower knot of the loads' tables.
     KnotBehind,
-    /// A knot of the loads' tables ahead of the crank.
+    /// The crank reaches the next higher knot of the loads' tables.
     KnotAhead,
 }
 
-/// Bounds that every piece has.
+/// Kinds of bounds that every piece of the motion has.
 /// The numbers of these bounds come after the numbers of the loads' and transmissions' bounds.
 const COMMON: [Bound; 4] = [Bound::TooFast, Bound::TooSlow, Bound::KnotBehind, Bound::KnotAhead];
 /// A link, point or joint counts as at rest at the end of a piece if its speed is below this fraction of its largest

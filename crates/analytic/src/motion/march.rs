@@ -1,4 +1,4 @@
-//! Steps of DOP853 that end exactly at the end of a piece of the equation of motion.
+//! Integration by DOP853, with steps that end exactly where a smooth piece of the equation of motion ends.
 //! Requested instants lie inside the steps and need no additional step.
 //!
 //! A step of eighth order that contains a kink is only of first order.
@@ -60,7 +60,7 @@ const MOST_SHORT: usize = 400;
 /// A step may be longer than planned by this factor if the longer step reaches the last target. The factor avoids a
 /// tiny last step.
 const STRETCH: f64 = 1.001;
-/// Number of bisections of a step for a first estimate of the position of a bound.
+/// How often a step is bisected to estimate where the motion crosses a bound.
 const BISECTIONS: usize = 40;
 /// Largest number of repetitions of a shortened step. The secant method usually needs one or two repetitions.
 const CORRECTIONS: usize = 6;

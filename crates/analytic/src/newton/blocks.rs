@@ -27,7 +27,8 @@ struct Block {
     right: Vec<f64>,
 }
 
-/// A block-triangular square matrix. It is factored in place, and its storage is reused.
+/// A block-triangular square matrix. The factorisation replaces the matrix, and the storage is reused for the next
+/// matrix.
 #[derive(Clone, Debug)]
 pub(super) struct Blocks {
     blocks: Vec<Block>,

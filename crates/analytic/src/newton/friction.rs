@@ -21,7 +21,7 @@ use linkage::mechanism::{GROUND, LinkId};
 /// Largest number of Newton's steps.
 const MOST: usize = 40;
 /// If Newton's method does not converge, the friction is increased in steps from zero to its full value.
-/// This is the smallest step, as a fraction of the full value.
+/// `LEAST` is the smallest of these steps, as a fraction of the full value.
 const LEAST: f64 = 1e-3;
 /// The multipliers are settled if they change by less than this fraction of the largest one.
 const SETTLED: f64 = 1e-14;

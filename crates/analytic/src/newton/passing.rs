@@ -129,7 +129,7 @@ impl Passing {
         }
     }
 
-    /// Searches for change points near the present pose; `before` is a pose near it.
+    /// Searches for change points near the present pose; `before` is a pose near the present one.
     fn look(&mut self, system: &mut System, before: &Spot) -> Result<()> {
         let turned = self.spot.angle - before.angle;
         if turned == 0.0 {

@@ -19,7 +19,7 @@ pub(super) const TRACKING_STEP: f64 = PI / 90.0;
 /// Near a dead point speeds grow without limit, and steps must shrink with the distance to the dead point.
 pub(super) const HALVINGS: u32 = 40;
 /// Largest accepted jump of a link's velocity over a step, divided by the largest velocity.
-/// The jump is the part of the change that the link's acceleration does not explain.
+/// The jump is the change of the velocity, less the change that the link's acceleration explains.
 /// If a step changes to another branch where two branches cross, the velocity jumps, even if the step is very small.
 const VELOCITY_JUMP: f64 = 0.1;
 /// A pose is singular if the ratio of a block's determinant to the largest possible determinant is below this value.

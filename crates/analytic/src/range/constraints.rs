@@ -261,7 +261,7 @@ impl<'a> Constraints<'a> {
             }
         }
         if first.link != GROUND {
-            // This term is the part of the derivative that arises because the normal turns with the first link.
+            // This term of the derivative arises because the normal turns with the first link.
             equations.jacobian[(row, Self::angle(first.link))] -= axis.dot(&gap);
         }
     }

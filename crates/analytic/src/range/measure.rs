@@ -19,7 +19,8 @@ pub struct GroupCondition {
     /// Normalised determinant, from -1 to 1; zero in a singular pose.
     pub determinant: f64,
     /// Condition number (2-norm) of the normalised equations.
-    /// This is the largest ratio of relative errors of angular velocities to relative errors of position.
+    /// The condition number is the largest possible ratio of the relative error of the angular velocities to the
+    /// relative error of the positions.
     /// [`f64::MAX`] if the equations are singular to working precision.
     pub condition: f64,
 }

@@ -13,8 +13,8 @@ linkage::words! {
         DeadPoint = sentences::LIMIT_OF_ROTATION_DEAD_POINT,
         /// Branches cross: the determinant passes through zero linearly in the crank angle. The crank need not reverse.
         ChangePoint = "change point",
-        /// The two axes of an RPP or PRP dyad are parallel. Towards this pose the slides of the dyad grow without
-        /// bound.
+        /// The two axes of an RPP or PRP dyad are parallel. As this pose is approached, the slides of the dyad grow
+        /// without bound.
         ParallelAxes = "parallel axes",
         /// Another branch is so near the followed branch that the determinant is below 1e-3.
         /// The determinant keeps its sign.

@@ -44,7 +44,7 @@ const MEET: f64 = 1e-6;
 const SHORTEST: f64 = 1e-9;
 /// Largest number of steps of the search for a zero along the curve; about eight are needed.
 const STEPS_TO_ZERO: usize = 60;
-/// Largest number of poses. More poses indicate an error.
+/// Largest number of poses on a curve. A curve with more poses indicates an error of the program.
 const MOST_POINTS: usize = 200_000;
 /// Work (in the unit of budgets) of one elimination, or of two solutions with a factored matrix, divided by the square
 /// of the number of coordinates.
@@ -578,7 +578,7 @@ fn smallest_singular_value(matrix: &Matrix, x: &mut ColumnVector) -> (f64, usize
     (1.0 / largest.sqrt(), rounds)
 }
 
-/// Unit vector that the Jacobian maps to zero. Its scalar product with `along` is positive.
+/// Unit vector that the Jacobian maps to zero, with the sign for which the scalar product with `along` is positive.
 /// If there are several such vectors, returns `along`.
 fn tangent(jacobian: &Matrix, along: &ColumnVector) -> ColumnVector {
     let mut ahead = ColumnVector::zeros(along.len());

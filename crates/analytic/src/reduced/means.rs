@@ -31,8 +31,8 @@ pub fn moment_of_inertia(case: &Case, motions: &[Motion]) -> f64 {
 
 /// Reduced moment of resistance (N m): minus the power of gravity and loads divided by the driving link's angular
 /// velocity.
-/// This is the moment with which the drive balances gravity and loads, counter-clockwise positive. Where the drive must
-/// do work, the moment has the sign of the angular velocity.
+/// The moment of resistance equals the moment with which the drive balances gravity and loads, counter-clockwise
+/// positive. Where the drive must do work, the moment has the sign of the angular velocity.
 #[must_use]
 pub fn moment_of_resistance(case: &Case, state: &State) -> f64 {
     let power =

@@ -82,8 +82,8 @@ impl<'a> ReducedModel<'a> {
     /// The model does not use the value of this speed.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] for mechanisms of several degrees of freedom, and for loads that depend on the size
-    /// of speeds or are wound up by every turn.
+    /// [`ErrorKind::Unsupported`] for mechanisms of several degrees of freedom, for loads that depend on the magnitude
+    /// of speeds, and for springs that every turn winds up further.
     /// [`ErrorKind::Input`] for mechanisms without masses.
     /// The errors of [`kinks`](means::kinks) are passed on.
     pub fn of(case: &'a Case) -> Result<Self> {

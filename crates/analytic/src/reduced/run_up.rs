@@ -80,7 +80,7 @@ pub(crate) fn followed(
 
 struct Runner<'m, 'a> {
     flow: InTime<'m, 'a>,
-    /// Present state; the crank angle is without the completed periods.
+    /// Present state; the crank angle is counted from the beginning of the present period.
     place: Place<2>,
     /// Crank angle (rad) of all completed periods together.
     gone: f64,

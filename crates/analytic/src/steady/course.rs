@@ -45,7 +45,7 @@ impl ReducedModel<'_> {
 
     fn row(&self, poses: &mut PoseSolver, crank: f64) -> Result<ReducedRow> {
         let found = self.at(poses, crank, self.sense)?;
-        // A moment against the motion is positive, whichever way the crank turns.
+        // A moment against the motion is positive, in whichever sense the crank turns.
         let resistance = -self.sense * found.applied;
         Ok(ReducedRow { crank, inertia: found.inertia, slope: found.slope, resistance })
     }

@@ -35,7 +35,7 @@ pub struct Regime {
     pub period: f64,
     /// Turns of the crank in a period: 1, except with some higher groups and with load tables that cover several turns.
     pub turns: f64,
-    /// Mean angular velocity over time (rad/s): the turns divided by the period.
+    /// Mean angular velocity over time (rad/s): the angle of all turns, divided by the duration of the period.
     pub mean_speed: f64,
     /// Angular velocity of the crank at the start of the case (rad/s).
     pub start_speed: f64,
@@ -43,8 +43,9 @@ pub struct Regime {
     pub fastest: SpeedAtCrank,
     /// The smallest speed of the crank and its crank angle.
     pub slowest: SpeedAtCrank,
-    /// Ratio of a small deviation of the energy at the end of a period to the deviation at the beginning.
-    /// The ratio is below 1; otherwise the motion would not be stable.
+    /// A small deviation of the energy at the end of a period, divided by the deviation at the beginning of the
+    /// period.
+    /// The quotient of a stable motion is below 1.
     pub multiplier: f64,
     /// Speeds of the crank at the requested crank angles.
     pub samples: Vec<SpeedAtCrank>,

@@ -1,10 +1,9 @@
 //! Published methods for the class III group of order 3: a base link on three leads, all joints revolute.
 //!
 //! The methods compute, with independent equations, quantities that the two solvers also compute.
-//! For the motion, there are first transfer functions by Cramer's rule ([`cramer`]) and the exchange of the driving
-//! link ([`class_change`]).
-//! For the reactions, there are the singular Assur point ([`assur_point`]) and all equations of equilibrium at once
-//! ([`linear_system`]).
+//! Two methods give the motion: transfer functions by Cramer's rule ([`cramer`]), and the exchange of the driving link
+//! ([`class_change`]). Two methods give the reactions: the singular Assur point ([`assur_point`]), and the solution of
+//! all equations of equilibrium at once ([`linear_system`]).
 //!
 //! In these modules lead i goes from its foot A_i, the outer joint, to its head B_i, the joint with the base link.
 //! Arrays of three are in the order of [`Triad::leads`]. Arrays of four contain the three leads and then the base link.

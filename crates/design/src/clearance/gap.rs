@@ -176,7 +176,7 @@ fn closest(pieces: [&Piece; 2], placed: [&PlacedPiece; 2], places: [&PlacedSolid
             [middle; 2]
         }
         // The centres of the pieces replace the nearest points.
-        // This is valid because any two points of the pieces give an upper bound of the distance.
+        // The replacement is valid because any two points of the pieces give an upper bound of the distance.
         Ok(ClosestPoints::Disjoint) | Err(_) => placed.map(|piece| piece.centre),
     }
 }

@@ -31,7 +31,7 @@ const ANCESTORS: usize = 4;
 /// If the outline's border moves less than this fraction of a square's half diagonal, no window is tried for the
 /// square.
 const CROSSING: f64 = 0.02;
-/// Upper limit of the number of successive divisions of the first square.
+/// The first square is divided at most this many times in succession.
 const MOST_DIVISIONS: usize = 24;
 
 /// A swept area.

@@ -34,11 +34,11 @@ use linkage::math::{KeepNan, Matrix, Vec2, cross, rotated, turned};
 use linkage::mechanism::{Coordinate, GROUND, Joint, JointId, LinkId, TransmissionId};
 use linkage::trajectory::Stage;
 
-/// Largest width of a first part: the range is divided into first parts before any part is halved.
+/// Largest width of a part in the initial division of the range, before any part is halved.
 /// The limit is an angle (rad) for a crank, or a fraction of the mechanism's size for a slide.
 const FIRST: f64 = std::f64::consts::PI / 24.0;
-/// Upper limit of the number of halvings of a first part.
-/// The width of the smallest part is about 1.5e-8 times the width of the first part.
+/// How often each part of the initial division of the range may be halved at most.
+/// The width of the smallest possible part is about 1.5e-8 times the width before the first halving.
 pub const MOST_HALVINGS: u32 = 26;
 /// Largest number of boxes that are tried in search of a box that provably contains the motion.
 /// `WIDER` is the factor by which each trial widens the box.
@@ -49,7 +49,7 @@ const ROUNDING: f64 = 32.0 * f64::EPSILON;
 /// Upper limit of the number of cached slices. Slices beyond this limit are recomputed on demand.
 const KEPT: usize = 20_000;
 
-/// Part of the range that results from a first part by `halvings` halvings.
+/// Part of the range that results from a part of the initial division by `halvings` halvings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct RangePart {
     /// Number of halvings.
@@ -287,7 +287,7 @@ impl<'a> Tubes<'a> {
 }
 
 /// Units of links that are solved together, each with its equations, in the order of solution.
-/// A unit is a driving link whose drive is on a moving link, or a group.
+/// A unit is either a group, or a driving link whose driven joint connects it with a moving link.
 fn units(case: &Case) -> Vec<(&[LinkId], Vec<Row<'_>>)> {
     let mechanism = &case.mechanism;
     let drivers = case.structure.leading().map(|(_, driver)| driver);
@@ -311,7 +311,7 @@ struct Row<'a> {
     /// Rate of the sum per unit of the variable, and the largest deviation of the sum from a change at this rate.
     rate: f64,
     bend: f64,
-    /// Whether the sum must be zero at the middle. Otherwise the solver's pose gives the sum at the middle.
+    /// Whether the sum must be zero at the middle. If not, the solver's pose gives the sum at the middle.
     is_zero: bool,
 }
 

@@ -31,7 +31,7 @@ pub fn integral(start: f64, places: &[f64], rates: &[f64]) -> Vec<f64> {
 
 /// Returns the slopes of a curve that is periodic over `places`.
 /// The curve has the values `rates` at the midpoints of the intervals between `places`.
-/// Slopes are given at the inner places and at the last place.
+/// The result has a slope for each of `places` except the first.
 pub fn closed_slopes(places: &[f64], rates: &[f64]) -> Vec<f64> {
     let mut middles = middles(places);
     let mut values = rates.to_vec();

@@ -28,8 +28,8 @@ pub struct CrankGraph {
     pub mean_word: &'static str,
     /// Lowest and highest point of the graph on paper.
     pub marks: [GraphPoint; 2],
-    /// Reference size for the range of values.
-    /// If the range is below a billionth of this size, the range is rounding error, and the quantity counts as
+    /// Reference value (SI) for the range of the graph.
+    /// If the range is below a billionth of this value, the range is rounding error, and the quantity counts as
     /// constant.
     pub size: f64,
 }

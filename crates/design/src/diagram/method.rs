@@ -25,7 +25,7 @@ linkage::words! {
         IntegratedVelocity = "velocity by integration",
         /// Velocity from tangents to the displacement.
         TangentVelocity = "velocity by tangents",
-        /// Acceleration from tangents to the tangent velocity.
+        /// Acceleration from tangents to the velocity curve, which itself was found from tangents.
         TangentAcceleration = "acceleration by tangents",
         /// Displacement from areas below the velocity.
         AreaDisplacement = "displacement by areas",

@@ -31,7 +31,7 @@ pub fn graphs(graphs: &Graphs, title: &str) -> Drawing {
 fn panel(graph: &CrankGraph, [start, end]: [f64; 2]) -> DrawnFigure {
     let mut figure = DrawnFigure::default();
     let constant = graph.is_constant();
-    // A value of at most a billionth of the quantity's size is rounding error and is shown as zero.
+    // A value of at most a billionth of the graph's reference value is rounding error and is shown as zero.
     let clear = |value: f64| if value.abs() <= 1e-9 * graph.size.abs() { 0.0 } else { value };
     let mean = clear(graph.mean);
     let [low, high] = if constant { [mean.smaller(0.0), mean.larger(0.0)] } else { graph.range() };

@@ -30,7 +30,8 @@
 //!   Springs and dampers between points are spatial tendons.
 //! - A moment that resists the rotation of a link is dry friction.
 //!   The friction acts in the link's hinge if this is the only hinge between the ground and the link.
-//!   Otherwise the friction acts in a fixed tendon whose length is the link's angle.
+//!   If there are several hinges between the ground and the link, the friction acts in a fixed tendon whose length is
+//!   the link's angle.
 //!   Dry friction holds a link at rest, whereas [`Load::Resistance`](linkage::drive::Load::Resistance) is zero at rest.
 //! - Constraints are as stiff as the time step permits.
 //!   With `solref="1e-9 0.5"` MuJoCo raises the time constant to twice the step (`refsafe`).

@@ -6,7 +6,7 @@ use linkage::mechanism::{GROUND, JointSide, LinkId};
 
 /// Thickness of the shapes, divided by the mechanism's size.
 const THICKNESS: f64 = 0.012;
-/// Colours of links, used in turn: red, green, blue, opacity.
+/// Colours of links (red, green, blue, opacity), used one after the other.
 const COLOURS: [[f64; 4]; 6] = [
     [0.20, 0.42, 0.70, 1.0],
     [0.85, 0.45, 0.13, 1.0],

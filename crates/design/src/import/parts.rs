@@ -48,7 +48,7 @@ pub(super) struct LinkPart {
 
 impl LinkPart {
     /// A link whose frame has its origin at the first of `places` (world) and its x axis towards the second.
-    /// If the link has a single place, its frame has the direction `otherwise` (rad).
+    /// If `places` has only one entry, the frame has the direction `otherwise` (rad).
     pub(super) fn through(name: String, places: Vec<(String, Vec2)>, otherwise: f64) -> LinkPart {
         let origin = places.first().map_or(Vec2::zeros(), |(_, place)| *place);
         let along = places.iter().map(|(_, place)| place - origin).find(|along| along.norm() > 0.0);
@@ -84,8 +84,8 @@ fn local(pose: &LinkPose, place: Vec2) -> Vec2 {
 pub(super) enum PartPair {
     /// A pin. Both links have a point of this name, and the two points coincide.
     Pin(String),
-    /// A slide through a point of the first link and a point of the second. `axes` are its directions in the frames of
-    /// the two links (rad).
+    /// A slide through a point of the first link and a point of the second. `axes` are the directions of the slide in
+    /// the frames of the two links (rad).
     Slide { points: [String; 2], axes: [f64; 2] },
 }
 
@@ -134,7 +134,7 @@ pub(super) struct Parts {
     /// Remarks for the user: parts of the source that were not understood, and assumptions of the import.
     pub(super) told: Vec<String>,
     /// Whether coordinates are written with all digits.
-    /// Otherwise they are rounded to the twelfth digit of the mechanism's size.
+    /// If not, coordinates are rounded to the twelfth digit of the mechanism's size.
     pub(super) is_exact: bool,
     /// Step to which the source rounds its coordinates, in the source's length; 0 if the source has more than twelve
     /// digits.

@@ -132,7 +132,7 @@ impl<'a> Builder<'a> {
 
     /// Adds the vectors of a prismatic joint on a moving guide.
     /// In a velocity plan, the added vector is the relative velocity.
-    /// In an acceleration plan, the added vectors are the Coriolis part, if the guide can turn, and the relative
+    /// In an acceleration plan, the added vectors are the Coriolis part (if the guide can turn) and the relative
     /// acceleration.
     /// A fixed guide and a revolute joint add no vector.
     fn sliding(&mut self) {

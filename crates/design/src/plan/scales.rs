@@ -137,8 +137,8 @@ impl Plans {
         put(&mut plans[quantity.of(0, 1)], scale, &format!("mu_{}", quantity.symbol()))
     }
 
-    /// Quantity and size (SI) of a vector. `name` is the name of the vector, such as `v_A`, or the letters of the pole
-    /// and of the vector's end, such as `pa`.
+    /// Quantity and magnitude (SI) of a vector. `name` is the name of the vector, such as `v_A`, or the letters of the
+    /// pole and of the vector's end, such as `pa`.
     fn vector(&self, name: &str) -> Option<(Quantity, f64)> {
         Quantity::ALL.into_iter().find_map(|quantity| {
             let plan = self.plan_of(quantity);
@@ -178,7 +178,8 @@ fn put(place: &mut Option<f64>, scale: f64, symbol: &str) -> Result<()> {
     }
 }
 
-/// The scale factor at which a vector of the size `size` (SI) is `mm` long. `longest` is the plan's longest vector.
+/// The scale factor at which a vector of the magnitude `size` (SI) is `mm` long on paper. `longest` is the plan's
+/// longest vector.
 fn length(name: &str, size: f64, longest: f64, mm: f64) -> Result<f64> {
     // A vector below a billionth of the longest vector is a rounding error.
     if size > 1e-9 * longest {

@@ -56,12 +56,12 @@ linkage::words! {
         Fixed = "fixed",
         /// A named point of the mechanism.
         Point = "point",
-        /// A mass centre. Its letter is s with the number of the link.
+        /// A mass centre, marked with the letter s and the number of the link.
         MassCentre = "centre",
-        /// End of a normal part. Its letter is n with a running number.
+        /// End of the vector of a normal acceleration, marked with the letter n and a running number.
         Normal = "between",
-        /// Point of a moving guide's link that coincides with a sliding point. Its letter is that of the sliding point
-        /// with the number of the link: a3.
+        /// Point of a moving guide's link that coincides with a sliding point, marked with the letter of the sliding
+        /// point and the number of the link, such as a3.
         Coincident = "coincident",
         /// A singular point of a group. Its letter is σ.
         Singular = "singular",

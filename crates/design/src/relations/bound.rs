@@ -194,7 +194,9 @@ fn over(
     Ok(errors)
 }
 
-/// A joint's coordinate `by` by its polynomial, minus the true coordinate: value and derivative at the middle.
+/// Error of the polynomial for a joint's coordinate:
+/// `by`, the coordinate by the polynomial, minus the true coordinate.
+/// The first two numbers are value and derivative of this error at the middle of the part.
 /// The third number is the largest deviation of the true coordinate from a uniform change.
 fn difference(model: &RigidModel, body: &Body, by: Curved, tubes: &[Tube], half: f64) -> (f64, f64, f64) {
     let of = |link: LinkId| &tubes[link.index()];
@@ -213,7 +215,8 @@ fn difference(model: &RigidModel, body: &Body, by: Curved, tubes: &[Tube], half:
             let (from, to) = (point(body.branch.parent), point(body.branch.link));
             let (gap, rate, error) = (to.at - from.at, to.rate - from.rate, to.error + from.error);
             let (value, change) = (axis.dot(&gap), axis.dot(&rate) + spin * turned(axis).dot(&gap));
-            // The axis turns with the parent, by at most `turn`. Its deviation from a uniform motion is at most `bend`.
+            // The axis turns with the parent, by at most `turn`. The deviation of the axis from a uniform motion is at
+            // most `bend`.
             let turn = spin.abs() * half + twist;
             let (bend, reach) = (twist + turn * turn / 2.0, rate.norm() * half + error);
             let rest = error + bend * (gap.norm() + reach) + spin.abs() * half * reach;

@@ -41,7 +41,7 @@ pub struct PinError {
     pub joint: JointId,
     /// The link.
     pub link: LinkId,
-    /// Error of the place (m).
+    /// Error of the point's position (m).
     pub error: MimicError,
 }
 

@@ -34,8 +34,8 @@ fn precise_figures(scenario: &Scenario, found: &Sensitivity, key: &CaseKey, valu
     found.figures.iter().map(one).collect()
 }
 
-/// A small change of a key: 0.4 % of a size. The size of a dimension or parameter is the smallest nonzero number of the
-/// same unit.
+/// A small change of a key: 0.4 % of a reference value. For a dimension or parameter, the reference value is the
+/// smallest nonzero number of the same unit.
 fn small_change(key: &CaseKey, all: &[CaseKey]) -> f64 {
     let alike = all.iter().filter(|own| own.unit == key.unit && own.value != 0.0).map(|own| own.value.abs());
     match key.sort {
@@ -45,8 +45,8 @@ fn small_change(key: &CaseKey, all: &[CaseKey]) -> f64 {
     }
 }
 
-/// The size of a key: the magnitude of its number. If the number is zero, the size is the largest number of the same
-/// unit.
+/// The reference value of a key: the magnitude of its number. If the number is zero, the reference value is the
+/// largest number of the same unit.
 fn size_of(key: &CaseKey, all: &[CaseKey]) -> f64 {
     let alike = all.iter().filter(|own| own.unit == key.unit).map(|own| own.value.abs());
     let most = alike.fold(0.0, f64::larger);
@@ -78,8 +78,8 @@ fn compare(scenario: &Scenario, asked: &SensitivityQuestion, share: f64) -> usiz
     let found = sensitivity(scenario, asked).unwrap();
     let by: Vec<Vec<f64>> = found.keys.iter().map(|key| differences(scenario, &found, key)).collect();
     for (index, figure) in found.figures.iter().enumerate() {
-        // The derivative by a key times the size of the key is the key's effect. Effects of keys with different units
-        // can be compared.
+        // The effect of a key is the derivative by the key times the reference value of the key. Effects of keys with
+        // different units can be compared.
         let size = |k: usize| size_of(&found.keys[k], &found.keys);
         let most = (0..by.len()).map(|k| (figure.by[k] * size(k)).abs()).fold(0.0, f64::larger);
         for (k, key) in found.keys.iter().enumerate() {

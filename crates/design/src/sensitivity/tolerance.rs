@@ -37,7 +37,7 @@ pub struct ToleranceStack {
     pub sampled_shift: f64,
     /// Smallest and largest sampled figure minus the nominal figure.
     pub sampled_ends: [f64; 2],
-    /// Number of random mechanisms that could not be solved. They are left out of the statistics.
+    /// Number of random mechanisms that could not be solved. The statistics leave out these mechanisms.
     pub unsolved: usize,
     /// Range in which linear theory is valid.
     pub limit: LinearLimit,
@@ -53,7 +53,7 @@ pub enum LinearLimit {
     /// At this multiple, a random mechanism cannot be solved. Linear theory is not invalid at any smaller multiple that
     /// was tried.
     UntilUnsolved(f64),
-    /// Linear theory is valid up to this multiple, the largest one tried.
+    /// Linear theory is valid up to this multiple of the tolerances; no larger multiple was tried.
     Beyond(f64),
 }
 

@@ -36,8 +36,8 @@ impl DraftContents {
         self.bars(name, &[(first, Complex::default()), (second, Complex::new(length, 0.0))])
     }
 
-    /// Scenario text of a link that consists of slender bars. They join the first of `points` (m, in the link's frame)
-    /// to each of the others.
+    /// Scenario text of a link that consists of slender bars. The bars join the first of `points` (m, in the link's
+    /// frame) to each of the other points.
     fn bars(&self, name: &str, points: &[(&str, Complex)]) -> String {
         let first = points[0].1;
         let arms = || points[1..].iter().map(|(_, point)| point - first);

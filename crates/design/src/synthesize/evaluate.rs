@@ -67,7 +67,7 @@ impl<'a> Evaluator<'a> {
 
     /// Computes the output at the crank angles `turns` into `curve`.
     /// These crank angles (rad) are measured from crank angle zero in the sense of rotation.
-    /// They ascend from the first angle to the angle one turn later.
+    /// The crank angles ascend over one turn: the last angle is one turn after the first.
     /// At crank angle zero, the crank has the world direction `zero` (rad).
     ///
     /// # Errors
@@ -161,8 +161,8 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// World place of the output link's working point (m), or the origin without such a point, and angle of the output
-    /// link (rad), in a recorded row.
+    /// Position and angle of the output link in a recorded row: world position of its working point (m; the origin if
+    /// it has none), and angle (rad).
     pub(super) fn position(&self, row: usize) -> (Vec2, f64) {
         let (link, point) = self.task.output.working_point();
         let motion = &self.recorded[row][link];

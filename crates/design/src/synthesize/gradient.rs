@@ -30,7 +30,8 @@ use wishes::Wishes;
 
 /// Weight of the largest violation of a limit in the cost of a candidate, relative to the largest deviation.
 const VIOLATION: f64 = 10.0;
-/// Accuracy at which the optimiser ends. It applies to the deviation, the constraints and the fractions.
+/// Accuracy at which the optimiser ends. The accuracy applies to the deviation, to the constraints, and to the
+/// variables as fractions of their ranges.
 const ACCURACY: f64 = 1e-9;
 /// Upper limit of the deviation, and bounds of the levels, as fractions of the stroke.
 const MOST_DEVIATION: f64 = 100.0;
@@ -53,7 +54,8 @@ pub(super) fn check(task: &Task) -> Result<()> {
     Ok(())
 }
 
-/// The candidate after refinement. Its cost is the largest deviation plus ten times the largest violation of a limit.
+/// The candidate after refinement. The cost of a candidate is the largest deviation plus ten times the largest
+/// violation of a limit.
 pub(super) fn refine(task: &Task, candidate: &Candidate) -> Candidate {
     let frame = match task.timing.phases() {
         [] => Rater::even(&task.timing, (TAU / STEP).round() as usize),

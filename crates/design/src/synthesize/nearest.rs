@@ -7,7 +7,7 @@ use crate::synthesize::task::{PrecisionPoint, Task};
 
 /// Crank angles (rad) of all precision points.
 /// Free crank angles are chosen among the crank angles `turns` of the evaluator's last run.
-/// They ascend within one turn and have the smallest possible sum of squared deviations.
+/// The chosen angles ascend within one turn and have the smallest possible sum of squared deviations.
 /// The last crank angle of the run is a turn after the first.
 pub(super) fn nearest(task: &Task, evaluator: &Evaluator, turns: &[f64]) -> Vec<f64> {
     let count = turns.len() - 1;

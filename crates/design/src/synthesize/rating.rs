@@ -2,9 +2,9 @@
 //!
 //! The output is measured from its smallest value and divided by its stroke, so that amplitude and offset do not
 //! matter.
-//! The cost is a sum of squares of fractions of the stroke.
-//! The terms are: motion in dwells, distances in the wrong sense, deviations from required levels, too little motion in
-//! moving phases, and the output's rate between two opposite motions.
+//! The cost is a sum of squares; each squared term is a fraction of the stroke.
+//! The terms are: motion in dwells, distances in the wrong sense, deviations from required levels, too little motion
+//! in moving phases, and the output's rate between two opposite motions.
 //! If the output must follow a curve, the deviation from the curve is a further term.
 //! A cost of 1e-4 corresponds to a deviation of about one hundredth of the stroke.
 

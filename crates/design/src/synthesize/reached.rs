@@ -19,11 +19,11 @@ const ROWS: usize = 720;
 pub struct ReachedPoint {
     /// Crank angle (rad, from crank angle zero in the sense of rotation).
     pub turn: f64,
-    /// World place of the working point (m); the origin if the output link has no working point.
+    /// World position of the working point (m); the origin if the output link has no working point.
     pub place: Vec2,
     /// Angle of the output link (rad).
     pub angle: f64,
-    /// Distance from the required place (m). `None` if no place is required.
+    /// Distance from the required position (m). `None` if no position is required.
     pub distance: Option<f64>,
     /// Angle minus required angle (rad). `None` if no angle is required.
     pub turned: Option<f64>,
@@ -83,8 +83,8 @@ fn coarse(task: &Task) -> Vec<f64> {
     }
 }
 
-/// Largest distance from a required place (m), and largest deviation from a required angle (rad).
-/// `None` if no point requires a place, or an angle.
+/// Largest distance from a required position (m), and largest deviation from a required angle (rad).
+/// The first is `None` if no point requires a position, the second if no point requires an angle.
 pub fn largest_deviations(points: &[ReachedPoint]) -> [Option<f64>; 2] {
     let largest = |of: &dyn Fn(&ReachedPoint) -> Option<f64>| points.iter().filter_map(of).reduce(f64::larger);
     [largest(&|point| point.distance), largest(&|point| point.turned.map(f64::abs))]

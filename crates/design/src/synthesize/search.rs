@@ -4,8 +4,8 @@
 //! Every block of candidates has a separate random stream (ChaCha, by Bernstein).
 //! The result therefore depends on the seed and not on the number of threads.
 //! Two methods refine the best candidates, one after the other.
-//! The first is an evolution strategy with one parent, one child and the one-fifth rule (Rechenberg 1973). It can cross
-//! kinks and edges of the cost.
+//! The first is an evolution strategy with one parent, one child and the one-fifth rule (Rechenberg 1973). The
+//! evolution strategy can cross kinks and edges of the cost function.
 //! The second is linear approximation within a trust region (COBYLA, Powell 1994).
 
 mod refine;
@@ -55,7 +55,7 @@ pub struct SearchResult {
     pub values: Vec<f64>,
     /// Sense of the output that counts as forward: +1 or -1.
     pub forward: f64,
-    /// Cost of the best candidate. With an evolution strategy: a sum of squares of fractions of the stroke.
+    /// Cost of the best candidate. With an evolution strategy: a sum of squared terms, each a fraction of the stroke.
     /// With exact derivatives: the largest deviation plus ten times the largest violation of a limit.
     pub cost: f64,
     /// Cost of the best random candidate before refinement, computed at fewer crank angles than `cost`. NaN if no

@@ -156,7 +156,7 @@ pub fn at_speed(case: &Case, speed: f64) -> Result<Case> {
 pub struct OutputAccelerations {
     /// Angular acceleration of the output link (rad/s^2). `None` if the output is a coordinate.
     pub angular: Option<f64>,
-    /// Acceleration of the working point, or of the output point (m/s^2). `None` without such a point.
+    /// Acceleration of the working point, or of the output point (m/s^2). `None` if the output has neither point.
     pub point: Option<f64>,
 }
 

@@ -219,7 +219,7 @@ impl Task {
     /// [`ErrorKind::Unsupported`] if the task has precision points or limits that only exact derivatives keep, but asks
     /// for an evolution strategy.
     /// [`ErrorKind::Input`] if no dimension may vary, or if a count of the search is outside its limits.
-    /// [`ErrorKind::Input`] if an acceleration is limited or a place is required, but the output has no point.
+    /// [`ErrorKind::Input`] if an acceleration is limited or a position is required, but the output has no point.
     pub fn check(&self) -> Result<()> {
         let wrong = |kind: ErrorKind, key: &str, message: &'static str, help: &'static str| {
             Err(Error::new(kind, message).key(key).help(help))

@@ -8,7 +8,7 @@ use svg::Document;
 /// A finished drawing: a figure on white paper.
 #[derive(Clone, Debug)]
 pub struct Drawing {
-    /// The figure. Its origin is the paper's upper left corner.
+    /// The figure. The origin of its coordinates is the paper's upper left corner.
     pub figure: DrawnFigure,
     /// Size of the paper (mm).
     pub size: [f64; 2],

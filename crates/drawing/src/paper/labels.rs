@@ -87,7 +87,8 @@ impl Obstacles {
     }
 }
 
-/// A position that a label may take, with its cost among lines, marks and points. Other labels are not included.
+/// A position that a label may take, with its cost among lines, marks and points. The cost does not include overlaps
+/// with other labels.
 #[derive(Clone, Copy)]
 struct Spot {
     at: Vec2,

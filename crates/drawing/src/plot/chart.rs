@@ -19,7 +19,7 @@ pub struct PlotAxis {
     /// The ticks of angles have usual steps, such as 30 or 45 degrees. The steps of long ranges are multiples of a
     /// turn, and the steps of very short ranges are round numbers.
     pub degrees: bool,
-    /// Whether the axis ends at round numbers. Otherwise the axis ends at the extreme values of the curves.
+    /// Whether the axis ends at round numbers. If not, the axis ends at the extreme values of the curves.
     pub rounded: bool,
 }
 
@@ -30,9 +30,9 @@ pub struct PlotCurve {
     pub name: String,
     /// Pairs of values in the order of drawing. The curve has a gap at a pair that is not finite.
     pub points: Vec<[f64; 2]>,
-    /// Size of the rounding errors of the ordinates.
-    /// If all ordinates of a chart lie within twice the largest such size, the range of the vertical axis is widened,
-    /// so that the curves look constant.
+    /// Largest rounding error of the ordinates.
+    /// If all ordinates of a chart lie within twice the largest of these errors, the range of the vertical axis is
+    /// widened, so that the curves look constant.
     pub noise: f64,
     /// Marked points with their labels.
     pub marks: Vec<([f64; 2], String)>,

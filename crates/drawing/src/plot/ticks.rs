@@ -33,8 +33,8 @@ pub(super) struct Ticks {
 impl Ticks {
     /// Ticks of an axis of the length `long` (mm) for values from `low` to `high`.
     /// The distance between neighbouring ticks is at least `apart` (mm).
-    /// `noise` is the size of rounding errors. If the range of the values is at most twice this size, they count as
-    /// constant.
+    /// `noise` is the largest rounding error of the values. If the range of the values is at most twice this error,
+    /// the values count as constant.
     pub(super) fn of(axis: &PlotAxis, [low, high]: [f64; 2], noise: f64, long: f64, apart: f64) -> Ticks {
         let count = (long / apart).floor().larger(1.0);
         let [low, high] = widened([low, high], noise, axis.degrees);

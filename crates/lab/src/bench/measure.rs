@@ -1,4 +1,4 @@
-//! Runs all methods and measures their times in rounds. Each round runs the methods in turn.
+//! Runs all methods and measures their times in rounds. Each round runs the methods one after the other.
 //! The load of other programs on the machine therefore affects all methods alike.
 
 use super::ladder::{Planned, Runner};

@@ -123,7 +123,8 @@ pub struct RunEffort(pub Vec<(String, u64)>);
 
 /// Names of counts that give the number of solutions of the whole mechanism, each at one state.
 /// The first entry whose counts have a sum above zero is used.
-/// Evaluations come first, because a step of a multistage method has one evaluation for each of its stages.
+/// The list begins with evaluations, because each stage of a multistage method has an evaluation, so that a step has
+/// several.
 const SOLUTIONS: [&[&str]; 3] = [&["evaluations"], &["steps", "probes"], &["poses"]];
 /// Names of counts that give the inner work of the solutions. The first count above zero is used.
 const INNER: [&[&str]; 4] = [&["sweeps"], &["factorisations"], &["iterations"], &["groups"]];

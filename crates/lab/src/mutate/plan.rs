@@ -240,8 +240,8 @@ pub(super) fn smallest(whole: f64, margin: f64, is_found: &dyn Fn(f64) -> bool) 
         }
     }
     let Some(mut lost) = lost else { return found };
-    // If the first guess was too small, the search increases the size in steps. It then bisects the interval between
-    // the last undetected and the first detected size.
+    // If the first guess was too small, the search increases the size in steps. The search then bisects the interval
+    // between the last undetected size and the first detected size.
     while found > STEP * lost {
         let size = lost * STEP;
         if is_found(size) {

@@ -97,8 +97,8 @@ fn half_the_smallest_detected_size_is_not_detected() {
 }
 
 /// Symptom: the shipped scenarios did not reveal these faults, because no shipped scenario had the affected features.
-/// The features are a slider on a moving guide, the moment of a guide in a higher group, and a slider of the spanning
-/// tree that carries another slider. The three scenarios of this test have these features.
+/// The three scenarios of this test have the affected features: a slider on a moving guide, the moment of a guide in a
+/// higher group, and a slider of the spanning tree that carries another slider.
 #[test]
 fn faults_of_sliders_on_moving_guides_are_found_in_every_party() {
     let kinds = ["coriolis-missing", "velocity-guide", "guide-moment-missing", "guide-moment-sign", "guide-aside"];

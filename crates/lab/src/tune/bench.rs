@@ -57,7 +57,8 @@ pub(super) struct Bench<'a> {
     pub(super) is_spent: bool,
 }
 
-/// Lower limit of a run's cost at any step: pairs of number of sweeps and cost, in ascending order.
+/// The cost below which no run lies, whatever its step size.
+/// Stored as pairs (number of sweeps, cost), in ascending order.
 /// The limit exists because results are read at every instant.
 /// Some methods for reactions also do all sweeps at every instant.
 struct Floor(Vec<(usize, f64)>);

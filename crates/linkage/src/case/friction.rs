@@ -1,7 +1,7 @@
 //! Dry friction in the joints, and losses of transmissions.
 //!
 //! Friction acts against the sliding of a joint.
-//! The size of the friction is the coefficient of friction mu times the sum of the normal forces of the joint's
+//! The magnitude of the friction is the coefficient of friction mu times the sum of the normal forces of the joint's
 //! contacts.
 //! A journal of the radius r has one contact, with the force R of the joint: the moment is mu r |R|.
 //! A guide of the length l carries the force N and the moment M by contacts at its two ends.

@@ -124,7 +124,7 @@ impl When {
         if let When::Crank(crank) = self { Some(crank) } else { None }
     }
 
-    /// The time (s), if the value is valid at a time.
+    /// The time (s); `None` if the instant is given as a crank angle.
     #[must_use]
     pub fn time(self) -> Option<f64> {
         if let When::Time(time) = self { Some(time) } else { None }

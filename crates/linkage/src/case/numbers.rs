@@ -29,7 +29,7 @@ pub enum CaseNumber {
     },
     /// Moment of inertia of a link about its mass centre (kg m^2).
     Inertia(LinkId),
-    /// Coordinate of the place of a joint on one of its links (m).
+    /// Coordinate of a joint on one of the joint's links (m).
     Place {
         /// The joint.
         joint: JointId,

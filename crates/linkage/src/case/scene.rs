@@ -251,8 +251,8 @@ impl<'a> Needs<'a> {
 
     /// The links of the reduced case.
     /// If a joint is left out, its two links still have a point with the joint's name.
-    /// The link that depends on fewer groups keeps the name of the point.
-    /// On the second link, a number is added to the name.
+    /// On the link that depends on fewer groups, the point keeps its name.
+    /// On the other link, a number is added to the point's name.
     fn links(&self) -> Vec<Link> {
         let whole = &self.case.mechanism;
         let stays = |index: &LinkId| self.moves[*index];

@@ -18,14 +18,14 @@ use crate::mechanism::{JointId, JointSide, LinkId};
 /// A load on one link, or between two links.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Load {
-    /// Moment of constant size, opposite to the link's rotation. The moment is zero at standstill.
+    /// Moment of constant magnitude, opposite to the link's rotation. The moment is zero at standstill.
     Resistance {
         /// The loaded link.
         link: LinkId,
-        /// Size of the moment (N m), not negative.
+        /// Magnitude of the moment (N m), not negative.
         moment: f64,
     },
-    /// Moment that does not depend on the size of the speed. The moment may be limited to one sense of the link's
+    /// Moment that does not depend on the magnitude of the speed. The moment may be limited to one sense of the link's
     /// rotation.
     Moment {
         /// The loaded link.
@@ -44,12 +44,12 @@ pub enum Load {
         /// Whether the components are along the link's axes, so that the force turns with the link.
         follows: bool,
     },
-    /// Force of constant size, opposite to the motion of a point of a link: -F v / |v|. The force is zero at
+    /// Force of constant magnitude, opposite to the motion of a point of a link: -F v / |v|. The force is zero at
     /// standstill.
     ResistingForce {
         /// Point of application.
         at: JointSide,
-        /// Size of the force (N), not negative.
+        /// Magnitude of the force (N), not negative.
         force: f64,
     },
     /// Spring between two points.
@@ -395,8 +395,8 @@ impl Load {
         if let Load::ResistingForce { force, .. } = self { way * -force } else { Vec2::zeros() }
     }
 
-    /// Size of the load's jump at the crank angle `crank` (rad), for a motion that reverses there and determines the
-    /// load's sense.
+    /// Magnitude of the load's jump at the crank angle `crank` (rad), if the motion that determines the load's sense
+    /// reverses at this angle.
     /// The jump is in N m, or in N for a force.
     /// For friction, the result is the jump per newton of the normal force.
     /// A load that depends on no sense of motion, or is zero at this crank angle, has no jump.
@@ -425,7 +425,7 @@ impl Load {
         if let &Load::Friction { coefficient, .. } = self { Some(coefficient.abs()) } else { None }
     }
 
-    /// For a [resistance](Load::Resistance): the loaded link and the size of the moment (N m).
+    /// For a [resistance](Load::Resistance): the loaded link and the magnitude of the moment (N m).
     /// A resistance is the only load that some engines and formats support directly.
     #[inline]
     #[must_use]
@@ -433,7 +433,7 @@ impl Load {
         if let &Load::Resistance { link, moment } = self { Some((link, moment)) } else { None }
     }
 
-    /// Whether the load depends on the sizes of speeds, in addition to their signs.
+    /// Whether the load depends on the magnitudes of speeds, and not only on their signs.
     #[must_use]
     pub fn is_viscous(&self) -> bool {
         self.nature().is_viscous

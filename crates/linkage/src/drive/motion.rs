@@ -157,7 +157,7 @@ impl MotionLaw {
     #[must_use]
     pub fn time_of(&self, gone: f64) -> f64 {
         match *self {
-            // Adding zero turns the -0 of a clockwise crank into 0.
+            // Adding zero changes the -0 of a clockwise crank to 0.
             MotionLaw::ConstantSpeed(omega) => gone / omega + 0.0,
             MotionLaw::Ramp { speed, time } => match gone / speed {
                 early if early < time / 2.0 => (2.0 * time * early).sqrt(),

@@ -12,7 +12,7 @@ pub enum MotorLaw {
     },
     /// M = `at_rest` + `slope` omega.
     /// The straight line is the characteristic of a direct-current motor.
-    /// It also approximates the stable branch of an induction motor's characteristic.
+    /// The straight line also approximates the stable branch of an induction motor's characteristic.
     Linear {
         /// Torque of the straight line at standstill (N m).
         at_rest: f64,

@@ -10,7 +10,7 @@
 
 use super::{Motion, Vec2, turned};
 
-/// The place at which a plane motion has no velocity, or no acceleration.
+/// The point at which a plane motion has no velocity, or no acceleration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum MotionCentre {
     /// At this world position (m).
@@ -77,7 +77,7 @@ impl Motion {
     }
 }
 
-/// Instant centre of two bodies: the place at which the two bodies have the same velocity.
+/// Instant centre of two bodies: the point at which the two bodies have the same velocity.
 /// Velocities below `noise` count as zero.
 #[must_use]
 pub fn instant_centre(first: &Motion, second: &Motion, noise: MotionNoise) -> MotionCentre {

@@ -31,7 +31,8 @@ const APART: f64 = 1e-7;
 
 /// Real zeros in [0, 2 pi), in ascending order, of the trigonometric polynomial that equals `f`.
 /// The degree of the polynomial is at most `degree` (1 or more).
-/// `scale` is the size of the terms whose sum is `f`. The limit for rounding errors is proportional to `scale`.
+/// `scale` is the order of magnitude of the terms whose sum is `f`. The limit for rounding errors is proportional to
+/// `scale`.
 /// A touching zero counts once. Leading coefficients may be zero.
 ///
 /// Returns `None` if `f` is not finite, or zero everywhere up to rounding error.
@@ -141,7 +142,7 @@ fn between(coefficients: &[Complex<f64>], from: f64, to: f64) -> f64 {
 ///
 /// The map z = (w + a) / (1 + conj(a) w), |a| < 1, preserves the unit circle.
 /// Zero leading coefficients correspond to roots at infinity. The map moves these roots to -1 / conj(a).
-/// The leading coefficient of the mapped polynomial has the size of the original polynomial's value at a.
+/// The magnitude of the mapped polynomial's leading coefficient is that of the original polynomial's value at a.
 /// The number a is chosen so that the polynomial's value at a is large. The companion matrix is then well scaled.
 fn roots(polynomial: &[Complex<f64>]) -> Option<Vec<Complex<f64>>> {
     let n = polynomial.len() - 1;

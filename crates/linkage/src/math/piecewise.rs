@@ -49,7 +49,7 @@ impl Piecewise {
         self
     }
 
-    /// The periodic cubic spline through `(x, y)`. Its first two derivatives are continuous everywhere.
+    /// The periodic cubic spline through `(x, y)`, with continuous first and second derivatives.
     /// De Boor, "A practical guide to splines", 1978, chapter IV.
     /// The x ascend within one period. At least one point is needed.
     pub fn periodic_spline(points: &[(f64, f64)], period: f64) -> Self {

@@ -274,7 +274,7 @@ impl Transmission {
         Ok(Some(Losses { joint, per, lever: self.lever() * per.signum(), lost }))
     }
 
-    /// Moment of a unit force in the first line of action about the axle of the first member (m).
+    /// Lever arm of a force in the first line of action about the axle of the first member (m), with its sign.
     fn lever(&self) -> f64 {
         let line = &self.fixed.lines[0];
         cross(line.feet[0] - self.members[0].place, line.direction)

@@ -201,7 +201,7 @@ pub(crate) mod rows {
 /// One channel of a trajectory: a row of [`CHANNELS`] for one subject, such as a link, a joint or the frame.
 #[derive(Clone, Debug)]
 pub struct Channel {
-    /// Name of the subject; empty for the frame and the first drive. A further drive has the name of its joint.
+    /// Name of the subject; empty for the frame and the first drive. For any other drive, the name of its joint.
     pub of: String,
     /// Row of the table.
     pub kind: &'static ChannelKind,

@@ -4,8 +4,8 @@
 //! The observed order is p = log2(|e1| / |e2|).
 //! The error of the run at h is estimated as |e2| 2^p / (2^p - 1) (Richardson), times a safety factor.
 //! If the observed order agrees with the formal order, p is the formal order and the factor is 1.25.
-//! Otherwise p is the smaller of the two orders and the factor is 3 (Oberkampf and Roy, "Verification and validation in
-//! scientific computing", 2010, section 8.7; grid convergence index of Roache and ASME V&V 20).
+//! If the two orders disagree, p is the smaller order and the factor is 3 (Oberkampf and Roy, "Verification and
+//! validation in scientific computing", 2010, section 8.7; grid convergence index of Roache and ASME V&V 20).
 //! Oberkampf and Roy use the factor 1.25 if the observed order differs from the formal order by up to a tenth of the
 //! formal order.
 //! In this module the observed order may deviate by only a fiftieth, because errors of two orders can cancel in the

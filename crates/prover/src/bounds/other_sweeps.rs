@@ -34,10 +34,10 @@ pub struct OtherSweeps<T> {
     /// has one sweep. The second run has the sweeps of the first run divided by `factor`.
     /// `None` for an engine that does not iterate, and for a missing run.
     pub runs: [Option<T>; 2],
-    /// Ratio of the numbers of sweeps of successive runs.
+    /// Factor between the numbers of sweeps of successive runs.
     pub factor: f64,
     /// Largest [growth](OtherSweeps::growth) over the position channels; 0 if no growth is known.
-    /// For a judgement of the engine's own forces: the largest growth over these forces.
+    /// If the forces that the engine itself exerts are judged: the largest growth over these forces instead.
     pub growth: f64,
 }
 

@@ -52,7 +52,7 @@ impl Residual {
 
 /// A force counts as rounding if it is at most this fraction of the largest force.
 /// Forces of the analytic sides are accurate to a tenth of this limit.
-/// Any value counts as rounding if it is at most this fraction of the size of its quantity in `Built`.
+/// Any value counts as rounding if it is at most this fraction of its quantity's natural size in `Built`.
 const VANISHING: f64 = 1e-9;
 
 /// Scale of every channel: half the range of its values over the run.
@@ -109,7 +109,7 @@ pub(crate) fn scales_beyond(errors: &[f64], trajectory: &Trajectory, built: &Bui
     trajectory.channels().iter().enumerate().map(of).collect()
 }
 
-/// Sizes that follow from the data of a case. These sizes do not depend on which parts of the case move.
+/// Natural sizes that follow from the data of a case, whichever links move.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Built {
     /// Size of the mechanism (m).
@@ -122,8 +122,8 @@ pub(crate) struct Built {
 }
 
 impl Built {
-    /// Size of a quantity with this unit, from the sizes in `self`.
-    /// The size of angles and of their derivatives is proportional to the rotation `turn` (rad).
+    /// Natural size of a quantity with this unit, from the data in `self`.
+    /// The natural size of angles and of their derivatives is proportional to the rotation `turn` (rad).
     fn of(&self, unit: Unit, turn: f64) -> f64 {
         let Built { length, speed, force } = *self;
         match unit {
@@ -138,14 +138,16 @@ impl Built {
         }
     }
 
-    /// Returns `size`, or the case's size for this unit if `size` is only rounding error of the case's size.
+    /// Returns `size`, or the natural size from the case's data for this unit if `size` is only a rounding error of
+    /// that natural size.
     pub(crate) fn unless(&self, size: f64, unit: Unit) -> f64 {
         let own = self.of(unit, 1.0);
         if size <= VANISHING * own { own } else { size }
     }
 }
 
-/// Whether a channel is a position or an angle: the origin is then arbitrary, so the size of the values has no meaning.
+/// Whether a channel is a position or an angle: the origin is then arbitrary, so the magnitude of the values has no
+/// meaning.
 fn is_coordinate(channel: &Channel) -> bool {
     matches!(channel.kind.unit, Unit::Radian | Unit::Metre)
 }
@@ -339,7 +341,7 @@ mod tests {
         let all = trajectory(&[("joint.A.fx_N", vec![2e9, -1e9]), ("frame.fx_N", vec![3.0, 4.0])]);
         assert_eq!(magnitudes(&all), [2e9, 2e9]);
         assert_eq!(magnitudes_by(&all, &[0, 0], &|_, _| true), [2e9, 2e9]);
-        // The sizes in a second set of channels count only if the channel's set is computed from the second set.
+        // The magnitudes of channels in a second set count only if the channel's set is computed from the second set.
         assert_eq!(magnitudes_by(&all, &[0, 1], &|from, to| from == to), [2e9, 4.0]);
         assert_eq!(magnitudes_by(&all, &[0, 1], &|from, to| from <= to), [2e9, 2e9]);
         // The scale of the channel, however, is half the channel's own range.
@@ -390,12 +392,13 @@ mod tests {
         let built = Built { length: 0.5, speed: 4.0, force: 30.0 };
         let found = scales_beyond(&[1e-10; 5], &still, &built);
         assert_eq!(found, [1e-3, 0.1 * 4.0, 0.1 * 16.0 * 0.5, 0.1 * 30.0, 0.1 * 15.0]);
-        // Even a very small size remains unchanged if it is larger than the rounding error of the case's size.
+        // Even a very small natural size remains unchanged if it is larger than the rounding error of the natural size
+        // from the case's data.
         assert_eq!([3e-9, 4e-8, 1.0].map(|own| built.unless(own, Unit::Newton)), [30.0, 4e-8, 1.0]);
     }
 
-    /// The crank rotates by 6 rad in 4 s, coordinates reach 3 m, and forces reach 500 N. The size of each quantity that
-    /// vanishes follows from these values.
+    /// The crank rotates by 6 rad in 4 s, coordinates reach 3 m, and forces reach 500 N. The natural size of each
+    /// quantity whose channels are all zero follows from this rotation, this time, and these coordinates and forces.
     #[test]
     fn sizes_of_zero_channels_follow_from_the_crank() {
         let names =

@@ -132,7 +132,7 @@ impl fmt::Display for Term {
 }
 
 impl FormulaCause {
-    /// The formula that contains the cause, and the wrong parts of its text (byte ranges).
+    /// The formula that contains the cause, and the wrong pieces of its text (byte ranges).
     /// `None` if the cause has no place in a formula.
     #[must_use]
     pub fn place(&self) -> Option<(&str, Vec<Range<usize>>)> {
@@ -155,7 +155,7 @@ impl FormulaCause {
     }
 
     /// The cause in words, for display below a formula text in which the cause is marked. The words repeat only the
-    /// marked parts.
+    /// marked pieces of text.
     /// `text` is the text of the formula that [`FormulaCause::place`] names.
     #[must_use]
     pub fn at_marks(&self, text: &str) -> String {
@@ -200,7 +200,7 @@ pub struct CauseSearch {
     pub cause: Option<FormulaCause>,
     /// Whether the search reached its work limit without finding a cause of the whole error.
     pub is_cut: bool,
-    /// Number of operations used. One operation is the cost of evaluating one part of a formula at one instant.
+    /// Number of operations used. One operation is the cost of evaluating one subexpression at one instant.
     pub work: u64,
 }
 

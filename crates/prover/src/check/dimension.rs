@@ -13,12 +13,12 @@ pub(super) type Dimension = [f64; 3];
 /// A dimension; `None` if unknown.
 pub(super) type Known = Option<Dimension>;
 
-/// Error: inconsistent dimensions. Two parts have different dimensions but are added or compared, or the argument of a
-/// function has a dimension.
+/// Error: inconsistent dimensions. Two operands have different dimensions but are added or compared, or the argument
+/// of a function has a dimension.
 struct Unsound;
 
 const NONE: Dimension = [0.0; 3];
-/// Cost of inspecting a formula or looking up a name, as a multiple of the cost of evaluating one part of a formula.
+/// Cost of inspecting a formula or looking up a name, as a multiple of the cost of evaluating one subexpression.
 const LOOK: u64 = 4;
 
 /// Dimensions of the formulas of a derivation.
@@ -73,10 +73,10 @@ impl<'a> Dimensions<'a> {
     }
 
     /// Judges by units whether the author may have meant the trees in `changed`.
-    /// `replaced` holds the old and the new part in the formula `index`.
+    /// `replaced` holds the old and the new subexpression in the formula `index`.
     /// `Some(true)` if the units are consistent.
-    /// `Some(false)` if the units are inconsistent although the old and the new part have the same known dimension. The
-    /// replacement is then not the cause of the inconsistency.
+    /// `Some(false)` if the units are inconsistent although the old and the new subexpression have the same known
+    /// dimension. The replacement is then not the cause of the inconsistency.
     /// `None` otherwise.
     pub(super) fn standing(
         &self,
@@ -163,7 +163,7 @@ fn of_unit(unit: &str) -> Known {
     })
 }
 
-/// Common dimension of two parts that are added, subtracted, compared, or passed to `atan2`.
+/// Common dimension of two expressions that are added, subtracted, compared, or passed to `atan2`.
 fn same(one: Known, other: Known) -> Result<Known, Unsound> {
     match (one, other) {
         (Some(one), Some(other)) if one != other => Err(Unsound),

@@ -102,8 +102,8 @@ fn orders(formula: &Formula, claim: &Claim, course: &KnownTrajectory) -> Result<
 
 /// Judges all claims of a scenario's formulas for which the trajectory has the channels.
 /// Each claim is judged by value, then by every derivative.
-/// A part that several formulas share is evaluated once at every instant. A claim that several formulas make is also
-/// evaluated once.
+/// A subexpression that several formulas share is evaluated once at every instant. A claim that several formulas make
+/// is also evaluated once.
 ///
 /// # Errors
 /// No error occurs in practice, because claims whose channels or figures are missing are left out.

@@ -60,7 +60,7 @@ pub enum FormulaOutcome {
     Open {
         /// Why the judgement is inconclusive.
         reason: String,
-        /// Actions that would decide the judgement.
+        /// What the user can do to get a conclusive judgement.
         advice: Vec<Advice>,
     },
 }
@@ -136,7 +136,7 @@ impl JudgedFormula {
         own
     }
 
-    /// Enlarges the scale to the size of this value of the claim.
+    /// Enlarges the scale to the magnitude of this value of the claimed quantity, if the magnitude is larger.
     /// All values must be passed to this function before the first instant is judged.
     pub(super) fn seen(&mut self, mechanism: Rounded) {
         if has_number(mechanism) { self.scale = self.scale.larger(mechanism.value.abs()) } else { self.undefined += 1 }
@@ -156,8 +156,8 @@ impl JudgedFormula {
         let bound = formula.error.unwrap_or(0.0) + rounding + mechanism.error;
         let (value, right) = (found.value, mechanism.value);
         let at = FormulaAtInstant { time, crank, input, formula: value, mechanism: right, difference, bound };
-        // Digits count as lost only if the mechanism's value is much more accurate than the formula's value. Otherwise
-        // the formula is not the cause of the inaccuracy.
+        // Digits count as lost only if the mechanism's value is much more accurate than the formula's value. If both
+        // values are inaccurate, the formula is not the cause.
         let has_lost = !(found.error <= TELLING * self.scale) && !(found.error <= NO_WORSE * mechanism.error);
         // At the end of a function's domain, such as acos at 1, the derivative is not finite although the value is
         // right. A derivative that is not finite therefore counts as an instant with lost digits.
@@ -208,8 +208,8 @@ mod tests {
     use super::*;
     use scenario::{Formulas, of_repository};
 
-    /// A formula's value decides nothing if its error exceeds 1e-6 of the scale and a thousand times the mechanism's
-    /// error.
+    /// A formula's value decides nothing if its error exceeds both 1e-6 of the scale and a thousand times the
+    /// mechanism's error.
     #[test]
     fn lost_digits_count_only_if_the_mechanism_has_them() {
         let case = of_repository("scenarios/crank_rocker.toml").case;

@@ -21,12 +21,13 @@ pub(in crate::check) use monomials::Monomials;
 pub struct Missing {
     /// Name of the formula that lacks the term or factor.
     pub formula: String,
-    /// The part of the formula to which the term must be added, or which must be multiplied; `None` for the whole
-    /// formula.
+    /// The subexpression to which the term must be added, or which must be multiplied by the factor; `None` for the
+    /// whole formula.
     pub beside: Option<String>,
     /// The missing expression with its sign: `+ m*g*s*cos(phi)`, `/ cos(beta)^3`.
     pub what: String,
-    /// Byte range of the part `beside` in the formula's text; the range of the whole text if `beside` is `None`.
+    /// Byte range of the subexpression `beside` in the formula's text; the range of the whole text if `beside` is
+    /// `None`.
     pub at: Range<usize>,
     /// Whether the missing expression is a factor rather than a term.
     pub is_factor: bool,
@@ -241,7 +242,7 @@ fn places(tree: &FormulaTree) -> Vec<(usize, usize)> {
     places
 }
 
-/// A part with a term or factor added.
+/// A subexpression with an added term or factor.
 fn with(operator: Operator, part: FormulaTree, what: FormulaTree) -> FormulaTree {
     match (operator, what.shape) {
         (Operator::Plus, NodeShape::Negative(inner)) => FormulaTree::pair(Operator::Minus, part, *inner),
@@ -256,14 +257,14 @@ fn signed(operator: Operator, what: &FormulaTree) -> String {
         (Operator::Times, NodeShape::Pair(Operator::Over, parts)) if parts[0].shape == one.shape => what.clone(),
         _ => with(operator, one, what.clone()),
     };
-    // Removes the placeholder 1, so that the text can follow another part. Necessary parentheses remain.
+    // Removes the placeholder 1, so that the text can follow another expression. Necessary parentheses remain.
     let text = whole.to_string();
     let after = text.trim_start_matches('1').trim_start();
     let (sign, rest) = after.split_at(1);
     format!("{sign} {}", rest.trim_start())
 }
 
-/// Written forms of a number times an entry, each with its complexity.
+/// The known ways to write the product `coefficient * entry` as a formula, each with its complexity.
 /// The number is written as a product of known quantities. A constant factor may also be 1 plus or minus such a
 /// product.
 fn written(monomials: &Monomials, coefficient: f64, entry: &Entry, operator: Operator) -> Vec<(FormulaTree, usize)> {

@@ -78,7 +78,7 @@ pub(super) fn tried(trial: &mut Trial, dimensions: &Dimensions) -> Tried {
     tried
 }
 
-/// Copies the upper `levels` levels of a part. Placeholders replace the deeper parts.
+/// Copies the upper `levels` levels of an expression tree. Placeholders replace the deeper subexpressions.
 fn hollow(part: &FormulaTree, place: usize, sheet: &DerivationSheet, levels: usize) -> FormulaTree {
     if part.parts().is_empty() {
         return part.clone();
@@ -105,7 +105,7 @@ fn hollow(part: &FormulaTree, place: usize, sheet: &DerivationSheet, levels: usi
     FormulaTree { shape, at: part.at.clone() }
 }
 
-/// Replaces the placeholders of a tree by the parts of a formula.
+/// Replaces the placeholders of a tree by the subexpressions of a formula.
 fn filled(tree: &FormulaTree, formula: &FormulaTree, places: &[usize]) -> FormulaTree {
     let number = match &tree.shape {
         NodeShape::Name(name) => {

@@ -16,9 +16,9 @@ const FIRST: usize = 9;
 const BESIDE: usize = 20;
 /// Cost, in operations, of changing a tree and judging the change. The cost of evaluations comes in addition.
 const TREE: u64 = 2000;
-/// Cost of adding a formula or a part of a formula to a graph, in operations.
+/// Cost, in operations, of adding a formula or a subexpression to a graph.
 const ADDED: usize = 16;
-/// Cost, in operations, of changing one part. The cost of evaluations comes in addition.
+/// Cost, in operations, of changing one subexpression. The cost of evaluations comes in addition.
 const EDIT: u64 = 40;
 /// A change is rejected if it leaves more than this fraction of the difference at any instant.
 pub(super) const MOST_LEFT: f64 = 0.1;
@@ -156,7 +156,7 @@ impl<'a> Trial<'a> {
         self.inputs[place]
     }
 
-    /// Whether `changes` of parts of the derivation are worth examining at all instants.
+    /// Whether `changes` of subexpressions of the derivation are worth examining at all instants.
     /// At each instant of `few`, the changes must make the formula right or leave only a small part of the difference.
     /// `depending` lists the positions that depend on the changed positions.
     pub(super) fn is_promising(&mut self, changes: &[(usize, FormulaTree)], depending: &[usize]) -> bool {

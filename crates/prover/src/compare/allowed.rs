@@ -48,8 +48,8 @@ impl ComparisonRule {
     }
 
     /// Allowed difference of the input (SI), such as the crank angle. `scale` is the scale of the input.
-    /// The difference follows from allowances for all channels and for the word `crank`. Absolute sizes are in the
-    /// displayed unit of the input, such as degrees for a crank angle.
+    /// The difference follows from allowances for all channels and for the word `crank`. Absolute allowances are in
+    /// the displayed unit of the input, such as degrees for a crank angle.
     #[must_use]
     pub fn allows_crank(&self, scale: f64, input: Input) -> Option<Allowance> {
         let own = self.allowed.iter().filter(|own| own.of.as_deref().is_none_or(|word| word == CRANK));
@@ -118,8 +118,7 @@ impl Words {
     }
 }
 
-/// If the word is the name of a channel in any unit, returns the name in SI units. Otherwise returns the word
-/// unchanged.
+/// If the word is the name of a channel in any unit, returns the name in SI units. Returns any other word unchanged.
 fn in_si(word: &str) -> String {
     PrintedChannel::named(word).map_or_else(|| word.into(), |own| own.channel.to_string())
 }
@@ -148,7 +147,7 @@ impl Allowances<'_> {
     }
 }
 
-/// Allowed difference by all allowances in `own`, with absolute sizes in `unit`.
+/// Allowed difference by all allowances in `own`, with absolute allowances in `unit`.
 /// If several allowances are of the same kind, the last one counts.
 fn allowance<'a>(own: impl Iterator<Item = &'a Allowed>, scale: f64, unit: f64) -> Option<Allowance> {
     let mut sizes: [Option<f64>; 3] = [None; 3];

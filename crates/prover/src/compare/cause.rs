@@ -42,7 +42,7 @@ pub struct Explained {
 /// The further fractions allow for errors of a method, such as the step error of a simulation.
 const LEFT: [f64; 3] = [0.0, 0.01, 0.05];
 
-/// Largest number of channels with small differences for which missing terms are sought.
+/// Missing terms are sought for at most this many of the channels with small differences.
 const TRIED: usize = 12;
 
 /// Number of instants at which terms are tried first.

@@ -161,7 +161,7 @@ pub struct Change {
     pub how: PartChange,
 }
 
-/// A part of a case. Links, joints and groups are given by name.
+/// A quantity or property of a case that can be wrong. Links, joints and groups are given by name.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CasePart {
     /// Gravity.
@@ -216,39 +216,39 @@ pub enum CasePart {
     Place(String, String, FrameAxis),
 }
 
-/// How a part of a case is different.
+/// How a property of a case ([`CasePart`]) differs from the right one.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PartChange {
-    /// The part is missing.
+    /// The property is missing, as if it were zero.
     Missing,
-    /// The part has the opposite sign.
+    /// The property has the opposite sign.
     Reversed,
-    /// The part counts twice.
+    /// The property counts twice.
     Twice,
-    /// Half of the part counts.
+    /// Only half of the property counts.
     Half,
-    /// The part is multiplied by a number; the text says what the number means.
+    /// The property is multiplied by a number; the text says what the number means.
     Times(f64, &'static str),
-    /// The part is at a joint.
+    /// The mass centre is at a joint.
     AtJoint(String),
-    /// The part is at another point of the same link.
+    /// The load acts at another point of the same link.
     AtPoint(String),
-    /// The part is measured from the wrong end: from the second joint towards the first joint, instead of from the
-    /// first joint towards the second joint.
+    /// The mass centre is measured from the wrong end: from the second joint towards the first joint, instead of from
+    /// the first joint towards the second joint.
     FromJoint([String; 2]),
-    /// The part is on the other side of the line through two joints.
+    /// The mass centre is on the other side of the line through two joints.
     Across([String; 2]),
-    /// The part is in the middle between two joints.
+    /// The mass centre is in the middle between two joints.
     Middle([String; 2]),
-    /// The part is rotated by an angle (rad).
+    /// The gravity vector is rotated by an angle (rad).
     Turned(f64),
-    /// The part is taken about a joint instead of the mass centre.
+    /// The moment of inertia is taken about a joint instead of the mass centre.
     AboutJoint(String),
-    /// The components of the part, or its axes, are exchanged.
+    /// The components of the vector, or its axes, are exchanged.
     Swapped,
     /// The group has another assembly mode (by name) or another configuration (by number).
     Other(String),
-    /// The part has another value.
+    /// The quantity has another value.
     Instead {
         /// The value that explains the disagreement.
         found: f64,

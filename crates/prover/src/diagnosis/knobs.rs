@@ -78,8 +78,8 @@ impl Knob {
         knob.times([(1e3, sentences::AS_FOR_KG_OR_FOR_MM), (1e-3, sentences::AS_KG_FOR_OR_MM_FOR)])
     }
 
-    /// A knob for a coordinate or an angle, of which multiples have no meaning. `natural` is the size to which changes
-    /// are relative.
+    /// A knob for a coordinate or an angle, of which multiples have no meaning. Changes are given as fractions of
+    /// `natural`.
     fn place(
         part: CasePart,
         given: f64,

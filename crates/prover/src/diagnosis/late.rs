@@ -14,7 +14,7 @@ use linkage::trajectory::Stage;
 
 /// Largest number of steps of the search for a number.
 const STEPS: usize = 6;
-/// If the misfit is below this fraction of the initial misfit, the number is nearly found.
+/// If the misfit is below this fraction of the initial misfit, the present number is close to the number sought.
 const NEAR: f64 = 1e-2;
 /// Simple multiples of a step by which values may be late.
 const PARTS: [f64; 7] = [0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0];

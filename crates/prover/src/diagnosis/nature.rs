@@ -80,7 +80,8 @@ fn growth(times: &[f64], gaps: &[f64]) -> Option<Option<u32>> {
     Some(((power - whole).abs() <= 0.2 && (1.0..=4.0).contains(&whole)).then_some(whole as u32))
 }
 
-/// Root mean square of the second differences, divided by the value that irregular numbers of the same size would give.
+/// Root mean square of the second differences, divided by the value that independent random numbers with the same root
+/// mean square would give.
 fn disorder(gaps: &[f64]) -> f64 {
     let second: Vec<f64> = gaps.windows(3).map(|three| three[2] - 2.0 * three[1] + three[0]).collect();
     rms(&second) / (6f64.sqrt() * rms(gaps))

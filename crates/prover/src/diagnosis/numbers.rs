@@ -110,10 +110,10 @@ pub(super) fn numbers(tries: &Tries) -> Vec<Candidate> {
     candidates
 }
 
-/// Tries the knob's values with a simple meaning near `value`. The result tells for each candidate whether it explains
-/// all differences. `found` is true if `value` comes from a search and is more accurate than a linear approximation.
-/// Otherwise distant values are tried too: all values of a knob that `is_far`, and missing and reversed parts in a free
-/// motion.
+/// Tries the knob's values with a simple meaning near `value`. The result states for each candidate whether it
+/// explains all differences. `found` is true if `value` comes from a search and is more accurate than a linear
+/// approximation. If `found` is false, distant values are tried too: all values if the knob `is_far`, and, in a free
+/// motion, a missing or reversed part.
 fn meant(tries: &Tries, knob: &Rc<Knob>, value: f64, found: bool) -> Vec<(Candidate, bool)> {
     let near = |plain: f64| match found {
         true => (plain - value).abs() <= 1e-2 * plain.abs().larger(1e-2 * natural(knob)),
@@ -256,7 +256,7 @@ mod tests {
     use crate::diagnosis::cause::CasePart;
 
     /// A number that is wrong by less than a thousandth and has many digits is unlikely to have been typed.
-    /// Such a number counts only if the difference is a hundred times its bound.
+    /// Such a number is accepted as the cause only if the difference between the parties is a hundred times its bound.
     #[test]
     fn a_tiny_change_of_many_digits_is_no_cause() {
         let degrees = f64::to_radians;

@@ -11,8 +11,8 @@ use linkage::math::angle::wrapped;
 use linkage::math::{KeepNan, largest_size};
 use linkage::trajectory::{Channel, Stage, Unit};
 
-/// Smallest bound, as a fraction of the size of the reference's numbers. The reference may have relative errors of this
-/// size.
+/// Smallest bound, as a fraction of the magnitude of the reference's numbers. The reference may have relative errors
+/// up to this fraction.
 pub(super) const KNOWN: f64 = 1e-10;
 
 /// A factor on the values of a channel, and the confusion of units that causes it.

@@ -49,8 +49,8 @@ impl Candidate {
 /// The benches at which changes are tried. A free motion is first followed for a short time only: at later times, the
 /// motion may depend on the cause in a complicated way, and the solution costs more.
 pub(super) struct Tries<'a> {
-    /// The first instant, whose solution costs almost nothing. A changed configuration is already visible at this
-    /// instant.
+    /// Bench with the first instant only. Solving the case at this instant costs almost nothing, and already shows a
+    /// changed configuration.
     pub(super) first: Bench<'a>,
     pub(super) soon: Bench<'a>,
     pub(super) thin: Bench<'a>,

@@ -12,8 +12,8 @@ use linkage::drive::{Course, Load};
 use linkage::math::Vec2;
 use linkage::mechanism::{JointSide, Link, LinkId};
 
-/// Changes without a number: another configuration, gravity along another axis, mass centres at other places, missing
-/// weights or inertia forces, loads at other points.
+/// Changes without a number: another configuration, gravity along another axis, mass centres at other positions,
+/// missing weights or inertia forces, loads at other points.
 pub(super) fn whole_changes(tries: &Tries) -> Vec<Candidate> {
     let case = &tries.thin.case;
     let mut all: Vec<(Change, Make)> = Vec::new();
@@ -59,8 +59,8 @@ fn change(part: CasePart, how: PartChange, make: impl Fn(&Case) -> Option<Case> 
     (Change { part, how }, Box::new(make))
 }
 
-/// Moves the mass centre of every link to four kinds of places: each joint of the link, the middle between two joints,
-/// and the reflections of the mass centre in this middle and in the line through two joints.
+/// Moves the mass centre of every link to four kinds of positions: each joint of the link, the middle between two
+/// joints, and the reflections of the mass centre in this middle and in the line through two joints.
 fn mass_centres(case: &Case) -> Vec<(Change, Make)> {
     let mut found: Vec<(Change, Make)> = Vec::new();
     for (index, link) in case.mechanism.links().entries().skip(1).filter(|(_, link)| link.mass > 0.0) {

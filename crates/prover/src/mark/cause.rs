@@ -1,4 +1,4 @@
-//! The causes of wrong answers. Reports put them into words.
+//! The causes of wrong answers, as data. Reports put these causes into words.
 
 /// A cell of a sheet: number of the position and of the quantity, from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,7 +33,7 @@ pub enum MarkCause {
         /// Unit that the sheet asks for.
         asked: &'static str,
     },
-    /// The decimal point is at the wrong place. The field is the power of ten by which the number is too large.
+    /// The decimal point is at the wrong position. The field is the power of ten by which the number is too large.
     DecimalPoint(i32),
     /// Twice the value.
     Twice,

@@ -7,7 +7,7 @@ use super::hypothesis::{Hypothesis, Origin};
 use super::sheet::AnswerSheet;
 use linkage::trajectory::{Stage, Unit};
 
-/// Units that students confuse: symbol and size in SI.
+/// Units that students confuse: symbol, and value of the unit in SI.
 fn units(of: Unit) -> &'static [(&'static str, f64)] {
     const G: f64 = 9.806_65;
     match of {

@@ -158,8 +158,8 @@ mod tests {
     use linkage::case::Grid;
     use scenario::of_repository;
 
-    /// The external numbers are wrong at a single instant in the middle of the run. The error is found in every
-    /// channel.
+    /// The external numbers are wrong at a single instant in the middle of the run. The comparison detects the error
+    /// in every channel.
     #[test]
     fn external_numbers_wrong_at_one_instant_are_found() {
         let case = of_repository("scenarios/crank_rocker.toml").case;

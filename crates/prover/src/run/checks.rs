@@ -63,7 +63,7 @@ pub(super) fn of_sides(case: &Case, sides: EachSide<&Observed>, known: &Known) -
 struct Worst<'a> {
     channel: &'a Channel,
     row: usize,
-    /// The difference and the allowed difference, both divided by the size of the channel's numbers.
+    /// The difference and the allowed difference, both divided by the magnitude of the channel's numbers.
     relative: f64,
     allowed: f64,
 }
@@ -208,8 +208,8 @@ struct Vanishing<'a> {
 
 impl Vanishing<'_> {
     /// Checks that the number does not exceed the bound that its convergence over the runs gives.
-    /// Let v be the part of the number that tends to zero with the step, and s the safety factor. A remaining part that
-    /// does not tend to zero is found if it exceeds about (s - 1) v.
+    /// The number is a sum of two terms: v, which tends to zero with the step, and a constant, which an error causes.
+    /// With the safety factor s, the check finds the error if the constant exceeds about (s - 1) v.
     fn check(self, problem: Problem, engine: &dyn Engine, runs: &Runs) -> Check {
         let (case, resolution) = (problem.case, engine.settings().resolution);
         let noise = |engine: &dyn Engine| self.noise * engine.noise(case, self.kind);

@@ -41,7 +41,7 @@ const ON_KNOT: f64 = 1e-6;
 /// A drive counts as standing still below this fraction of its top speed. The limit exceeds the rounding error of a
 /// law's formula.
 const STANDSTILL: f64 = 1e-9;
-/// Number of instants that may be left out with any step: the two ends of a motion.
+/// Number of instants that may be left out, however small the step is: the two ends of a motion.
 const ENDS: usize = 2;
 
 /// Doubtful channels of an engine's runs, by row of the grid.
@@ -196,7 +196,8 @@ mod tests {
         Scenario::parse(text, std::path::Path::new("x.toml")).unwrap_or_else(|error| panic!("{error}")).case
     }
 
-    /// Three numbers of instants: with velocities left out, with positions left out, and usable with a smaller step.
+    /// Counts instants: instants whose velocities are left out, instants whose positions are left out, and instants
+    /// that would be usable with a smaller step.
     /// At steps of 1.1 ms, the values within 17.6 ms on either side of a jump are doubtful.
     fn left_out(file: &str) -> ([usize; 2], f64) {
         let case = parsed(&text(file));

@@ -166,8 +166,8 @@ impl Known {
         let integration = EachSide::tried(|side| integration(sides[side]))?;
         let dependence = Dependence::of(case, own.channels());
         let magnitudes = magnitudes_by(own, &dependence.of, &|from, to| dependence.feeds(from, to));
-        // A size that is only rounding error is replaced by a size from the case's data. Example: a velocity is zero,
-        // and the channels contain no coordinate from which a size could follow.
+        // A natural size that is only rounding error is replaced by a natural size from the case's data. Example: a
+        // velocity is zero, and the channels contain no coordinate from which its natural size could follow.
         let sizes = built(case);
         let sized = magnitudes.into_iter().zip(own.channels());
         // The angular acceleration of a wheel is a sum of terms of the size omega^2, which cancel if the ratio of the
@@ -338,7 +338,7 @@ mod tests {
 
     /// At a change point the condition number of the pose is unbounded, but the condition number of the passage through
     /// the pose is finite.
-    /// A relative error of a millionth at the change point exceeds the allowed difference and is found.
+    /// A relative error of a millionth at the change point exceeds the allowed difference and is detected.
     #[test]
     fn numbers_at_a_change_point_are_known_to_a_millionth() {
         let case = of_repository("tests/outside/scenarios/parallel_cranks_passing.toml").case;
@@ -412,7 +412,8 @@ mod tests {
                 let relative = share((values[0] - values[1]).abs(), known.magnitudes[index]);
                 assert!(relative <= apart, "{count} from {from} m, {channel}: {relative:e} {apart:e}");
                 beyond += usize::from(relative > usual(stage));
-                // A relative fault of 1e-7 is found at any distance. The last digit of a position is 1.5e-11 m.
+                // A relative error of 1e-7 is detected at any distance from the origin. The last digit of a position
+                // is 1.5e-11 m.
                 assert!(apart < 1e-7, "{count} from {from} m, {channel}: {apart:e}");
                 // A coordinate already contains the distance from the origin, so the distance does not enlarge the
                 // relative bound of the coordinate.

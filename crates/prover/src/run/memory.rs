@@ -33,8 +33,8 @@ pub fn of_proof(case: &Case, engines: usize) -> f64 {
     ELSE + case.grid.len() as f64 * row
 }
 
-/// Memory per number of a table (bytes). Each number is stored three times: as it is in the file, with its digits, and
-/// as the computed number for comparison.
+/// Memory per number of a table (bytes). Each number is stored three times: as text from the file, as a value with its
+/// printed digits, and as the computed value for comparison.
 const OF_NUMBER: f64 = 88.0;
 /// Memory per row of a table, without the row's numbers (bytes).
 const OF_ROW: f64 = 50.0;

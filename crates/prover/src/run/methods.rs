@@ -242,7 +242,7 @@ mod tests {
         let mut worst = Worst::default();
         worst.put(Quantity::Force, 1e-13, 0.0);
         assert_eq!(worst.check("a method", "", [1.0; 4]).verdict.word(), "agree");
-        // An error of 1e-9 of the largest value must be found in any quantity.
+        // In any quantity, an error of 1e-9 of the largest value must be detected.
         for quantity in [Quantity::Angle, Quantity::Omega, Quantity::Alpha, Quantity::Force] {
             let mut worst = Worst::default();
             worst.put(quantity, 1e-9, 0.0);

@@ -124,7 +124,8 @@ pub(super) struct Pace {
 
 impl Pace {
     /// Records a round that ends with the work `effort` done. Returns whether `budget` is far too small.
-    /// The need falls with a power of the work. The budget is too small if the predicted need at the budget exceeds 1.
+    /// The need falls with a power of the work. The budget is too small if the need predicted for the moment when the
+    /// budget is used up exceeds 1.
     /// The prediction uses [`OPTIMISM`] times the exponent that the last rounds show.
     pub(super) fn is_too_slow(&mut self, effort: f64, need: Need, budget: f64) -> bool {
         let least = self.rounds.last().map_or(f64::INFINITY, |[_, least]| *least).smaller(need.share);

@@ -37,8 +37,8 @@ pub(super) struct Observed {
     pub(super) reach: f64,
     /// Balancing moment from the balance of powers (N m) at every instant; empty if no balancing moment is requested.
     /// If the crank's speed changes, the moment is multiplied by the crank's speed and divided by its top speed. In a
-    /// motion under forces, the divisor is the larger of two speeds: the top speed and the largest speed of a driving
-    /// link.
+    /// motion under forces, the divisor is the crank's nominal speed, or the largest speed that a driving link reaches
+    /// in the run, if that speed is larger.
     pub(super) power: Vec<f64>,
     /// Balancing moments of the trajectory, reduced to the crank (N m), at every instant. If the crank's speed changes,
     /// these moments are multiplied by the same ratio of speeds as `power`.
@@ -109,8 +109,8 @@ impl Observed {
 pub(super) struct Stopped {
     pub(super) error: Error,
     pub(super) kept: Option<Box<Trajectory>>,
-    /// `None` if enough work was allowed. Otherwise the work that the first runs need, or the allowed work if the first
-    /// runs were made.
+    /// `None` if enough work was allowed. If too little work was allowed: the work that the first runs need, or, if
+    /// the first runs were made, the allowed work.
     pub(super) spent: Option<f64>,
 }
 

@@ -146,7 +146,7 @@ mod tests {
                 assert_eq!(steady(first, other), found, "{other:?}");
             }
         }
-        // In the following cases no fault is found: changing orders, an order of zero, and the formal order of the
+        // In the following cases no fault is reported: changing orders, an order of zero, and the formal order of the
         // method.
         for (orders, formal) in [([1.3, 1.1, 1.0], 2.0), ([0.0; 3], 2.0), ([2.0; 3], 2.0), ([1.0; 3], 1.0)] {
             assert_eq!(steady(rungs(orders, formal), none), None, "{orders:?} {formal}");

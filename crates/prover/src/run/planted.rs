@@ -212,8 +212,8 @@ fn every_class_three_method_is_in_the_proof_and_finds_faults() {
     let right = methods::checks(case, &AssurSolver).unwrap();
     assert_eq!(right.len(), all.len());
     assert!(right.iter().all(|check| check.verdict.word() == "agree"), "{right:?}");
-    // Angles, rates and forces of the group's links and joints are changed by 1e-9 of their size: ten times the largest
-    // bound.
+    // Angles, rates and forces of the group's links and joints are changed by 1e-9 of their magnitude: ten times the
+    // largest bound.
     // Of the published methods, only the method of class change computes directions.
     let [first, ..] = Triad::all(case)[0].links();
     assert_ne!(first, GROUND);
@@ -323,7 +323,7 @@ fn regress_late_readings_converge_with_order_one_and_disagree() {
         }
     };
     let accelerations: Fault = |state, late| {
-        // The planted fault is the delay times a value of the size of the jerk.
+        // The planted fault is the delay times omega^3, which has the order of magnitude of the jerk.
         state.motions.iter_mut().for_each(|motion| motion.alpha -= late * motion.omega.powi(3));
     };
     // Five runs with steps up to 8e-3 s show the order for the crank-rocker, but not for the faster machine `ov7_base`.
@@ -453,7 +453,8 @@ fn an_oracle_detects_one_unit_of_its_last_digit() {
     }
 }
 
-/// The integration error is added to the bound of numbers at a time. Other bounds do not change.
+/// The integration error is added to the bound of published numbers at a time. The bounds of numbers at a crank angle
+/// do not change.
 #[test]
 fn integration_error_widens_the_bound_of_numbers_at_a_time() {
     // The oracle has numbers at a crank angle and at a time.
@@ -470,11 +471,11 @@ fn integration_error_widens_the_bound_of_numbers_at_a_time() {
     }
 }
 
-/// The scale of a channel that is zero throughout is a tenth of the size of its quantity. The engine's error in this
-/// channel still comes from the engine's runs.
-/// For the acceleration of a crank at constant speed, a fault of a millionth of the quantity is found.
-/// For a rocker that rotates with the crank through change points, only a fault of at least a hundredth of the quantity
-/// is found.
+/// The scale of a channel that is zero throughout is a tenth of the natural size of its quantity. The engine's error
+/// in this channel still comes from the engine's runs.
+/// For the acceleration of a crank at constant speed, a fault of a millionth of the natural size is detected. For a
+/// rocker that rotates with the crank through change points, a fault is detected only if it is at least a hundredth of
+/// the natural size.
 /// In the rocker's channels, an agreement within a smaller difference proves nothing.
 #[test]
 fn a_fault_of_fixed_size_is_found_where_the_reference_is_zero() {
@@ -498,7 +499,7 @@ fn a_fault_of_fixed_size_is_found_where_the_reference_is_zero() {
 }
 
 /// If all forces of the mechanism are only rounding, the scale is the force that its mass and speed could exert.
-/// A fault of a millionth of a newton is found in a balanced rotor.
+/// In a balanced rotor, a fault of a millionth of a newton is detected.
 #[test]
 fn a_fault_of_fixed_size_is_found_without_any_scale() {
     let mut rotor = four_bar([1.0, 0.3, 1.0, 1.0], true);

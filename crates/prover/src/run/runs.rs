@@ -51,7 +51,7 @@ pub(super) fn other_sweeps(case: &Case, engine: &dyn Engine, sweeps: usize, shar
     }
 }
 
-/// Ratio of the numbers of sweeps of two successive runs, if the sweeps are given.
+/// Factor between the numbers of sweeps of two successive runs, if the number of sweeps is given.
 pub(super) const FEWER: usize = 2;
 
 /// Not all trajectories of a search are kept if a trajectory has more values than this number.

@@ -132,7 +132,8 @@ impl Held {
         Held { is_analytic: true, ..self }
     }
 
-    /// Reads a table by a mapping. A column with the name of a channel, unit included, needs no mapping.
+    /// Reads a table; `mapping` states which channels or instants its columns contain. A column with the name of a
+    /// channel, unit included, needs no mapping.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for an unknown column or channel, with its location.
@@ -147,8 +148,8 @@ impl Held {
             let printed = reader.column(mapped)?;
             let chosen = if mapped.name.ends_with("_deg") { columns::degrees_chosen } else { columns::chosen };
             let is_chosen = chosen(&printed);
-            // An instant may be exact as printed, not rounded. Its only error is then the rounding error of the
-            // conversion to SI units.
+            // An instant may be exact as printed, not rounded. The only error of such an instant is the rounding error
+            // of the conversion to SI units.
             let exact = |own: Rounded| if is_chosen { Rounded::nearly(own.value) } else { own };
             let values: Vec<Rounded> = printed.into_iter().map(|own| exact(scaled(own, factor))).collect();
             if let Some(row) = values.iter().position(|own| !(own.value + own.error).is_finite()) {

@@ -173,7 +173,7 @@ where
         let mut values = values.iter().map(|&value| number(value));
         let mut next =
             || values.next().ok_or_else(|| ParquetError::General(sentences::A_COLUMN_HAS_FEWER_VALUES.into()));
-        // If every row of a column must have a value, the file stores no levels. Then every row has a value.
+        // If the file stores no levels for a column, every row of the column has a value.
         for level in levels.iter().copied().chain(std::iter::repeat(full)).take(read) {
             to.push(if level == full { next()? } else { MISSING });
         }

@@ -11,7 +11,7 @@ use crate::sentences;
 
 /// With at least this many joints of one colour, Rapier 0.36.1 solves joints in groups, and lays the rows of a group in
 /// another order (`min_color_joints` and `JointConstraint<SimdReal, SIMD_WIDTH>::update`).
-/// The order of the rows of a prismatic or fixed joint between separate bodies cannot then be found out.
+/// For a prismatic or fixed joint between separate bodies, the order of the rows is then unknown.
 const GROUPED: usize = 64;
 
 /// Reads the reactions of all impulse joints from the impulses of each step.
@@ -54,8 +54,8 @@ impl ImpulseReader {
     }
 }
 
-/// The reactions of the impulse joints of a snapshot. `stances` has the place and direction of each joint's constraint
-/// rows in the step.
+/// The reactions of the impulse joints of a snapshot. `stances` has the position and direction of each joint's
+/// constraint rows in the step.
 pub(super) fn from_impulses(
     world: &WorldRef,
     snapshot: &Snapshot,

@@ -29,10 +29,10 @@ pub struct PoseWindow {
 pub struct BalancedReactions {
     /// The reactions: impulse joints, then joints of multibodies, each in the order of its set.
     pub reactions: Vec<JointReaction>,
-    /// Part of m a - loads that no joint force explains, as a fraction of m a - loads. Both are root sums of squares,
-    /// each square divided by the mass or moment of inertia. The residual belongs to coordinates that move freely. It
-    /// shows a load that was not taken into account, such as a contact. If every coordinate has a motor, the residual
-    /// is 0 up to rounding.
+    /// Part of m a - loads that no joint force explains, as a fraction of m a - loads. Numerator and denominator are
+    /// root sums of squares, each square divided by the mass or moment of inertia. The residual belongs to coordinates
+    /// that move freely. A large residual shows a load that was not taken into account, such as a contact. If every
+    /// coordinate has a motor, the residual is 0 up to rounding.
     pub residual: f64,
 }
 

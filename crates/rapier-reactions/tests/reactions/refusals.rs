@@ -71,7 +71,8 @@ fn bodies_that_cannot_be_balanced_are_refused() {
     assert!(window(&mut world).unwrap_err().to_string().starts_with("rigid body 1 has no mass"));
 }
 
-/// Two pins connect a bar to the ground. Their four force components are unknown, but the bar has only three equations.
+/// Two pins connect a bar to the ground. The forces in the pins have four unknown components, but the bar has only
+/// three equations.
 #[test]
 fn a_joint_too_many_is_named() {
     let mut world = bar(pin([0.0; 2], [0.0; 2]));

@@ -126,7 +126,8 @@ fn joints_between_separate_bodies_have_the_orders_of_their_routes() {
 }
 
 /// In every step, the impulse of the only joint of the block explains the change of its momentum and angular momentum.
-/// The agreement is to rounding error. It tests that the orthogonalisation of Rapier's rows is undone.
+/// The agreement is to rounding error, which shows that the crate correctly undoes the orthogonalisation of Rapier's
+/// rows.
 #[test]
 fn impulses_explain_the_momentum_of_a_body() {
     for link in [Link::Fixed, Link::Held, Link::Moved] {

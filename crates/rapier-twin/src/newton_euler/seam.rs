@@ -38,9 +38,9 @@ pub(super) struct Stand {
 }
 
 /// Weights of a joint of the tree. The outer link must receive a force (x, y) and a moment about its mass centre.
-/// Weighted sums of these three numbers give two results. The first result is the part that the joint cannot transmit.
-/// The second result is the force and the moment, about the inner link's mass centre, that the inner link must receive
-/// in addition.
+/// Weighted sums of these three numbers give two results. The first result is the component that the joint cannot
+/// transmit. The second result is the additional load that the inner link must receive: a force, and a moment about
+/// this link's mass centre.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pass {
     /// The part that the joint cannot transmit: the moment for a revolute joint, the axial force for a prismatic joint.

@@ -71,7 +71,7 @@ impl Row {
 /// Order in which the components are computed.
 /// Cut joints whose two components are the only unknowns of two equations come first; for dyads, these pairs give all
 /// components.
-/// Then all remaining components are computed together.
+/// After these pairs, all remaining components are computed together.
 pub(super) fn stages(limbs: &[Limb], cut: &[Range<usize>]) -> Vec<Stage> {
     let mut left: Vec<usize> = (0..limbs.len()).rev().filter(|&number| limbs[number].drive.is_none()).collect();
     let (mut unknown, mut stages): (Vec<usize>, _) = (cut.iter().cloned().flatten().collect(), Vec::new());

@@ -192,7 +192,8 @@ fn check_simple(corners: &[Vec2]) -> Result<(), Flaw> {
         for j in i + 1..count {
             let is_next = j == i + 1 || (i == 0 && j == count - 1);
             let touch = if is_next {
-                // Neighbouring sides share a corner. They touch elsewhere only if one side folds back onto the other.
+                // Neighbouring sides share a corner. Such sides touch at further points only if one side folds back
+                // onto the other.
                 // The free end of one side then lies on the other side, so only the free ends are tested.
                 let (one, two) = if j == i + 1 { (side(i), side(j)) } else { (side(j), side(i)) };
                 [(one, two[1]), (two, one[0])].iter().any(|&(own, end)| (end - nearest(end, own)).norm() <= near)

@@ -50,7 +50,7 @@ pub enum ValueKind {
     Quantity(&'static [&'static UnitFamily], Sign),
     /// A list of numbers whose key ends in a unit of one of these families.
     Quantities(&'static [&'static UnitFamily]),
-    /// A table. Its section has the path of this key.
+    /// A table. The section that describes the table has the path of this key.
     Table,
     /// An array of tables.
     Tables,

@@ -115,8 +115,8 @@ fn every_key_of_the_table_is_read() {
     let names = |section: &Section| section.keys.iter().map(|key| key.name).collect::<Vec<_>>();
     let mut never = Vec::new();
     for section in sections() {
-        // One reader serves all sections with the same keys, for example positions and printed numbers. It is enough if
-        // this reader reads a key in one of these sections.
+        // One reader serves all sections with the same keys, for example positions and printed numbers. A key counts
+        // as read if this reader requests the key in one of these sections.
         let alike = || sections().filter(|other| names(other) == names(section));
         for spelling in section.keys.iter().flat_map(super::FileKey::spellings) {
             if !alike().any(|own| asked.get(own.path).is_some_and(|keys| keys.contains(&spelling))) {

@@ -89,7 +89,7 @@ impl<'a> TomlTable<'a> {
         Ok(Some((family, value)))
     }
 
-    /// The number of an entry in SI. Returns an error if the sign or the size of the number is not allowed.
+    /// The number of an entry in SI. Returns an error if the sign or the magnitude of the number is not allowed.
     fn allowed(&self, at: usize, unit: &NamedUnit, family: &UnitFamily, sign: Sign) -> Result<f64> {
         let entry = &self.entries[at];
         let number = self.finite(entry.key, entry.value)?;

@@ -7,7 +7,7 @@ use super::{Entry, TomlTable};
 use crate::words::{choice, nearest};
 use linkage::error::{Error, ErrorKind, Result};
 
-/// The nearest known key is searched for at most this number of unknown keys in a table.
+/// In each table, a similar known key is looked up only for the first unknown keys, up to this number.
 const MOST: usize = 20;
 
 /// The mistakes of a file.

@@ -36,9 +36,9 @@ pub enum PoseQuantity {
     ForceX(JointId),
     /// Force of the first link of a joint on the second along y (N).
     ForceY(JointId),
-    /// Size of the force in a joint (N).
+    /// Magnitude of the force in a joint (N).
     Force(JointId),
-    /// Square of the size of the force in a joint (N^2).
+    /// Square of the force's magnitude in a joint (N^2).
     ForceSquare(JointId),
     /// Balancing moment of a drive (N m).
     Torque(usize),

@@ -31,7 +31,7 @@ const ROUNDING: f64 = 1e-10;
 const MOST: usize = 60;
 /// The iteration continues while each change is below this fraction of the previous change.
 const QUICK: f64 = 0.3;
-/// Number of multiplications of a vector v by 1 + L.
+/// How many times a vector is multiplied by the matrix 1 + L.
 /// Each multiplication gives an upper bound of the spectral radius of L.
 const POWERS: usize = 8;
 /// Two solutions are different if a normal force differs by more than this fraction of the sum of its two values.

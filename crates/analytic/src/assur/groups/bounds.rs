@@ -31,13 +31,13 @@ impl Bound {
     pub(in crate::assur) const REST: Bound =
         Bound { about: Vec2::new(0.0, 0.0), speed: 0.0, second: 0.0, turn: 0.0, spin: 0.0 };
 
-    /// Bounds of a link that turns at a constant speed. The point `about` on its axis has the given speed and
-    /// acceleration.
+    /// Bounds of a link that turns at a constant speed. The link turns about the point `about`, whose speed and
+    /// acceleration are given.
     pub(super) fn driven(about: Vec2, [speed, second]: [f64; 2], turn: f64) -> Self {
         Bound { about, speed, second, turn, spin: 0.0 }
     }
 
-    /// Bounds of the speed and acceleration of a point of the link.
+    /// Bounds on the speed and on the acceleration of the point `local` of the link.
     pub(super) fn at(&self, local: Vec2) -> [f64; 2] {
         self.beyond((local - self.about).norm())
     }
@@ -47,7 +47,8 @@ impl Bound {
         [self.speed + self.turn * arm, self.second + self.centripetal() * arm]
     }
 
-    /// Bound of the relative acceleration of a point of the link and the reference point, per unit of their distance.
+    /// Bound on the acceleration of a point of the link relative to the reference point, divided by the distance of
+    /// the two points.
     pub(super) fn centripetal(&self) -> f64 {
         self.spin + self.turn * self.turn
     }
@@ -67,8 +68,8 @@ pub(in crate::assur) struct Limit {
     pub(in crate::assur) way: f64,
 }
 
-/// Bound of the second derivative of the squared distance of two points, from bounds of their relative speed and
-/// acceleration.
+/// Bound on the second derivative of the squared distance between two points.
+/// The inputs are bounds on the relative speed and on the relative acceleration.
 /// `most` is the largest distance of the two points.
 pub(super) fn of_square([speed, second]: [f64; 2], most: f64) -> f64 {
     2.0 * (speed * speed + most * second)

@@ -14,9 +14,8 @@
 //! 90 degrees. The derivative of the gap with respect to a slide is the axis of this slide.
 //! Velocities and accelerations of the unknowns follow from the same Jacobian.
 //! For the velocities, the right-hand side of a contour is minus the velocity of its gap at constant unknowns.
-//! For the accelerations, the right-hand side is minus the acceleration of the gap if the second derivatives of the
-//! unknowns are zero.
-//! This acceleration contains the centripetal and Coriolis parts.
+//! For the accelerations, the right-hand side is minus the acceleration that the gap would have with all second
+//! derivatives of the unknowns equal to zero. This acceleration contains the centripetal and Coriolis parts.
 //! For a given coordinate, the right-hand side contains the rate or acceleration of the drive.
 
 mod contour;
@@ -566,7 +565,8 @@ impl Chain {
         &self.trains
     }
 
-    /// Computes the multipliers of the closing joints, given coordinates and transmissions in place: J^T lambda = -Q.
+    /// Computes in place the multipliers of the closing joints, of the given coordinates and of the transmissions:
+    /// J^T lambda = -Q.
     /// First come the forces on the second links of the closing joints (N), x and y alternating.
     /// Next are the driving moments on the nodes with given joints (N m; for a slide, the force along the axis
     /// times [`Chain::size`]).

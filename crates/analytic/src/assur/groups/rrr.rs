@@ -302,7 +302,8 @@ impl Rrr {
         self.velocities_with([Vec2::zeros(); 2], motions);
     }
 
-    /// [`Rrr::velocities`], if the inner joint also moves relative to the two links, with the velocities `extra` (m/s).
+    /// Like [`Rrr::velocities`], but the inner joint also moves relative to the two links.
+    /// `extra` contains these relative velocities (m/s).
     #[inline]
     pub(super) fn velocities_with(&mut self, extra: [Vec2; 2], motions: &mut [Motion]) {
         let [r1, r2] = self.spans;
@@ -321,7 +322,8 @@ impl Rrr {
         self.accelerations_with([Vec2::zeros(); 2], motions);
     }
 
-    /// [`Rrr::accelerations`], if the inner joint has the additional accelerations `extra` (m/s^2) on the two links.
+    /// Like [`Rrr::accelerations`], but the inner joint has the additional accelerations `extra` (m/s^2) on the two
+    /// links.
     #[inline]
     pub(super) fn accelerations_with(&self, extra: [Vec2; 2], motions: &mut [Motion]) {
         let [r1, r2] = self.spans;

@@ -1,12 +1,12 @@
-//! RRR dyad of bodies of changing shape: a cylinder and its rod are one link of changing length.
+//! RRR dyad whose bodies change their shape: a cylinder and its rod count as one link with a changing length.
 //! See docs/numerics/given.md.
 //!
 //! The root of a body is the link with its outer joint.
 //! Given joints, whose coordinates are functions of time, connect the other links of the body with the root.
 //! In the frame of the root, the inner joint has the position p(t) from the outer joint, with the rates p' and p''.
 //! The dyad is solved with the present vectors p in closed form.
-//! With w = p' in world axes, the velocity of the inner joint is v + omega x r + w. Its acceleration has the additional
-//! terms p'' in world axes and 2 omega x w (relative motion, Coriolis).
+//! With w = p' in world axes, the velocity of the inner joint is v + omega x r + w. The acceleration of the inner
+//! joint has the additional terms p'' in world axes and 2 omega x w (relative motion, Coriolis).
 //! The dyad therefore moves with the velocities of a dyad of rigid links whose outer joints have the velocities v1 + w1
 //! and v2 + w2.
 

@@ -13,7 +13,7 @@ const STEP: f64 = 0.4;
 const FOLLOWED: f64 = 0.2;
 /// Smallest step (rad) in which a higher group is followed.
 const SMALLEST: f64 = 1e-9;
-/// If the sine of a group is linear and falls below this value, it counts as passing through zero.
+/// If the sine of a group changes linearly and falls below this value, the sine counts as passing through zero.
 /// At a change point, rounding of the lengths leaves a sine of at most the square root of the unit roundoff.
 /// If a larger sine remains, the pose of the smallest sine is not a change point.
 const MET: f64 = 1e-6;

@@ -38,7 +38,7 @@ const APART: f64 = 0.2;
 /// Number of secant steps that improve the position of the change point.
 const POLISHING: usize = 4;
 /// The polynomials amplify the rounding error of the poses by the sum of the magnitudes of the weights, about four.
-/// This constant is the cube root of this sum.
+/// The constant `WEIGHTS` is the cube root of this sum.
 const WEIGHTS: f64 = 1.6;
 /// The rounding error of accelerations is the unit roundoff, times the cube of the condition number, times this factor.
 const ULPS: f64 = 16.0;
@@ -235,7 +235,7 @@ impl Window {
     /// The error is divided by the largest of these transfer functions, but at least by 1.
     /// The error is the change of the result when the outermost or the innermost pair of nodes is left out, whichever
     /// is larger.
-    /// Without the outermost pair, the change shows the error of the polynomials; without the innermost pair, the
+    /// Leaving out the outermost pair shows the error of the polynomials; leaving out the innermost pair shows the
     /// rounding error.
     fn error(&self) -> f64 {
         let second = |kept: &dyn Fn(f64) -> bool| -> Vec<f64> {

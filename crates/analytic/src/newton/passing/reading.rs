@@ -1,4 +1,5 @@
-//! Results of a system after it has followed its path: velocities, accelerations, multipliers.
+//! Reads the results (velocities, accelerations, multipliers) of a system that has been followed to the requested
+//! instant.
 
 use super::Passing;
 use super::spot::Spot;

@@ -18,10 +18,10 @@
 //!
 //! Dead points. At the limit positions of a ground lead d alpha / d theta is infinite: this lead cannot be the driver.
 //! There are two kinds of limit positions.
-//! In the first kind, the base link is in line with the ground lead that does not drive.
+//! In a limit position of the first kind, the base link is in line with the ground lead that does not drive.
 //! The first dyad is then at its limit.
 //! The driver is therefore chosen so that the first dyad is as far as possible from its limit.
-//! In the second kind, the crank and lead 3 are in line.
+//! In a limit position of the second kind, the crank and lead 3 are in line.
 //! Both ground leads then stand still, and both are equally unsuitable as the driver.
 //! The second dyad then changes from one of its two configurations to the other.
 //! The closing condition of the second dyad holds for both configurations and is smooth in theta.

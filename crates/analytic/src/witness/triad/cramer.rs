@@ -4,8 +4,8 @@
 //! `l_1 e(alpha_1) + b_k e(alpha_4 + beta_k) = A_1 A_k + l_k e(alpha_k)`.
 //! The derivatives with respect to the crank angle (or to time) give four linear equations for alpha_1' .. alpha_4'.
 //! The right-hand side contains the velocities of the feet.
-//! The second derivatives give equations with the determinant of the first equations. The right-hand side contains the
-//! accelerations of the feet and the centripetal parts of the links.
+//! The second derivatives give equations with the same coefficients. Their right-hand side contains the accelerations
+//! of the feet and the centripetal accelerations of the links.
 //! Each unknown is a quotient of two 4 x 4 determinants (method of the transfer functions).
 //! Background: I. I. Artobolevsky, Theory of Mechanisms and Machines, 4th ed., Nauka 1988.
 

@@ -25,7 +25,7 @@ pub(super) struct Friction {
     pub link: LinkId,
     /// Moment (N m).
     pub moment: f64,
-    /// Hinges on the way through the tree from the ground to the link, as indices of branches. The sum of the hinge
+    /// Hinges on the path through the tree from the ground to the link, as indices of branches. The sum of the hinge
     /// angles is the link's angle.
     pub hinges: Vec<usize>,
     /// Whether the link's joint with its parent in the tree is the only hinge between the ground and the link.

@@ -84,7 +84,7 @@ pub(super) struct PmksRecords {
     pub(super) joints: Vec<PmksJoint>,
     pub(super) links: Vec<PmksLink>,
     pub(super) forces: Vec<PmksForce>,
-    /// Sections after the selected part.
+    /// Sections of the query that follow the section about the selected part.
     pub(super) further: Vec<String>,
 }
 

@@ -36,12 +36,13 @@ impl AssurLead {
         cross(self.along, far - near) / self.length()
     }
 
-    /// Adds two normal parts to `far`, the acceleration of the lead's second end, on the way to the acceleration of the
-    /// singular point `at`.
-    /// The first normal part is omega^2 l between the lead's ends, with the lead's angular velocity `lead` (rad/s).
-    /// The second normal part is omega^2 l between the lead's first end and the point, with the angular velocity `base`
-    /// of the base link (rad/s).
-    /// Both normal parts are parallel to the lead; the tangential parts are across the lead.
+    /// Adds two normal accelerations to `far`, the acceleration of the lead's second end: the first step of the
+    /// construction of the acceleration of the singular point `at`.
+    /// The first normal acceleration is omega^2 l of the lead's first end relative to the second end, with the lead's
+    /// angular velocity `lead` (rad/s).
+    /// The second normal acceleration is omega^2 l of the singular point relative to the lead's first end, with the
+    /// angular velocity `base` of the base link (rad/s).
+    /// Both normal accelerations are parallel to the lead; the tangential accelerations are perpendicular to the lead.
     pub(super) fn foot(&self, at: Vec2, far: Vec2, lead: f64, base: f64) -> Vec2 {
         far + self.along * (lead.powi(2) * self.length()) + (self.ends[0] - at) * base.powi(2)
     }
@@ -68,7 +69,8 @@ pub enum AssurAcceleration {
     /// Class IV: the leads' second ends are on a link whose angular acceleration is unknown.
     /// Two assumed values of this angular acceleration give two false positions of the end of the point's acceleration.
     /// The end of the true acceleration lies on the line through the two false positions.
-    /// It also lies on a line across the arm from the base link's outer joint to the singular point.
+    /// The end of the true acceleration also lies on a line across the arm from the base link's outer joint to the
+    /// singular point.
     FalsePositions(FalsePositions),
 }
 

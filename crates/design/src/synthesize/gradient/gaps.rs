@@ -18,7 +18,7 @@ use super::dimensions::Dimensions;
 
 /// Largest distance at which nearest points are computed, divided by the mechanism's size.
 const FAR: f64 = 1e3;
-/// A part with a single corner is a disc. `DOT` is its radius, divided by the mechanism's size.
+/// Radius of the disc that replaces a convex part with a single corner, divided by the mechanism's size.
 const DOT: f64 = 1e-9;
 
 /// A corner of an outline: a point of the link, whose position may vary, or a fixed position on the link (m).

@@ -10,8 +10,8 @@
 //!   At the crank angle between two opposite motions, the conditions of both phases apply, so the rate is zero up to h.
 //! - Known levels: u differs from a level by at most h. If u must follow a curve, it differs from the curve by at most
 //!   h over the whole turn.
-//! - Precision points: the angle of the output link differs from the required angle by at most h. So do the
-//!   coordinates, divided by the extent of all points.
+//! - Precision points: the angle of the output link differs from the required angle by at most h. The coordinates,
+//!   divided by the extent of all points, also differ from the required coordinates by at most h.
 //!   Free crank angles ascend.
 //! - Stroke, acceleration, transmission angles, distances, mass and limited quantities stay within their limits.
 
@@ -127,8 +127,9 @@ impl<'a> Wishes<'a> {
         self.task.variables.len()
     }
 
-    /// The point of the programme for a candidate. It consists of the fractions `shares`, the smallest deviation with
-    /// which the candidate keeps all constraints, its levels in dwells, and the free crank angles among `turns` (rad).
+    /// The values of the programme's unknowns for a candidate: the variables as fractions `shares` of their ranges,
+    /// the smallest deviation with which the candidate keeps all constraints, the candidate's levels in dwells, and
+    /// the free crank angles among `turns` (rad).
     pub(super) fn start(&self, found: &Sampled, shares: &[f64], turns: &[f64]) -> Vec<f64> {
         let output = Output::of(&found.rows, self.forward);
         let level = |dwell: &usize| {
@@ -145,7 +146,8 @@ impl<'a> Wishes<'a> {
 
     /// The smallest deviation h with which a point keeps all constraints that contain h.
     fn needed(&self, found: &Sampled, point: &[f64]) -> f64 {
-        // Such a constraint has the form c - width h <= 0. Its values for h = 0 and h = 1 give c and the width.
+        // Such a constraint has the form c - width h <= 0. The values of its left side for h = 0 and h = 1 give c and
+        // the width.
         let with = |h: f64| {
             let mut point = point.to_vec();
             point[self.deviation()] = h;

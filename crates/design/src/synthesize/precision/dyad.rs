@@ -29,7 +29,7 @@
 //!   Two roots are trivial (all u_j = 1, and all u_j = k_j), with infinite X and Y. Up to four dyads remain.
 //!
 //! For five positions, Newton's method makes the dyads more exact.
-//! Its equations contain no u_j: `|X + d_j - Y (k_j - 1)| = |X|`.
+//! The equations of this iteration contain no u_j: `|X + d_j - Y (k_j - 1)| = |X|`.
 //! Every dyad is verified by these equations.
 
 use linkage::math::dense::Lu;
@@ -47,15 +47,15 @@ const PASSED: f64 = 1e-10;
 const SIZES: [f64; 2] = [1e-6, 1e4];
 /// Relative difference below which two dyads are the same.
 const SAME: f64 = 1e-7;
-/// Relative size below which all minors count as zero.
+/// Relative magnitude below which all minors count as zero.
 const DEGENERATE: f64 = 1e-12;
 
 /// A dyad in standard form.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StandardDyad {
-    /// Vector X in position 1 (m). Its rotations were unknown.
+    /// Vector X in position 1 (m). The rotations of X were unknown.
     pub free: Complex,
-    /// Vector Y in position 1 (m). Its rotations were given.
+    /// Vector Y in position 1 (m). The rotations of Y were given.
     pub given: Complex,
     /// Rotations of X from position 1 to every position, as complex numbers of magnitude 1. The first one is 1.
     pub turns: Vec<Complex>,

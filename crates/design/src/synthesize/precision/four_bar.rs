@@ -285,7 +285,7 @@ mod tests {
         // Crank-rocker, double-crank.
         assert_eq!(reachable([4.0, 1.0, 3.5, 3.0]), Vec::<[f64; 2]>::new());
         assert_eq!(reachable([1.0, 4.0, 3.5, 3.0]), Vec::<[f64; 2]>::new());
-        // The dyad is stretched at the diagonal 4 = 1.5 + 2.5, so cos x = (9 + 4 - 16) / 12. It is folded at the
+        // The dyad is stretched at the diagonal 4 = 1.5 + 2.5, so cos x = (9 + 4 - 16) / 12. The dyad is folded at the
         // diagonal 1 = 3 - 2.
         let [[from, to]] = reachable([3.0, 2.0, 1.5, 2.5])[..] else { panic!("one interval") };
         assert!((to + from).abs() < 1e-15 && (to - (-0.25f64).acos()).abs() < 1e-15);

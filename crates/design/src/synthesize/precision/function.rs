@@ -34,7 +34,7 @@ const FRAME: f64 = 1e-6;
 /// Meaning of the angles given for a function generator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FunctionStart {
-    /// The angles are world angles. This is possible only for three pairs.
+    /// The angles are world angles. World angles are possible only for three pairs.
     World,
     /// Only the differences from the first pair matter.
     Free,

@@ -119,7 +119,8 @@ fn evolve(bench: &mut Bench, zero: Option<usize>, evaluations: usize, number: us
 /// Runs COBYLA from the best candidate so far, with decreasing initial steps.
 fn approximate(bench: &mut Bench, zero: Option<usize>, evaluations: usize) {
     let each = evaluations / RADII.len();
-    // With zero evaluations, COBYLA would run without a limit. It is therefore not called in this case.
+    // If the limit of evaluations were zero, COBYLA would run without a limit. COBYLA is therefore not called in this
+    // case.
     if each == 0 {
         return;
     }

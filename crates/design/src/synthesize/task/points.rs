@@ -9,9 +9,9 @@ use linkage::math::{KeepNan, Vec2};
 pub struct PrecisionPoint {
     /// Crank angle (rad, from crank angle zero in the sense of rotation). `None` if the search chooses the crank angle.
     pub turn: Option<f64>,
-    /// World place of the working point (m). `None` if only the angle is required.
+    /// World position of the working point (m). `None` if only the angle is required.
     pub place: Option<Vec2>,
-    /// Angle of the link (rad, counter-clockwise positive). `None` if only the place is required.
+    /// Angle of the link (rad, counter-clockwise positive). `None` if only the position is required.
     pub angle: Option<f64>,
 }
 
@@ -24,8 +24,8 @@ pub struct PrecisionPoints {
 }
 
 impl PrecisionPoints {
-    /// Stores the points and the length by which deviations of places are divided: the largest distance between two
-    /// places, or `size` (m) if there are fewer than two places.
+    /// Stores the points and the length by which deviations of positions are divided: the largest distance between two
+    /// required positions, or `size` (m) if fewer than two positions are required.
     /// Deviations of angles are in radians.
     pub fn of(points: Vec<PrecisionPoint>, size: f64) -> Self {
         let places: Vec<Vec2> = points.iter().filter_map(|point| point.place).collect();
@@ -58,7 +58,7 @@ impl PrecisionPoints {
         self.deviations(point, place, angle).iter().map(|own| own * own).sum()
     }
 
-    /// The length by which deviations of places are divided (m).
+    /// The length by which deviations of positions are divided (m).
     pub fn extent(&self) -> f64 {
         self.extent
     }

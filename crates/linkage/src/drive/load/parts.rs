@@ -67,7 +67,7 @@ pub struct LoadNature<'a> {
     pub on: On,
     /// Motion whose sense the load depends on.
     pub senses: Senses,
-    /// Whether the load depends on the sizes of speeds, in addition to their signs.
+    /// Whether the load depends on the magnitudes of speeds, and not only on their signs.
     pub is_viscous: bool,
     /// The two links between which the load measures the twist: see [`LoadState::twist`](super::LoadState::twist).
     pub twist: Option<[LinkId; 2]>,

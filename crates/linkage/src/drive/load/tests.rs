@@ -194,7 +194,7 @@ fn scaled_loads_act_in_proportion() {
     }
 }
 
-/// A load that is zero where its link reverses has at most a kink, and no jump. A load of size zero has no jump.
+/// A load that is zero where its link reverses has at most a kink, and no jump. A load of magnitude zero has no jump.
 #[test]
 fn the_jump_of_a_load_is_its_difference_between_both_senses() {
     let one_way = |moment, acts| Load::Moment { link: LinkId(1), moment, acts };

@@ -138,7 +138,8 @@ fn in_pair_order<'a, 'b>([a, b]: &'b [Member<'a>; 2]) -> [&'b Member<'a>; 2] {
     if a.inner.first.link == a.link { [a, b] } else { [b, a] }
 }
 
-/// A configuration with the poses of both links in the group's order. The argument `poses` may be in either order.
+/// A configuration with the poses of both links in the group's order. The order of the two entries of `poses` does not
+/// matter.
 fn configuration(members: &[Member; 2], mode: AssemblyMode, poses: [(LinkId, LinkPose); 2]) -> Configuration {
     let pose = |member: &Member| poses.iter().find(|(link, _)| *link == member.link).expect("both links are posed").1;
     Configuration { mode, links: members.iter().map(pose).collect() }

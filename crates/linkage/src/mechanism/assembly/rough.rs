@@ -101,7 +101,7 @@ fn lay(mechanism: &Mechanism, link: LinkId, near: &Near, hooks: &[&Joint], pose:
     });
     // The rotation that best fits the link to its approximate positions.
     // As complex numbers, the local and world vectors of each point give the product conj(local) world.
-    // The sum of these products has the direction of the rotation.
+    // The argument of the sum of these products is the angle of the rotation.
     let fit: Vec2 = places
         .iter()
         .map(|place| (place.0 - local, place.1 - world))

@@ -1,7 +1,8 @@
 //! Laws of cams: lift of the follower as a function of the cam's angle, in pieces or as one curve.
 //!
 //! The curve of a piece is normalised.
-//! The normalised curve rises from 0 to 1 while x goes from 0 to 1. Its slope is zero at both ends.
+//! The normalised curve rises from 0 to 1 while x goes from 0 to 1. The slope of the normalised curve is zero at both
+//! ends.
 //! Equations: Norton, Cam Design and Manufacturing Handbook, 2nd ed., Industrial Press 2009, chapters 2 and 3.
 
 use std::f64::consts::{PI, TAU};
@@ -136,7 +137,7 @@ impl CamLaw {
 
     /// Angular distance (rad) from the given cam angle to the nearest end of a piece.
     /// At the end of a piece the third derivative jumps.
-    /// The distance is pi for a law without pieces.
+    /// A law by a harmonic or a formula has no pieces; the result is then pi.
     #[must_use]
     pub fn to_knot(&self, angle: f64) -> f64 {
         let away = |end: f64| ((angle - end + PI).rem_euclid(TAU) - PI).abs();

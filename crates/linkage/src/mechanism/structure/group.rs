@@ -20,8 +20,8 @@ pub enum GroupKind {
     Prp,
     /// Any group with more than two rigid bodies, and any group of two bodies with a transmission.
     Higher,
-    /// A driving link (class I). Its pose follows from a joint with given coordinate on a link of an earlier group, or
-    /// from a transmission between earlier links.
+    /// A driving link (class I). The pose of the link follows from a joint with given coordinate on a link of an
+    /// earlier group, or from a transmission between earlier links.
     Driven,
 }
 

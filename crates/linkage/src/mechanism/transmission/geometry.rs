@@ -11,8 +11,9 @@ use crate::math::{Vec2, cross, rotated, turned};
 pub struct Member {
     /// The link.
     pub link: LinkId,
-    /// Axle of a wheel, cam or swinging follower in the frame of the carrier (m). A rack has here the foot of the
-    /// pinion's axle on the pitch line; a sliding follower has the joint's point on the carrier.
+    /// Axle of a wheel, cam or swinging follower in the frame of the carrier (m). For a rack, the foot of the
+    /// perpendicular from the pinion's axle to the pitch line. For a sliding follower, the joint's point on the
+    /// carrier.
     pub place: Vec2,
     /// Pitch radius (m); 0 for a rack, cam or follower.
     pub radius: f64,

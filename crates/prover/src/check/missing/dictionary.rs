@@ -102,9 +102,9 @@ impl Dictionary {
 }
 
 /// Angles of the derivation, each with the complexity of its sine or cosine.
-/// The list starts with the crank angle, the steps in arguments of sines, cosines and tangents, and the steps that are
-/// values of inverse functions. Differences of two of these angles are added, and twice and three times the crank
-/// angle.
+/// The list starts with the crank angle, with the steps in arguments of sines, cosines and tangents, and with the
+/// steps that are values of inverse functions. The rest of the list are the differences between two of these angles,
+/// and two and three times the crank angle.
 fn angles(trial: &Trial) -> Vec<(FormulaTree, usize)> {
     let mut names: Vec<FormulaTree> = vec![FormulaTree::name("phi")];
     let known = &trial.formulas.list[..trial.index];

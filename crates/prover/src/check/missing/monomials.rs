@@ -51,7 +51,8 @@ impl Monomials {
         near.map(|own| (self.tree(own, own.is_negative != (value < 0.0)), own.weight)).collect()
     }
 
-    /// Returns two numbers. The first is the number of products of this dimension whose complexity is at most `weight`.
+    /// Returns two numbers. The first number counts the products of this dimension whose complexity is at most
+    /// `weight`.
     /// The second is the expected number of these products that match `value` by chance within `accuracy`.
     pub(in crate::check) fn by_chance(
         &self,

@@ -1,4 +1,4 @@
-//! Slips at one position of a formula: the possible corrections of a part.
+//! Slips at one position of a formula: the possible corrections of a subexpression.
 
 use super::rules::with_slips;
 use super::slip::SlipKind;
@@ -9,8 +9,8 @@ use scenario::Parameter;
 /// Values that authors write for the gravitational acceleration (m/s^2).
 pub(super) const GRAVITY: [f64; 5] = [9.81, 9.806_65, 9.8, 9.807, 10.0];
 
-/// Returns the possible corrections of a part for one kind of slip. `names` are the names of quantities. Corrections
-/// that no rule can express come first.
+/// Returns the possible corrections of a subexpression for one kind of slip. `names` are the names of quantities.
+/// Corrections that no rule can express come first.
 pub(super) fn of(part: &FormulaTree, kind: SlipKind, names: &[&str], parameters: &[Parameter]) -> Vec<FormulaTree> {
     let other_than = |numbers: &[f64], own: f64| -> Vec<FormulaTree> {
         numbers.iter().filter(|other| **other != own).map(|other| FormulaTree::number(*other)).collect()
@@ -36,14 +36,14 @@ fn is_unit(value: f64) -> bool {
     GRAVITY.contains(&value) || [1e3, 1e6, 1e-3, 1e-6, 30.0, 60.0, 90.0, 180.0, 270.0, 360.0, 3600.0].contains(&value)
 }
 
-/// If the part is the key of a parameter, which denotes the number in the unit of the file, returns the name of the
-/// quantity.
+/// If the subexpression is the key of a parameter, which denotes the number in the unit of the file, returns the name
+/// of the quantity.
 fn quantity<'a>(part: &FormulaTree, parameters: &'a [Parameter]) -> Option<&'a str> {
     let NodeShape::Name(own) = &part.shape else { return None };
     parameters.iter().find(|parameter| parameter.key == *own).and_then(Parameter::short)
 }
 
-/// Names that the author of the formula may have meant in place of this part.
+/// If the subexpression is a name: other names that the author of the formula may have meant.
 fn others(part: &FormulaTree, names: &[&str], parameters: &[Parameter]) -> Vec<FormulaTree> {
     let NodeShape::Name(own) = &part.shape else { return Vec::new() };
     let quantity = quantity(part, parameters);
@@ -80,8 +80,8 @@ fn rename(tree: &mut FormulaTree, [one, other]: [&str; 2]) {
     }
 }
 
-/// The part with other parentheses and the same order of symbols. Only groupings that the table of rules (`rules.rs`)
-/// cannot express are returned:
+/// The subexpression with other parentheses and the same order of symbols. Only groupings that the table of rules
+/// (`rules.rs`) cannot express are returned:
 /// a*b + c + d for a*(b + c + d), a/b + c for a/(b + c), sin(a) + b for sin(a + b), sin(a^2) for sin(a)^2.
 fn regrouped(part: &FormulaTree) -> Option<FormulaTree> {
     let first = first_of(part);

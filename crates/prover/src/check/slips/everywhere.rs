@@ -72,7 +72,7 @@ struct Search<'a, 'b> {
 }
 
 impl Search<'_, '_> {
-    /// The parts for which `is_meant` holds, with their positions.
+    /// The subexpressions for which `is_meant` returns true, with their positions.
     fn places<'t>(
         &mut self,
         formulas: &'t Formulas,
@@ -95,8 +95,8 @@ impl Search<'_, '_> {
         self.trial.sheet.depending(&places.iter().map(|(place, _)| *place).collect::<Vec<usize>>())
     }
 
-    /// Tries a correction. `changes` gives the corrected parts of the derivation. `change` makes the same correction in
-    /// the tree of a formula.
+    /// Tries a correction. `changes` gives the corrected subexpressions of the derivation. `change` makes the same
+    /// correction in the tree of a formula.
     fn mended(
         &mut self,
         kind: SlipKind,

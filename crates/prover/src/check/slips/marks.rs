@@ -1,20 +1,20 @@
-//! The smallest parts of a formula's text that a correction changes.
+//! The smallest pieces of a formula's text that a correction changes.
 
 use std::ops::Range;
 
 use formula::{FormulaTree, NodeShape};
 
-/// A part of a formula's text that is wrong.
+/// A wrong piece of a formula's text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FormulaMark {
-    /// Byte range of the part in the text.
+    /// Byte range of the wrong piece in the text.
     pub at: Range<usize>,
-    /// The right part.
+    /// The right text in place of the wrong piece.
     pub right: String,
 }
 
-/// The parts of `text` in which a formula differs from its correction, from left to right. Parts without a position in
-/// the text are left out.
+/// The pieces of `text` in which a formula differs from its correction, from left to right. Pieces without a position
+/// in the text are left out.
 pub(in crate::check) fn marks(text: &str, written: &FormulaTree, right: &FormulaTree) -> Vec<FormulaMark> {
     let mut found = Vec::new();
     differing(text, written, right, &mut found);
@@ -31,7 +31,7 @@ fn differing(text: &str, written: &FormulaTree, right: &FormulaTree, found: &mut
     if is_same(written, right) {
         return;
     }
-    // The correction adds a sign, a factor or a term to the unchanged part.
+    // The correction adds a sign, a factor or a term to the unchanged subexpression.
     if right.parts().iter().any(|part| is_same(part, written)) {
         return found.push(FormulaMark { at: written.at.clone(), right: right.to_string() });
     }

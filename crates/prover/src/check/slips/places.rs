@@ -30,7 +30,7 @@ pub(in crate::check) fn used_by(formulas: &Formulas, formula: usize) -> Vec<usiz
     found
 }
 
-/// Visits every part of a tree with its position. The whole tree comes first.
+/// Visits every subexpression of a tree with its position. The whole tree comes first.
 pub(in crate::check) fn at_every_place<'a>(tree: &'a FormulaTree, visit: &mut dyn FnMut(&[usize], &'a FormulaTree)) {
     fn go<'a>(tree: &'a FormulaTree, place: &mut Vec<usize>, visit: &mut dyn FnMut(&[usize], &'a FormulaTree)) {
         visit(place, tree);
@@ -43,7 +43,7 @@ pub(in crate::check) fn at_every_place<'a>(tree: &'a FormulaTree, visit: &mut dy
     go(tree, &mut Vec::new(), visit);
 }
 
-/// The part at place `number` in the order of [`at_every_place`].
+/// The subexpression with the index `number` in the order of [`at_every_place`].
 pub(in crate::check) fn numbered(tree: &FormulaTree, number: usize) -> &FormulaTree {
     let (mut found, mut next) = (tree, 0);
     at_every_place(tree, &mut |_, part| {
@@ -55,7 +55,7 @@ pub(in crate::check) fn numbered(tree: &FormulaTree, number: usize) -> &FormulaT
     found
 }
 
-/// The tree with the part `number` replaced by `other`.
+/// The tree in which `other` replaces the subexpression with the index `number`.
 pub(in crate::check) fn replaced(tree: &FormulaTree, number: usize, other: &FormulaTree) -> FormulaTree {
     let (mut at, mut next) = (Vec::new(), 0);
     at_every_place(tree, &mut |place, _| {

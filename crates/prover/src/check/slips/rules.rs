@@ -10,11 +10,10 @@ use scenario::formula::OMEGA;
 
 /// Written form and possible corrections, the likeliest first.
 /// Letters of the written form:
-/// `a`, `b` and `c` are any parts. `n` is a number. `q` is any part except a number or pi. `u` is any part except a
-/// number, pi or a function call. `t` contains the crank angle or the time outside function calls; multiples of `t` may
-/// change by whole revolutions from instant to instant. `r` is any part except a number, pi or a `t`. `g` is an `r` in
-/// a file without a
-/// parameter in m/s^2; gravity is then written as a number.
+/// `a`, `b` and `c` are any subexpressions. `n` is a number. `q` is any subexpression except a number or pi. `u` is
+/// any subexpression except a number, pi or a function call. `t` contains the crank angle or the time outside function
+/// calls; multiples of `t` may change by whole revolutions from instant to instant. `r` is any subexpression except a
+/// number, pi or a `t`. `g` is an `r` in a file without a parameter in m/s^2; gravity is then written as a number.
 /// `w` is the crank's angular velocity.
 const RULES: [(SlipKind, &str); 52] = [
     (SlipKind::Sign, "a + b => a - b"),
@@ -89,7 +88,7 @@ static READ: LazyLock<Vec<Rule>> = LazyLock::new(|| {
     RULES.into_iter().map(read).collect()
 });
 
-/// Adds the possible corrections of a part according to the rules of one kind of slip.
+/// Adds the possible corrections of a subexpression, by the rules for one kind of slip.
 pub(super) fn with_slips(part: &FormulaTree, kind: SlipKind, has_gravity: bool, edits: &mut Vec<FormulaTree>) {
     for rule in READ.iter().filter(|rule| rule.kind == kind) {
         let mut found = Vec::new();
@@ -99,7 +98,8 @@ pub(super) fn with_slips(part: &FormulaTree, kind: SlipKind, has_gravity: bool, 
     }
 }
 
-/// Whether a part matches a written form; `found` receives the parts that match the letters of the form.
+/// Whether a subexpression matches a written form; `found` receives the subexpressions that match the letters of the
+/// form.
 fn goes_with<'a>(
     written: &'a FormulaTree,
     part: &'a FormulaTree,
@@ -133,7 +133,7 @@ fn goes_with<'a>(
     }
 }
 
-/// Whether a part has the form of an angle or a time.
+/// Whether a subexpression contains the crank angle or the time outside function calls.
 fn is_turning(part: &FormulaTree) -> bool {
     match &part.shape {
         NodeShape::Name(name) => INPUTS.contains(&name.as_str()),
@@ -142,7 +142,7 @@ fn is_turning(part: &FormulaTree) -> bool {
     }
 }
 
-/// A tree in which parts replace the letters.
+/// The tree of a written form in which the given subexpressions replace the letters.
 pub(in crate::check) fn with_parts(tree: &FormulaTree, parts: &[(&str, &FormulaTree)]) -> FormulaTree {
     let go = |tree: &FormulaTree| with_parts(tree, parts);
     match &tree.shape {

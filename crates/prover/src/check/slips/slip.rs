@@ -12,13 +12,14 @@ pub struct FormulaSlip {
     pub formula: String,
     /// Kind of slip.
     pub kind: SlipKind,
-    /// The written part.
+    /// The wrong subexpression, as written.
     pub written: String,
-    /// The corrected part.
+    /// The corrected subexpression.
     pub right: String,
-    /// Whether the slip occurs wherever the part occurs: in the formula, or in the formula and the steps that it uses.
+    /// Whether the slip occurs at every occurrence of the subexpression: in the formula, or in the formula and the
+    /// steps that it uses.
     pub everywhere: bool,
-    /// The smallest wrong parts of the formula's text; empty if the slip is not in a formula.
+    /// The smallest wrong pieces of the formula's text; empty if the slip is not in a formula.
     pub marks: Vec<FormulaMark>,
 }
 
@@ -61,9 +62,9 @@ linkage::words! {
 }
 
 /// Order of slips. The simplest slip has the smallest rank.
-/// The rank has four parts: whether the units contradict the correction, whether the slip occurs at many positions,
+/// The rank has four entries: whether the units contradict the correction, whether the slip occurs at many positions,
 /// whether the slip is in a step, and the kind of slip.
-/// For a wrong value, the second part is true if the digits of the value are not confused.
+/// For a wrong value, the second entry is true if the digits of the value are not confused.
 type Rank = (bool, bool, bool, SlipKind);
 
 /// A slip and the effect of its correction.
@@ -114,7 +115,7 @@ impl Tried {
     }
 
     /// Judges a corrected slip as `put` does, but only if the units allow the correction. `replaced` holds the old and
-    /// the new part in the first changed formula.
+    /// the new subexpression in the first changed formula.
     pub(super) fn put_standing(
         &mut self,
         trial: &mut Trial,

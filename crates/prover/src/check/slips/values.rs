@@ -78,14 +78,14 @@ fn put(
         everywhere: false,
         marks: Vec::new(),
     };
-    // A corrected number leaves the units unchanged. A correction of a number without confused digits ranks after
-    // missing terms.
+    // A corrected number leaves the units unchanged. If the wrong number has no confused digits, its correction ranks
+    // after missing terms.
     let rank = (false, !is_confused, changed[0].0 != trial.index, SlipKind::Value);
     tried.put(trial, changed, slip, rank);
 }
 
-/// The number that makes the formula right at all instants in place of `wrong`, with the same sign, and whether `wrong`
-/// has the digits of this number in confused form.
+/// The number that must replace `wrong` to make the formula right at all instants; it has the sign of `wrong`.
+/// Also returns whether `wrong` looks like this number with confused digits.
 fn meant(trial: &mut Trial, place: usize, wrong: f64) -> Option<(f64, bool)> {
     if trial.is_spent() || wrong == 0.0 {
         return None;

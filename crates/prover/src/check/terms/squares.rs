@@ -45,7 +45,7 @@ pub struct WeightedTerm<'a> {
 
 /// An explanation of the differences between wrong and right numbers.
 pub struct Explanation<'a> {
-    /// One quantity or two.
+    /// One or two quantities of the mechanism, each with its coefficient.
     pub parts: Vec<WeightedTerm<'a>>,
     /// Fraction of the largest difference that remains; zero if nothing remains.
     pub left: f64,

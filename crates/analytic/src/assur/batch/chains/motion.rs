@@ -13,8 +13,8 @@ use crate::assur::groups::Hangs;
 use linkage::math::Vec2;
 use linkage::trajectory::Stage;
 
-/// Upper limit (rad) of the sum of the corrections of a group's interpolated directions.
-/// The square of this sum is below rounding error.
+/// If the corrections of a group's interpolated directions sum up to at most this angle (rad), one correction is
+/// enough: the square of the sum is below rounding error.
 const LAST_CHANGE: f64 = 1e-8;
 
 impl Chain {

@@ -21,8 +21,8 @@ pub(super) struct Chain {
     pub(super) leads: [Grounded; 2],
     /// Head of lead 3 in the base link's frame (m).
     pub(super) third: Vec2,
-    /// Side of the line from the driver's head to the other ground lead's foot: +1 left, -1 right.
-    /// The other ground lead's head lies on this side.
+    /// On which side the head of the other ground lead lies, seen along the line from the driver's head to the foot of
+    /// the other ground lead: +1 left, -1 right.
     pub(super) side: f64,
 }
 

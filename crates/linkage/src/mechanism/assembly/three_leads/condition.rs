@@ -5,7 +5,7 @@ use crate::math::angle::wrapped;
 use crate::math::{KeepNan, Vec2, cross, rotated, turned, unit};
 use crate::mechanism::LinkPose;
 
-/// One side of a pair, in the frame of its body: the position and, if the pair slides, the axis.
+/// One element of a pair, in the frame of its body: the position and, if the pair slides, the axis.
 #[derive(Clone, Copy, Debug)]
 pub struct PairEnd {
     pub place: Vec2,
@@ -16,9 +16,9 @@ pub struct PairEnd {
 #[derive(Clone, Copy, Debug)]
 pub struct LeadPair {
     pub slides: bool,
-    /// The side on the lead.
+    /// The pair's element on the lead.
     pub lead: PairEnd,
-    /// The side on the frame or on the base.
+    /// The pair's element on the frame or on the base.
     pub body: PairEnd,
 }
 
