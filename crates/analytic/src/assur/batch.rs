@@ -245,8 +245,10 @@ impl OnRegisters for Tiles<'_, '_> {
 mod tests {
     use super::*;
     use fixtures::{class_four, four_bar, turning, turning_from};
+    use linkage::case::Grid;
+    use linkage::math::tally::{LanePeak, Tally, Weighted};
     use linkage::math::{KeepNan, Vec2};
-    use linkage::mechanism::{Mechanism, StartGroup};
+    use linkage::mechanism::{JointId, LinkId, Mechanism, StartGroup};
 
     /// Returns all register widths of this machine.
     fn widths() -> Vec<Arch> {
@@ -305,5 +307,26 @@ mod tests {
             let found: Vec<_> = widths().into_iter().map(solve).collect();
             assert!(found.iter().all(|bits| *bits == found[0]));
         }
+    }
+
+    #[test]
+    fn statistics_do_not_depend_on_the_register_width() {
+        let case = turning(with_masses(&four_bar()));
+        let grid = Grid::of_inputs(case.crank(), (0..301).map(|k| 0.02 * f64::from(k)).collect());
+        let case = case.with(|parts| parts.grid = grid).unwrap();
+        let solve = |arch: Arch| {
+            let mut batch = CaseBatch { arch, ..CaseBatch::of(&case).unwrap() };
+            let weights = Weighted::of(&[1.0 / 301.0; 301]);
+            let mut tallies = [
+                PoseTally::of(PoseQuantity::Force(JointId(2)), 1.0, Tally::Column(Vec::new())),
+                PoseTally::of(PoseQuantity::Torque(0), 1e-3, Tally::Range([LanePeak::NONE; 2])),
+                PoseTally::of(PoseQuantity::Angle(LinkId(3)), 1.0, Tally::Rms(weights)),
+                PoseTally::of(PoseQuantity::Alpha(LinkId(2)), 1.0, Tally::At(170, f64::NAN)),
+            ];
+            assert!(batch.solve(Stage::BalancingMoment, &mut tallies));
+            tallies.map(|own| format!("{:?}", own.tally))
+        };
+        let found: Vec<_> = widths().into_iter().map(solve).collect();
+        assert!(found.iter().all(|own| *own == found[0]));
     }
 }

@@ -43,7 +43,7 @@ pub struct CaseBatch {
     /// The tiles of a block, one after the other.
     tiles: Vec<Eight>,
     work: Vec<Eight>,
-    arch: Arch,
+    pub(super) arch: Arch,
 }
 
 /// The crank in one tile.
