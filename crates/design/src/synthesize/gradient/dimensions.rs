@@ -21,7 +21,7 @@ pub(super) struct Dimensions<'a, const N: usize> {
 }
 
 impl<'a, const N: usize> Dimensions<'a, N> {
-    /// The numbers of the candidate that `shares` define: the variables as fractions of their ranges.
+    /// The numbers of a candidate. `shares` are the candidate's variables, as fractions of their ranges.
     /// The derivatives are with respect to the fractions `first` to `first + N - 1`.
     pub(super) fn of(task: &'a Task, shares: &[f64], first: usize) -> Self {
         let variable = |(index, share): (usize, &f64)| {
