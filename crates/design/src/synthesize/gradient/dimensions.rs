@@ -115,7 +115,7 @@ impl<'a, const N: usize> Dimensions<'a, N> {
     }
 }
 
-/// Loads that act on a point of a link. Each has the number of its end at this point.
+/// Loads that act on a point of a link: index of the load, and index of the load's end at this point.
 fn loads_at(case: &Case, link: LinkId, local: Vec2) -> impl Iterator<Item = (usize, usize)> {
     let ends = |(load, own)| load_places(own).into_iter().flatten().enumerate().map(move |(end, at)| (load, end, at));
     let all = case.loads.iter().enumerate().flat_map(ends);
