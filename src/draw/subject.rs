@@ -1,4 +1,5 @@
-//! The drawn content of a file: the mechanism in its poses, or as far as it can be laid out.
+//! The drawn content of a file: the mechanism in its poses, or, if it cannot be assembled completely, the part that can
+//! be placed.
 
 use super::media::{Medium, PictureOptions};
 use super::motion::{Course, swung, turned, with_travels};

@@ -231,7 +231,7 @@ linkage::sentences! {
     CROSS_IN_THE_BAND_ABOVE_FAILED = "Cross in the band at the top: failed.";
     hollow_less_than_times_above(clear) = "Hollow mark: error less than {clear} times the reference's error (dashed line), so limited by the reference.";
     grey_line_the_reference_own(basis) = "Grey line: the reference's own error ({basis}).";
-    LINE_WHAT_NO_OTHER_SETTING = "Line: Pareto front of one program. Ring: on the Pareto front of all programs, or of engines and peers only.";
+    LINE_WHAT_NO_OTHER_SETTING = "Line: Pareto front of one program. Ring: on the Pareto front of all programs, or on that of engines and peers only.";
     IT_COUNTS_NONE_OF_THESE = "; does not report this cost";
     BALANCING_MOMENT_SHAKING_FORCE_AND_MOMENT = "balancing moment, shaking force and moment";
     NO_SETTING_THAT_ANSWERED_COUNTS = "no successful setting reports this cost";

@@ -58,7 +58,8 @@ fn regress_channels_that_vanish_by_symmetry_agree() {
     }
 }
 
-/// A shipped scenario without its formulas, its published numbers and the lines that `is_left_out` selects.
+/// A shipped scenario from which three parts are removed: the formulas, the published numbers, and all lines for which
+/// `is_left_out` returns true.
 fn bare(path: &str, is_left_out: impl Fn(&str) -> bool) -> Scenario {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
     let text = std::fs::read_to_string(&path).unwrap();

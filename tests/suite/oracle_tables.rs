@@ -220,7 +220,7 @@ fn a_wrong_number_is_found_among_rounded_instants() {
 }
 
 /// The instants are rounded to ten milliseconds, in which the crank turns by eight degrees.
-/// A number at an instant with this rounding is inconclusive, whether the number is right or wrong.
+/// At instants rounded this coarsely, the check of a number is inconclusive, whether the number is right or wrong.
 #[test]
 fn instants_rounded_too_much_are_inconclusive() {
     let scenario = text("scenarios/crank_rocker.toml");

@@ -83,8 +83,8 @@ fn val_compressor_closed_form() {
                 let pair = |(crank, state): &(f64, State)| {
                     let [at, velocity, acceleration] = place(&case, state, pin);
                     let motion = &state.motions[link];
-                    // Angles are clockwise from +y: 90 deg minus the angle of the state, and rates with the opposite
-                    // sign.
+                    // The authors measure angles clockwise from +y. Their angle is therefore 90 deg minus the state's
+                    // angle, and their angular rates have the opposite sign.
                     let phi2 = linkage::math::angle::wrapped(FRAC_PI_2 - state.angles[link]);
                     let found = [phi2, at.y, -motion.omega, velocity.y, -motion.alpha, acceleration.y];
                     (found[quantity], cylinder(l1, l2, FRAC_PI_2 - crank + delta, COMPRESSOR_SPEED)[quantity])

@@ -49,7 +49,7 @@ linkage::sentences! {
     FRICTION_HOLDS = "friction holds";
     THE_LOSSES_OF_THE_REDUCER = "the losses of the reducer hold";
     // motion/free.rs
-    A_LOAD_THAT_TURNS_ABOUT_JUST = "a load that reverses exactly there alternately holds and releases the link: start slightly beside this point";
+    A_LOAD_THAT_TURNS_ABOUT_JUST = "a load reverses exactly at this point, and so holds and releases the link in turn: start slightly beside this point";
     the_motion_does_not_get_away(from) = "the motion cannot be continued beyond t = {from:.9} s, where a direction of motion reverses";
     LET_THE_GRID_END_BEFORE_WHERE = "end the grid before this instant; where the inertia nearly vanishes at a crank angle, give the crank or the rotor a moment of inertia";
     GIVE_THE_LINKS_MASSES_OR_THE_MOTOR = "give the links masses, or the motor a rotor";
@@ -124,7 +124,7 @@ linkage::sentences! {
     // reduced/run_up.rs
     GIVE_THE_CRANK_A_SPEED_AT_OR_LET = "give the crank a speed at t = 0, or let the load act in both senses";
     at_the_crank_may_start_from_rest(t, at) = "at t = {t:.6} s, {at}, the crank may start from rest in either sense, because a load that acts in one sense only is driving it";
-    A_LOAD_THAT_TURNS_ABOUT_JUST_THERE = "a load that reverses exactly there alternately holds and releases the crank: start slightly beside this point";
+    A_LOAD_THAT_TURNS_ABOUT_JUST_THERE = "a load reverses exactly at this point, and so holds and releases the crank in turn: start slightly beside this point";
     the_motion_does_not_get_away_from_at(at, from) = "the motion cannot be continued beyond t = {from:.9} s, {at:.6}";
     GIVE_FINITE_TIMES_IN_ASCENDING = "give finite times from 0 s in ascending order";
     THE_INSTANTS_OF_A_MOTION = "the instants of a motion do not ascend from zero, or the speed is not finite";

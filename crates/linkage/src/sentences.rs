@@ -61,7 +61,7 @@ crate::sentences! {
     the_run_stands_up_to_2(t) = "the results are valid up to t = {t:.6} s";
     // error/advice.rs
     LEAVE_ALL_LOADS_OUT = "leave all loads out, and add them to the model by hand";
-    THE_COMPLETE_RESULTS_HAVE_ALL = "the complete results list all of them";
+    THE_COMPLETE_RESULTS_HAVE_ALL = "all of them are in the complete results";
     ASK_FOR_A_LARGER_ERROR_OTHER = "allow a larger error, request other channels, or admit more engines";
     name_a_channel_of_the_solution(groups) = "name a channel of the solution, such as joint.A.fx_N, or a group: {groups}";
     READ_THEM_OFF_A_TABLE_OF_THE_SOLUTION = "take the values from a table of the solution instead";

@@ -106,8 +106,8 @@ pub(crate) fn slide<S: Scalar>(instant: &Snapshot<S>, joint: &Joint, numbers: &J
     let gap_rate = second.point_velocity(other) - first.point_velocity(one);
     let gap_second = second.point_acceleration(other) - first.point_acceleration(one);
     let (omega, alpha, two) = (first.omega, first.alpha, S::of(2.0));
-    // The axis rotates with the first link, so the derivatives of the product axis . gap also contain derivatives of
-    // the axis.
+    // The axis rotates with the first link, so the derivatives of the dot product of axis and gap also contain
+    // derivatives of the axis.
     let turned = axis.turned();
     let second_rate =
         axis.dot(gap_second) + two * omega * turned.dot(gap_rate) + (turned * alpha - axis * (omega * omega)).dot(gap);

@@ -123,7 +123,7 @@ impl Sensitivity {
         ])
     }
 
-    /// Keys that were left out, each with the part of the file that uses it without a known derivative.
+    /// Usual keys that were left out, each with the part of the file whose derivative by this key is not known.
     #[getter]
     fn left_out(&self) -> BTreeMap<String, String> {
         self.found.left_out.iter().cloned().collect()

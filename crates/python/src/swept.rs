@@ -90,7 +90,7 @@ impl Sweep {
 
 /// A notebook shows the spread of the figures up to this number of cases.
 const SHOWN: u64 = 1_000_000;
-/// Goal of a pass over the table whose best cases are not used.
+/// Any goal, for a pass over the table that needs a goal but does not use the best cases.
 const FIRST: Goal = Goal { figure: 0, is_largest: false };
 
 #[pymethods]

@@ -59,8 +59,8 @@ impl ModelJoint {
 
     /// Position and lines of action of the joint if the bodies have these placements.
     ///
-    /// As in Rapier, the constraint rows act on body 1 at the origin of joint frame 2, moved back along the locked
-    /// axes.
+    /// As in Rapier, the constraint rows act on body 1 at the origin of joint frame 2, moved back along the locked axes
+    /// by the gap of the joint.
     pub(crate) fn stance(&self, bodies: &[ModelBody], placements: &[Placement]) -> Stance {
         let of = self.bodies.map(|body| placements[body]);
         let [first, second] = [0, 1].map(|k| of[k].placed(&self.frames[k]));

@@ -176,7 +176,8 @@ pub(super) struct Braking {
     /// Rates of the joints with friction one step earlier; NaN before the first step.
     before: Vec<f64>,
     now: Vec<f64>,
-    /// Rates that joints at rest reach in a trial step.
+    /// Mean rate of each joint with friction in a trial step from the start. The sign of this rate counts as the sense
+    /// of sliding while the joint's rate is 0.
     pub(super) setting_off: Vec<f64>,
 }
 

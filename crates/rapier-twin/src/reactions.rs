@@ -38,8 +38,8 @@ impl<'a> Reactions<'a> {
     /// Reports begin with step `from`.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] in these cases: the route is not [`Route::Differences`] and the case has friction, a
-    /// probe of a free motion is requested, or Rapier refuses a joint.
+    /// [`ErrorKind::Unsupported`] if the case has friction and the route is not [`Route::Differences`]; if the route is
+    /// [`Route::Probe`] and the motion is free; or if Rapier refuses a joint.
     pub(super) fn of(engine: &Rapier, case: &'a Case, from: i64) -> Result<(Self, Vec<Guard<'a>>)> {
         let mechanism = &case.mechanism;
         let moving = || match engine.build {

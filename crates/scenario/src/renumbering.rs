@@ -78,7 +78,8 @@ struct LinkNumbers {
     centre: Option<PlaceNumbers>,
     mass: Option<LinkNumber>,
     inertia: Option<LinkNumber>,
-    /// Joints on the link: index, whether the link is the second one, and the point.
+    /// Joints on the link: index of the joint, whether the link is the second of its two links, and index of the link's
+    /// point.
     joints: Vec<(usize, bool, usize)>,
     /// Positions of the points as last computed.
     places: Vec<Vec2>,

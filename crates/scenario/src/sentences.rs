@@ -119,7 +119,7 @@ linkage::sentences! {
     SWEEPS_OF_THE_ENGINE_ITERATION = "Sweeps of the engine's iteration in a step [default: as in the scenario; otherwise `run` chooses it, and other commands use the engine's default]";
     RELATIVE_ACCURACY_OF_AN_ENGINE = "Relative accuracy of an engine that chooses its own steps [default: the accuracy of the engine; simbody: 1e-8]";
     ENGINE_OR_ALL_TO_RUN_EVERY_ONE_SIDE = "Engine, or `all` to run all of them side by side. May be given several times [default: the engine of the scenario, otherwise the first engine]";
-    TIME_STEP_OF_THE_ENGINE_IN_SECONDS = "Time step of the engine in seconds [default: as in the scenario; otherwise `run` chooses it, and other commands use a quarter of a degree of the crank or less]";
+    TIME_STEP_OF_THE_ENGINE_IN_SECONDS = "Time step of the engine in seconds [default: as in the scenario; otherwise `run` chooses it, and other commands use a step in which the fastest driving link turns by a quarter of a degree or less]";
     // figure.rs
     the_mechanism_has_no_point(name) = "the mechanism has no point \"{name}\"";
     NAME_POINTS_WHOSE_DISTANCE_FOLLOWS = "name points whose distance depends on the pose of the mechanism";

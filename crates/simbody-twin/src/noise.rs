@@ -26,8 +26,8 @@ const ULPS: f64 = 20.0;
 ///
 /// A constraint error rotates a link by an angle equal to the constraint error divided by the link's length.
 /// The rotation is largest for the shortest link.
-/// A factor that depends on the pose amplifies the errors of the angles: once more in the velocities, and twice more in
-/// accelerations and forces.
+/// A factor that depends on the pose (`POSE`) amplifies the errors: the errors of the angles contain this factor once,
+/// the errors of velocities contain its square, and the errors of accelerations and forces contain its cube.
 /// Rates of constraints are kept below the tolerance times the drive's speed. Accelerations follow from positions and
 /// velocities.
 pub(super) fn bound(case: &Case, [tolerance, accuracy]: [f64; 2], channel: &ChannelKind) -> f64 {

@@ -19,7 +19,8 @@ use crate::store::broken;
 pub struct RowGroup {
     /// Values of the varied numbers, by axis.
     pub values: Vec<Vec<f64>>,
-    /// Figures, by figure; NaN where a figure does not exist.
+    /// Values of the figures: one list for each figure, with one value for each case. NaN if the figure does not exist
+    /// in that case.
     pub figures: Vec<Vec<f64>>,
     /// Why a case was refused; `None` for a solved case.
     pub reasons: Vec<Option<String>>,

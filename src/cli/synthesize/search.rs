@@ -21,7 +21,7 @@ results! { SearchResults {
     Svg = "required and achieved motion",
 } }
 
-/// Effort of a search, in place of that in the file.
+/// Effort of a search, in place of the effort in the file.
 #[derive(Debug, clap::Args)]
 pub(super) struct EffortArgs {
     /// Seed of the random numbers [default: the seed in the file]
@@ -94,7 +94,7 @@ pub(super) struct Found {
     pub(super) achieved: Achieved,
     /// Values of the variables (SI), rounded as they are written.
     pub(super) values: Vec<f64>,
-    /// The verdict of its proof, in one sentence.
+    /// The verdict of the mechanism's proof, in one sentence.
     pub(super) verdict: String,
 }
 

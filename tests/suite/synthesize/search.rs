@@ -201,8 +201,8 @@ fn regress_numbers_of_the_drawing_are_not_written() {
     assert!(written.starts_with(&told), "{written}");
 }
 
-/// The two phases end at the extreme positions of the published crank-rocker, at the crank angles of its range of
-/// motion.
+/// In the published crank-rocker, each of the two phases ends where the rocker reaches an extreme position. The crank
+/// angles there must equal the ends of the phases in the task, and the rocker's stroke must be 32 deg.
 #[test]
 fn the_measured_phases_end_at_the_extreme_positions() {
     let TaskFile { task, .. } = task(TASK);

@@ -128,7 +128,8 @@ impl Passing {
         all.min_by(|(_, a), (_, b)| (a.at - to).abs().total_cmp(&(b.at - to).abs())).map(|(index, _)| index)
     }
 
-    /// Places the mechanism by the window at this angle. Returns `false` if no window contains the angle.
+    /// If a window contains this angle, computes the positions of all links from that window. Otherwise returns
+    /// `false`.
     fn enter(&mut self, angle: f64, plan: &SolutionPlan, motions: &mut [Motion]) -> bool {
         self.inside = self.windows.iter().position(|window| (angle - window.at).abs() < window.reach);
         if let Some(window) = self.inside() {

@@ -94,7 +94,8 @@ fn unused(name: String, places: &[NamedPoint], others: &[Named]) -> Named {
     Named { letter: name.to_lowercase(), name }
 }
 
-/// Smallest and largest distance of every sliding point from the joint's point on its guide (m).
+/// For each slide: smallest and largest signed distance (m), along the guide's axis, from the joint's point on the
+/// guide to the sliding point.
 /// The distances are computed at `state` and on the case's grid, as far as the solver can follow the motion.
 pub fn travels(case: &Case, solver: &dyn Solver, state: &State, slides: &[Slide]) -> Vec<[f64; 2]> {
     let mut travels: Vec<[f64; 2]> = slides.iter().map(|slide| [slide.way(&case.mechanism, state); 2]).collect();

@@ -268,7 +268,8 @@ impl Bench<'_> {
         // The comparison run has twice the sweeps of the run at `settings`.
         // The iteration error of the comparison run is comparatively small.
         // The difference of the two runs is therefore the iteration error at `settings`.
-        // A proof compares with half the sweeps instead.
+        // In a proof, the comparison run has fewer sweeps: half, or a quarter at the beginning of a search for
+        // settings.
         // Half the sweeps cost only a quarter of twice the sweeps, but the error is then overestimated.
         if settings.sweeps > 0 {
             rungs.push(Settings { sweeps: settings.sweeps * 2, ..settings });

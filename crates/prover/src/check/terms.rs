@@ -37,8 +37,8 @@ const LARGER: f64 = 3.0;
 const KNOWN: f64 = 1e-10;
 
 /// One or two terms that explain the whole difference.
-/// The coefficients of the terms are products of parameters with the missing unit. A coefficient may be a mere number
-/// only if the term is a constant, or if the term is a sine, a cosine or the crank angle times the number.
+/// A coefficient is a product of parameters with the missing unit. It may be a mere number only if its quantity is a
+/// constant, a sine or cosine of an angle, or the crank angle.
 pub(super) fn of(trial: &mut Trial, course: &KnownTrajectory, dimensions: &Dimensions) -> Option<Vec<Term>> {
     let rows = course.rows(trial.formula);
     if rows.len() != trial.pairs.len() {

@@ -56,7 +56,7 @@ impl Found {
 /// Simplicity of a cause, the simplest first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Rank {
-    /// A slip without a free number: sign, unit, twice, half.
+    /// A slip without a free number: a wrong sign, a wrong unit, a factor 2 or 1/2.
     Slip,
     /// A change of the case without a free number: a part that is missing or reversed.
     Change,

@@ -30,7 +30,7 @@ const CLEAR: f64 = 5.0;
 /// A low order does not matter if the bound is below this fraction of the widest conclusive bound.
 const NEGLIGIBLE: f64 = 0.01;
 
-/// Finds channels that converge steadily with too low an order, and makes their verdicts disagree.
+/// Finds channels that converge steadily with too low an order, and sets the verdict of each to [`Verdict::Disagree`].
 /// Returns whether there are channels that converge with too low an order.
 ///
 /// # Errors

@@ -40,9 +40,10 @@ impl ImpulseReader {
     /// The reactions of all enabled impulse joints in the step just made, in the order of the joint set.
     ///
     /// # Errors
-    /// Those of [`ImpulseReader::before_step`]; [`ReactionError::Changed`] if bodies or joints have changed since
-    /// then; [`ReactionError::Unsupported`] if a joint sleeps, or if its rows
-    /// have an unknown order (prismatic and fixed joints between separate bodies in worlds of 64 joints and more).
+    /// The errors of [`ImpulseReader::before_step`].
+    /// [`ReactionError::Changed`] if bodies or joints have changed since the call of `before_step`.
+    /// [`ReactionError::Unsupported`] if a joint sleeps, or if its rows have an unknown order (prismatic and fixed
+    /// joints between separate bodies in worlds of 64 joints and more).
     pub fn after_step(&mut self, world: &WorldRef) -> Result<Vec<JointReaction>, ReactionError> {
         let after = Snapshot::with_masses(world)?;
         let before = self.before.take().filter(|before| before.has_joints_of(&after));

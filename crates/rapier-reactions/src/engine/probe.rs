@@ -26,8 +26,9 @@ const RIGID_MOTOR: f64 = 1e30;
 const AXES: [JointAxis; 3] = [JointAxis::LinX, JointAxis::LinY, JointAxis::AngX];
 
 /// Factor in the bound of the sweeps' rounding error. The rounding errors of the sweeps add up, because Rapier updates
-/// the velocities after every change of an impulse. After n sweeps, the force of a driven pendulum has the relative
-/// error 0.9 n epsilon / turn. The bound is about twice this error.
+/// the velocities after every change of an impulse. In a test with a driven pendulum, the relative error of the force
+/// after n sweeps is 0.9 n epsilon / `turn`, where `turn` is the rotation in the tiny step (rad). The bound is about
+/// twice this error.
 const SWEEP_ULPS: f64 = 2.0;
 
 /// Settings of a probe.

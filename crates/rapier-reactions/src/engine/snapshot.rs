@@ -83,8 +83,8 @@ pub struct JointReaction {
 /// Extrapolation of the reactions at one instant from runs with the steps h (`coarse`) and h / 2 (`fine`).
 ///
 /// The result is 2 y(h / 2) - y(h), in which the error of first order cancels (Richardson's extrapolation).
-/// The extrapolation serves for reactions from impulses, and for second differences of a free motion. The points are
-/// taken from the fine run.
+/// The extrapolation is meant for reactions from impulses, and for reactions from second differences of a free motion.
+/// The field `point` is taken from the fine run.
 /// Both slices must have the same joints in the same order.
 pub fn extrapolated(coarse: &[JointReaction], fine: &[JointReaction]) -> Vec<JointReaction> {
     let of = |coarse: f64, fine: f64| 2.0 * fine - coarse;

@@ -14,7 +14,8 @@ use linkage::case::STANDSTILL;
 use linkage::math::Vec2;
 use linkage::trajectory::Stage;
 
-/// Their unrolled elimination on pairs of registers would take the compiler minutes.
+/// Higher groups are not solved on pairs of registers, because their unrolled elimination would then take the compiler
+/// minutes.
 const NO_CHAINS: &str = "higher groups are solved on single registers";
 
 /// Acceleration of the tip of the vector v on a rotating link, relative to the foot of v.

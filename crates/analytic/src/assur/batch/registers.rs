@@ -1,6 +1,7 @@
 //! The machine's vector registers, one by one or in pairs.
 //!
-//! Division and square root take many cycles until their result is there. Two independent registers overlap these times.
+//! The result of a division or a square root is available only after many cycles. In a pair, the operations on the two
+//! registers are independent, so these waiting times overlap.
 
 use pulp::{Arch, Simd, WithSimd};
 
@@ -85,7 +86,7 @@ struct Single<S: Simd>(S);
 #[derive(Clone, Copy)]
 struct Pair<S: Simd>(S);
 
-// Plain values and tuples: arrays of registers would take the compiler minutes.
+// The values of a pair are tuples of two registers, because arrays of registers would take the compiler minutes.
 macro_rules! on_single {
     ($($name:ident $on_register:ident ($($operand:ident),*);)*) => { $(
         #[inline(always)]

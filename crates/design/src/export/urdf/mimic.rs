@@ -1,4 +1,5 @@
-//! Relations of joints in a URDF file: `mimic` for lines, and JSON with all polynomials and their errors.
+//! Relations of joints in a URDF file: the element `mimic` for polynomials of degree 1, and JSON with all polynomials
+//! and their errors.
 
 use crate::export::limits::Follower;
 use crate::export::xml::number;

@@ -21,7 +21,7 @@ pub(super) struct Dimensions<'a, const N: usize> {
 }
 
 impl<'a, const N: usize> Dimensions<'a, N> {
-    /// The numbers of the candidate that `shares` define: the variables as fractions of their ranges.
+    /// The numbers of a candidate. `shares` are the candidate's variables, as fractions of their ranges.
     /// The derivatives are with respect to the fractions `first` to `first + N - 1`.
     pub(super) fn of(task: &'a Task, shares: &[f64], first: usize) -> Self {
         let variable = |(index, share): (usize, &f64)| {
@@ -115,7 +115,7 @@ impl<'a, const N: usize> Dimensions<'a, N> {
     }
 }
 
-/// Loads that act on a point of a link. Each has the number of its end at this point.
+/// Loads that act on a point of a link: index of the load, and index of the load's end at this point.
 fn loads_at(case: &Case, link: LinkId, local: Vec2) -> impl Iterator<Item = (usize, usize)> {
     let ends = |(load, own)| load_places(own).into_iter().flatten().enumerate().map(move |(end, at)| (load, end, at));
     let all = case.loads.iter().enumerate().flat_map(ends);

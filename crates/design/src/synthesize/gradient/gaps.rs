@@ -37,7 +37,7 @@ struct Part {
 
 /// The pairs of parts whose distances are limited.
 pub(super) struct Gaps {
-    /// For every pair of bodies, all pairs of a part of the first and a part of the second.
+    /// For every pair of bodies, all pairs of a part of the first body and a part of the second body.
     pairs: Vec<Vec<[usize; 2]>>,
     parts: Vec<Part>,
     size: f64,

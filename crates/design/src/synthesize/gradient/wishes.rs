@@ -7,7 +7,8 @@
 //!
 //! - Dwell: u stays within h / 2 of its level, so that its motion is at most h.
 //! - Moving phase: the rate of u in the wrong sense, times a crank angle of 20 deg, is at most h.
-//!   At the crank angle between two opposite motions, the conditions of both phases apply, so the rate is zero up to h.
+//!   At the crank angle between two opposite motions, the conditions of both phases apply. There, the magnitude of the
+//!   rate times 20 deg is at most h.
 //! - Known levels: u differs from a level by at most h. If u must follow a curve, it differs from the curve by at most
 //!   h over the whole turn.
 //! - Precision points: the angle of the output link differs from the required angle by at most h. The coordinates,

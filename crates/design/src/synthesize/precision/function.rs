@@ -25,8 +25,8 @@ use linkage::error::Result;
 use linkage::math::dense::Lu;
 use linkage::math::{Complex, KeepNan};
 
-/// The three equations determine the lengths if their smallest pivot in the elimination, divided by the largest pivot,
-/// is above this limit.
+/// The three equations determine the lengths if the smallest pivot element of the elimination, divided by the largest
+/// pivot element, is above this limit.
 const INDEPENDENT: f64 = 1e-12;
 /// A frame that is shorter than this fraction of the rocker counts as having no length.
 const FRAME: f64 = 1e-6;
