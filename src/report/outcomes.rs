@@ -112,9 +112,9 @@ mod tests {
     use crate::plain::brief;
     use crate::plain::judged::{counts, verdicts};
     use crate::report::{junit, markdown};
+    use fixtures::of_repository;
     use linkage::error::Advice;
     use prover::run::{Options, prove};
-    use scenario::of_repository;
 
     /// This test uses a coarse step, so that some results are inconclusive.
     #[test]

@@ -190,7 +190,7 @@ pub(super) fn json(scenario: &Scenario, range: &Range) -> Value {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use scenario::of_repository;
+    use fixtures::of_repository;
 
     /// If the mechanism returns to its first pose only after two turns of the crank, text and JSON say so.
     #[test]

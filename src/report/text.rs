@@ -234,8 +234,8 @@ pub fn residuals(proof: &Proof) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use fixtures::of_repository;
     use prover::run::{Options, prove};
-    use scenario::of_repository;
 
     /// Each line has a residual, its bound and their ratio; the lines have the order of the proof.
     #[test]

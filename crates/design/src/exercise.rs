@@ -230,7 +230,7 @@ mod tests {
     #[test]
     fn a_student_has_the_same_numbers_in_every_class() {
         let original =
-            ExerciseMechanism::of(scenario::of_repository("scenarios/crank_rocker.toml"), &wish(17)).unwrap();
+            ExerciseMechanism::of(fixtures::of_repository("scenarios/crank_rocker.toml"), &wish(17)).unwrap();
         let text = |seed, student| original.drawn(&wish(seed), student, "s").unwrap().scenario.text;
         assert_eq!(text(17, 3), text(17, 3));
         assert!(text(17, 3) != text(17, 4) && text(17, 3) != text(18, 3));
@@ -239,7 +239,7 @@ mod tests {
     #[test]
     fn positions_stay_away_from_singular_poses() {
         // The given pose of variant 13 is singular: the rod is perpendicular to the guide.
-        let scenario = scenario::of_repository("scenarios/variants60/variant_13.toml");
+        let scenario = fixtures::of_repository("scenarios/variants60/variant_13.toml");
         let limit = 12f64.to_radians();
         let found = positions(&scenario, 4, limit).unwrap();
         assert_eq!(found.len(), 4);

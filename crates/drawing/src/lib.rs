@@ -5,7 +5,7 @@
 //! its ends:
 //!
 //! ```
-//! # use linkage::fixtures::four_bar;
+//! # use fixtures::four_bar;
 //! # use linkage::mechanism::LinkPose;
 //! use linkproof_drawing::{Sketch, Travels, unit};
 //!

@@ -84,16 +84,6 @@ impl Case {
         Case { parts, classes, standstill }
     }
 
-    /// Returns a case made of `parts`, without any check.
-    /// Tests use this function to plant a fault and to assert which check finds the fault.
-    #[cfg(any(test, feature = "fixtures"))]
-    #[doc(hidden)]
-    #[must_use]
-    pub fn unchecked(parts: CaseParts) -> Case {
-        let classes = turning::classes(&parts);
-        Case::made(parts, classes)
-    }
-
     /// Returns a case made of `parts`, the changed parts of this case.
     /// The change must not affect which links have angles that differ only by constants: this information is copied
     /// from this case.

@@ -1,4 +1,5 @@
 //! Mechanisms built without a scenario file, for unit tests.
+//! The crate `linkproof-fixtures` compiles this file too, for the tests of other crates.
 
 use crate::Result;
 use crate::case::{Case, CaseParts, Grid, Wanted};

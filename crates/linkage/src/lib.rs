@@ -9,9 +9,8 @@ pub mod case;
 pub mod drive;
 pub mod engine;
 pub mod error;
-#[cfg(any(test, feature = "fixtures"))]
-#[doc(hidden)]
-pub mod fixtures;
+#[cfg(test)]
+mod fixtures;
 pub mod input;
 pub mod math;
 pub mod mechanism;

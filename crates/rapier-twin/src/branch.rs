@@ -183,7 +183,7 @@ impl Watched {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use linkage::fixtures::{four_bar, turning};
+    use fixtures::{four_bar, turning};
 
     /// The rocker and coupler of a four-bar are mirrored about the line between their outer pins. All loops stay
     /// closed.

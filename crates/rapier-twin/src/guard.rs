@@ -304,7 +304,7 @@ mod tests {
     use super::*;
     use crate::world::LinkAngle;
     use crate::{Build, Precision};
-    use linkage::fixtures::{four_bar, turning};
+    use fixtures::{four_bar, turning};
     use linkage::math::{rotated, unit};
     use linkage::mechanism::{JointId, TransmissionId};
 

@@ -280,10 +280,11 @@ fn whole(table: &mut TomlTable, key: &str, range: RangeInclusive<usize>) -> Resu
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Scenario, SettingOrigin, of_repository};
+    use crate::{Scenario, SettingOrigin};
 
     fn with(section: &str) -> Result<Scenario> {
-        let Scenario { text, path, .. } = of_repository("scenarios/pendulum.toml");
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/pendulum.toml");
+        let Scenario { text, path, .. } = Scenario::load(path).unwrap();
         Scenario::parse(&text.replacen("[grid]", &format!("[engine]\n{section}\n[grid]"), 1), &path)
     }
 

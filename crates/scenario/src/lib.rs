@@ -149,17 +149,6 @@ pub fn files_in(directory: impl AsRef<Path>) -> Result<Vec<PathBuf>> {
     Ok(files)
 }
 
-/// The scenario of a file of the repository. The path starts at the top of the repository.
-///
-/// # Panics
-/// If the file cannot be read.
-#[cfg(any(test, feature = "fixtures"))]
-#[must_use]
-pub fn of_repository(file: &str) -> Scenario {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(file);
-    Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"))
-}
-
 impl Scenario {
     /// Reads the scenario file at `path` and the tables that the file names.
     ///

@@ -138,7 +138,7 @@ fn numbers_that_are_not_allowed_are_refused() {
 
 #[test]
 fn a_mechanism_of_three_dyads_gives_the_same_bits() {
-    let file = scenario::of_repository("scenarios/ov7_base.toml");
+    let file = fixtures::of_repository("scenarios/ov7_base.toml");
     let mut axes = Vec::new();
     let parameters: Vec<String> = file.formulas.parameters.iter().map(|own| own.key.clone()).collect();
     for own in &file.formulas.parameters {

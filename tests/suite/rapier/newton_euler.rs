@@ -231,7 +231,7 @@ fn every_kind_of_joint_is_tested() {
 /// All links of a four-bar on one line: the equations do not determine the force along this line.
 #[test]
 fn a_dead_point_is_reported() {
-    let case = linkage::fixtures::turning(linkage::fixtures::four_bar());
+    let case = fixtures::turning(fixtures::four_bar());
     let mut state = State::at_rest(&case);
     for motion in &mut state.motions {
         motion.alpha = 1.0;

@@ -243,7 +243,7 @@ impl WithSimd for Tiles<'_, '_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use linkage::fixtures::{class_four, four_bar, turning, turning_from};
+    use fixtures::{class_four, four_bar, turning, turning_from};
     use linkage::math::{KeepNan, Vec2};
     use linkage::mechanism::{Mechanism, StartGroup};
 

@@ -63,7 +63,7 @@ fn of_columns(mut matrix: Matrix, sign: f64) -> GroupCondition {
 mod tests {
     use super::super::constraints::Constraints;
     use super::*;
-    use linkage::fixtures::four_bar;
+    use fixtures::four_bar;
     use linkage::math::Vec2;
     use linkage::mechanism::{AssemblyMode, GroupId, JointId, StartGroup, Structure, first_pose};
 

@@ -141,7 +141,7 @@ fn between(
 mod tests {
     use super::*;
     use crate::range::{Extent, Range};
-    use linkage::fixtures::{four_bar, turning};
+    use fixtures::{four_bar, turning};
 
     #[test]
     fn reversals_match_the_range_of_motion() {

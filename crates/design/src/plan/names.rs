@@ -85,7 +85,7 @@ pub fn pair(a: &str, b: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use linkage::fixtures::{four_bar, link, mechanism};
+    use fixtures::{four_bar, link, mechanism};
 
     #[test]
     fn points_and_pole_have_distinct_letters() {

@@ -6,7 +6,7 @@ use scenario::{CaseKey, KeySort, StartRequest};
 use super::*;
 
 fn of_repository(name: &str) -> Scenario {
-    scenario::of_repository(&format!("scenarios/{name}.toml"))
+    fixtures::of_repository(&format!("scenarios/{name}.toml"))
 }
 
 fn question(figures: &[&str]) -> SensitivityQuestion {

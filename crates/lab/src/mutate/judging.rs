@@ -8,13 +8,14 @@ use super::mutant::FaultyParty;
 use super::seen::FaultyProof;
 use super::stage::Fault;
 use super::stage::Stage;
+use fixtures::of_repository;
 use linkage::case::Wanted;
 use linkage::math::Vec2;
 use linkage::mechanism::{GROUND, JointId, LinkId};
 use linkage::trajectory::Stage as Of;
 use prover::bounds::Verdict;
 use prover::run::Options;
-use scenario::{Scenario, of_repository};
+use scenario::Scenario;
 
 kinds! { Judgement, Answer:
     "a closed loop is open (m)" (1e-12): "", |_, state, size| state.motions[GROUND].origin.y += size;

@@ -6,10 +6,11 @@ use super::plan::{MutationPlan, mutate};
 use super::seen::FaultyProof;
 use super::stage::Fault;
 use super::stage::Stage;
+use fixtures::of_repository;
 use linkage::drive::load::Acts;
 use linkage::drive::{Course, Load};
 use prover::run::Options;
-use scenario::{Scenario, of_repository};
+use scenario::Scenario;
 
 fn scenario(name: &str) -> Scenario {
     of_repository(&format!("scenarios/{name}.toml"))

@@ -243,8 +243,8 @@ fn missing(what: &dyn std::fmt::Display) -> Error {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use fixtures::of_repository;
     use linkage::solver::Solver;
-    use scenario::of_repository;
 
     /// The error of a value is the error at the instant, but at least the channel's smallest error in the unit of the
     /// claim.

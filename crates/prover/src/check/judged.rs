@@ -206,7 +206,8 @@ impl JudgedFormula {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use scenario::{Formulas, of_repository};
+    use fixtures::of_repository;
+    use scenario::Formulas;
 
     /// A formula's value decides nothing if its error exceeds 1e-6 of the scale and a thousand times the mechanism's
     /// error.

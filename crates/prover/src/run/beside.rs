@@ -155,8 +155,8 @@ fn deviations(truth: &Trajectory, own: &Trajectory, known: &Known) -> Result<Vec
 mod tests {
     use super::*;
     use analytic::AssurSolver;
+    use fixtures::of_repository;
     use linkage::case::Grid;
-    use scenario::of_repository;
 
     /// The external numbers are wrong at a single instant in the middle of the run. The error is found in every
     /// channel.

@@ -87,7 +87,7 @@ mod tests {
 
     use super::*;
     use crate::run::solve;
-    use scenario::of_repository;
+    use fixtures::of_repository;
 
     #[test]
     fn motions_depend_on_earlier_groups_and_forces_on_all() {

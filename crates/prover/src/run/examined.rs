@@ -104,8 +104,8 @@ mod tests {
     use crate::diagnosis::{DataSlip, DisagreementCause, Plain};
     use crate::run::observe::{Watch, observe};
     use crate::run::{Options, prove};
+    use fixtures::of_repository;
     use linkage::solver::Solver;
-    use scenario::of_repository;
 
     /// The observations of `side`, but with the sign of the balancing moment changed in the trajectory.
     fn spoiled(mut side: Observed) -> Observed {

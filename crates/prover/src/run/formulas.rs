@@ -111,7 +111,8 @@ fn place(since: &FormulaAtInstant) -> String {
 mod tests {
     use super::*;
     use crate::run::solved::judge;
-    use scenario::{Claim, of_repository};
+    use fixtures::of_repository;
+    use scenario::Claim;
 
     /// The formula is undefined below 0.5 rad. Below this angle, the derivatives of the formula have values, which are
     /// wrong for another reason.

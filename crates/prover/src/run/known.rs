@@ -274,8 +274,9 @@ impl Known {
 mod tests {
     use super::*;
     use analytic::{AssurSolver, NewtonSolver};
+    use fixtures::of_repository;
     use linkage::case::{Grid, Wanted};
-    use scenario::{Scenario, of_repository};
+    use scenario::Scenario;
 
     /// In a motion under forces, accuracy that is lost in one pose remains lost. In a prescribed motion, the accuracy
     /// at an instant depends only on the pose at this instant.

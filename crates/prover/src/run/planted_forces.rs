@@ -9,13 +9,14 @@ use super::problem::Problem;
 use super::{EngineProof, ForceFault, engines, settle};
 use crate::engines::coarse_step;
 use analytic::{AssurSolver, NewtonSolver};
+use fixtures::of_repository;
 use linkage::case::Case;
 use linkage::engine::{Engine, Hook, Route, Settings, Wrapped};
 use linkage::math::rotated;
 use linkage::mechanism::{JointId, LinkId};
 use linkage::solver::{Solver, State};
 use rapier_twin::{Build, Precision, Rapier};
-use scenario::{EngineSettings, of_repository};
+use scenario::EngineSettings;
 
 /// Effect of a fault on every state.
 type Fault = fn(&mut State);

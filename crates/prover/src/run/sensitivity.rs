@@ -39,8 +39,8 @@ pub(super) fn of(case: &Case, solver: &dyn Solver, reference: &Trajectory) -> Re
 mod tests {
     use super::*;
     use analytic::AssurSolver;
+    use fixtures::of_repository;
     use linkage::math::KeepNan;
-    use scenario::of_repository;
 
     /// In stronger gravity, a pendulum released from rest passes the same positions in a shorter time.
     /// If gravity is multiplied by 1 + e, the time is divided by sqrt(1 + e): theta(t; (1 + e) g) = theta(t sqrt(1 +
