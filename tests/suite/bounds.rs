@@ -5,8 +5,7 @@
 //! Numbers have two digits.
 //! A number may differ from the table by a factor of up to 1.5, which allows for the noise between machines.
 //! The engine settings are fixed, so changes in the search for settings do not affect the table.
-//! `INSTA_UPDATE=always cargo test --release --test suite bounds` writes the table anew; a changed table needs a
-//! reason.
+//! `UPDATE_EXPECTED=1 cargo test --release --test suite bounds` writes the table anew; a changed table needs a reason.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -16,7 +15,8 @@ use linkage::math::KeepNan;
 use linkproof::{Options, Proof, Scenario, prove};
 use prover::run::solved::judge;
 
-const TABLE: &str = include_str!("bounds/parts.txt");
+use crate::common::expected::agrees_by;
+
 /// Largest ratio of two numbers that differ only by noise.
 const NOISE: f64 = 1.5;
 
@@ -132,19 +132,19 @@ fn table(all: &Numbers) -> String {
     })
 }
 
-fn read(text: &str) -> Numbers {
-    let line = |line: &str| {
-        let cells: Vec<&str> = line.split(" | ").collect();
-        let [sample, what, values] = cells.as_slice() else { panic!("{line}") };
-        let values = values.split(' ').map(|value| value.parse().unwrap()).collect();
-        ((sample.to_string(), what.to_string()), values)
-    };
-    text.lines().map(line).collect()
-}
-
 /// Whether two numbers differ only by noise and by the rounding to the written digits.
 fn is_same(one: f64, other: f64) -> bool {
     one == other || (one > 0.0 && other > 0.0 && one / other <= NOISE && other / one <= NOISE)
+}
+
+/// Whether two lines of the table have the same subject and the same numbers.
+fn are_alike(one: &str, other: &str) -> bool {
+    let [one, other] = [one, other].map(|line| {
+        let (subject, values) = line.rsplit_once(" | ").unwrap_or_else(|| panic!("{line}"));
+        (subject, values.split(' ').map(|value| value.parse().unwrap()).collect::<Vec<f64>>())
+    });
+    let mut pairs = one.1.iter().zip(&other.1);
+    one.0 == other.0 && one.1.len() == other.1.len() && pairs.all(|(one, other)| is_same(*one, *other))
 }
 
 #[test]
@@ -156,21 +156,7 @@ fn the_parts_of_all_bounds_match_the_reviewed_values() {
             false => parts(sample, &proven(sample), &mut found),
         }
     }
-    if std::env::var("INSTA_UPDATE").is_ok_and(|own| own == "always") {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/suite/bounds/parts.txt");
-        std::fs::write(path, table(&found)).unwrap();
-        return;
-    }
-    let (reviewed, found) = (read(TABLE), read(&table(&found)));
-    let mut others = Vec::new();
-    for (key, values) in &reviewed {
-        match found.get(key) {
-            Some(own) if own.len() == values.len() && own.iter().zip(values).all(|(a, b)| is_same(*a, *b)) => {}
-            own => others.push(format!("{} | {}: {values:?} were reviewed, found {own:?}", key.0, key.1)),
-        }
-    }
-    others.extend(found.keys().filter(|key| !reviewed.contains_key(*key)).map(|key| format!("new: {key:?}")));
-    assert!(others.is_empty(), "{others:#?}");
+    agrees_by("tests/suite/bounds/parts.txt", &table(&found), "bounds", are_alike);
 }
 
 /// Tests the comparison itself: a factor of a thousand, a factor of 1.6, a part that has vanished, and NaN.

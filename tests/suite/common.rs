@@ -5,6 +5,7 @@ pub mod damage;
 pub mod dial;
 pub mod disc;
 pub mod entries;
+pub mod expected;
 pub mod four_link;
 pub mod higher;
 #[cfg(target_os = "linux")]

@@ -1,8 +1,8 @@
 //! The tables of keys in docs/scenario.md and the schema are made from one table of keys.
 
-use std::path::Path;
-
 use scenario::keys::{FileKey, Section, ValueKind, section, sections};
+
+use crate::common::expected::agrees_with;
 
 const DOCUMENT: &str = include_str!("../../docs/scenario.md");
 const BEGIN: &str = "<!-- keys of ";
@@ -58,16 +58,9 @@ fn renewed(document: &str) -> (String, Vec<&str>) {
     (text, paths)
 }
 
-/// `INSTA_UPDATE=always` writes the tables anew, as it does with snapshots.
 #[test]
 fn the_tables_of_keys_in_the_document_are_current() {
-    let (text, _) = renewed(DOCUMENT);
-    if std::env::var_os("INSTA_UPDATE").is_some_and(|value| value == "always") {
-        std::fs::write(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/scenario.md"), text).unwrap();
-        return;
-    }
-    let differing = text.lines().zip(DOCUMENT.lines()).find(|(new, old)| new != old);
-    assert!(text == DOCUMENT, "{differing:#?}\nINSTA_UPDATE=always cargo test --release --test suite key_tables");
+    agrees_with("docs/scenario.md", &renewed(DOCUMENT).0, "key_tables");
 }
 
 /// If several sections have equal keys, such as the sections of positions, one table may document all of them.

@@ -1,11 +1,13 @@
 //! docs/tutorial.md, docs/machines.md and docs/course.md, followed word for word.
 //! The commands of a page run in an empty directory; their output must equal the text below them on the page.
 
+use std::fs;
 use std::path::Path;
-use std::{env, fs};
 
 use assert_cmd::Command;
 use tempfile::TempDir;
+
+use crate::common::expected::{agrees_by, is_updated};
 
 /// A block of the page.
 struct Block<'a> {
@@ -128,27 +130,19 @@ fn the_course_project_runs_as_written() {
     assert_runs_as_written("course.md");
 }
 
-/// `INSTA_UPDATE=always` writes outputs and pictures anew, as it does with snapshots.
 fn assert_runs_as_written(page: &str) {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs").join(page);
-    let kept = path.with_file_name("tutorial");
-    let page = fs::read_to_string(&path).unwrap();
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
+    let path = format!("docs/{page}");
+    let page = fs::read_to_string(docs.join(page)).unwrap();
     let place = TempDir::new().unwrap();
     let (text, count) = followed(&page, place.path());
     assert!(count >= 8, "only {count} commands");
-    if env::var_os("INSTA_UPDATE").is_some_and(|value| value == "always") {
-        fs::write(&path, text).unwrap();
-        fs::create_dir_all(&kept).unwrap();
-        for name in pictures(&page) {
-            fs::copy(place.path().join(name), kept.join(name)).unwrap();
-        }
-        return;
-    }
     for name in pictures(&page) {
-        let is_same = fs::read(kept.join(name)).unwrap() == fs::read(place.path().join(name)).unwrap();
-        assert!(is_same, "the picture {name} has changed");
+        let [kept, found] = [docs.join("tutorial").join(name), place.path().join(name)];
+        if is_updated() {
+            fs::copy(&found, &kept).unwrap();
+        }
+        assert!(fs::read(kept).unwrap() == fs::read(found).unwrap(), "the picture {name} has changed");
     }
-    assert_eq!(text.lines().count(), page.lines().count(), "INSTA_UPDATE=always ... --test suite tutorial");
-    let differing = text.lines().zip(page.lines()).find(|(new, old)| !are_alike(new, old));
-    assert!(differing.is_none(), "{differing:#?}\nINSTA_UPDATE=always cargo test --release --test suite tutorial");
+    agrees_by(&path, &text, "tutorial", are_alike);
 }

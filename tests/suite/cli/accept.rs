@@ -6,6 +6,7 @@ use std::fs;
 use serde_json::Value;
 
 use super::tools::{Outcome, Place, texts};
+use crate::common::expected::agrees_with;
 use crate::common::{assert_within, shipped};
 
 const FILE: &str = "scenarios/crank_rocker.accepted";
@@ -44,7 +45,7 @@ fn the_file_is_text_for_people_and_stays_as_it_is() {
     let place = accepted();
     let text = fs::read_to_string(place.path(FILE)).unwrap();
     let end = text.find("\n[[channels]]\nname = \"link.crank.x_m\"").unwrap();
-    insta::assert_snapshot!(text[..end]);
+    agrees_with("tests/suite/cli/accepted.txt", &text[..end], "cli::accept");
     let told = place.ok(&format!("accept --check {SCENARIO}"));
     let all = channels();
     assert_eq!(
