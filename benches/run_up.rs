@@ -1,55 +1,48 @@
 //! Cost of a run-up and of the steady motion. The run-up is computed at several accuracies, for the crank alone and for
 //! all channels.
 //! The run-up is half a second of `crank_rocker`, 501 output points.
+//! Each cost is divided by the cost of the run-up of the crank alone at the usual accuracy.
+//! Only ratios from one run are printed.
 //! `cargo bench --bench run_up`.
 //!
 //! This benchmark does not check errors; `tests/suite/bench.rs` tests the errors of the run-up at the usual accuracy
 //! and at 1e-8.
 
+use std::hint::black_box;
 use std::path::Path;
-use std::sync::LazyLock;
+use std::time::Instant;
 
 use analytic::reduced::{ACCURACY, ReducedModel, RunUp, motion};
-use divan::{Bencher, black_box};
-use linkage::case::Case;
+use linkage::math::KeepNan;
 use scenario::Scenario;
 
+/// Number of timings; the shortest counts, because other activity of the machine only adds time.
+const REPEATS: usize = 100;
 const ACCURACIES: [f64; 5] = [1e-8, 1e-9, 1e-10, ACCURACY, 1e-12];
 
-static CASE: LazyLock<Case> = LazyLock::new(|| {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker.toml");
-    Scenario::load(&path).unwrap_or_else(|error| panic!("{error}")).case
-});
-
-fn times() -> Vec<f64> {
-    (0..=500).map(|k| f64::from(k) * 1e-3).collect()
+fn shortest<T>(mut work: impl FnMut() -> T) -> f64 {
+    let time = |_| {
+        let since = Instant::now();
+        let _found = black_box(work());
+        since.elapsed().as_secs_f64()
+    };
+    (0..REPEATS).map(time).fold(f64::INFINITY, f64::smaller)
 }
 
 fn main() {
-    divan::main();
-}
-
-/// Cost of building the reduced model, including the range of motion and the kinks.
-#[divan::bench]
-fn model(bencher: Bencher) {
-    let case = &*CASE;
-    bencher.bench(|| ReducedModel::of(black_box(case)).unwrap());
-}
-
-#[divan::bench]
-fn steady_motion(bencher: Bencher) {
-    let model = ReducedModel::of(&CASE).unwrap();
-    bencher.bench(|| model.regime(&[], ACCURACY).unwrap());
-}
-
-#[divan::bench(args = ACCURACIES)]
-fn crank_alone(bencher: Bencher, accuracy: f64) {
-    let (model, times) = (ReducedModel::of(&CASE).unwrap(), times());
-    bencher.bench(|| motion(&model, 0.0, black_box(&times), accuracy).unwrap());
-}
-
-#[divan::bench(args = ACCURACIES)]
-fn all_channels(bencher: Bencher, accuracy: f64) {
-    let (model, times) = (ReducedModel::of(&CASE).unwrap(), times());
-    bencher.bench(|| RunUp::of(&model, 0.0, black_box(&times), accuracy).unwrap());
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker.toml");
+    let case = Scenario::load(&path).unwrap_or_else(|error| panic!("{error}")).case;
+    let times: Vec<f64> = (0..=500).map(|k| f64::from(k) * 1e-3).collect();
+    let model = ReducedModel::of(&case).unwrap();
+    let crank_alone = |accuracy| shortest(|| motion(&model, 0.0, black_box(&times), accuracy).unwrap());
+    let all_channels = |accuracy| shortest(|| RunUp::of(&model, 0.0, black_box(&times), accuracy).unwrap());
+    let one = crank_alone(ACCURACY);
+    println!("cost divided by the cost of the run-up of the crank alone at the accuracy {ACCURACY:.0e}\n");
+    // The reduced model includes the range of motion and the kinks.
+    println!("{:14} {:>8.2}", "reduced model", shortest(|| ReducedModel::of(black_box(&case)).unwrap()) / one);
+    println!("{:14} {:>8.2}\n", "steady motion", shortest(|| model.regime(&[], ACCURACY).unwrap()) / one);
+    println!("{:14} {:>12} {:>12}", "run-up", "crank alone", "all channels");
+    for accuracy in ACCURACIES {
+        println!("{accuracy:<14.0e} {:>12.2} {:>12.2}", crank_alone(accuracy) / one, all_channels(accuracy) / one);
+    }
 }
