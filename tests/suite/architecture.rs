@@ -18,6 +18,7 @@ const CRATES: &[(&str, &str, &str, &str)] = &[
     ("linkage", "crates/linkage", "", "nalgebra petgraph"),
     ("analytic", "crates/analytic", "linkage", "differential-equations num-integer pulp wide"),
     ("columns", "crates/columns", "formula linkage", ""),
+    ("crosschecks", "crates/crosschecks", "", ""),
     (
         "design",
         "crates/design",

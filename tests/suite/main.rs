@@ -70,7 +70,6 @@ mod stress;
 mod sweep;
 mod synthesize;
 mod testing;
-mod testing_docs;
 mod timed_numbers;
 mod triad_methods;
 mod trunk;

@@ -1,5 +1,4 @@
 use approx::assert_relative_eq;
-use exmex::{Differentiate, Express};
 use proptest::prelude::*;
 
 use crate::{FormulaGraph, FormulaTree, Function, NodeShape, Operator, Program, Rounded};
@@ -144,19 +143,6 @@ fn graph_of(tree: &FormulaTree) -> (FormulaGraph, crate::NodeId) {
     (graph, id)
 }
 
-/// Text for exmex, with parentheses everywhere, because this test does not test precedence.
-fn in_parentheses(tree: &FormulaTree) -> String {
-    match &tree.shape {
-        NodeShape::Number(number) => format!("{number}"),
-        NodeShape::Name(name) => name.clone(),
-        NodeShape::Negative(part) => format!("(0-({}))", in_parentheses(part)),
-        NodeShape::Pair(operator, parts) => {
-            format!("(({}){}({}))", in_parentheses(&parts[0]), operator.sign(), in_parentheses(&parts[1]))
-        }
-        NodeShape::Call(function, parts) => format!("{}({})", function.name(), in_parentheses(&parts[0])),
-    }
-}
-
 /// A formula, its derivative with respect to x, and the derivative of the x derivative with respect to y.
 fn with_derivatives(tree: &FormulaTree, x: f64, y: f64) -> [Rounded; 3] {
     let (mut graph, id) = graph_of(tree);
@@ -211,29 +197,6 @@ proptest! {
         if let Err(fault) = FormulaTree::parse(&text) {
             prop_assert!(fault.at.start <= fault.at.end && fault.at.end <= text.len(), "{:?}", fault);
             prop_assert!(text.is_char_boundary(fault.at.start) && text.is_char_boundary(fault.at.end));
-        }
-    }
-
-    /// Derivatives agree with those of an independent library.
-    #[test]
-    fn derivatives_agree_with_exmex(tree in tree(), x in 0.1f64..2.0, y in -2.0f64..2.0) {
-        // exmex does not have atan2, abs and sign, so trees with these functions are skipped.
-        let unknown = |shape: &NodeShape| {
-            matches!(shape, NodeShape::Call(Function::Atan2 | Function::Abs | Function::Sign, _))
-        };
-        prop_assume!(!holds(&tree, &unknown));
-        let [_, first, mixed] = with_derivatives(&tree, x, y);
-        // The text contains both names, x and y, so exmex numbers the names as this crate does.
-        let text = format!("{}+0*x+0*y", in_parentheses(&tree));
-        let theirs = exmex::parse::<f64>(&text).unwrap().partial(0).unwrap();
-        let theirs = [theirs.eval(&[x, y]).unwrap(), theirs.partial(1).unwrap().eval(&[x, y]).unwrap()];
-        for (ours, theirs) in [first, mixed].into_iter().zip(theirs) {
-            prop_assume!(theirs.is_finite() && ours.error < 1e-6 * (1.0 + ours.value.abs()));
-            // exmex squares the divisor, and loses digits if the square is a subnormal number. Large results are
-            // therefore skipped.
-            prop_assume!(ours.value.abs() < 1e100);
-            let bound = (ours.error + 1e-12 * ours.value.abs()) * 1e3 + 1e-9;
-            prop_assert!((ours.value - theirs).abs() <= bound, "{}: {:?} {}", tree, ours, theirs);
         }
     }
 

@@ -54,7 +54,7 @@ mod sink;
 mod table;
 mod urdf;
 mod view;
-mod viewers;
+pub mod viewers;
 mod write;
 
 pub use beside::{RecordingPlace, place};

@@ -6,12 +6,12 @@ use std::f64::consts::TAU;
 use std::fs;
 use std::path::Path;
 
-use foxglove::messages::line_primitive::Type as LineType;
-use foxglove::messages::{ArrowPrimitive, FrameTransforms, Log, Pose, SceneEntity, SceneUpdate, Timestamp};
 use linkage::math::{KeepNan, Motion, Vec2, rotated, unit};
 use linkage::trajectory::{Stage, Trajectory};
 use mcap::records::Record;
 use prost::Message;
+use prost_types::Timestamp;
+use recording::viewers::{ArrowPrimitive, FrameTransforms, LineType, Log, Pose, SceneEntity, SceneUpdate};
 use recording::{Level, LogEntry, RecordedSide, Show, film, load, place, view};
 
 use super::{OMEGA, Run, floats, motions, reactions, turn};
@@ -56,7 +56,7 @@ fn metadata(bytes: &[u8]) -> BTreeMap<String, String> {
 }
 
 fn is_stamped(stamp: Option<Timestamp>, nanoseconds: u64) -> bool {
-    stamp.is_some_and(|stamp| u64::from(stamp.sec()) * 1_000_000_000 + u64::from(stamp.nsec()) == nanoseconds)
+    stamp.is_some_and(|stamp| stamp.seconds as u64 * 1_000_000_000 + stamp.nanos as u64 == nanoseconds)
 }
 
 fn placed(pose: Option<&Pose>) -> (Vec2, f64) {

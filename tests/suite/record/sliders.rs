@@ -7,14 +7,13 @@ use std::path::Path;
 
 use analytic::AssurSolver;
 use drawing::{Mark, MarkRole, Sketch, Travels};
-use foxglove::messages::line_primitive::Type as LineType;
-use foxglove::messages::{SceneEntity, SceneUpdate};
 use linkage::case::Case;
 use linkage::math::Vec2;
 use linkage::mechanism::{GROUND, LinkPose};
 use linkage::solver::Solver;
 use linkage::trajectory::Trajectory;
 use prost::Message;
+use recording::viewers::{LineType, SceneEntity, SceneUpdate};
 use recording::{RecordedSide, Recording, Show, load, write};
 use scenario::Scenario;
 

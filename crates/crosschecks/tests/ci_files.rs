@@ -2,7 +2,7 @@
 
 use saphyr::{LoadableYamlNode, Yaml};
 
-const PAGE: &str = include_str!("../../docs/testing.md");
+const PAGE: &str = include_str!("../../../docs/testing.md");
 
 /// The code blocks of a page in one language.
 fn blocks(page: &str, language: &str) -> Vec<String> {
