@@ -23,7 +23,7 @@ const CRATES: &[(&str, &str, &str, &str)] = &[
         "design",
         "crates/design",
         "analytic drawing files formula linkage precise scenario",
-        "basin chacha20 cobyla parry2d-f64 quick-xml roxmltree toml_edit",
+        "basin chacha20 cobyla parry2d-f64 quick-xml rand roxmltree toml_edit",
     ),
     (
         "drawing",
@@ -221,6 +221,7 @@ const HOMES: &[(&str, &str)] = &[
     ("pulp", "analytic::assur"),
     ("basin", "design::synthesize"),
     ("cobyla", "design::synthesize"),
+    ("rand", ""),
     ("chacha20", "lab::specimens design::exercise design::sensitivity design::synthesize sweep::design"),
     ("parry2d_f64", "design::clearance design::synthesize rapier_twin::double scenario::clearance"),
     ("svg", "drawing::paper"),
