@@ -9,8 +9,7 @@ use proptest::sample::select;
 fn text() -> impl Strategy<Value = String> {
     let number = (1u32..40).prop_map(|number| (f64::from(number) / 8.0).to_string());
     let leaf = prop_oneof![number, Just("x".to_string()), Just("y".to_string())];
-    // Deeper formulas need more stack than a thread has, if exmex is compiled without optimisation.
-    leaf.prop_recursive(4, 40, 2, |inner| {
+    leaf.prop_recursive(5, 40, 2, |inner| {
         // exmex does not have atan2, abs and sign.
         let is_known = |own: &Function| !matches!(own, Function::Atan2 | Function::Abs | Function::Sign);
         let known: Vec<Function> = Function::ALL.into_iter().filter(is_known).collect();
