@@ -220,7 +220,7 @@ linkage::sentences! {
     it_leaves_the_plane(name, z) = "`{name}` has the third component {z}, but a planar mechanism has 0 there";
     // import/mjcf.rs
     the_element_is_left_out(element, name, line) = "`{element}`{name} in line {line} is not understood: it is left out";
-    IMPORT_MODELS_THAT_EXPORT_WROTE = "the import reads only models as `linkproof export` writes them";
+    IMPORT_MODELS_THAT_EXPORT_WROTE = "the import reads only models that this program has exported";
     // import/mjcf/bodies.rs
     THE_BODY_TURNS_OUT_OF_THE_PLANE = "`axisangle` is not a rotation about z: the body leaves the plane";
     the_attribute_is_not_understood(name, element) = "`{name}` of a `{element}` is not understood";

@@ -18,7 +18,7 @@ fn free() -> String {
 fn a_number_needs_exactly_one_instant() {
     assert_all_refused(&[
         bad!("crank_deg = 90\nvalues" => "values", INPUT, at "[[oracle]]\nsource = \"a number\"", key "oracle[2]",
-            ["`crank_deg`, `crank_rad`, `time_s` or `time_ms` is missing", "or to a time"]),
+            ["`crank_deg`, `crank_rad`, `time_s` or `time_ms` is missing", "or a time for each number"]),
         bad!("crank_deg = 90\nvalues" => "crank_deg = 90\ntime_s = 0.1\nvalues", INPUT, at "time_s", key "oracle[2].time_s",
             ["a crank angle and a time are both given", "keep one of the two"]),
         bad!("crank_deg = 90\nvalues" => "time_s = 0.1\ntime_ms = 100\nvalues", INPUT, at "time_ms", key "oracle[2].time_ms",

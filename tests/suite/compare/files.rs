@@ -130,7 +130,7 @@ fn sizes_announced_by_a_parquet_file_take_no_memory() {
         (Announced { of_group: -1, ..zeros.clone() }, "a different number of rows than the file announces"),
         (of_gzip(1 << 26), "more than the 8000 bytes"),
         (Announced { values: 10, ..Announced::zeros(100) }, "fewer values than there are rows"),
-        (Announced { rows: most << 20, of_group: most << 20, ..run }, "more than 67108864"),
+        (Announced { rows: most << 20, of_group: most << 20, ..run }, "but the limit is 67108864"),
     ] {
         let error = load(&own).unwrap_err();
         assert!(error.message().contains("x.parquet") && error.message().contains(told), "{told}: {}", error.message());

@@ -90,7 +90,6 @@ const FAR: f64 = 50.0;
 const NEAR: f64 = 2.0;
 /// The pose with links at infinity is extrapolated from poses with distant links. The extrapolated pose is accurate
 /// enough if it changes by less than this (rad) when the pose with the most distant links is left out.
-/// Poses with still more distant links are then not needed.
 const AGREED: f64 = 1e-9;
 /// Between two extrapolations to links at infinity, the distance of the farthest link from the crank's pivot grows by
 /// this factor.
@@ -102,8 +101,7 @@ const MOST_KNOWN: usize = 9;
 pub(super) struct Tracker<'a> {
     case: &'a Case,
     constraints: Constraints<'a>,
-    /// Index of the coordinate of the first drive, and the unit of this coordinate: 1 for an angle, the mechanism's
-    /// size (m) for a slide.
+    /// Index and unit of the first drive's coordinate: 1 for an angle, the mechanism's size (m) for a slide.
     crank: usize,
     unit: f64,
     /// Factors +1 or -1 of the groups' determinants.
@@ -157,8 +155,7 @@ impl<'a> Tracker<'a> {
         Ok((tracker, start))
     }
 
-    /// Subtracts the work of `squares` eliminations from the allowed work. Returns `None` if the allowed work is used
-    /// up.
+    /// Subtracts the work of `squares` eliminations from the allowed work; `None` if this work is used up.
     fn spend(&self, squares: usize) -> Option<()> {
         let size = self.constraints.coordinates() as f64;
         let spent = work::spend(SQUARE * squares as f64 * size * size);
@@ -210,8 +207,7 @@ impl<'a> Tracker<'a> {
         let jacobian = self.constraints.at(&q).jacobian;
         let tangent = tangent(&jacobian, along);
         let (sigma, rounds) = smallest_singular_value(&bordered(&jacobian, &tangent), &mut self.weakest.borrow_mut());
-        // One elimination is for the tangent, one for the singular value. If the allowed work is used up, the next pose
-        // reports this.
+        // One elimination for the tangent, one for the singular value. The next pose reports that the work is used up.
         let _ = self.spend(2 + rounds);
         let groups = self.case.structure.groups.iter().zip(&self.signs);
         let pose = self.constraints.pose(&q);

@@ -48,8 +48,8 @@ pub struct CaseBatch {
 
 /// The crank in one tile.
 #[derive(Clone, Debug)]
-pub(super) struct CrankTile {
-    pub(super) angles: Eight,
+struct CrankTile {
+    angles: Eight,
     direction: [Eight; 2],
 }
 
@@ -198,9 +198,10 @@ impl OnRegisters for AllTiles<'_> {
             for index in block.clone() {
                 batch.solve_tile(on, deepest, Some(index), index - first, &mut doubt);
             }
-            let (cranks, columns) = (&batch.cranks[block], batch.layout.columns());
+            let columns = batch.layout.columns();
             for own in &mut *tallies {
-                own.add(on, first * TILE, cranks, &mut batch.tiles, columns);
+                let angles = batch.cranks[block.clone()].iter().map(|crank| &crank.angles);
+                own.add(on, first * TILE, angles, &mut batch.tiles, columns);
             }
         }
         let rows = batch.case.grid.len();

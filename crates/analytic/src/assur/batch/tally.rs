@@ -3,7 +3,6 @@
 use std::array;
 
 use super::lanes::{Eight, Lanes, TILE, Window};
-use super::many::CrankTile;
 use super::poses::{ACCELERATION, ALPHA, DIRECTION, Layout, OMEGA, ORIGIN, VELOCITY};
 use super::registers::Registers;
 use crate::assur::turns::{crossing, principal};
@@ -189,44 +188,44 @@ impl PoseTally {
 
     /// Adds the rows of a block. The values have the same bits as those of the
     /// [sampler](linkage::solver::Sampler).
-    /// `row` is the first row of the block, `cranks` has the angles of the crank, and every tile has `columns` columns.
+    /// `row` is the first row of the block, `angles` are the angles of the crank, and every tile has `columns` columns.
     #[inline(always)]
-    pub(super) fn add<R: Registers>(
+    pub(super) fn add<'a, R: Registers>(
         &mut self,
         on: R,
         row: usize,
-        cranks: &[CrankTile],
+        angles: impl ExactSizeIterator<Item = &'a Eight>,
         tiles: &mut [Eight],
         columns: usize,
     ) {
         let mut block = [Eight([0.0; TILE]); BLOCK];
-        let block = &mut block[..cranks.len()];
+        let block = &mut block[..angles.len()];
         // Reads the values of all rows. A closure would not be vectorised.
-        macro_rules! read {
+        macro_rules! value {
             (|$tile:ident| $value:expr) => {
                 for (columns, values) in tiles.chunks_exact_mut(columns).zip(&mut *block) {
                     for part in 0..Window::<R>::PARTS {
                         let $tile = Window { on, columns: &mut *columns, part };
-                        let value = $value;
-                        value.put(&mut values.0, part);
+                        let found = $value;
+                        found.put(&mut values.0, part);
                     }
                 }
             };
         }
         match &mut self.reading {
-            Reading::Given => block.iter_mut().zip(cranks).for_each(|(values, crank)| *values = crank.angles),
-            Reading::Column(column) => read!(|tile| tile.get(*column)),
-            Reading::Size(column) => read!(|tile| {
+            Reading::Given => block.iter_mut().zip(angles).for_each(|(values, own)| *values = *own),
+            Reading::Column(column) => value!(|tile| tile.get(*column)),
+            Reading::Size(column) => value!(|tile| {
                 let force = tile.vector(*column);
                 force.dot(force).sqrt()
             }),
-            Reading::Square(column) => read!(|tile| {
+            Reading::Square(column) => value!(|tile| {
                 let force = tile.vector(*column);
                 force.dot(force)
             }),
-            Reading::Angle(first, last, turns) => read!(|tile| angles(*first, last, turns, &tile)),
-            Reading::Point(first, local, reading) => read!(|tile| point(*first, *local, *reading, &tile)),
-            Reading::Sine(links, spans, lengths) => read!(|tile| {
+            Reading::Angle(first, last, turns) => value!(|tile| with_turns(*first, last, turns, &tile)),
+            Reading::Point(first, local, reading) => value!(|tile| point(*first, *local, *reading, &tile)),
+            Reading::Sine(links, spans, lengths) => value!(|tile| {
                 let a = tile.vector(links[0] + DIRECTION).rotate(spans[0]);
                 let b = tile.vector(links[1] + DIRECTION).rotate(spans[1]);
                 a.cross(b).abs() / *lengths
@@ -296,7 +295,7 @@ fn direction(tile: &[Eight], first: usize, row: usize) -> Vec2 {
 }
 
 /// Angles of a link, as [`Turns`](crate::assur::turns::Turns) counts them.
-fn angles<R: Registers>(first: usize, last: &mut Vec2, turns: &mut f64, tile: &Window<R>) -> Lanes<R> {
+fn with_turns<R: Registers>(first: usize, last: &mut Vec2, turns: &mut f64, tile: &Window<R>) -> Lanes<R> {
     let mut found = [0.0; TILE];
     for (lane, angle) in found[..R::LANES].iter_mut().enumerate() {
         let now = direction(tile.columns, first, tile.part * R::LANES + lane);
