@@ -29,7 +29,7 @@ fn a_broken_link_is_refused_with_its_place() {
     refused("?00.VG.K,0.101.6A,A,0,0...N_R", &["`joint 1`", "the record ends before the angle"]);
     refused("?00.VG.K,0.101.6A,A,0,!,0...N_T", &["`joint 1`", "found \"!\" as y"]);
     refused("?00.VG.K,0.901...N_I", &["found \"901\" as units"]);
-    refused("?00.VG.K,0.101..YRAB,AB,Fe,Fe,0,0,c5cae9,A,B,,...N_o", &["`AB`", "it names the joint \"A\""]);
+    refused("?00.VG.K,0.101..YRAB,AB,Fe,Fe,0,0,c5cae9,A,B,,...N_o", &["`AB`", "the joint \"A\" is named"]);
     refused("?mech=ground a RP 0 0 0 tfft", &["`joint 1`", "kind RP"]);
     refused("?mech=a R 0", &["`joint 1`", "two coordinates"]);
     place.refused("import none.pmks", &["the source none.pmks cannot be read"]);
