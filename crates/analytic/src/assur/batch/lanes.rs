@@ -8,9 +8,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use linkage::math::Vec2;
 
 use super::registers::Registers;
-
-/// Number of poses in a tile, which are adjacent in memory.
-pub(super) const TILE: usize = 8;
+pub(super) use super::registers::TILE;
 
 /// One column of a tile.
 #[derive(Clone, Copy, Debug)]

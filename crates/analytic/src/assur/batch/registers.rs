@@ -5,7 +5,8 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
-use super::lanes::TILE;
+/// Number of poses in a tile, which are adjacent in memory.
+pub(super) const TILE: usize = 8;
 
 /// The instructions that poses need, on one or several registers.
 pub(super) trait Registers: Copy {
