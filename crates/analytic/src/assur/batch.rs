@@ -315,7 +315,8 @@ mod tests {
         let grid = Grid::of_inputs(case.crank(), (0..301).map(|k| 0.02 * f64::from(k)).collect());
         let case = case.with(|parts| parts.grid = grid).unwrap();
         let solve = |arch: Arch| {
-            let mut batch = CaseBatch { arch, ..CaseBatch::of(&case).unwrap() };
+            let mut batch = CaseBatch::of(&case).unwrap();
+            batch.arch = arch;
             let weights = Weighted::of(&[1.0 / 301.0; 301]);
             let mut tallies = [
                 PoseTally::of(PoseQuantity::Force(JointId(2)), 1.0, Tally::Column(Vec::new())),
