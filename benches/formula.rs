@@ -3,9 +3,11 @@
 //! Only ratios from one run are printed.
 //! `cargo bench --bench formula`.
 
+#[path = "shared/timing.rs"]
+mod timing;
+
 use std::hint::black_box;
 use std::path::Path;
-use std::time::Instant;
 
 use analytic::{AssurSolver, NewtonSolver};
 use linkage::case::Grid;
@@ -15,19 +17,12 @@ use linkage::trajectory::Trajectory;
 use prover::check::{KnownTrajectory, judge, needed};
 use scenario::{Scenario, files_in};
 
-/// Number of timings; the shortest counts, because other activity of the machine only adds time.
+use timing::shortest;
+
+/// Number of timings; the shortest counts.
 const REPEATS: usize = 15;
 /// Instants of a turn.
 const INSTANTS: usize = 3600;
-
-fn shortest(mut run: impl FnMut()) -> f64 {
-    let time = |run: &mut dyn FnMut()| {
-        let since = Instant::now();
-        run();
-        since.elapsed().as_secs_f64()
-    };
-    (0..REPEATS).map(|_| time(&mut run)).fold(f64::INFINITY, f64::smaller)
-}
 
 fn main() {
     println!(
@@ -51,7 +46,7 @@ fn main() {
             let asked = needed(claim, &whole);
             let Ok(case) = whole.wanting_only(&asked).scene().map(|scene| scene.case) else { continue };
             let (Ok(first), Ok(second)) = (AssurSolver.solve(&case), NewtonSolver.solve(&case)) else { continue };
-            let solving = shortest(|| {
+            let solving = shortest(REPEATS, || {
                 let _ = black_box((AssurSolver.solve(black_box(&case)), NewtonSolver.solve(black_box(&case))));
             });
             let mut alone = scenario.formulas.clone();
@@ -62,7 +57,7 @@ fn main() {
             let on = |trajectory: &Trajectory| {
                 let _ = black_box(judge(black_box(&alone), &KnownTrajectory::new(&case, trajectory, &error)));
             };
-            let judging = shortest(|| {
+            let judging = shortest(REPEATS, || {
                 on(&first);
                 on(&second);
             });

@@ -6,11 +6,12 @@
 
 mod four_bar;
 
+#[path = "shared/timing.rs"]
+mod timing;
+
 use linkage::case::Case;
-use linkage::math::KeepNan;
 use std::hint::black_box;
 use std::path::Path;
-use std::time::Instant;
 
 use analytic::assur::batch::{Batch, Poses};
 use analytic::{AssurSolver, PoseSolver};
@@ -21,24 +22,16 @@ use linkage::solver::Solver;
 use linkage::trajectory::Stage;
 use scenario::Scenario;
 
+use timing::shortest;
+
 /// Poses per timing, over one turn.
 const POSES: usize = 3600;
-/// Number of timings; the shortest counts, because other activity of the machine only adds time.
+/// Number of timings; the shortest counts.
 const REPEATS: usize = 200;
 
 fn scenario(name: &str) -> Scenario {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios").join(format!("{name}.toml"));
     Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"))
-}
-
-/// Shortest time of `turn`, divided by the number of poses (ns).
-fn shortest(mut turn: impl FnMut()) -> f64 {
-    let time = |_| {
-        let since = Instant::now();
-        turn();
-        since.elapsed().as_secs_f64()
-    };
-    (0..REPEATS).map(time).fold(f64::INFINITY, f64::smaller) * 1e9 / POSES as f64
 }
 
 fn angle(k: usize) -> f64 {
@@ -142,33 +135,38 @@ fn main() {
     let hand = by_hand(&crank_rocker);
     check(&crank_rocker, &hand);
     let omega = crank_rocker.case.crank().at(0.0).rate;
-    let measure = shortest(|| {
+    let measure = shortest(REPEATS, || {
         for k in 0..POSES {
             black_box(hand.solve(black_box(angle(k)), omega));
         }
     });
-    let placed = shortest(|| {
+    let placed = shortest(REPEATS, || {
         for k in 0..POSES {
             black_box(hand.positions(black_box(angle(k))));
         }
     });
-    println!("four-bar by hand: 1 ({measure:.0} ns a pose on this machine, now), positions {:.2}\n", placed / measure);
+    println!(
+        "four-bar by hand: 1 ({:.0} ns a pose on this machine, now), positions {:.2}\n",
+        measure * 1e9 / POSES as f64,
+        placed / measure
+    );
     println!("{:20} {:>10} {:>10} {:>10}", "scenario", "all", "positions", "batch");
     for name in ["crank_rocker", "ov7_base", "ov7_new", "fourth_class"] {
         let scenario = scenario(name);
-        let [all, positions, batch] = PARTS.map(|(_, part)| shortest(turns_of(&scenario.case, part)) / measure);
+        let [all, positions, batch] =
+            PARTS.map(|(_, part)| shortest(REPEATS, turns_of(&scenario.case, part)) / measure);
         println!("{name:20} {all:>10.2} {positions:>10.2} {batch:>10.2}");
     }
     let boom = scenario("boom_lift").case;
     let crank = boom.mechanism.joint_named("O").expect("the boom is hinged at O");
     let inputs = |case: &Case| case.grid.inputs.clone();
-    let of_ram = shortest(swing_of(&boom, &inputs(&boom)));
+    let of_ram = shortest(REPEATS, swing_of(&boom, &inputs(&boom)));
     // The boom lift with the same motion of the boom, but driven at the boom's hinge instead of its cylinder.
     let angles = angles_of(&boom);
     let rise = angles[angles.len() - 1] - angles[0];
     let law = |_| MotionLaw::Cycloidal { rise, time: 1.0 };
     let at_crank = boom.driven_at(crank, law, vec![0.0, 1.0]).expect("the boom is a crank");
-    let of_crank = shortest(swing_of(&at_crank, &angles));
+    let of_crank = shortest(REPEATS, swing_of(&at_crank, &angles));
     println!(
         "\nboom on a ram, all: {:.2}; driven at its hinge: {:.2}; ratio {:.2}",
         of_ram / measure,

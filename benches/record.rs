@@ -4,15 +4,16 @@
 //! Only ratios from one run are printed.
 //! `cargo bench --bench record`.
 
+#[path = "shared/timing.rs"]
+mod timing;
+
 use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::io::BufWriter;
 use std::path::Path;
 use std::sync::Arc;
-use std::time::Instant;
 
 use linkage::case::{Case, Grid};
-use linkage::math::KeepNan;
 use linkage::trajectory::Trajectory;
 use linkproof::{Options, prove};
 use mcap::records::MessageHeader;
@@ -20,7 +21,9 @@ use mcap::{Channel, MessageStream, WriteOptions};
 use recording::{RecordedSide, Recording, Show, write};
 use scenario::Scenario;
 
-/// Number of timings; the shortest counts, because other activity of the machine only adds time.
+use timing::shortest;
+
+/// Number of timings; the shortest counts.
 const REPEATS: usize = 9;
 /// Samples per second of mechanism time.
 const RATE: f64 = 1000.0;
@@ -37,15 +40,6 @@ fn turn(case: &Case, instants: usize) -> Case {
     let crank = case.crank();
     let angle = |k: usize| crank.start + std::f64::consts::TAU * crank.sense() * k as f64 / (instants - 1) as f64;
     case.on(Grid::of_inputs(crank, (0..instants).map(angle).collect())).unwrap()
-}
-
-fn shortest(mut work: impl FnMut()) -> f64 {
-    let times = (0..REPEATS).map(|_| {
-        let since = Instant::now();
-        work();
-        since.elapsed().as_secs_f64()
-    });
-    times.fold(f64::INFINITY, f64::smaller)
 }
 
 /// Records reference and engine as the command `run` does.
@@ -118,19 +112,19 @@ fn main() {
         let long = turn(&own.case, LONG);
         own.case = turn(&own.case, instants as usize + 1);
         let proof = prove(&own, &Options::default()).unwrap();
-        let proving = shortest(|| drop(prove(&own, &Options::default()).unwrap()));
+        let proving = shortest(REPEATS, || drop(prove(&own, &Options::default()).unwrap()));
         let engine = proof.engine();
         let reference = RecordedSide { name: "reference", trajectory: &proof.reference_trajectory };
         let other = engine.trajectory.as_ref().map(|trajectory| RecordedSide { name: "engine", trajectory });
         let sides: Vec<RecordedSide> = std::iter::once(reference).chain(other).collect();
-        let recording = shortest(|| record(&own, &sides, engine.errors.as_ref(), &ours));
+        let recording = shortest(REPEATS, || record(&own, &sides, engine.errors.as_ref(), &ours));
 
         let solved = prover::run::solve(&long).unwrap();
         let sides = ["reference", "engine"].map(|name| RecordedSide { name, trajectory: &solved });
-        let writing = shortest(|| record(&own, &sides, None, &ours));
+        let writing = shortest(REPEATS, || record(&own, &sides, None, &ours));
         let bytes = fs::read(&ours).unwrap();
         let messages = messages(&bytes);
-        let plainly = shortest(|| plain(&messages, &theirs));
+        let plainly = shortest(REPEATS, || plain(&messages, &theirs));
         println!("{name:14} {:>26.2} {:>32.2}", 1.0 + recording / proving, plainly / writing);
     }
 }

@@ -8,39 +8,33 @@
 //! This benchmark does not check errors; `tests/suite/bench.rs` tests the errors of the run-up at the usual accuracy
 //! and at 1e-8.
 
+#[path = "shared/timing.rs"]
+mod timing;
+
 use std::hint::black_box;
 use std::path::Path;
-use std::time::Instant;
 
 use analytic::reduced::{ACCURACY, ReducedModel, RunUp, motion};
-use linkage::math::KeepNan;
 use scenario::Scenario;
 
-/// Number of timings; the shortest counts, because other activity of the machine only adds time.
+use timing::shortest;
+
+/// Number of timings; the shortest counts.
 const REPEATS: usize = 100;
 const ACCURACIES: [f64; 5] = [1e-8, 1e-9, 1e-10, ACCURACY, 1e-12];
-
-fn shortest<T>(mut work: impl FnMut() -> T) -> f64 {
-    let time = |_| {
-        let since = Instant::now();
-        let _found = black_box(work());
-        since.elapsed().as_secs_f64()
-    };
-    (0..REPEATS).map(time).fold(f64::INFINITY, f64::smaller)
-}
 
 fn main() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker.toml");
     let case = Scenario::load(&path).unwrap_or_else(|error| panic!("{error}")).case;
     let times: Vec<f64> = (0..=500).map(|k| f64::from(k) * 1e-3).collect();
     let model = ReducedModel::of(&case).unwrap();
-    let crank_alone = |accuracy| shortest(|| motion(&model, 0.0, black_box(&times), accuracy).unwrap());
-    let all_channels = |accuracy| shortest(|| RunUp::of(&model, 0.0, black_box(&times), accuracy).unwrap());
+    let crank_alone = |accuracy| shortest(REPEATS, || motion(&model, 0.0, black_box(&times), accuracy).unwrap());
+    let all_channels = |accuracy| shortest(REPEATS, || RunUp::of(&model, 0.0, black_box(&times), accuracy).unwrap());
     let one = crank_alone(ACCURACY);
     println!("cost divided by the cost of the run-up of the crank alone at the accuracy {ACCURACY:.0e}\n");
     // The reduced model includes the range of motion and the kinks.
-    println!("{:14} {:>8.2}", "reduced model", shortest(|| ReducedModel::of(black_box(&case)).unwrap()) / one);
-    println!("{:14} {:>8.2}\n", "steady motion", shortest(|| model.regime(&[], ACCURACY).unwrap()) / one);
+    println!("{:14} {:>8.2}", "reduced model", shortest(REPEATS, || ReducedModel::of(black_box(&case)).unwrap()) / one);
+    println!("{:14} {:>8.2}\n", "steady motion", shortest(REPEATS, || model.regime(&[], ACCURACY).unwrap()) / one);
     println!("{:14} {:>12} {:>12}", "run-up", "crank alone", "all channels");
     for accuracy in ACCURACIES {
         println!("{accuracy:<14.0e} {:>12.2} {:>12.2}", crank_alone(accuracy) / one, all_channels(accuracy) / one);

@@ -3,28 +3,21 @@
 //! respect to all its dimensions, masses and its speed.
 //! `cargo bench --bench sensitivity`.
 
+#[path = "shared/timing.rs"]
+mod timing;
+
 use design::sensitivity::{SensitivityQuestion, sensitivity_by};
-use linkage::math::KeepNan;
 use std::hint::black_box;
 use std::path::Path;
-use std::time::Instant;
 
 use analytic::AssurSolver;
 use linkage::solver::Solver;
 use scenario::{CaseSlopes, Scenario};
 
-/// Number of timings; the shortest counts, because other activity of the machine only adds time.
-const REPEATS: usize = 200;
+use timing::shortest;
 
-/// Shortest time of `work` (ms).
-fn shortest(mut work: impl FnMut()) -> f64 {
-    let time = |_| {
-        let since = Instant::now();
-        work();
-        since.elapsed().as_secs_f64() * 1e3
-    };
-    (0..REPEATS).map(time).fold(f64::INFINITY, f64::smaller)
-}
+/// Number of timings; the shortest counts.
+const REPEATS: usize = 200;
 
 fn main() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/ov7_base.toml");
@@ -33,17 +26,18 @@ fn main() {
     let question = SensitivityQuestion { figures: figures.to_vec(), ..SensitivityQuestion::default() };
     // Reading the file is timed separately.
     let slopes = CaseSlopes::of(&scenario, &question.asked).unwrap_or_else(|error| panic!("{error}"));
-    let reading = shortest(|| drop(black_box(CaseSlopes::of(black_box(&scenario), &question.asked))));
+    let reading = shortest(REPEATS, || drop(black_box(CaseSlopes::of(black_box(&scenario), &question.asked))));
     let mut keys = 0;
-    let gradient = shortest(|| {
+    let gradient = shortest(REPEATS, || {
         let found = sensitivity_by(black_box(&scenario), &slopes, &question).unwrap_or_else(|error| panic!("{error}"));
         keys = found.keys.len();
     });
-    let solution = shortest(|| drop(black_box(AssurSolver.solve(black_box(&scenario.case)))));
-    println!("solution of all channels: {solution:.3} ms");
+    let solution = shortest(REPEATS, || drop(black_box(AssurSolver.solve(black_box(&scenario.case)))));
+    println!("solution of all channels: {:.3} ms", solution * 1e3);
     println!(
-        "two figures with their derivatives by {keys} keys: {gradient:.3} ms, {:.2} solutions",
+        "two figures with their derivatives by {keys} keys: {:.3} ms, {:.2} solutions",
+        gradient * 1e3,
         gradient / solution
     );
-    println!("reading the derivatives of the numbers of the file: {reading:.3} ms");
+    println!("reading the derivatives of the numbers of the file: {:.3} ms", reading * 1e3);
 }
