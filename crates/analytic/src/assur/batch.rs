@@ -216,6 +216,7 @@ fn units(angles: [f64; TILE]) -> [Eight; 2] {
 }
 
 impl OnRegisters for Tiles<'_, '_> {
+    const IN_PAIRS: bool = false;
     type Output = ();
 
     #[inline(always)]

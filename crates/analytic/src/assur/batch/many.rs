@@ -11,7 +11,7 @@ use super::STEP;
 use super::groups::{Groups, Part};
 use super::lanes::{Eight, TILE, Window};
 use super::poses::{ALPHA, DIRECTION, Layout, OMEGA};
-use super::registers::{OnRegisters, Registers, dispatch_in_pairs};
+use super::registers::{OnRegisters, Registers, dispatch};
 use super::tally::{BLOCK, PoseTally};
 use crate::assur::groups::SolutionPlan;
 
@@ -132,7 +132,7 @@ impl CaseBatch {
     pub fn solve(&mut self, deepest: Stage, tallies: &mut [PoseTally]) -> bool {
         tallies.iter_mut().for_each(|own| own.start(&self.case, self.layout));
         let arch = self.arch;
-        dispatch_in_pairs(arch, AllTiles { batch: self, deepest, tallies })
+        dispatch(arch, AllTiles { batch: self, deepest, tallies })
     }
 }
 
@@ -179,6 +179,7 @@ impl CaseBatch {
 }
 
 impl OnRegisters for AllTiles<'_> {
+    const IN_PAIRS: bool = true;
     type Output = bool;
 
     #[inline(always)]

@@ -39,44 +39,30 @@ pub(super) trait Registers: Copy {
 
 /// Work that runs on registers of any width.
 pub(super) trait OnRegisters {
+    /// Whether it runs on pairs of registers, unless a pair is wider than a tile.
+    const IN_PAIRS: bool;
     type Output;
 
     fn run<R: Registers>(self, on: R) -> Self::Output;
 }
 
-struct Singly<W>(W);
+struct Dispatched<W>(W);
 
-impl<W: OnRegisters> WithSimd for Singly<W> {
+impl<W: OnRegisters> WithSimd for Dispatched<W> {
     type Output = W::Output;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> W::Output {
-        self.0.run(Single(simd))
-    }
-}
-
-struct InPairs<W>(W);
-
-impl<W: OnRegisters> WithSimd for InPairs<W> {
-    type Output = W::Output;
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> W::Output {
-        match 2 * S::F64_LANES <= TILE {
+        match W::IN_PAIRS && 2 * S::F64_LANES <= TILE {
             true => self.0.run(Pair(simd)),
             false => self.0.run(Single(simd)),
         }
     }
 }
 
-/// Runs `work` on single registers.
+/// Runs `work` on the registers of an instruction set.
 pub(super) fn dispatch<W: OnRegisters>(arch: Arch, work: W) -> W::Output {
-    arch.dispatch(Singly(work))
-}
-
-/// Runs `work` on pairs of registers, or on single ones if a pair is wider than a tile.
-pub(super) fn dispatch_in_pairs<W: OnRegisters>(arch: Arch, work: W) -> W::Output {
-    arch.dispatch(InPairs(work))
+    arch.dispatch(Dispatched(work))
 }
 
 /// One register of the instruction set `S`.
