@@ -164,10 +164,13 @@ async function showPage(text, stage) {
   const own = await frame;
   own.linkproofTake(text, stage === 'moving');
   await new Promise((done) => {
-    requestAnimationFrame(() => setTimeout(done, 0));
+    const painted = () => {
+      window.linkproofShown.push({ stage, at: performance.timeOrigin + performance.now() });
+      done();
+    };
+    requestAnimationFrame(() => setTimeout(painted, 0));
     setTimeout(done, PAINTING);
   });
-  window.linkproofShown.push({ stage, at: performance.timeOrigin + performance.now() });
 }
 
 /** Shows a state. Ends when its page is painted. */
