@@ -186,7 +186,7 @@ fn loads_need_existing_links_and_valid_numbers() {
             "not finite",
         ),
         (friction(7, [0, 1], 0.01), "4 joints"),
-        (friction(1, [0, 1], 0.01), "not those of joint"),
+        (friction(1, [0, 1], 0.01), "not the links of joint"),
         (friction(0, [0, 1], -0.01), "negative"),
     ];
     for (load, word) in wrong {
