@@ -4,7 +4,7 @@ use super::dimension::{Dimension, DimensionLine, Measure};
 use super::mark::MarkShape;
 use super::paper::figure::{Style, Type, solid};
 use super::paper::labels::lettering;
-use super::paper::style::colour;
+use super::paper::style::{BLACK, colour};
 use super::picture::Picture;
 use linkage::math::{Vec2, corners, turned, unit};
 use linkage::mechanism::{GROUND, Mechanism};
@@ -49,7 +49,7 @@ impl Picture<'_> {
                     // The number is beside the wheel, at 45 degrees above the horizontal.
                     let Some(axle) = self.at(own.link, *at) else { continue };
                     let away = unit(std::f64::consts::FRAC_PI_4);
-                    self.letters(axle + away * (radius / self.scale), away, 0.6, own.text.clone(), colour(own.link));
+                    self.letters(axle + away * (radius / self.scale), away, 0.6, own.text.clone(), BLACK);
                 }
             }
         }
@@ -66,10 +66,10 @@ impl Picture<'_> {
     fn draw_length(&mut self, own: &Dimension, ends: [Vec2; 2], line: DimensionLine, middle: Vec2) {
         let (paint, between) = (colour(own.link), (ends[0] + ends[1]) / 2.0);
         match line {
-            DimensionLine::Edge => self.letters(between, Vec2::zeros(), 0.4, own.text.clone(), paint),
+            DimensionLine::Edge => self.letters(between, Vec2::zeros(), 0.4, own.text.clone(), BLACK),
             DimensionLine::Across => {
                 self.thin_line(ends, solid(paint, THIN));
-                self.letters(between, Vec2::zeros(), 0.4, own.text.clone(), paint);
+                self.letters(between, Vec2::zeros(), 0.4, own.text.clone(), BLACK);
             }
             DimensionLine::Outside(row) => {
                 let normal = turned(ends[1] - ends[0]).normalize();
@@ -78,7 +78,7 @@ impl Picture<'_> {
                 for end in ends {
                     self.thin_line([FREE, level + BEYOND].map(|way| end + away * way), solid(paint, THINNEST));
                 }
-                self.dimension_line(ends.map(|end| end + away * level), away, own, lettering(paint));
+                self.dimension_line(ends.map(|end| end + away * level), away, own, lettering(BLACK));
             }
         }
     }
@@ -98,7 +98,7 @@ impl Picture<'_> {
         for at in [Some(&points[0]), far].into_iter().flatten() {
             self.thin_line([at + away * FREE, onto(*at) + away * BEYOND], solid(colour(GROUND), THINNEST));
         }
-        let set = Type { upward: axis == 1, ..lettering(colour(GROUND)) };
+        let set = Type { upward: axis == 1, ..lettering(BLACK) };
         self.dimension_line([onto(points[0]), onto(*to)], away, own, set);
     }
 
@@ -117,16 +117,17 @@ impl Picture<'_> {
         self.obstacles.segments.extend(arc.windows(2).map(|pair| [pair[0], pair[1]]));
         self.figure.curve(arc, None, solid(paint, THIN));
         let away = unit((from + to) / 2.0);
-        self.letters(vertex + away * ARC, away, 0.4, own.text.clone(), paint);
+        self.letters(vertex + away * ARC, away, 0.4, own.text.clone(), BLACK);
     }
 
     /// A dimension line with oblique strokes at its ends, and its number on the side `away`.
     fn dimension_line(&mut self, ends: [Vec2; 2], away: Vec2, own: &Dimension, set: Type) {
-        self.thin_line(ends, solid(set.colour, THIN));
+        let paint = colour(own.link);
+        self.thin_line(ends, solid(paint, THIN));
         let along = (ends[1] - ends[0]).normalize();
         let stroke = (along + turned(along)) * STROKE;
         for end in ends {
-            self.figure.line([end - stroke, end + stroke], solid(set.colour, THIN));
+            self.figure.line([end - stroke, end + stroke], solid(paint, THIN));
         }
         self.set_letters((ends[0] + ends[1]) / 2.0, away, 0.2, own.text.clone(), set);
     }

@@ -322,10 +322,10 @@ impl<'a> Picture<'a> {
     }
 }
 
-/// Draws the number of a link in a circle.
+/// Draws the number of a link in a circle of the colour `paint`.
 pub(super) fn draw_number(figure: &mut DrawnFigure, at: Vec2, text: String, paint: &'static str) {
     figure.disc(at, NUMBER, "white", solid(paint, 0.4));
-    let set = Type { anchor: "middle", bold: true, colour: paint, ..words(3.2) };
+    let set = Type { anchor: "middle", bold: true, ..words(3.2) };
     figure.text(at - Vec2::new(0.0, 1.15), text, set);
 }
 

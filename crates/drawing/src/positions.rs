@@ -132,7 +132,7 @@ impl Picture<'_> {
         }
         let Some(step) = own.numbered_every(self.scale) else { return false };
         let middle = places.iter().sum::<Vec2>() / places.len().max(1) as f64;
-        let set = Type { anchor: "middle", colour: paint, ..words(NUMBER) };
+        let set = Type { anchor: "middle", ..words(NUMBER) };
         let mut numbered: Vec<(usize, String)> = Vec::new();
         for k in (0..places.len()).step_by(step) {
             match numbered.iter_mut().find(|(other, _)| (places[*other] - places[k]).norm() < ONE) {

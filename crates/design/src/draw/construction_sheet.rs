@@ -107,7 +107,7 @@ impl Sheet<'_> {
             figure.line([end, Vec2::new(*x, end.y)], CARRIED);
             if numbered.iter().all(|other| (other - end.y).abs() >= APART) {
                 let at = end + Vec2::new(0.9, 0.4);
-                figure.text(at, number.to_string(), Type { colour: RAY.colour, ..words(NUMBER) });
+                figure.text(at, number.to_string(), words(NUMBER));
                 numbered.push(end.y);
             }
         }

@@ -44,8 +44,7 @@ fn panel(graph: &CrankGraph, [start, end]: [f64; 2]) -> DrawnFigure {
     let level = axis.y(mean);
     figure.line([Vec2::new(0.0, level), Vec2::new(LONG, level)], MEAN);
     let word = if constant { "constant" } else { graph.mean_word };
-    let set = Type { colour: MEAN.colour, ..words(2.8) };
-    figure.text(Vec2::new(LONG + 2.0, level - 1.0), format!("{word} {}", significant(mean)), set);
+    figure.text(Vec2::new(LONG + 2.0, level - 1.0), format!("{word} {}", significant(mean)), words(2.8));
     let curve = graph.points.iter().map(|&[crank, value]| Vec2::new(LONG * share(crank), axis.y(value)));
     figure.curve(curve.collect(), None, solid(COLOURS[0], 0.45));
     for (mark, above) in graph.marks.iter().zip([false, true]).filter(|_| !constant) {

@@ -230,16 +230,13 @@ impl<'a> Panel<'a> {
                 obstacles.discs.push((anchor, MARK));
                 let size = Vec2::new(width(text, NUMBER), 1.1 * NUMBER);
                 placed.push(PlacedLabel { anchor, away: Vec2::zeros(), size, clear: MARK });
-                texts.push((text, style.colour));
+                texts.push(text);
             }
         }
         let places = labels::place_among(&placed, &obstacles, 1);
-        for ((label, (text, colour)), at) in placed.iter().zip(texts).zip(places) {
-            figure.text(
-                at - Vec2::new(0.0, 0.36 * NUMBER),
-                text.as_str(),
-                Type { anchor: "middle", colour, ..words(NUMBER) },
-            );
+        for ((label, text), at) in placed.iter().zip(texts).zip(places) {
+            let set = Type { anchor: "middle", ..words(NUMBER) };
+            figure.text(at - Vec2::new(0.0, 0.36 * NUMBER), text.as_str(), set);
             labels::leader(figure, label, at, labels::LETTER);
         }
     }
