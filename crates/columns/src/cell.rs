@@ -26,6 +26,10 @@ pub const MISSING: Rounded = Rounded::exact(f64::NAN);
 /// Value of a cell with a NaN or an infinity that a program computed.
 pub const UNDEFINED: Rounded = Rounded { value: f64::NAN, error: f64::INFINITY };
 
+/// Limit for exponents, far outside the range of a double. Larger exponents count as this one, so that sums of digits and
+/// exponents cannot overflow.
+const FARTHEST: i32 = 100_000;
+
 /// Words that mean an empty cell.
 const EMPTY: [&str; 6] = ["-", "na", "n/a", "<na>", "null", "none"];
 
@@ -59,7 +63,7 @@ impl TableCell {
                 b'.' if !point => point = true,
                 b'+' | b'-' if at == 0 => {}
                 b'e' | b'E' => {
-                    exponent = text[at + 1..].parse().ok()?;
+                    exponent = text[at + 1..].parse::<i32>().ok()?.clamp(-FARTHEST, FARTHEST);
                     telling = significant;
                     break;
                 }
@@ -200,6 +204,8 @@ mod tests {
             (["1000.123", "0.001"], [5e-4, 5e-4]),
             (["0.0", "1"], [0.5, 0.5]),
             (["0.00", "1.00"], [0.005, 0.005]),
+            // An exponent far outside the range of a double.
+            (["1e-2147483647", "1"], [0.0, 0.5]),
         ] {
             for (error, half) in errors(&cells).iter().zip(halves) {
                 approx::assert_relative_eq!(*error, half, max_relative = 1e-6);

@@ -74,13 +74,14 @@ impl Course {
         }
     }
 
-    /// Whether a constant is finite. For a table: whether the knots are finite and the period is above zero.
+    /// Whether a constant is finite. For a table: whether knots and values are finite and the period is above zero.
     #[must_use]
     pub fn is_sound(&self) -> bool {
         match self {
             Course::Constant(value) => value.is_finite(),
             Course::Table { function, turns } => {
-                *turns != Some(0) && function.knots().iter().all(|knot| knot.is_finite())
+                let is_finite = |knot: &f64| knot.is_finite() && function.at(*knot)[0].is_finite();
+                *turns != Some(0) && function.knots().iter().all(is_finite)
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Each test makes the smallest fault in one part of a case and checks the resulting error.
 
 use crate::case::{Case, CaseParts, Grid};
-use crate::drive::{Drive, DriveMotion, Drives, Load, MotionLaw, Motor, MotorLaw};
+use crate::drive::{Acts, Course, Drive, DriveMotion, Drives, Load, MotionLaw, Motor, MotorLaw};
 use crate::fixtures::{class_four, four_bar, turning};
 use crate::math::Vec2;
 use crate::mechanism::{AssemblyMode, JointId, JointSide, LinkId, LinkPose, Structure};
@@ -181,7 +181,15 @@ fn loads_need_existing_links_and_valid_numbers() {
                 links: [LinkId(0), LinkId(1)],
                 stiffness: f64::NAN,
                 free_angle: 0.0,
-                acts: crate::drive::Acts::Always,
+                acts: Acts::Always,
+            },
+            "not finite",
+        ),
+        (
+            Load::Moment {
+                link: LinkId(1),
+                moment: Course::table(&[(0.0, 1.0), (2.0, f64::NAN)], 1, false),
+                acts: Acts::Always,
             },
             "not finite",
         ),
