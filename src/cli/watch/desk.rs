@@ -5,13 +5,16 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use crate::cli::advice;
-use crate::report::watch::{Outcome, Shown, state};
+use crate::report::watch::{DraftStage, Outcome, Shown, state};
 use scenario::Scenario;
 
 /// Longest time for which a request waits for a change.
 const PATIENCE: Duration = Duration::from_secs(20);
 /// Longest time for which solver and proof leave the processor to the browser, which draws the first picture.
 const DRAWING: Duration = Duration::from_millis(100);
+/// Curves are shown without a verdict if the proof takes longer. Otherwise they come with the verdict, which then is there
+/// sooner.
+const SOON: Duration = Duration::from_millis(500);
 /// A new draft is sent together with its first results if these come within this time.
 const TOGETHER: Duration = Duration::from_millis(40);
 
@@ -144,6 +147,14 @@ impl Desk {
         drop(self.changed.wait_timeout_while(self.state(), DRAWING, is_open));
     }
 
+    /// Waits for the verdict of a draft for a while. Returns whether it is there. A newer draft ends the wait.
+    pub(super) fn is_judged_soon(&self, draft: u64) -> bool {
+        let is_judged = |state: &State| state.outcome.draft == draft && state.outcome.stage == DraftStage::Judged;
+        let is_open = |state: &mut State| state.draft == draft && !is_judged(state);
+        let waited = self.changed.wait_timeout_while(self.state(), SOON, is_open);
+        is_judged(&waited.unwrap_or_else(PoisonError::into_inner).0)
+    }
+
     /// The newest results about a draft; `None` if there is a newer draft.
     pub(super) fn outcome(&self, draft: u64) -> Option<Outcome> {
         Some(self.state().outcome.clone()).filter(|outcome| outcome.draft == draft)
@@ -176,7 +187,6 @@ impl Desk {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::watch::DraftStage;
 
     #[test]
     fn results_of_older_drafts_are_dropped() {

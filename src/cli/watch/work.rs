@@ -11,7 +11,7 @@ use super::desk::Desk;
 use crate::cli::advice;
 use crate::cli::html::reduced;
 use crate::draw::{Drawn, Medium, PictureOptions, picture};
-use crate::report::html::{self, Beside, PAGE_BYTES};
+use crate::report::html::{self, Beside};
 use crate::report::recorded;
 use crate::report::watch::{DraftStage, Outcome, picture_page};
 use crate::sentences;
@@ -26,8 +26,10 @@ const TICK: Duration = Duration::from_millis(2);
 /// The file is read at least this often, because an editor may keep length and time of change.
 const RELOOK: Duration = Duration::from_millis(500);
 
-/// Limit for the columns of the first picture (bytes): fewer instants, but the browser shows them sooner.
+/// Limits for the columns of the first picture and of the later pages (bytes): fewer instants, but the browser shows
+/// them sooner.
 const PICTURE_BYTES: usize = 50_000;
+const PAGE_BYTES: usize = 500_000;
 
 /// Follows the file.
 pub(super) fn follow(desk: &Desk) {
@@ -60,6 +62,9 @@ pub(super) fn move_drafts(desk: &Desk) {
             publish(Outcome { stage: DraftStage::Moving, ..first.clone() });
             desk.wait_for_drawing(draft);
             desk.leave(draft, scenario.clone());
+            if desk.is_judged_soon(draft) {
+                return Ok(());
+            }
             let page = moved(&scenario, PAGE_BYTES)?.page;
             publish(Outcome { stage: DraftStage::Solved, page, ..first });
             Ok(())
