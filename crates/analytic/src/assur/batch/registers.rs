@@ -73,7 +73,7 @@ struct Single<S: Simd>(S);
 #[derive(Clone, Copy)]
 struct Pair<S: Simd>(S);
 
-// The values of a pair are tuples of two registers, because arrays of registers would take the compiler minutes.
+// The values of a pair are tuples of two registers, because compiling arrays of registers would take minutes.
 macro_rules! on_single {
     ($($name:ident $on_register:ident ($($operand:ident),*);)*) => { $(
         #[inline(always)]
