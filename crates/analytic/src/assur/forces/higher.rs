@@ -127,7 +127,7 @@ impl Higher {
 
     /// Finds the forces of the transmissions and adds them to the forces on the nodes' links.
     /// The multiplier of a transmission's row gives the force of the transmission.
-    /// The row contains only angles and slides, but the joint forces also depend on where the transmission's force acts.
+    /// The row contains only angles and slides, but the joint forces also depend on where this force acts.
     /// The force is therefore applied to the links as a known force.
     fn transmit<const SLIDING: bool>(
         &mut self,
