@@ -207,7 +207,8 @@ impl<'a> Tracker<'a> {
         let jacobian = self.constraints.at(&q).jacobian;
         let tangent = tangent(&jacobian, along);
         let (sigma, rounds) = smallest_singular_value(&bordered(&jacobian, &tangent), &mut self.weakest.borrow_mut());
-        // One elimination for the tangent, one for the singular value. If the work is used up, the next pose reports it.
+        // One elimination for the tangent, one for the singular value.
+        // If the work is used up, the next pose reports it.
         let _ = self.spend(2 + rounds);
         let groups = self.case.structure.groups.iter().zip(&self.signs);
         let pose = self.constraints.pose(&q);

@@ -39,7 +39,7 @@ pub(super) trait Registers: Copy {
 
 /// Work that runs on registers of any width.
 pub(super) trait OnRegisters {
-    /// Whether it runs on pairs of registers, unless a pair is wider than a tile.
+    /// Whether the work runs on pairs of registers if a pair fits into a tile.
     const IN_PAIRS: bool;
     type Output;
 
