@@ -1,4 +1,4 @@
-//! Cost of judging formulas, by value and with both derivatives, divided by the cost of solving the poses.
+//! Cost of judging formulas (values, first and second derivatives), divided by the cost of solving the poses.
 //! Both costs are measured on 3600 poses of a revolution.
 //! Only ratios from one run are printed.
 //! `cargo bench --bench formula`.

@@ -24,8 +24,8 @@ pub struct FourBar {
     pub resistance: f64,
 }
 
-/// Components of the forces at O, A, B and C on the second link of each joint in the scenario, then the balancing
-/// moment.
+/// Components of the forces at O, A, B and C, then the balancing moment. Each force acts on the link that the scenario
+/// lists second for the joint.
 pub type Forces = [f64; 9];
 
 impl FourBar {

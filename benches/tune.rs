@@ -34,7 +34,7 @@ const EVERY: usize = 8;
 const SPACE: Space = Space { sweeps: &[4, 8, 16, 32, 64, 128, 256], factor: 1.15 };
 /// Number of alternating timings; the shortest counts, because other activity of the machine only adds time.
 const REPEATS: usize = 7;
-/// Number of settings from the exhaustive search, the cheapest ones, that are timed again.
+/// Number of the cheapest settings of the exhaustive search that are timed again.
 const FINALISTS: usize = 5;
 
 fn scenario(name: &str) -> Scenario {

@@ -32,7 +32,7 @@ pub struct Modes {
     /// Configurations of the group. If not all configurations are known, the list contains only the configuration that
     /// the motion follows.
     pub modes: Vec<Mode>,
-    /// For trains and for groups of more than four links: the reason why the list is incomplete.
+    /// For groups with transmissions or more than four bodies: the reason why the list is incomplete.
     /// `None` if the list is complete.
     pub unknown: Option<String>,
 }

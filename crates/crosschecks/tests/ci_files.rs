@@ -11,7 +11,7 @@ fn blocks(page: &str, language: &str) -> Vec<String> {
     parts.map(|rest| rest.split("\n```").next().unwrap().to_string() + "\n").collect()
 }
 
-/// Checks a CI file, which begins with a comment with its name; the error describes the fault.
+/// Checks a CI file. Its first line must be a comment that states the name of the file. The error describes the fault.
 fn checked(text: &str) -> Result<(), String> {
     let documents = Yaml::load_from_str(text).map_err(|error| error.to_string())?;
     let [document] = documents.as_slice() else { return Err(format!("{} documents", documents.len())) };

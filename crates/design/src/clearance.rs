@@ -117,7 +117,7 @@ pub struct ClearanceResult {
     pub pairs: Vec<PairClearance>,
     /// Swept areas of the question's moving bodies: index of the body and area.
     pub swept: Vec<(usize, Area)>,
-    /// Parts of the range (rad) for which no bound could be proven.
+    /// Parts of the range (rad, m or s) for which no bound could be proven.
     /// These parts lie around singular poses, or remain when the work limit is reached.
     pub open: Vec<[f64; 2]>,
     /// Error bound of the smallest distances (m).
@@ -213,7 +213,7 @@ pub fn find(case: &Case, question: &ClearanceQuestion, progress: Progress) -> Re
 /// Distances of all pairs at the instants of a grid, sampled for graphs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DistanceCurve {
-    /// Crank angles (rad), one per instant.
+    /// Inputs of the first drive (rad or m), one per instant.
     pub cranks: Vec<f64>,
     /// Distances (m): one row per instant, one entry per pair of the question.
     pub rows: Vec<Vec<f64>>,

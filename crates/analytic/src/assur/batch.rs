@@ -173,7 +173,7 @@ struct Asked<'a> {
     deepest: Stage,
 }
 
-/// All tiles of a batch, solved with the widest instructions of the machine.
+/// All tiles of a batch (eight poses each), solved with the widest instructions of the machine.
 struct Tiles<'a, 'c> {
     case: &'a Case,
     groups: &'a Groups,

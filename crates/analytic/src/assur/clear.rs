@@ -18,7 +18,8 @@ impl PoseSolver<'_> {
         Ok(())
     }
 
-    /// Computes the clearances at a crank angle; the positions at this angle must be known.
+    /// Computes the [clearances](crate::assur::groups::SolutionPlan::clearances) at a crank angle; the positions at
+    /// this angle must be known.
     /// Returns whether a group may have passed a change point.
     fn find_clearances(&mut self, crank: f64, sense: f64) -> bool {
         let from = std::mem::replace(&mut self.crank, crank);

@@ -118,7 +118,7 @@ impl Kinetostatics {
         Ok(())
     }
 
-    /// The joints with friction, if there are any.
+    /// The solver for friction and losses; `None` if the case has neither.
     pub(super) fn dry(&mut self) -> Option<&mut Dry> {
         self.dry.as_mut().map(|dry| &mut dry.0)
     }

@@ -11,7 +11,7 @@
 //! For a dyad on other dyads, M follows from the bounds of the dyads that carry it.
 //! These bounds grow from dyad to dyad, and with the inverse of the sine of each dyad's transmission angle.
 //! If these bounds give no proof, the estimate of [`super::watch`] decides.
-//! The estimate of [`super::watch`] also serves dyads on higher groups, dyads on sliders of two guides, and mechanisms
+//! The estimate of [`super::watch`] also serves dyads on higher groups, dyads on RPP or PRP dyads, and mechanisms
 //! with several driving links whose speed ratios change.
 //!
 //! The bounds of one step are stored and used for later steps.

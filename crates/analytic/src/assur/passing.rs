@@ -211,9 +211,8 @@ const WITHOUT_POLE: &str = sentences::LEAVE_THIS_VERY_INSTANT_OUT;
 /// Advice for passing a pose that may be a change point.
 pub(super) fn way_through(case: &Case) -> &'static str {
     match case.crank().passes() || !case.drives.further().is_empty() {
-        // The case cannot pass this pose, so the advice is to end the grid before it.
-        // The case is already set to pass change points, or it has several drives.
-        // A case with several drives cannot pass change points.
+        // Either the case is already set to pass change points and has failed to pass this pose, or it has several
+        // drives and cannot pass change points.
         true => sentences::LET_THE_GRID_END_BEFORE_IT,
         false => sentences::PASS_IT_WITH_THROUGH_SMOOTH,
     }

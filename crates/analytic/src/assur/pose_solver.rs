@@ -325,7 +325,7 @@ impl<'a> PoseSolver<'a> {
         self.solve(input, drive.rate, drive.acceleration, deepest)
     }
 
-    /// The state for a list of configurations, at the time `t` (s) at which the first drive has this input.
+    /// The state for the list of [`crate::modes`], at the time `t` (s) at which the first drive has this input.
     /// If the speed of the first drive varies, the state is computed for the top speed of this drive.
     /// Further drives keep their speed ratios to the first drive.
     /// Drives with separate laws have the rates of their own laws instead.
@@ -338,7 +338,7 @@ impl<'a> PoseSolver<'a> {
         self.solve(input, omega, 0.0, deepest)
     }
 
-    /// The joints with friction, if there are any.
+    /// The solver for friction and losses; `None` if the case has neither.
     pub(super) fn dry(&mut self) -> Option<&mut Dry> {
         self.statics.dry()
     }

@@ -28,7 +28,7 @@ pub fn rows_at_rest(case: &Case) -> Result<Vec<Vec<usize>>> {
 
 /// Smallest and largest moment (N m) or force (N) of the first drive at the instant `row` of the grid.
 /// The friction in each joint at rest may act in either sense: the range covers all combinations of senses, and the
-/// state without friction in the joints at rest.
+/// state without friction in the joints at rest. If more than eight joints rest, only the first eight are varied.
 /// `None` if every joint with friction is in motion.
 ///
 /// # Errors

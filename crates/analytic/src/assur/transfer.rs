@@ -50,7 +50,7 @@ pub(crate) struct TransferSide<'a> {
     sines: Vec<Option<f64>>,
     /// The argument `held` of the last call of `accelerate` in a window around a change point.
     held: Option<Held>,
-    /// The joints with friction, if there are any.
+    /// Solver for friction and losses; `None` if the case has neither.
     dry: Option<Dry>,
 }
 

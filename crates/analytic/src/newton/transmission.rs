@@ -2,7 +2,8 @@
 //! same speed along this line.
 //!
 //! C' = w . (v2 - v1) with the line's direction w at the feet.
-//! The residual is c2 (q2 - f(q1)), minus its value in the start pose, plus the gaps of axles and guide along the line.
+//! The residual is c (q2 - f(q1)), minus its value in the start pose, plus the gaps of axles and guide along the line.
+//! Here c is `Contact::factor`.
 //! The gaps are zero in the solution. The residual includes these gaps so that the row C' is its exact derivative.
 //! For cams, the feet move relative to the carrier with the velocity q1' p, and the line turns relative to the carrier
 //! with the rate k q1'.

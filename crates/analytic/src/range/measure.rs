@@ -25,7 +25,8 @@ pub struct GroupCondition {
     pub condition: f64,
 }
 
-/// Measures a group at a pose, from its square block of the Jacobian, x and y before the angles.
+/// Measures a group at a pose, from its square block of the Jacobian. The columns of x and y come before the columns of
+/// the angles.
 pub(super) fn of(block: &Matrix, mechanism: &Mechanism, group: &Group, pose: &Pose) -> GroupCondition {
     let mut joints = group.inner.iter().chain(&group.outer);
     if !joints.all(|&joint| mechanism.joints()[joint].is_pin()) {

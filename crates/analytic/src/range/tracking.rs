@@ -1,7 +1,7 @@
 //! The curve of all poses of a mechanism, followed by arc length (pseudo-arclength continuation; Allgower and Georg,
 //! "Numerical continuation methods", 1990, chapters 2 to 4 and 8).
 //!
-//! As a function of the arc length, a limit of rotation is a regular point: the crank's component of the tangent has a
+//! With the arc length as parameter, a limit of rotation is a regular point: the crank's component of the tangent has a
 //! simple zero.
 //! As a function of the crank angle, the pose behaves like a square root at a limit of rotation.
 //! Where branches cross, the rank of the equations drops.
@@ -207,7 +207,8 @@ impl<'a> Tracker<'a> {
         let jacobian = self.constraints.at(&q).jacobian;
         let tangent = tangent(&jacobian, along);
         let (sigma, rounds) = smallest_singular_value(&bordered(&jacobian, &tangent), &mut self.weakest.borrow_mut());
-        // One elimination for the tangent, one for the singular value. The next pose reports that the work is used up.
+        // One elimination for the tangent, one for the singular value.
+        // If the work is used up, the next pose reports it.
         let _ = self.spend(2 + rounds);
         let groups = self.case.structure.groups.iter().zip(&self.signs);
         let pose = self.constraints.pose(&q);

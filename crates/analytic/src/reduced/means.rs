@@ -65,7 +65,8 @@ const MOST_TURNS: u32 = 1000;
 /// Number of Newton steps that improve a crank angle from 1e-9 rad to rounding accuracy.
 const POLISHING: usize = 3;
 
-/// Rotation of a crank, and the crank angles (rad) at which links reverse whose loads depend on the sense of rotation.
+/// Extent of a crank's rotation. `reversals` contains the crank angles (rad) at which loads change their sense because
+/// their links reverse.
 struct Reach {
     turns: Option<u32>,
     limits: Option<[f64; 2]>,

@@ -120,7 +120,7 @@ impl<'a> ReducedModel<'a> {
         Ok(model)
     }
 
-    /// Returns `poses`; if the crank is known to turn fully, returns [`PoseSolver::turning_fully`] of `poses`.
+    /// Applies [`PoseSolver::turning_fully`] to `poses` if the crank is known to turn fully.
     pub(crate) fn guided<'p>(&self, poses: PoseSolver<'p>) -> PoseSolver<'p> {
         if self.kinks.period.is_some() { poses.turning_fully() } else { poses }
     }

@@ -215,7 +215,7 @@ impl<'m, 'a> Runner<'m, 'a> {
         if let RunUpEnd::Held(t, crank) = end
             && times.get(found.len()) == Some(&t)
         {
-            // The shaft transmits the whole moment of the motor, which the forces that hold the crank balance.
+            // The shaft transmits the whole moment of the motor. The forces that hold the crank balance this moment.
             let motor = self.flow.0.motor_moment(0.0);
             found.push(CrankState { t, crank, within: crank - self.gone, omega: 0.0, alpha: 0.0, motor, shaft: motor });
         }

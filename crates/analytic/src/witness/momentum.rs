@@ -7,7 +7,7 @@ use linkage::solver::State;
 /// Shaking force (N) and shaking moment about the origin (N m) from d'Alembert's principle for all moving links
 /// together.
 /// Reactions between moving links cancel.
-/// Loads between two links cancel as well, including loads between a link and the frame.
+/// Loads between two links cancel as well. The frame counts as a link here.
 /// The frame carries F = sum of m (g - a) + loads and M = sum of r x m (g - a) - J alpha + loads.
 #[must_use]
 pub fn shaking(case: &Case, state: &State) -> (Vec2, f64) {

@@ -51,9 +51,9 @@ pub struct Triad {
 
 impl Triad {
     /// Interprets a group as a base link on three leads.
-    /// `None` for any other group, and also if a joint on one of the group's links is not revolute.
-    /// A joint that is not revolute would also transmit a moment.
-    /// This condition includes the joints that connect later groups to the group's links.
+    /// `None` for any other group, and also if a joint on one of the group's links is not revolute, because this joint
+    /// would also transmit a moment.
+    /// Joints that connect later groups to the group's links count too.
     #[must_use]
     pub fn of(mechanism: &Mechanism, group: &Group) -> Option<Self> {
         let touching = mechanism.joints().iter().filter(|joint| group.links.iter().any(|&l| joint.on(l).is_some()));

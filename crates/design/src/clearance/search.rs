@@ -30,27 +30,28 @@ pub struct Smallest {
     pub distance: f64,
     /// Lower bound of the distance over the range (m). The bound ignores unproven parts of the range.
     pub least: f64,
-    /// Crank angle of the smallest distance (rad).
+    /// Value of the [range variable](super::RangeVariable) at the smallest distance (rad, m or s).
     pub crank: f64,
-    /// Nearest points at the crank angle of the smallest distance, on the first and the second body (m, world).
+    /// Nearest points at the value `crank` of the range variable, on the first and the second body (m, world).
     pub points: [Vec2; 2],
 }
 
 /// First pose in which a pair comes as near as a given distance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Meeting {
-    /// Two crank angles (rad), in the direction of motion, that enclose the meeting.
-    /// Up to the first angle, the distance is proven to be larger than the given distance.
+    /// Two values of the [range variable](super::RangeVariable) (rad, m or s), in the direction of motion, that enclose
+    /// the meeting.
+    /// Up to the first value, the distance is proven to be larger than the given distance.
     /// The proof does not cover the parts of the range that are reported as unproven.
-    /// At the second angle, the distance is at most the given distance plus the contact distance.
+    /// At the second value, the distance is at most the given distance plus the contact distance.
     pub cranks: [f64; 2],
-    /// Point of the meeting at the second crank angle (m, world).
+    /// Point of the meeting at the second value (m, world).
     pub place: Vec2,
 }
 
 /// Inputs and operation counts of a search.
 pub struct DistanceSearch<'a, 'c> {
-    /// Range of crank angles, with the tubes of the links.
+    /// The range, with the tubes of the links.
     pub tubes: &'a mut Tubes<'c>,
     /// All bodies.
     pub solids: &'a [Solid],
@@ -62,7 +63,7 @@ pub struct DistanceSearch<'a, 'c> {
     pub asked: usize,
     /// Number of pairs of pieces that may still be examined.
     pub budget: usize,
-    /// Ranges of crank angles (rad) for which nothing is proven.
+    /// Parts of the range (rad, m or s) for which nothing is proven.
     pub open: Vec<[f64; 2]>,
 }
 

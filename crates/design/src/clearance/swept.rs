@@ -90,7 +90,7 @@ pub struct Sweep<'a, 'c> {
     rounding: f64,
     /// Number of tests of a square against a part of the range.
     pub tests: usize,
-    /// Ranges of crank angles (rad) that are left out of the area, because nothing is proven for them.
+    /// Parts of the range (rad, m or s) that are left out of the area, because nothing is proven for them.
     pub open: Vec<[f64; 2]>,
 }
 

@@ -1,6 +1,6 @@
 //! Anchors: poses of the mechanism from which the solution of a batch starts.
 //!
-//! Newton's method needs a start near the pose, on the branch of the start pose.
+//! Newton's method needs an approximate pose near the solution, on the branch of the start pose.
 //! Anchors lie every two degrees of the crank, beginning at the start pose, in both directions.
 //! Anchors are solved in sequence away from the start pose, so that they do not depend on the requested crank angles.
 //! Between two anchors, the angle of each link is a polynomial of degree five.

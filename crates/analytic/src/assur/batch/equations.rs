@@ -3,7 +3,7 @@
 //! The motion is computed with the equations of [`crate::assur::groups::Rrr`], the forces with the equations of the
 //! module `assur::forces`.
 //! The sources of the equations are named in these two modules.
-//! If the motion of the driving links has the same bits as in these two modules, the results have the same bits too.
+//! With the same bits of the driving links' motion, the results have the same bits as the results of these modules.
 
 use super::bodies::Body;
 use super::groups::{Arm, Driver, Dyad, Groups, Part};
@@ -14,7 +14,7 @@ use linkage::case::STANDSTILL;
 use linkage::math::Vec2;
 use linkage::trajectory::Stage;
 
-/// Higher groups are not solved on pairs of registers, because their unrolled elimination would then take the compiler
+/// Higher groups are not solved on pairs of registers, because compiling their unrolled elimination would then take
 /// minutes.
 const NO_CHAINS: &str = "higher groups are solved on single registers";
 

@@ -144,8 +144,8 @@ struct AllTiles<'a> {
 }
 
 impl CaseBatch {
-    /// Solves the tile of a crank, and writes it to the place `place` of the block. `doubt` becomes NaN where a dead
-    /// point may be near.
+    /// Solves the tile number `crank` of the grid (`None`: the start pose), and writes it to the place `place` of the
+    /// block. `doubt` becomes NaN where a dead point may be near.
     #[inline(always)]
     fn solve_tile<R: Registers>(
         &mut self,

@@ -39,7 +39,7 @@ pub(super) trait Registers: Copy {
 
 /// Work that runs on registers of any width.
 pub(super) trait OnRegisters {
-    /// Whether it runs on pairs of registers, unless a pair is wider than a tile.
+    /// Whether the work runs on pairs of registers if a pair fits into a tile.
     const IN_PAIRS: bool;
     type Output;
 
@@ -73,7 +73,7 @@ struct Single<S: Simd>(S);
 #[derive(Clone, Copy)]
 struct Pair<S: Simd>(S);
 
-// The values of a pair are tuples of two registers, because arrays of registers would take the compiler minutes.
+// The values of a pair are tuples of two registers, because compiling arrays of registers would take minutes.
 macro_rules! on_single {
     ($($name:ident $on_register:ident ($($operand:ident),*);)*) => { $(
         #[inline(always)]

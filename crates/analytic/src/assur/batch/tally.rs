@@ -98,7 +98,7 @@ macro_rules! change {
     };
 }
 
-/// Adds an expression of every value of a block, and of the number of its tile, to the sum of its lane.
+/// Sums, lane by lane, an expression of the values of a block and of the numbers of their tiles.
 macro_rules! sum {
     ($on:expr, $sums:expr, $block:expr, |$value:ident, $tile:ident, $part:ident| $summand:expr) => {
         for $part in 0..Window::<R>::PARTS {
@@ -147,7 +147,7 @@ impl PoseTally {
         self.fault.0.iter().all(|lane| *lane == 0.0)
     }
 
-    /// Prepares the first row of a case.
+    /// Prepares the statistic for the first row of a case.
     pub(super) fn start(&mut self, case: &Case, layout: Layout) {
         let link = |link: LinkId| layout.link(link).expect("a moving link");
         let links = case.mechanism.links();

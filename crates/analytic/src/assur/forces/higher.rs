@@ -126,10 +126,9 @@ impl Higher {
     }
 
     /// Finds the forces of the transmissions and adds them to the forces on the nodes' links.
-    /// The row of a transmission contains only derivatives with respect to angles and slides.
-    /// Nevertheless, the multiplier of this row gives the force of the transmission.
-    /// If the transmissions' forces are then applied to the links as known forces, the remaining multipliers give the
-    /// forces in the joints.
+    /// The multiplier of a transmission's row gives the force of the transmission.
+    /// The row contains only angles and slides, but the joint forces also depend on where this force acts.
+    /// The force is therefore applied to the links as a known force.
     fn transmit<const SLIDING: bool>(
         &mut self,
         case: &Case,

@@ -1,8 +1,9 @@
 //! Joint reactions of the four dyads with prismatic joints.
 //!
-//! A revolute joint transmits a force. A prismatic joint transmits a force across its axis and a moment.
+//! A revolute joint transmits a force. A prismatic joint transmits a moment, and a force across its axis.
 //! F_a and M_a are the known force and moment on link a, F_b and M_b on link b; F = F_a + F_b and M = M_a + M_b.
-//! The vectors u and d go from the pole to the outer joints of links a and b; e and b are the axes.
+//! The vectors u and d go from the pole to the outer joints of links a and b.
+//! The axes of the prismatic joints are e and b (b is unrelated to link b).
 //! R is the force on link a at its outer joint.
 //! RRP: u x R = -M_a about the inner joint, e . (R + F) = 0 for the whole dyad.
 //! RPR, with R on the second link of the prismatic joint: e . (R + F_b) = 0 for the second link, and d x R = -M about

@@ -26,7 +26,7 @@ pub(in crate::assur) struct Shape {
     inner: (LinkId, Vec2),
     /// p and its rates in the frame of the root (m, m/s, m/s^2).
     span: [Vec2; 3],
-    /// If all given joints are slides, p is linear in them: p at zero slides, and for each drive the derivative of p.
+    /// If all given joints are slides: p at zero slides, and for each drive the derivative of p, which is constant.
     linear: Option<(Vec2, Vec<(usize, Vec2)>)>,
 }
 

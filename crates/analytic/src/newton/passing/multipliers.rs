@@ -2,7 +2,8 @@
 //!
 //! The Jacobian is singular at the change point. Multipliers generally grow with the inverse of the distance from the
 //! change point.
-//! The reason is that no constraint resists a load that does work along the second branch.
+//! The reason is that the constraints also permit a motion along the other branch, so that they do not resist a load
+//! that does work along this branch.
 //! The product of multiplier and distance is always smooth.
 
 use super::WITHOUT_POLE;

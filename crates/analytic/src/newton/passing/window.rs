@@ -45,7 +45,7 @@ const COMPARED: [f64; 3] = [-0.1, 0.0, 0.1];
 /// Cube root of the sum of the weights' magnitudes. This sum is about four. The polynomials amplify the rounding error
 /// of the poses by this sum.
 const WEIGHTS: f64 = 1.6;
-/// Ratio of the rounding error of accelerations to the unit roundoff times the cube of the condition number.
+/// The rounding error of accelerations is the unit roundoff, times the cube of the condition number, times this factor.
 const ULPS: f64 = 16.0;
 
 /// The surroundings of a change point.

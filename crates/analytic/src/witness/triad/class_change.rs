@@ -1,6 +1,7 @@
 //! The class III group by exchange of the driving link.
 //!
-//! If one ground lead of the group is taken as conditional driver, the mechanism is a chain of class II dyads.
+//! Two leads of the group are attached to the ground (the ground leads), and lead 3 to the crank.
+//! If one ground lead is taken as conditional driver, the mechanism is a chain of class II dyads.
 //! The first dyad consists of the base link and the ground lead that does not drive.
 //! The second dyad consists of lead 3 and the crank.
 //! The first dyad is placed in closed form.

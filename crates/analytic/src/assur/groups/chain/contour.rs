@@ -37,7 +37,7 @@ pub struct Node {
     pub(super) guided: Option<Guided>,
 }
 
-/// Position of a joint on the first placed of its two links.
+/// Position of a joint on that one of its two links which is placed first.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::assur) enum Hangs {
     /// A joint on a link outside the group: index in [`Contours::roots`].
