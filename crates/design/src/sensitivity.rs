@@ -78,8 +78,8 @@ pub fn sensitivity_by(scenario: &Scenario, slopes: &CaseSlopes, question: &Sensi
     Ok(Sensitivity { keys, figures, left_out, by_input })
 }
 
-/// Indices of the chosen keys, and the names of the omitted keys.
-/// Each omitted key has the part of the file whose derivative by this key is not known.
+/// Indices of the chosen keys; and for each omitted key, its name and the part of the file whose derivative by this key
+/// is not known.
 type Chosen = (Vec<usize>, Vec<(String, String)>);
 
 fn chosen(slopes: &CaseSlopes, question: &SensitivityQuestion) -> Result<Chosen> {

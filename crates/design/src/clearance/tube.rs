@@ -403,7 +403,7 @@ fn equations(
 }
 
 /// Returns an upper bound of |F' - F'(middle)| r for every equation, over the tubes and with r = `radii`.
-/// docs/clearance.md explains F' and r.
+/// The documentation of this module explains F' and r.
 fn changes(
     rows: &[Row],
     tubes: &[Tube],

@@ -116,7 +116,7 @@ fn loads_laws_and_several_drives_have_the_derivatives_of_differences() {
     ] {
         println!("{name}");
         let scenario = of_repository(name);
-        // A law that a change makes shorter must still reach the last instant of the grid.
+        // A changed number may shorten a law. The law must still reach the last instant of the grid.
         let text = scenario.text.replace("to_s = 0.2", "to_s = 0.18").replace("to_s = 4", "to_s = 1");
         let scenario = Scenario::parse(&text, &scenario.path).unwrap();
         compare(&scenario, &question(&figures), share);

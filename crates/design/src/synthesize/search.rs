@@ -3,7 +3,8 @@
 //! Candidates are drawn uniformly within their bounds.
 //! Every block of candidates has a separate random stream (ChaCha, by Bernstein).
 //! The result therefore depends on the seed and not on the number of threads.
-//! Two methods refine the best candidates, one after the other.
+//! The module `gradient` refines the best candidates with exact derivatives.
+//! Without derivatives, two methods refine the best candidates, one after the other.
 //! The first is an evolution strategy with one parent, one child and the one-fifth rule (Rechenberg 1973). The
 //! evolution strategy can cross kinks and edges of the cost function.
 //! The second is linear approximation within a trust region (COBYLA, Powell 1994).

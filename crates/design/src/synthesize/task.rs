@@ -124,7 +124,7 @@ impl LimitedQuantity {
     }
 }
 
-/// Smallest permitted distances between links and from the housing.
+/// Smallest permitted distances between links, and between links and the housing.
 #[derive(Clone, Debug)]
 pub struct WantedClearance {
     /// The bodies with their outlines, and the pairs whose distances are limited.

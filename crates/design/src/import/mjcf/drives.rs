@@ -136,8 +136,8 @@ impl Model<'_> {
         sum
     }
 
-    /// Adds the motor of a joint with its torque line at the crank. Returns the sense of its torque (+1 or -1), or
-    /// `None` without a motor.
+    /// Adds the motor of a joint. The law gives the torque on the crank, so the ratio is 1. Returns the sense of the
+    /// torque at rest (+1 or -1), or `None` without a motor.
     fn motor(&mut self, at: usize) -> Result<Option<f64>> {
         let node = self.joints[at].node;
         let name = node.attribute("name").unwrap_or_default();
