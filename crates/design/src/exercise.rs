@@ -35,8 +35,8 @@ pub struct VariationWish {
 
 /// Largest number of draws for one student.
 const DRAWS: usize = 400;
-/// Upper bound on the lower limit of a group's determinant, as a fraction of the group's smallest determinant in the
-/// original. In [`positions`], it is a fraction of the group's largest determinant.
+/// A group's determinant may always fall to this fraction of the group's smallest determinant in the original.
+/// In [`positions`], it may fall to this fraction of the group's largest determinant.
 const KEPT: f64 = 0.75;
 
 /// The mechanism from which exercises are made, with the limits that all exercises keep.

@@ -160,8 +160,8 @@ impl MotionDiagram {
                 Error::new(ErrorKind::Input, sentences::THE_GRID_HAS_NO_STROKE).help(sentences::EXTEND_THE_GRID)
             );
         }
-        // The number of rows per division is a multiple of 8. The midpoints of divisions, half divisions and quarter
-        // divisions are therefore rows.
+        // The number of rows per division is a multiple of 8. The midpoints of whole, half and quarter divisions are
+        // therefore rows.
         let stride = 8 * CURVE.div_ceil(8 * divisions);
         let rows = divisions * stride;
         let crank = |row: usize| from + sense * span * (row as f64 / rows as f64);

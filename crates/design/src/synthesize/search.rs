@@ -76,8 +76,7 @@ pub struct SearchResult {
 ///
 /// # Errors
 /// The errors of [`Task::check`]; [`ErrorKind::Unsupported`] for a mechanism whose derivatives are not known;
-/// [`ErrorKind::Numeric`] if no candidate assembles over the whole turn and nearly keeps
-/// the limits.
+/// [`ErrorKind::Numeric`] if no candidate that assembles over the whole turn nearly keeps the limits.
 pub fn search(task: &Task, threads: usize, progress: Progress) -> Result<SearchResult> {
     search_from(task, &[], threads, progress)
 }
