@@ -34,7 +34,7 @@ const COARSE: usize = 72;
 /// Number of candidates in a block. Each block has a separate random stream.
 const BLOCK: usize = 4096;
 /// Number of blocks between two calls of `progress`.
-/// The number does not depend on the number of threads, and neither do the candidates that are kept.
+/// The number is the same for any number of threads, and so are the candidates that are kept.
 const ROUND: usize = 16;
 /// Largest number of threads.
 const MOST_THREADS: usize = 256;
