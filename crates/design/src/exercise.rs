@@ -35,7 +35,8 @@ pub struct VariationWish {
 
 /// Largest number of draws for one student.
 const DRAWS: usize = 400;
-/// The lower limit of a group's determinant is at most this fraction of a determinant of this group in the original.
+/// A group's determinant may always fall to this fraction of the group's smallest determinant in the original.
+/// In [`positions`], it may fall to this fraction of the group's largest determinant.
 const KEPT: f64 = 0.75;
 
 /// The mechanism from which exercises are made, with the limits that all exercises keep.

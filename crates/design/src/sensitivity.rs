@@ -1,7 +1,7 @@
-//! Exact first derivatives of a run's figures with respect to the numbers in its file, and tolerance stacks from these
-//! derivatives.
+//! Exact first derivatives of a run's figures, such as the largest reaction, with respect to the numbers in its file,
+//! and tolerance stacks from these derivatives.
 //!
-//! Side 1 computes the figure.
+//! Side 1 computes each figure.
 //! At the instants that determine the figure, the equations of the whole mechanism are solved again in dual numbers
 //! ([`precise::Dual`]).
 //! Unlike difference quotients, dual numbers have no error of a step width.
@@ -78,8 +78,8 @@ pub fn sensitivity_by(scenario: &Scenario, slopes: &CaseSlopes, question: &Sensi
     Ok(Sensitivity { keys, figures, left_out, by_input })
 }
 
-/// Indices of the chosen keys, and the names of the omitted keys.
-/// Each omitted key has the part of the file whose derivative by this key is not known.
+/// Indices of the chosen keys; and for each omitted key, its name and the part of the file whose derivative by this key
+/// is not known.
 type Chosen = (Vec<usize>, Vec<(String, String)>);
 
 fn chosen(slopes: &CaseSlopes, question: &SensitivityQuestion) -> Result<Chosen> {

@@ -203,11 +203,10 @@ fn offsets(mechanism: &Mechanism) -> Vec<Dimension> {
     [0, 1].into_iter().flat_map(along).collect()
 }
 
-/// Angles of the guides of a link that are not multiples of 90 degrees.
-/// On the ground, they are measured from the horizontal.
-/// On other links, the angles of guides are measured from the line between the guide's point and the point farthest
-/// from it.
-/// On a link with a single point, the angles of guides are measured from the link's first guide.
+/// Angles of a link's guides, except multiples of 90 degrees.
+/// On the ground, an angle is measured from the horizontal.
+/// On another link, an angle is measured from the line between the guide's point and the point farthest from it.
+/// On a link with a single point, an angle is measured from the link's first guide.
 fn angles(mechanism: &Mechanism, link: LinkId) -> Vec<Dimension> {
     let all = places(mechanism, link);
     let size = extent(&all);

@@ -25,8 +25,8 @@ pub struct Laid {
     pub places: Vec<LinkPlacement>,
     /// Joints that stay open: the joint, and the two world points (m) that should coincide.
     pub gaps: Vec<(JointId, [Vec2; 2])>,
-    /// For dyads that cannot be closed: the circles that the two links allow for the inner pin, as centres and radii
-    /// (m).
+    /// For dyads that cannot be closed: the circles on which the two links can place the inner pin, as centres and
+    /// radii (m).
     pub reaches: Vec<(Vec2, f64)>,
     /// Reasons why the mechanism cannot be assembled completely, group by group.
     pub faults: Vec<Error>,

@@ -6,7 +6,7 @@ use linkage::math::{KeepNan, Vec2, turned, unit};
 use linkage::mechanism::{GROUND, JointId, JointSide, LinkId, Mechanism};
 use std::f64::consts::{PI, TAU};
 
-/// Radius of the arrow of a drive's direction, in units of the sketch. `SWEEP` is the angle of the arrow's arc (rad).
+/// Radius of the arrow that shows a drive's direction, in units of the sketch. `SWEEP` is the angle of its arc (rad).
 /// `AHEAD` is the angle from the driven link to the arrow's start (rad).
 const DRIVE: f64 = 8.0;
 const SWEEP: f64 = 1.7;

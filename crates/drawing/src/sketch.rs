@@ -173,7 +173,7 @@ fn ground(mechanism: &Mechanism, unit: f64) -> Vec<Mark> {
     marks
 }
 
-/// Whether all joints of a link are pins on links that slide.
+/// Whether a link has more than two joints, all of them pins on links that slide.
 fn is_platform(mechanism: &Mechanism, link: LinkId) -> bool {
     let joints = |link| mechanism.joints().iter().filter(move |joint| joint.on(link).is_some());
     let is_carried = |joint: &Joint| {

@@ -201,7 +201,7 @@ impl DerivationSheet {
     /// The value of the last formula at an instant, after each tree of `changes` has replaced the subexpression at the
     /// tree's position.
     /// `depending` is the result of [`DerivationSheet::depending`] for the positions of `changes`.
-    /// If a tree uses a name that is unknown before the tree's position, the name has the value NaN.
+    /// A name in a tree has the value NaN if it is not defined before the tree's position.
     pub fn changed(&mut self, changes: &[(usize, FormulaTree)], depending: &[usize], instant: usize) -> Rounded {
         self.change += 1;
         for &place in depending {

@@ -339,7 +339,7 @@ fn swept_areas_match_closed_forms() {
     near(found.swept[0], PI * 0.12 * 0.12);
     near(found.swept[2], 0.2 * 0.04 + PI * 0.02 * 0.02);
     // A crank that turns by 70 deg sweeps a sector that is widened by the rounding radius on all sides.
-    // The swept area is the sector's area, the sector's perimeter times the radius, and the area of a disc.
+    // The swept area is the sum of the sector's area, the sector's perimeter times the radius, and the area of a disc.
     let part = case.on(linkage::case::Grid::of_inputs(case.crank(), vec![0.3, 0.3 + PI * 70.0 / 180.0])).unwrap();
     let found = find(&part, &question(&case, radius, &[]), &mut |_| ()).unwrap();
     let turn = PI * 70.0 / 180.0;
@@ -354,8 +354,8 @@ fn a_thin_link_sweeps_an_area() {
     let (_, area) = found.swept[0];
     let expected = PI * 0.01;
     assert!((area.least..=area.most).contains(&expected) && area.error() < 6e-3 * expected, "{area:?} {expected}");
-    // Half of the border of the rod's swept area is an envelope of the rod's positions.
-    // The allowed number of tests therefore gives only a wide error bound of this area.
+    // Half of the border of the rod's swept area is an envelope of the rod's positions. Near an envelope, only small
+    // squares are proven covered. With the allowed number of tests, the error bound of this area therefore stays wide.
     let (_, thin) = found.swept[1];
     assert!(thin.error() < 0.05 * thin.value, "{thin:?}");
 }

@@ -165,8 +165,8 @@ pub struct Tubes<'a> {
     /// Both ends of the range (rad), in the direction of motion.
     pub range: [f64; 2],
     first: u64,
-    /// Largest length in the positions (m): the mechanism's size, plus the largest distance of a ground point from the
-    /// origin, plus `extent`.
+    /// Largest length in the computation of a position (m): the mechanism's size, plus the largest distance of a ground
+    /// point from the origin, plus `extent`.
     pub scale: f64,
     kept: BTreeMap<RangePart, Rc<Slice>>,
     /// Number of poses computed by the analytic solver (side 1).
@@ -403,7 +403,7 @@ fn equations(
 }
 
 /// Returns an upper bound of |F' - F'(middle)| r for every equation, over the tubes and with r = `radii`.
-/// docs/clearance.md explains F' and r.
+/// The documentation of this module explains F' and r.
 fn changes(
     rows: &[Row],
     tubes: &[Tube],

@@ -24,7 +24,7 @@ pub struct Cyclogram {
     pub notes: Vec<String>,
     /// Organs, from the outer ring inwards.
     pub rings: Vec<CyclogramRing>,
-    /// Moments of the machine's cycle: the name, and the angles of the main shaft at the beginning and at the end (rad;
-    /// the end is the larger angle).
+    /// Operations of the machine's cycle, such as "clearing": the name, and the angles of the main shaft at the
+    /// beginning and at the end (rad; the end is the larger angle).
     pub moments: Vec<(String, [f64; 2])>,
 }

@@ -16,9 +16,8 @@ use std::f64::consts::TAU;
 pub const DIVISIONS: std::ops::RangeInclusive<usize> = 4..=1000;
 /// Lower limit of the number of points of the exact curves.
 const CURVE: usize = 720;
-/// Lower limit of a derivative's scale, divided by its natural scale.
-/// The errors of a nearly constant derivative come from the displacement.
-/// The range of a nearly constant derivative would be too small a scale for such errors.
+/// Lower limit of a derivative's scale, divided by the natural scale; see [`MethodResult::share`].
+/// The range of a nearly constant derivative is too small a scale: its errors come from the displacement.
 const SMALLEST: f64 = 1e-3;
 /// A motion counts as repeating if no rate differs between start and end by more than this fraction of half the rate's
 /// range.
@@ -133,8 +132,8 @@ impl MotionDiagram {
     /// The turn begins at the crank's start and follows its sense of rotation.
     /// If the input is a slide, the range of the grid replaces the turn.
     /// If the motion does not repeat after the range, some methods give no values near the ends of the range.
-    /// The results of chords of chords, and velocities by tangents, begin and end one division inside the range.
-    /// Accelerations by tangents begin and end two divisions inside the range.
+    /// Accelerations by chords of chords, and velocities by tangents, are then missing at both ends of the range.
+    /// Accelerations by tangents are then missing at the first two and the last two ends of divisions.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for a number of divisions outside [`DIVISIONS`], or if the grid of a slide has no stroke.
@@ -161,8 +160,8 @@ impl MotionDiagram {
                 Error::new(ErrorKind::Input, sentences::THE_GRID_HAS_NO_STROKE).help(sentences::EXTEND_THE_GRID)
             );
         }
-        // The number of rows per division is a multiple of 8. The midpoints of divisions, half divisions and quarter
-        // divisions are therefore rows.
+        // The number of rows per division is a multiple of 8. The midpoints of whole, half and quarter divisions are
+        // therefore rows.
         let stride = 8 * CURVE.div_ceil(8 * divisions);
         let rows = divisions * stride;
         let crank = |row: usize| from + sense * span * (row as f64 / rows as f64);

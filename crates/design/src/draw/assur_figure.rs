@@ -1,4 +1,5 @@
 //! Figure that constructs the acceleration of a group's singular point: from the leads, or by two false positions.
+//! Leads are links of the group with two joints; their lines meet in the singular point.
 
 use super::scheme_figure::CONSTRUCTION;
 use crate::plan::names::SINGULAR;

@@ -110,7 +110,8 @@ impl Paper {
     }
 
     /// The drawn part of a construction line of `centre`.
-    /// The line joins `centre` with the centres or with the point of action that determine the line.
+    /// The line contains `centre` and the points that determine the line: two other centres, or a point of a line of
+    /// action.
     /// The line is cut off at the edge of the window.
     fn line(&self, sheet: &CentreSheet, centre: &InstantCentre, line: &CentreLine) -> Option<[Vec2; 2]> {
         let places = match line {

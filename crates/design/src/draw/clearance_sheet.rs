@@ -109,7 +109,7 @@ fn extent(asked: &ClearanceQuestion, all: &[Vec<Motion>]) -> Vec2 {
     high - low
 }
 
-/// Draws an outline; its rounding is the width of a line with round joins.
+/// Draws an outline. The border is a line with round joins, as wide as twice the rounding radius.
 fn draw(figure: &mut DrawnFigure, outline: &Outline, pose: &Motion, paint: &'static str, scale: f64) {
     let mut corners: Vec<Vec2> = outline.corners().iter().map(|&corner| pose.point(corner) / scale).collect();
     // A single point is drawn as a line of zero length.

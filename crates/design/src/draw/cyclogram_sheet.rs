@@ -18,7 +18,8 @@ const INNER: f64 = 24.0;
 /// Largest width of a ring (mm), and the space between two rings.
 const WIDE: f64 = 9.0;
 const GAP: f64 = 1.0;
-/// Distance of a moment's arc from the outermost ring, and distance of the moment's name from the arc (mm).
+/// Distance of the arc of a moment (an operation of the cycle) from the outermost ring, and distance of its name from
+/// the arc (mm).
 const ARC: f64 = 3.0;
 const NAME: f64 = 3.0;
 /// Largest angle between two corners of a drawn arc (rad).

@@ -12,7 +12,8 @@ use linkage::math::Vec2;
 
 /// An angular velocity or acceleration below this fraction of its natural scale is rounding error.
 const ROUNDING: f64 = 1e-12;
-/// A singular point is drawn only if each lead has an end nearer to the point than this (mm).
+/// A singular point is the intersection of the lines of two links (leads). The point is drawn only if each lead has an
+/// end nearer to the point than this (mm).
 const NEAR: f64 = 120.0;
 
 /// Style of construction lines.

@@ -43,7 +43,7 @@ pub fn timing(diagram: &TimingDiagram, title: &str) -> Drawing {
 }
 
 /// Draws the diagram with the height `tall` (mm). The lower left corner of its frame is the origin.
-/// `last` is given only for the lowest of several diagrams: the description of the required motions for the legend.
+/// `last` is `Some` only for the lowest of several diagrams. It describes the required motions for the legend.
 /// Only the lowest diagram has a legend and the numbers of the crank angle axis.
 pub(super) fn panel(diagram: &TimingDiagram, tall: f64, last: Option<&str>) -> DrawnFigure {
     let mut figure = DrawnFigure::default();

@@ -1,4 +1,4 @@
-//! Tornado diagrams: bars for the keys with the largest effects on a figure.
+//! Tornado diagrams: bars for the keys with the largest effects on a figure, which is a number of the result.
 
 use super::axes::{GRID, Room, stacked};
 use crate::sensitivity::{KeyTolerance, Sensitivity};
@@ -9,7 +9,7 @@ use drawing::paper::scale::{multiple, round_up};
 use drawing::paper::style::{BLACK, COLOURS, significant};
 use linkage::math::{KeepNan, Vec2};
 
-/// Largest number of bars of a figure.
+/// Largest number of bars of a diagram.
 const MOST: usize = 10;
 /// Length of the axis (mm), and height and distance of the bars (mm).
 const LONG: f64 = 120.0;

@@ -39,9 +39,9 @@ impl Flywheel {
             return Err(Error::new(ErrorKind::Input, message).help(sentences::GIVE_A_NUMBER_ABOVE_ZERO));
         }
         let mut last = Flywheel { inertia: 0.0, regime: model.with_flywheel(0.0).regime(&[], accuracy)? };
-        // The inverse of the coefficient of non-uniformity is nearly linear in the flywheel's inertia.
-        // The search therefore compares the inverses of the actual and the required coefficient.
-        // The reason: the coefficient times the inertia is about the largest surplus of work divided by omega^2.
+        // The coefficient of non-uniformity times the inertia is about the largest surplus of work divided by omega^2.
+        // The inverse of the coefficient is therefore nearly linear in the flywheel's inertia.
+        // The search compares the inverses of the actual and the required coefficient.
         let excess = |regime: &Regime| 1.0 / regime.non_uniformity() - 1.0 / wanted;
         let none = (0.0, excess(&last.regime));
         if none.1 >= 0.0 {

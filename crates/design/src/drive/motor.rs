@@ -143,7 +143,7 @@ pub struct MotorChoice {
     pub motor: CatalogueMotor,
     /// The motor with a gearbox from its rated speed to the required speed.
     pub geared: Motor,
-    /// Magnitude of the crank's speed (rad/s) at which the averaged model is in equilibrium.
+    /// Magnitude of the crank's speed (rad/s) at which the motor balances the mean resistance.
     pub averaged: f64,
     /// Steady periodic motion.
     pub regime: Regime,

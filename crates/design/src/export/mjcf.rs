@@ -16,8 +16,8 @@
 //!   of the rotor.
 //!   The rotor's inertia is so large that its speed is practically constant, with any integrator and at any step: the
 //!   speed changes by 1e-9 of its value per radian.
-//!   A velocity actuator would need a very large gain to keep the speed as constant as the rotor does. With such a gain
-//!   it diverges, because `implicitfast` solves the constraints without the actuator's damping.
+//!   A velocity actuator would need a very large gain to keep the speed as constant as the rotor does. With this gain,
+//!   most simulations diverge, because `implicitfast` solves the constraints without the actuator's damping.
 //!   A velocity actuator with a smaller gain does not keep the speed exactly.
 //!   The interaction forces that sensors read do not include the rotor's inertia.
 //!   The torque sensor of the hinge therefore reads the driving moment.

@@ -5,7 +5,8 @@
 //! - URDF permits no loops. A joint that closes a loop is an SDF joint within an element `gazebo`.
 //!   Parsers of URDF skip the element `gazebo`. The converter of SDFormat copies its contents into the model.
 //! - URDF has no place for gravity, drives and speeds.
-//! - With [`Mimics`], every joint except the driven joint follows the driven joint by a linear relation.
+//! - With [`Mimics`], every joint whose relation to the driven joint is linear follows the driven joint (`mimic`).
+//!   A comment states all relations.
 
 mod mimic;
 
@@ -37,7 +38,7 @@ const ROOT: &str = "world";
 const ENDLESS: f64 = 1e9;
 
 /// The case as URDF, with the robot's name `name`, in the pose at t = 0 that `solver` computes.
-/// With `mimics`, the joints of the tree follow the driven joint: see [`relations`](crate::relations).
+/// `mimics` are the [relations](crate::relations) of the joints to the driven joint, if the file is to state them.
 ///
 /// # Errors
 /// [`ErrorKind::Unsupported`](linkage::ErrorKind::Unsupported) for a link with the name of the root, and for loads and

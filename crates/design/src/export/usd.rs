@@ -24,7 +24,7 @@ use text::{Usd, about_z, flat, number, quoted, tuple};
 
 /// Name of the format in messages.
 const FORMAT: &str = "USD";
-/// Damping of a velocity drive that acts as an acceleration (1/s; of an angle in degrees).
+/// Damping of a velocity drive of the type "acceleration" (1/s).
 /// With this damping, a drive reaches its speed within one time step of any engine.
 const DAMPING: f64 = 1e6;
 
@@ -32,8 +32,8 @@ const DAMPING: f64 = 1e6;
 /// The model starts in the case's pose at t = 0, with the velocities that `solver` computes for this pose.
 ///
 /// # Errors
-/// [`ErrorKind::Unsupported`](linkage::ErrorKind::Unsupported) for loads, motors, transmissions and laws of motion, which
-/// UsdPhysics cannot express.
+/// [`ErrorKind::Unsupported`](linkage::ErrorKind::Unsupported) for loads, motors, transmissions, and laws of motion
+/// with a changing speed.
 /// The errors of the solver.
 pub fn usd(case: &Case, solver: &dyn Solver, name: &str) -> Result<String> {
     for drive in &case.drives {

@@ -101,11 +101,12 @@ pub(super) struct JointPart {
 #[derive(Clone, Debug)]
 pub(super) struct DrivePart {
     pub(super) joint: usize,
-    /// Speed: an angular velocity in the unit `turning`, or a rate of a slide in the source's length per second.
+    /// Speed: an angular velocity in the unit `turning`, or a rate of a slide in the source's unit of length per
+    /// second.
     pub(super) speed: f64,
     /// Unit of an angular velocity, as a key ending in scenarios.
     pub(super) turning: &'static str,
-    /// Largest travel of a slide from the start in the direction of its motion, in the source's length.
+    /// Largest travel of a slide from the start in the direction of its motion, in the source's unit of length.
     pub(super) travel: Option<f64>,
     /// Only for a drive whose motion is determined by forces: the rate at t = 0 in the unit of `speed`, and the link
     /// whose world angle is the input.
@@ -136,8 +137,8 @@ pub(super) struct Parts {
     /// Whether coordinates are written with all digits.
     /// If not, coordinates are rounded to the twelfth digit of the mechanism's size.
     pub(super) is_exact: bool,
-    /// Step to which the source rounds its coordinates, in the source's length; 0 if the source has more than twelve
-    /// digits.
+    /// Step to which the source rounds its coordinates, in the source's unit of length; 0 if the source has more than
+    /// twelve digits.
     pub(super) rounding: f64,
     pub(super) link_names: Names,
     pub(super) point_names: Names,
@@ -175,13 +176,13 @@ impl Parts {
         }
     }
 
-    /// World position of a point of a link, in the source's length.
+    /// World position of a point of a link, in the source's unit of length.
     pub(super) fn world(&self, link: usize, point: &str) -> Vec2 {
         let own = &self.links[link];
         own.pose.point(own.place_of(point).unwrap_or_else(Vec2::zeros))
     }
 
-    /// The value of a drive's input in the start pose: an angle (rad), or a slide in the source's length.
+    /// The value of a drive's input in the start pose: an angle (rad), or a slide in the source's unit of length.
     pub(super) fn start(&self, drive: &DrivePart) -> f64 {
         let joint = &self.joints[drive.joint];
         let [first, second] = joint.links;

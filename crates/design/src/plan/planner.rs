@@ -167,7 +167,7 @@ pub fn grid_at(drives: &Drives, when: When) -> Result<Grid> {
 ///
 /// # Errors
 /// [`ErrorKind::Input`] for an instant too far away to be reached step by step, for a time outside the laws of motion,
-/// and for a crank angle that the law of motion does not reach at exactly one time.
+/// and for a crank angle that the law of motion reaches never or several times.
 /// The errors of the solver.
 pub fn state_at(case: &Case, solver: &dyn Solver, when: When) -> Result<State> {
     let grid = grid_at(&case.drives, when)?;

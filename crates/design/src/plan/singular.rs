@@ -1,4 +1,5 @@
 //! Singular (Assur) point of groups of class III and IV: the intersection of the lines of two leads.
+//! A lead is a link of the group with two joints; a base link has three.
 //! With this point, velocities and accelerations are found without a system of equations.
 
 mod fourth;

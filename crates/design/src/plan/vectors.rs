@@ -180,8 +180,9 @@ pub(super) fn longest(vectors: &[Vector]) -> f64 {
 }
 
 impl VectorPlan {
-    /// Keeps only the vectors between the pole and the points with these letters. The plan gets a new scale.
-    /// A coincident point, or the end of a normal or Coriolis part, stays if all vectors that begin or end there stay.
+    /// Keeps only the vectors whose two ends stay. The plan gets a new scale.
+    /// The pole and the points with these letters stay. A coincident point, or the end of a normal or Coriolis part,
+    /// stays if its vectors lead only to points that stay and to other points of these three kinds.
     pub(super) fn keep(&mut self, letters: &[String]) {
         let pole = self.quantity.pole();
         let kind = |letter: &str| self.tips.iter().find(|tip| tip.letter == letter).map(|tip| tip.kind);

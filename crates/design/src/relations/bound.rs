@@ -194,8 +194,7 @@ fn over(
     Ok(errors)
 }
 
-/// Error of the polynomial for a joint's coordinate:
-/// `by`, the coordinate by the polynomial, minus the true coordinate.
+/// Error of the polynomial for a joint's coordinate: the value `by` of the polynomial minus the true coordinate.
 /// The first two numbers are value and derivative of this error at the middle of the part.
 /// The third number is the largest deviation of the true coordinate from a uniform change.
 fn difference(model: &RigidModel, body: &Body, by: Curved, tubes: &[Tube], half: f64) -> (f64, f64, f64) {

@@ -15,7 +15,7 @@ use scenario::{CaseSlopes, Claim};
 
 use super::quantity::Quantity;
 
-/// Number of keys whose derivatives one solution in dual numbers gives.
+/// Number of keys by which one solution in dual numbers differentiates.
 const WIDTH: usize = 16;
 
 /// A value with its derivatives by all chosen keys.

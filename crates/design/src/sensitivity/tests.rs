@@ -39,7 +39,7 @@ fn precise_figures(scenario: &Scenario, found: &Sensitivity, key: &CaseKey, valu
 fn small_change(key: &CaseKey, all: &[CaseKey]) -> f64 {
     let alike = all.iter().filter(|own| own.unit == key.unit && own.value != 0.0).map(|own| own.value.abs());
     match key.sort {
-        // All angles of the file may be zero.
+        // All angles of the file may be zero. The reference value is then 10.
         KeySort::Dimension | KeySort::Parameter => 4e-3 * alike.fold(10.0, f64::smaller),
         KeySort::Mass | KeySort::Law | KeySort::Load | KeySort::Other => 4e-3 * size_of(key, all),
     }
@@ -116,7 +116,7 @@ fn loads_laws_and_several_drives_have_the_derivatives_of_differences() {
     ] {
         println!("{name}");
         let scenario = of_repository(name);
-        // A law that a change makes shorter must still reach the last instant of the grid.
+        // A changed number may shorten a law. The law must still reach the last instant of the grid.
         let text = scenario.text.replace("to_s = 0.2", "to_s = 0.18").replace("to_s = 4", "to_s = 1");
         let scenario = Scenario::parse(&text, &scenario.path).unwrap();
         compare(&scenario, &question(&figures), share);

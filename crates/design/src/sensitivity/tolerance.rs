@@ -50,8 +50,8 @@ pub struct ToleranceStack {
 pub enum LinearLimit {
     /// At this multiple and above, linear theory counts as invalid.
     From(f64),
-    /// At this multiple, a random mechanism cannot be solved. Linear theory is not invalid at any smaller multiple that
-    /// was tried.
+    /// At this multiple, a random mechanism cannot be solved. Linear theory is valid at all smaller multiples that were
+    /// tried.
     UntilUnsolved(f64),
     /// Linear theory is valid up to this multiple of the tolerances; no larger multiple was tried.
     Beyond(f64),

@@ -63,8 +63,8 @@ pub struct Achieved {
     pub forward: f64,
     /// Positions at the precision points of the task.
     pub points: Vec<ReachedPoint>,
-    /// World positions of the working point (m) and angles of the output link (rad), at every tenth of the crank
-    /// angles `turns`. Empty for a task without precision points.
+    /// World positions of the working point (m) and angles of the output link (rad), at every tenth crank angle of
+    /// `turns`. Empty for a task without precision points.
     pub path: Vec<(Vec2, f64)>,
 }
 

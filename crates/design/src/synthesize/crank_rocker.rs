@@ -92,8 +92,8 @@ impl CrankRocker {
         }
         let lengths = [frame.norm(), crank, coupler, wish.rocker];
         let found = FourBar::of_lengths(lengths).of_type;
-        // In both extreme positions, O, B and C form a triangle. The crank is therefore the shortest link and turns
-        // fully.
+        // In both extreme positions, O, B and C form a triangle. By the triangle inequalities, the crank is the
+        // shortest link and turns fully.
         // Only rounding errors can put O, B and C on one line. Such requirements are refused.
         if found != FourBarType::CrankRocker {
             let message = sentences::an_extreme_position_lies_on_the_line(&told, &found.name());

@@ -28,12 +28,12 @@ use programme::Programme;
 use rows::{Order, Rows};
 use wishes::Wishes;
 
-/// Weight of the largest violation of a limit in the cost of a candidate, relative to the largest deviation.
+/// In the cost of a candidate, weight of the largest violation of a limit. The largest deviation has the weight 1.
 const VIOLATION: f64 = 10.0;
 /// Accuracy at which the optimiser ends. The accuracy applies to the deviation, to the constraints, and to the
 /// variables as fractions of their ranges.
 const ACCURACY: f64 = 1e-9;
-/// Upper limit of the deviation, and bounds of the levels, as fractions of the stroke.
+/// Upper limit of the deviation, and magnitude of the bounds of the levels (fraction of the stroke).
 const MOST_DEVIATION: f64 = 100.0;
 
 /// Checks that the derivatives of a task's mechanism are known.

@@ -1,4 +1,5 @@
-//! Machine files. A machine has organs on one main shaft, each with a task and a mechanism, and moments of its cycle.
+//! Machine files. A machine has organs on one main shaft, each with a task and a mechanism.
+//! A moment is a named operation of the machine's cycle, such as "pressing".
 //! docs/synthesis.md describes the format.
 
 use crate::sentences;
@@ -35,7 +36,7 @@ pub struct Organ {
     pub offset: f64,
 }
 
-/// A moment of the cycle.
+/// A moment of the cycle: an operation for which every organ must be in certain phases.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Moment {
     /// Name of the moment.

@@ -3,7 +3,8 @@
 //! Candidates are drawn uniformly within their bounds.
 //! Every block of candidates has a separate random stream (ChaCha, by Bernstein).
 //! The result therefore depends on the seed and not on the number of threads.
-//! Two methods refine the best candidates, one after the other.
+//! The module `gradient` refines the best candidates with exact derivatives.
+//! Without derivatives, two methods refine the best candidates, one after the other.
 //! The first is an evolution strategy with one parent, one child and the one-fifth rule (Rechenberg 1973). The
 //! evolution strategy can cross kinks and edges of the cost function.
 //! The second is linear approximation within a trust region (COBYLA, Powell 1994).
@@ -33,7 +34,7 @@ const COARSE: usize = 72;
 /// Number of candidates in a block. Each block has a separate random stream.
 const BLOCK: usize = 4096;
 /// Number of blocks between two calls of `progress`.
-/// The number does not depend on the number of threads, and neither do the candidates that are kept.
+/// The number is the same for any number of threads, and so are the candidates that are kept.
 const ROUND: usize = 16;
 /// Largest number of threads.
 const MOST_THREADS: usize = 256;
@@ -75,8 +76,7 @@ pub struct SearchResult {
 ///
 /// # Errors
 /// The errors of [`Task::check`]; [`ErrorKind::Unsupported`] for a mechanism whose derivatives are not known;
-/// [`ErrorKind::Numeric`] if no candidate assembles over the whole turn and nearly keeps
-/// the limits.
+/// [`ErrorKind::Numeric`] if no candidate that assembles over the whole turn nearly keeps the limits.
 pub fn search(task: &Task, threads: usize, progress: Progress) -> Result<SearchResult> {
     search_from(task, &[], threads, progress)
 }

@@ -33,12 +33,12 @@ pub struct OutputNames {
 /// The output link is the first one found by these rules:
 /// - a link with a name in `names.links`, in the order of this list;
 /// - the link with the name that the task uses;
-/// - the link of the last group that a pin joins to the ground, if there is just one such link.
+/// - in the last group, the link with a pin on the ground, if there is just one such link.
 ///
 /// The working point is the first one found by these rules:
 /// - a point of the output link with a name in `names.points`, in the order of this list;
 /// - the point with the name that the task uses, if the output link has the name that the task uses;
-/// - the point of the output link without a joint, if there is just one such point.
+/// - the point of the output link at which there is no joint, if there is just one such point.
 ///
 /// If the output is a coordinate, the output point is found by the rules of the working point, on all moving links.
 ///

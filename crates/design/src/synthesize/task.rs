@@ -124,7 +124,7 @@ impl LimitedQuantity {
     }
 }
 
-/// Smallest permitted distances between links and from the housing.
+/// Smallest permitted distances between links, and between links and the housing.
 #[derive(Clone, Debug)]
 pub struct WantedClearance {
     /// The bodies with their outlines, and the pairs whose distances are limited.
@@ -169,7 +169,7 @@ pub struct Task {
     pub title: String,
     /// Structure and starting drawing.
     pub case: Case,
-    /// Start values of the mechanism's groups, in the order of the structure.
+    /// Assembly modes or approximate positions of the groups at the start, in the order of the structure.
     pub starts: Vec<StartGroup>,
     /// The variable quantities.
     pub variables: Vec<Variable>,

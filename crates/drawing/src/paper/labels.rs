@@ -37,8 +37,8 @@ const ON_LINE: [f64; 2] = [40.0, 3.0];
 const ON_MARK: [f64; 2] = [45.0, 4.0];
 /// `AWAY` is the cost of a millimetre of distance, and `CROSSED` the cost of a leader that passes through another
 /// label.
-/// `MISLEADING` is the cost of each foreign point that is nearer to the label than the label's anchor, and the largest
-/// sum of these costs.
+/// `MISLEADING` is the cost of each point of another label that is nearer to this label than the anchor of this label,
+/// and the largest sum of these costs.
 const AWAY: f64 = 0.5;
 const CROSSED: f64 = 12.0;
 const MISLEADING: [f64; 2] = [9.0, 18.0];

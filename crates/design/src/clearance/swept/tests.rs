@@ -37,9 +37,9 @@ fn squares_are_covered_or_free_including_their_corners() {
     assert!(counts.iter().all(|count| *count > 50), "{counts:?}");
 }
 
-/// If [`passes`] finds that a side passes over a disc, every point of the disc changes from one side of the line to the
-/// other.
-/// At every instant, the point lies between the two ends of the side.
+/// If [`passes`] is true, every point of the disc is left of the outline side at one end of the part and right of the
+/// outline side at the other end.
+/// At every instant, every point of the disc lies between the two ends of the outline side.
 /// The test draws the positions of the ends at random within their errors.
 #[test]
 fn a_side_that_passes_a_disc_passes_all_its_points() {

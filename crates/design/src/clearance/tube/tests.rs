@@ -1,5 +1,5 @@
 //! Tests the bounds against samples: random joints between random tubes.
-//! Some samples have one quantity equal to zero. Every term of a bound thus dominates in at least one sample.
+//! Most quantities are zero in half of the samples. Every term of a bound thus dominates in at least one sample.
 
 use linkage::math::unit;
 use linkage::mechanism::{JointKind, JointSide, LinkId};

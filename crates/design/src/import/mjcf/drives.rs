@@ -48,7 +48,7 @@ impl Model<'_> {
         let missing = usize::try_from(mobility - self.parts.drives.len() as i64).unwrap_or_default();
         let is_coupled = self.section("equality").any(|node| node.has_tag_name("tendon"));
         if missing > 0 && missing <= others.len() && !is_coupled {
-            // Joints on the ground come first, because a free crank is on the ground.
+            // Joints with a motor come first, then other joints on the ground, because a free crank is on the ground.
             others.sort_by_key(|&at| {
                 (!self.has_motor(at), !self.parts.joints[self.joints[at].number].links.contains(&FRAME))
             });
@@ -136,8 +136,8 @@ impl Model<'_> {
         sum
     }
 
-    /// Adds the motor of a joint with its torque line at the crank. Returns the sense of its torque (+1 or -1), or
-    /// `None` without a motor.
+    /// Adds the motor of a joint. The law gives the torque on the crank, so the ratio is 1. Returns the sense of the
+    /// torque at rest (+1 or -1), or `None` without a motor.
     fn motor(&mut self, at: usize) -> Result<Option<f64>> {
         let node = self.joints[at].node;
         let name = node.attribute("name").unwrap_or_default();

@@ -22,7 +22,7 @@ use crate::synthesize::search::values;
 use crate::synthesize::target::at_speed;
 use crate::synthesize::task::{OutputQuantity, Task};
 
-/// Number of variables whose derivatives one solution in dual numbers gives.
+/// Number of variables by which one solution in dual numbers differentiates.
 const WIDTH: usize = 16;
 
 /// Whether only values are computed, or also their derivatives.

@@ -83,7 +83,7 @@ fn task(points: Vec<PrecisionPoint>, phases: Vec<Phase>) -> Task {
     }
 }
 
-/// Two precision points at free and at given crank angles.
+/// Three precision points: two at free crank angles, and one at a given crank angle.
 fn two_points() -> Vec<PrecisionPoint> {
     let place = |x: f64, y: f64| Some(Vec2::new(x, y));
     vec![
@@ -176,7 +176,7 @@ fn a_known_path_is_found() {
     assert!(found.random_cost > 1e-3 && found.poses[1] > 0);
 }
 
-/// The largest value of a quantity over half a degree of rows.
+/// The largest value of a quantity over one turn, in rows half a degree apart.
 fn largest(task: &Task, values: &[f64], of: impl Fn(&Row) -> f64) -> f64 {
     let mut rows = Rows::new(task, Rater::even(&task.timing, 720).turns.clone()).unwrap();
     let shares: Vec<f64> = values.iter().zip(&task.variables).map(|(value, own)| share_of(*value, own)).collect();

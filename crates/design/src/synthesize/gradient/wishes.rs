@@ -112,13 +112,13 @@ impl<'a> Wishes<'a> {
         self.turns.contains(&Some(unknown))
     }
 
-    /// The crank angles (rad) of the precision points that a point of the programme contains.
+    /// The crank angles (rad) of the precision points: given by the task, or unknowns of the programme's `point`.
     pub(super) fn turns(&self, point: &[f64]) -> Vec<f64> {
         let pairs = self.task.points.all().iter().zip(&self.turns);
         pairs.map(|(own, unknown)| unknown.map_or(own.turn.unwrap_or(0.0), |unknown| point[unknown])).collect()
     }
 
-    /// The task's variables, as fractions of their ranges, that a point of the programme contains.
+    /// The task's variables at a point of the programme, as fractions of their ranges.
     pub(super) fn shares<'b>(&self, point: &'b [f64]) -> &'b [f64] {
         &point[..self.task.variables.len()]
     }

@@ -45,7 +45,7 @@ impl GroundLink {
 /// Range of the crank angle, measured from position 1 (rad, counter-clockwise positive).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CrankTravel {
-    /// The crank turns fully. With the sense of rotation `sense`, it passes the positions in their order, if it can.
+    /// The crank turns fully. In the sense `sense`, it passes the positions in their order if this is possible.
     FullTurn {
         /// +1 counter-clockwise, -1 clockwise.
         sense: f64,

@@ -47,7 +47,7 @@ pub struct FunctionSpec {
     pub pivots: [Complex; 2],
     /// Three to five pairs of crank and rocker angles (rad, counter-clockwise), in their order.
     pub pairs: Vec<[f64; 2]>,
-    /// Start of the angles.
+    /// Meaning of the angles.
     pub start: FunctionStart,
 }
 

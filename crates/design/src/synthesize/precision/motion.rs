@@ -17,8 +17,8 @@ use crate::synthesize::wrong;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{Complex, KeepNan};
 
-/// Three points count as collinear if the area that they span, divided by the square of their distance, is below this
-/// limit.
+/// Three points count as collinear if the area that they span, divided by the square of the largest distance from the
+/// first point, is below this limit.
 const ON_LINE: f64 = 1e-9;
 
 /// A pose of the coupler.
