@@ -131,7 +131,7 @@ fn sides(case: &Case, options: &BenchOptions) -> Vec<Planned> {
     points
 }
 
-/// All settings of an engine except its resolution.
+/// All combinations of an engine's settings to be measured. The caller varies the resolution.
 fn curves(engine: &dyn Engine, case: &Case, options: &BenchOptions) -> Vec<Settings> {
     let own = engine.settings();
     let has_forces = case.wanted.deepest() >= Stage::Reactions;

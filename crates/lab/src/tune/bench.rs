@@ -270,7 +270,8 @@ impl Bench<'_> {
         // The difference of the two runs is therefore the iteration error at `settings`.
         // In a proof, the comparison run has fewer sweeps: half, or a quarter at the beginning of a search for
         // settings.
-        // Half the sweeps cost only a quarter of twice the sweeps, but the error is then overestimated.
+        // A comparison run with half the sweeps costs a quarter of one with twice the sweeps, but overestimates the
+        // error.
         if settings.sweeps > 0 {
             rungs.push(Settings { sweeps: settings.sweeps * 2, ..settings });
         }

@@ -189,7 +189,7 @@ impl CaseBuilder {
     }
 
     /// Adds a drive that follows a motion law from the input `start` (rad or m) at t = 0.
-    /// The first drive starts at [`CaseBuilder::start`].
+    /// For the first drive, `start` is ignored: this drive starts at [`CaseBuilder::start`].
     pub fn driven_from(mut self, joint: &str, start: f64, law: MotionLaw) -> Self {
         self.cranks.push((joint.into(), start, DriveMotion::Prescribed { law, motor: None }));
         self

@@ -20,8 +20,8 @@ impl Case {
     }
 
     /// This case with the first drive at `joint`, from the same start pose.
-    /// If `joint` is the start joint of a transmission, the joint between the first member and the carrier becomes the
-    /// start joint.
+    /// A transmission whose start is given by the coordinate of `joint` gets the joint between its first member and its
+    /// carrier instead, because the drive determines the coordinate of `joint`.
     /// `law` gives the law of motion for the kind of input. The grid consists of `times` (s).
     ///
     /// # Errors
@@ -51,7 +51,8 @@ impl Case {
         })
     }
 
-    /// The mechanism after every transmission with the start joint `joint` has got a different start joint.
+    /// The mechanism without transmissions whose start is given by the coordinate of `joint`: their start is given by
+    /// the joint between first member and carrier, if there is one.
     fn with_start_beside(&self, joint: JointId) -> Result<Mechanism> {
         let (mut designs, joints) = (self.mechanism.transmission_designs(), self.mechanism.joints());
         for design in designs.iter_mut().filter(|design| design.joint == joint) {

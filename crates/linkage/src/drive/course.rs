@@ -120,7 +120,8 @@ impl Course {
         }
     }
 
-    /// Period of a table over the crank angle in revolutions of the crank; `None` for other quantities.
+    /// Period of a table over the crank angle, in revolutions of the crank; `None` for a constant or a table over a
+    /// slide.
     #[must_use]
     pub fn turns(&self) -> Option<u32> {
         if let Course::Table { turns, .. } = self { *turns } else { None }

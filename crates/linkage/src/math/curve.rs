@@ -70,7 +70,7 @@ impl FormulaCurve {
         FormulaCurve { of, shift, factor: 1.0, end, steepest, sharpest }
     }
 
-    /// The first x at which the function or one of its first two derivatives is undefined, among the x of a search.
+    /// The first of the [`Curve::places`] at which the function or one of its first two derivatives is undefined.
     #[must_use]
     pub fn undefined_at(&self) -> Option<f64> {
         parts(self.end).into_iter().find(|&x| !self.of.at(x).into_iter().all(f64::is_finite))

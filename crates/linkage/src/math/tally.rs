@@ -105,7 +105,7 @@ impl Tally {
     }
 
     /// Adds eight rows, beginning with `row`, a multiple of eight.
-    /// After the last row, the caller repeats the last row's value.
+    /// If fewer than eight rows are left, the caller repeats the last row's value.
     pub fn add(&mut self, row: usize, values: &[f64; LANES]) {
         match self {
             Tally::Max(peak) => peak.add(row, *values),

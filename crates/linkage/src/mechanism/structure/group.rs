@@ -21,7 +21,7 @@ pub enum GroupKind {
     /// Any group with more than two rigid bodies, and any group of two bodies with a transmission.
     Higher,
     /// A driving link (class I). The pose of the link follows from a joint with given coordinate on a link of an
-    /// earlier group, or from a transmission between earlier links.
+    /// earlier group, or from a transmission that couples it to earlier links.
     Driven,
 }
 
@@ -96,8 +96,7 @@ impl Group {
         self.outer.len()
     }
 
-    /// Whether every body of the group is one link: no joint of the group has a given coordinate, and the group has no
-    /// transmission.
+    /// Whether the group has neither joints with given coordinates nor transmissions. Every body is then one link.
     #[must_use]
     pub fn is_rigid(&self) -> bool {
         self.given.is_empty() && self.trains.is_empty()
