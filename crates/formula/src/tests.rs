@@ -412,8 +412,7 @@ fn a_kink_has_no_derivative() {
     assert!(slope.value == -1.0 && slope.error < 1e-15, "{slope:?}");
 }
 
-/// Every operation outside its domain is reported, also if algebra would cancel its result, as in `0*ln(-1)`, or if
-/// IEEE 754 would give the whole formula a value.
+/// Every operation outside its domain is reported, also if algebra (`0*ln(-1)`) or IEEE 754 (`1^ln(-1)`) would hide it.
 #[test]
 fn undefined_values_stay_undefined_in_every_context() {
     // Each pair is an operation on constants, and the same operation with x, where x = 1.

@@ -236,8 +236,7 @@ impl Case {
         InputState { value: drive.from_coordinate(value), rate, acceleration }
     }
 
-    /// Channels from which the coordinate of the first drive and its first two time derivatives follow, as sums with
-    /// these signs.
+    /// The coordinate of the first drive, its rate and its acceleration, each as a sum of channels with signs.
     /// The coordinate differs from the input by the drive's zero.
     #[must_use]
     pub fn input_channels(&self) -> [Vec<(Channel, f64)>; 3] {

@@ -25,7 +25,7 @@ const QUICK_ACCURACIES: [f64; 2] = [1e-4, 1e-10];
 const SIDES: [f64; 5] = [1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
 /// Numbers of sweeps, as multiples of the engine's smallest useful number.
 const SWEEPS: [usize; 3] = [1, 4, 16];
-/// Extrapolations.
+/// Numbers of extrapolations.
 const TIMES: [usize; 4] = [0, 1, 2, 3];
 
 /// The party that runs a method.

@@ -121,7 +121,7 @@ impl BenchPoint {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct RunEffort(pub Vec<(String, u64)>);
 
-/// Names of counts that give the number of solutions of the whole mechanism, each at one state.
+/// Names of counts that give the number of solutions. A solution is that of the whole mechanism at one state.
 /// The first entry whose counts have a sum above zero is used.
 /// Evaluations come first, because a step of a multistage method has several evaluations.
 const SOLUTIONS: [&[&str]; 3] = [&["evaluations"], &["steps", "probes"], &["poses"]];

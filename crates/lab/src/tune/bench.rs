@@ -57,7 +57,7 @@ pub(super) struct Bench<'a> {
     pub(super) is_spent: bool,
 }
 
-/// The cost below which no run lies, whatever its step size.
+/// Lower limit of the cost of a run, whatever its step.
 /// Stored as pairs (number of sweeps, cost), in ascending order.
 /// The limit exists because results are read at every instant.
 /// Some methods for reactions also do all sweeps at every instant.

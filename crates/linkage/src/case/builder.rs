@@ -238,7 +238,7 @@ impl CaseBuilder {
         self
     }
 
-    /// Sets the number of equal intervals between the requested instants in one turn of the crank.
+    /// Sets the number of equal intervals into which the requested instants divide one turn of the crank.
     /// For a free crank the intervals divide the time of one turn at the nominal speed. Default: 360.
     pub fn instants(mut self, parts: usize) -> Self {
         self.instants = parts;

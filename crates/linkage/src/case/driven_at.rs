@@ -20,8 +20,9 @@ impl Case {
     }
 
     /// This case with the first drive at `joint`, from the same start pose.
-    /// A transmission whose start is given by the coordinate of `joint` gets the joint between its first member and its
-    /// carrier instead, because the drive determines the coordinate of `joint`.
+    /// The start joint of a transmission is the joint whose given coordinate at t = 0 fixes the phase.
+    /// The drive determines the coordinate of `joint`. If `joint` is a start joint, the joint between first member and
+    /// carrier therefore takes its place.
     /// `law` gives the law of motion for the kind of input. The grid consists of `times` (s).
     ///
     /// # Errors
@@ -51,8 +52,8 @@ impl Case {
         })
     }
 
-    /// The mechanism without transmissions whose start is given by the coordinate of `joint`: their start is given by
-    /// the joint between first member and carrier, if there is one.
+    /// The mechanism in which the joint between first member and carrier replaces `joint` as the start joint of
+    /// transmissions. If there is no joint between first member and carrier, `joint` stays.
     fn with_start_beside(&self, joint: JointId) -> Result<Mechanism> {
         let (mut designs, joints) = (self.mechanism.transmission_designs(), self.mechanism.joints());
         for design in designs.iter_mut().filter(|design| design.joint == joint) {

@@ -43,10 +43,10 @@ pub struct FormulaCurve {
     shift: f64,
     factor: f64,
     end: f64,
-    /// The first derivative with the largest absolute value, and its sign.
+    /// The first derivative where its absolute value is largest, with its sign.
     /// The value is stored, because the search for it takes many evaluations.
     steepest: f64,
-    /// The second derivative with the largest absolute value, and its sign.
+    /// The second derivative where its absolute value is largest, with its sign.
     /// The value is stored, because the search for it takes many evaluations.
     sharpest: f64,
 }
@@ -160,7 +160,7 @@ impl Curve {
         }
     }
 
-    /// The first derivative with the largest absolute value, and its sign.
+    /// The first derivative where its absolute value is largest, with its sign.
     #[must_use]
     pub fn steepest(&self) -> f64 {
         match self {

@@ -1,4 +1,4 @@
-//! Statistics of a quantity that is known row by row, eight rows at a time.
+//! Statistics of a quantity whose values arrive row by row, eight rows at a time.
 //!
 //! The order of the operations depends only on the rows. Equal values therefore give bit for bit equal results.
 

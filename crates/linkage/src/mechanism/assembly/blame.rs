@@ -1,4 +1,4 @@
-//! If a group cannot be placed, finds the earlier group whose wrong configuration is the cause.
+//! If a group cannot be placed, finds the earlier group whose wrong configuration is the cause, if there is one.
 
 use super::{StartGroup, configurations, first_choices};
 use crate::error::{Advice, Error, ErrorKind, ErrorSubject};

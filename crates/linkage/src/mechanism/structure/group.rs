@@ -76,8 +76,8 @@ pub struct Group {
     /// Joints between a link of the group and a link whose pose is known before the group is solved.
     pub outer: Vec<JointId>,
     /// The joints of `inner` and `outer` whose coordinate is given.
-    /// Links connected by a joint with given coordinate count as one body. This body is rigid at every instant,
-    /// although its shape changes with time. Class and kind of the group are found from its bodies.
+    /// Links connected by a joint with given coordinate count as one body. The shape of this body changes with time,
+    /// but is known at every instant. Class and kind of the group are found from its bodies.
     pub given: Vec<JointId>,
     /// The transmissions that the group contains. Each transmission couples a coordinate of the group to coordinates of
     /// the same group or of earlier links.
