@@ -143,7 +143,7 @@ fn graph_of(tree: &FormulaTree) -> (FormulaGraph, crate::NodeId) {
     (graph, id)
 }
 
-/// A formula, its derivative with respect to x, and the derivative of the x derivative with respect to y.
+/// A formula, its derivative with respect to x, and its mixed derivative with respect to x and y.
 fn with_derivatives(tree: &FormulaTree, x: f64, y: f64) -> [Rounded; 3] {
     let (mut graph, id) = graph_of(tree);
     let first = graph.derivative(id, 0);
@@ -244,7 +244,8 @@ fn cancellation_widens_the_bound() {
     assert!(at("sqrt(x)", Rounded { value: -1.0, error: 1e-15 }, x).value.is_nan());
 }
 
-/// For large errors, the bound covers both ends of the interval of the argument, whatever the curvature.
+/// For large errors of the arguments, the bound covers the values at both ends of each argument's interval, whatever
+/// the curvature.
 #[test]
 fn a_bound_covers_the_ends_of_wide_arguments() {
     type Case = (&'static str, [f64; 2], [f64; 2], fn(f64, f64) -> f64);
@@ -411,7 +412,7 @@ fn a_kink_has_no_derivative() {
     assert!(slope.value == -1.0 && slope.error < 1e-15, "{slope:?}");
 }
 
-/// Every operation outside its domain is reported, also where IEEE 754 or algebra hides the operation.
+/// Every operation outside its domain is reported, also if algebra (`0*ln(-1)`) or IEEE 754 (`1^ln(-1)`) would hide it.
 #[test]
 fn undefined_values_stay_undefined_in_every_context() {
     // Each pair is an operation on constants, and the same operation with x, where x = 1.

@@ -9,7 +9,7 @@
 //! parties.
 //!
 //! The formulas of a scenario are a party too.
-//! A mistake in a formula is judged by both analytic sides. The sides then have the correct motion.
+//! A wrong formula is judged with the correct motion of both analytic sides.
 
 mod effect;
 mod formulas;

@@ -45,7 +45,7 @@ pub struct Case {
     /// For every link, one link that represents its class. The angles of all links in a class differ only by constants.
     classes: Vec<LinkId>,
     /// A joint at or below this speed (rad/s) counts as standing still.
-    /// The speed of standstill is the rounding error of the drives' top speeds.
+    /// The limit is the rounding error of the drives' top speeds.
     standstill: f64,
 }
 
@@ -85,8 +85,7 @@ impl Case {
     }
 
     /// Returns a case made of `parts`, the changed parts of this case.
-    /// The change must not affect which links have angles that differ only by constants: this information is copied
-    /// from this case.
+    /// The change must leave the classes of links unchanged, because they are copied from this case.
     fn of_parts(&self, parts: CaseParts) -> Case {
         Case::made(parts, self.classes.clone())
     }
@@ -237,8 +236,7 @@ impl Case {
         InputState { value: drive.from_coordinate(value), rate, acceleration }
     }
 
-    /// Channels from which the coordinate of the first drive and its first two time derivatives follow, as sums with
-    /// these signs.
+    /// The coordinate of the first drive, its rate and its acceleration, each as a sum of channels with signs.
     /// The coordinate differs from the input by the drive's zero.
     #[must_use]
     pub fn input_channels(&self) -> [Vec<(Channel, f64)>; 3] {
@@ -283,8 +281,8 @@ impl Case {
 
     /// Step of the variable that determines the pose: the time (s) if [`Case::goes_by_time`], otherwise the input of
     /// the first drive.
-    /// During a step of time, every driving link turns by at most `turn` (rad).
-    /// The step of the input is [`Case::step`].
+    /// During this step, every driving link turns by at most `turn` (rad). With a single drive, the step is
+    /// [`Case::step`].
     #[must_use]
     pub fn stride(&self, turn: f64) -> f64 {
         if self.drives.further().is_empty() {

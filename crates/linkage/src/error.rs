@@ -74,7 +74,7 @@ pub struct KeyPath {
 }
 
 impl KeyPath {
-    /// Key of an Assur group in the list of groups under a dotted path. The links identify the group.
+    /// Key of an Assur group. `path` is the dotted path of the list of groups; the links identify the group.
     #[must_use]
     pub fn of_group(path: &str, links: Vec<String>) -> Self {
         KeyPath { text: format!("{path} ({})", links.join(", ")), path: path.len(), links }

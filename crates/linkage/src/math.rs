@@ -1,5 +1,5 @@
-//! Small mathematics without physics: plane vectors, rigid motion fields, dense linear systems, quantiles,
-//! interpolation, splines, zeros and extremes.
+//! Mathematics without physics: plane vectors, rigid motion fields, dense linear systems, quantiles, interpolation,
+//! splines, zeros and extremes.
 
 pub mod angle;
 pub mod centre;

@@ -39,7 +39,7 @@ pub trait Solver: Send + Sync {
     /// Only the parts of the state that the requested channels need are computed; the other parts are undefined.
     ///
     /// # Errors
-    /// An error with the crank angle if the solution cannot stay on the requested branch.
+    /// If the solution cannot stay on the requested branch, an error that gives the crank angle.
     /// An error of `visit` is passed on.
     fn sweep(&self, case: &Case, visit: Visit, progress: Progress) -> Result<()>;
 

@@ -25,7 +25,7 @@ const QUICK_ACCURACIES: [f64; 2] = [1e-4, 1e-10];
 const SIDES: [f64; 5] = [1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
 /// Numbers of sweeps, as multiples of the engine's smallest useful number.
 const SWEEPS: [usize; 3] = [1, 4, 16];
-/// Extrapolations.
+/// Numbers of extrapolations.
 const TIMES: [usize; 4] = [0, 1, 2, 3];
 
 /// The party that runs a method.
@@ -131,7 +131,7 @@ fn sides(case: &Case, options: &BenchOptions) -> Vec<Planned> {
     points
 }
 
-/// All settings of an engine except its resolution.
+/// All combinations of an engine's settings to be measured. The caller varies the resolution.
 fn curves(engine: &dyn Engine, case: &Case, options: &BenchOptions) -> Vec<Settings> {
     let own = engine.settings();
     let has_forces = case.wanted.deepest() >= Stage::Reactions;

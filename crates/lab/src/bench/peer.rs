@@ -2,7 +2,7 @@
 
 use super::point::RunEffort;
 
-/// One method of a peer: a peer chooses its methods and resolutions itself.
+/// One method of a peer. The peer chooses its methods and resolutions itself.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Way {
     /// Settings except the resolution, in words.

@@ -18,7 +18,7 @@ linkage::words! {
     }
 }
 
-/// Errors of one stage of channels, divided by their scales.
+/// Errors of all channels of one stage. The error of each channel is divided by the channel's scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Errors {
     /// Largest error over instants and channels.
@@ -121,10 +121,9 @@ impl BenchPoint {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct RunEffort(pub Vec<(String, u64)>);
 
-/// Names of counts that give the number of solutions of the whole mechanism, each at one state.
+/// Names of counts that give the number of solutions. A solution is that of the whole mechanism at one state.
 /// The first entry whose counts have a sum above zero is used.
-/// The list begins with evaluations, because each stage of a multistage method has an evaluation, so that a step has
-/// several.
+/// Evaluations come first, because a step of a multistage method has several evaluations.
 const SOLUTIONS: [&[&str]; 3] = [&["evaluations"], &["steps", "probes"], &["poses"]];
 /// Names of counts that give the inner work of the solutions. The first count above zero is used.
 const INNER: [&[&str]; 4] = [&["sweeps"], &["factorisations"], &["iterations"], &["groups"]];

@@ -12,8 +12,8 @@ use linkage::solver::Solver;
 use linkage::trajectory::{Stage, Trajectory};
 use prover::bounds::residuals;
 
-/// The reference is a run with tighter accuracy.
-/// The estimated error of the reference is this fraction of its difference from a run at the usual accuracy.
+/// In free motion, the reference is a run with tighter accuracy.
+/// Its estimated integration error is this fraction of its difference from a run at the usual accuracy.
 /// In every step, the tighter accuracy allows a hundredth of the usual error.
 /// The constant is this hundredth times a factor of four, the margin `SAFETY` of `prover::run::known`.
 const LEFT: f64 = 0.04;

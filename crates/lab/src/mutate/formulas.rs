@@ -158,7 +158,7 @@ impl Stage<'_> {
         })
     }
 
-    /// Result of the judgement of the mistake by both analytic sides.
+    /// Judges the formulas with the mistake on both analytic sides.
     pub(super) fn formula_outcome(&self, own: &Planting) -> FaultyProof {
         let judged = self.sides.claimed(&self.case, &own.formulas).map(|sides| {
             let judgement = Judgement::of(sides);

@@ -54,7 +54,7 @@ pub struct Mutant {
     /// if there is no exact answer.
     pub effect: Option<f64>,
     /// Smallest size at which the fault is still found, to a factor of two.
-    /// `None` if the fault has no size or is not detected, and if no search was requested.
+    /// `None` if the fault has no size, if it is not detected, or if no search was requested.
     pub smallest: Option<f64>,
 }
 
@@ -63,7 +63,7 @@ pub struct Mutant {
 pub struct Mutated {
     /// Name of the scenario.
     pub scenario: String,
-    /// What the input of the scenario measures.
+    /// Quantity that the input of the scenario measures.
     pub input: Input,
     /// Verdict of the scenario's proof without a fault.
     pub verdict: &'static str,

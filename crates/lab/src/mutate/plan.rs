@@ -213,13 +213,13 @@ const LEAST: f64 = 1e-16;
 /// Largest factor between successive sizes of the search.
 /// If the margin is unknown, the first guess is the whole size divided by this factor.
 const STEP: f64 = 10.0;
-/// The search ends if the smallest detected size is at most this factor above an undetected size.
+/// The search ends if the smallest detected size is at most this multiple of an undetected size.
 const FACTOR: f64 = 2.0;
 /// Upper limit of the number of proofs in one search.
 const MOST: usize = 24;
 
 /// The smallest size for which `is_found` returns true, to a factor of two.
-/// At the size `whole`, the difference is `margin` times the bound of the difference.
+/// At the size `whole`, the largest difference is `margin` times its bound.
 pub(super) fn smallest(whole: f64, margin: f64, is_found: &dyn Fn(f64) -> bool) -> f64 {
     let mut left = MOST;
     let mut is_found = |size: f64| {

@@ -59,8 +59,7 @@ impl<'a> Stage<'a> {
         let of_sides = || ObservedSides::of(problem, whole, TRUE_SIDES, options.reference, &mut Ledger::default());
         let (sides, done) = counted(|| limited(allowed, of_sides).0);
         let sides = sides?;
-        // Only side 1 counts the groups that it places.
-        // The groups of side 1 are counted twice, because side 2 places as many links.
+        // Side 2 places the same links as side 1 but counts no groups, so the groups of side 1 count twice.
         let placed = PLACED * 2.0 * done.of(Count::Groups) as f64 + done.of(Count::Intervals) as f64;
         let right = AssurSolver.solve(&case)?;
         let integration = sides.integration();
@@ -189,7 +188,7 @@ impl<'a> Stage<'a> {
     }
 }
 
-/// The engine of the first call, with its runs cached, and with the settings of `engine`.
+/// The cached engine in `runs`, with the settings of `engine`. The first call creates it from `engine`.
 fn kept_in(runs: &OnceLock<CachedEngine>, engine: Box<dyn Engine>) -> Box<dyn Engine> {
     runs.get_or_init(|| CachedEngine::new(engine.as_ref())).with(engine.settings())
 }

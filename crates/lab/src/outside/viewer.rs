@@ -8,7 +8,7 @@ use std::process::Command;
 use super::process;
 use crate::bench::Clock;
 
-/// Script that writes a film as a recording of Rerun.
+/// Script that writes a film (a moving mechanism, as JSON) as a recording of Rerun.
 /// The script uses Rerun's library, because no other library knows the format.
 const SCRIPT: &str = include_str!("rerun.py");
 /// Longest duration of the conversion of a film to a recording (s).

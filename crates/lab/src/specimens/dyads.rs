@@ -1,4 +1,4 @@
-//! Random mechanisms of dyads of all five kinds, from a source of random numbers.
+//! Random mechanisms made of dyads of all five kinds.
 
 use linkage::math::{KeepNan, cross};
 use linkage::mechanism::assembly::transmission_sine;

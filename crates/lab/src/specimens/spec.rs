@@ -242,7 +242,7 @@ impl Spec {
         other.gravity.y = -self.gravity.y;
         other.guides.iter_mut().flat_map(|guide| &mut guide.axes).for_each(|axis| *axis = -*axis);
         // A mirror exchanges left and right of a line.
-        // Directions along axes are mirrored with the axes, so they need no change.
+        // The modes `ahead` and `behind` refer to an axis. The axis is mirrored too, so these modes stay.
         other.dyads.iter_mut().for_each(|dyad| dyad.left = !dyad.left);
         other
     }

@@ -1,4 +1,4 @@
-//! A family has a varied parameter (`dial`), and solvers and engines that run at each of its points.
+//! A family varies one parameter (`dial`). Solvers and engines run at each value of this parameter.
 //! See docs/numerics/laboratory.md.
 
 use linkage::case::Case;

@@ -4,7 +4,7 @@
 use serde::{Deserialize, Deserializer, Serialize};
 
 linkage::words! {
-    /// Groups of quantities that a map shows together.
+    /// Groups of quantities. The map of a family (an SVG picture) has one panel per group.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
     #[serde(rename_all = "lowercase")]
     pub enum QuantityGroup: name {
@@ -66,10 +66,10 @@ pub struct PartyAtPoint {
     /// Reason of a verdict other than agreement.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub why: String,
-    /// Reference of the errors, in words; empty if the solver or engine has no errors.
+    /// Reference of the errors, in words; empty if no errors were computed.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub against: String,
-    /// Groups of channels, in order; empty if the solver or engine failed.
+    /// The worst channel of each group; empty if the solver or engine failed.
     #[serde(rename = "groups")]
     pub reached: Vec<WorstOfGroup>,
     /// Largest opening of a joint, divided by the mechanism's size.

@@ -222,7 +222,7 @@ fn reached(deviations: &[Deviation]) -> Vec<WorstOfGroup> {
 }
 
 /// Converts a verdict to the outcome of a point.
-/// An expected disagreement cannot occur, because the families state no wrong numbers.
+/// `Expected` cannot occur, because the families have no published numbers.
 fn end(verdict: &Verdict) -> PointEnd {
     match verdict {
         Verdict::Agree { .. } | Verdict::Expected { .. } => PointEnd::Agree,

@@ -57,7 +57,7 @@ pub(super) struct Bench<'a> {
     pub(super) is_spent: bool,
 }
 
-/// The cost below which no run lies, whatever its step size.
+/// Lower limit of the cost of a run, whatever its step.
 /// Stored as pairs (number of sweeps, cost), in ascending order.
 /// The limit exists because results are read at every instant.
 /// Some methods for reactions also do all sweeps at every instant.
@@ -270,7 +270,8 @@ impl Bench<'_> {
         // The difference of the two runs is therefore the iteration error at `settings`.
         // In a proof, the comparison run has fewer sweeps: half, or a quarter at the beginning of a search for
         // settings.
-        // Half the sweeps cost only a quarter of twice the sweeps, but the error is then overestimated.
+        // A comparison run with half the sweeps costs a quarter of one with twice the sweeps, but overestimates the
+        // error.
         if settings.sweeps > 0 {
             rungs.push(Settings { sweeps: settings.sweeps * 2, ..settings });
         }

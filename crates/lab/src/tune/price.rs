@@ -13,7 +13,7 @@ use prover::engines::EngineName;
 /// The additional steps are a few steps backwards, the same number of steps forwards again, and some steps beyond the
 /// end.
 const EXTRA_STEPS: f64 = 16.0;
-/// Number of tiny steps of a probe in every world.
+/// Number of tiny steps of a probe (`Route::Probe`) in each simulation world.
 const TINY_STEPS: f64 = 5.0;
 
 /// Costs of an engine, in units of a step of `rapier` without sweeps on the same mechanism (4.9 us on the measuring

@@ -10,13 +10,13 @@ const MOST_RUNS: usize = 9;
 const NEAR_ENOUGH: f64 = 0.8;
 /// The search aims at this fraction of the requested error.
 const AIM: f64 = 0.92;
-/// The search ends if the smallest step that is too large is less than this factor above the largest sufficient step.
+/// The search ends if the smallest step that is too large is less than this multiple of the largest sufficient step.
 const CLOSE: f64 = 1.06;
 /// Smallest observed order at which the error counts as dependent on the step.
 const FLAT: f64 = 0.3;
 /// Largest factor from one step to the next.
 const LEAP: f64 = 16.0;
-/// Highest order that is assumed possible: the errors of extrapolated accelerations were observed to fall with order 4.
+/// Highest order that is assumed possible. The highest observed order is 4, for extrapolated accelerations.
 const STEEPEST: f64 = 6.0;
 /// If a run costs at least this fraction of the limit, its step counts as the finest affordable step.
 const AT_THE_LIMIT: f64 = 0.9;

@@ -189,7 +189,7 @@ impl CaseBuilder {
     }
 
     /// Adds a drive that follows a motion law from the input `start` (rad or m) at t = 0.
-    /// The first drive starts at [`CaseBuilder::start`].
+    /// For the first drive, `start` is ignored: this drive starts at [`CaseBuilder::start`].
     pub fn driven_from(mut self, joint: &str, start: f64, law: MotionLaw) -> Self {
         self.cranks.push((joint.into(), start, DriveMotion::Prescribed { law, motor: None }));
         self
@@ -238,7 +238,7 @@ impl CaseBuilder {
         self
     }
 
-    /// Sets the number of equal intervals between the requested instants in one turn of the crank.
+    /// Sets the number of equal intervals into which the requested instants divide one turn of the crank.
     /// For a free crank the intervals divide the time of one turn at the nominal speed. Default: 360.
     pub fn instants(mut self, parts: usize) -> Self {
         self.instants = parts;

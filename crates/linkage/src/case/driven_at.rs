@@ -20,8 +20,9 @@ impl Case {
     }
 
     /// This case with the first drive at `joint`, from the same start pose.
-    /// If `joint` is the start joint of a transmission, the joint between the first member and the carrier becomes the
-    /// start joint.
+    /// The start joint of a transmission is the joint whose given coordinate at t = 0 fixes the phase.
+    /// The drive determines the coordinate of `joint`. If `joint` is a start joint, the joint between first member and
+    /// carrier therefore takes its place.
     /// `law` gives the law of motion for the kind of input. The grid consists of `times` (s).
     ///
     /// # Errors
@@ -51,7 +52,8 @@ impl Case {
         })
     }
 
-    /// The mechanism after every transmission with the start joint `joint` has got a different start joint.
+    /// The mechanism in which the joint between first member and carrier replaces `joint` as the start joint of
+    /// transmissions. If there is no joint between first member and carrier, `joint` stays.
     fn with_start_beside(&self, joint: JointId) -> Result<Mechanism> {
         let (mut designs, joints) = (self.mechanism.transmission_designs(), self.mechanism.joints());
         for design in designs.iter_mut().filter(|design| design.joint == joint) {

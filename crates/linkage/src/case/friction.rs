@@ -235,7 +235,7 @@ impl Friction<'_> {
         match self.seat {
             FrictionSeat::Joint { .. } => Action::pair(self.of_joint(), effort, motions),
             FrictionSeat::Mesh { links: [carrier, first], losses, .. } => {
-                // The power is effort times the rate of the joint's coordinate.
+                // The moment has the power of `effort`: effort times the rate of the joint's coordinate.
                 let moment = effort / losses.per;
                 [Action::of_moment(carrier, -moment), Action::of_moment(first, moment)]
             }
@@ -246,7 +246,7 @@ impl Friction<'_> {
 impl Losses {
     /// Returns two numbers: the magnitude of the transmission's force (N) times the lost fraction of the power, and the
     /// derivative of this product with respect to the force.
-    /// The sign of `sense` is the sense of the joint's coordinate. At standstill both results are zero.
+    /// The sign of `sense` is the sign of the rate of the joint's coordinate. At standstill both results are zero.
     #[must_use]
     pub fn normal(&self, force: f64, sense: f64) -> [f64; 2] {
         if sense == 0.0 {

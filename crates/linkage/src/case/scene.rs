@@ -250,9 +250,9 @@ impl<'a> Needs<'a> {
     }
 
     /// The links of the reduced case.
-    /// If a joint is left out, its two links still have a point with the joint's name.
-    /// On the link that depends on fewer groups, the point keeps its name.
-    /// On the other link, a number is added to the point's name.
+    /// If a joint is left out, its two links still have a point with the joint's name, but no joint holds the points
+    /// together, which [`Mechanism::new`] rejects.
+    /// A number is therefore added to the name of the point on the link that depends on more groups.
     fn links(&self) -> Vec<Link> {
         let whole = &self.case.mechanism;
         let stays = |index: &LinkId| self.moves[*index];

@@ -37,7 +37,7 @@ pub(super) fn classes(parts: &CaseParts) -> Vec<LinkId> {
     for same in bridges.chunk_by(|one, other| one.ends == other.ends) {
         for (index, one) in same.iter().enumerate() {
             for other in same[index + 1..].iter().filter(|other| other.link != one.link) {
-                // Two opposite sides of the quadrilateral: one on each of the two links that `one` and `other` connect.
+                // The two sides of the quadrilateral that lie on the links connected by `one` and `other`.
                 let sides = [0, 1].map(|end| other.places[end] - one.places[end]);
                 if (sides[0] - sides[1]).norm() <= equal && sides[0].norm() > equal {
                     unite(&mut classes, one.ends[0], one.ends[1]);

@@ -48,8 +48,8 @@ impl Curve {
         match *self {
             Curve::Line { at_rest, slope } if slope < 0.0 => Some((torque - at_rest) / slope),
             Curve::Line { .. } => None,
-            // With x = s / b: torque (x + 1 / x) = 2 M.
-            // The smaller of the two roots is used, in a form without cancellation.
+            // With the slip s, x = s / b and the breakdown torque M: torque * (x + 1 / x) = 2 M.
+            // The smaller of the two roots x is used, in a form without cancellation.
             Curve::Kloss { breakdown_torque, breakdown_slip, synchronous_speed } => {
                 let share = torque / breakdown_torque;
                 let root = (1.0 - share * share).larger(0.0).sqrt();

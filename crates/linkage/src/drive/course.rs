@@ -24,7 +24,7 @@ pub enum Course {
     Constant(f64),
     /// A function of the input of the first drive: crank angle (rad, in the scenario's convention) or slide (m).
     Table {
-        /// The function, which is periodic.
+        /// The function. Over a slide it is periodic too, but its period is far longer than the table.
         function: Arc<Piecewise>,
         /// Period in revolutions of the crank; `None` for a table over a slide, which does not repeat.
         turns: Option<u32>,
@@ -121,7 +121,8 @@ impl Course {
         }
     }
 
-    /// Period of a table over the crank angle in revolutions of the crank; `None` for other quantities.
+    /// Period of a table over the crank angle, in revolutions of the crank; `None` for a constant or a table over a
+    /// slide.
     #[must_use]
     pub fn turns(&self) -> Option<u32> {
         if let Course::Table { turns, .. } = self { *turns } else { None }

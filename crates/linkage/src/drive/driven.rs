@@ -20,7 +20,7 @@ pub enum DriveMotion {
         /// Speed at t = 0 (rad/s), counter-clockwise positive.
         initial_speed: f64,
         /// Speed of the nominal motion (rad/s, not zero), counter-clockwise positive.
-        /// The sign of this speed is the motor's sense of rotation. The absolute value is the reference for speeds.
+        /// The sign of this speed is the motor's sense of rotation. The speed also serves as [`Drive::top_speed`].
         /// Crank angles refer to the nominal motion.
         nominal_speed: f64,
         /// Motor that drives the link.

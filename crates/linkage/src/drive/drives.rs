@@ -43,7 +43,7 @@ impl Drives {
         self.0.iter().enumerate().filter(|(_, drive)| drive.is_free())
     }
 
-    /// Drives that exert a moment, with their numbers: all except free links without a motor.
+    /// Drives that exert a moment, with their numbers: all except those of free links without a motor.
     pub fn with_moment(&self) -> impl Iterator<Item = (usize, &Drive)> {
         self.0.iter().enumerate().filter(|(_, drive)| drive.has_moment())
     }

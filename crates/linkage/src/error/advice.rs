@@ -9,7 +9,7 @@ use std::fmt;
 /// [`Advice::Text`] is advice about a scenario's text, for a person to read. Programs can act on the other variants.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Advice {
-    /// Text that is the same for every reader, such as the name of a scenario key.
+    /// Advice in words only, such as the name of a scenario key.
     Text(String),
     /// A smaller time step of the engine.
     SmallerStep {

@@ -44,8 +44,8 @@ impl Error {
         [self].into_iter().chain(&self.0.further)
     }
 
-    /// The text that is equal for all errors of one cause: the message, after a replacement.
-    /// In the message, a key that ends with a unit is replaced by the unit.
+    /// The text that is equal for all errors of one cause: the message, in which the unit alone replaces a key that
+    /// ends with a unit.
     fn cause(&self) -> String {
         let key = self.scenario_key().map(|key| key.rsplit('.').next().unwrap_or(key).to_string());
         let Some(key) = key else { return self.message().into() };

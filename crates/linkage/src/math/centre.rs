@@ -1,4 +1,4 @@
-//! Centres of plane motion: the point of a body without velocity, and the point without acceleration.
+//! Centres of plane motion: the body point that has no velocity, and the body point that has no acceleration.
 //!
 //! With the angular velocity omega, the angular acceleration alpha and J = rotation by 90 deg, a point at r from the
 //! frame's origin has v = v0 + omega J r and a = a0 + alpha J r - omega^2 r.

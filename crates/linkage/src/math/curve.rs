@@ -43,10 +43,10 @@ pub struct FormulaCurve {
     shift: f64,
     factor: f64,
     end: f64,
-    /// The first derivative with the largest absolute value, and its sign.
+    /// The first derivative where its absolute value is largest, with its sign.
     /// The value is stored, because the search for it takes many evaluations.
     steepest: f64,
-    /// The second derivative with the largest absolute value, and its sign.
+    /// The second derivative where its absolute value is largest, with its sign.
     /// The value is stored, because the search for it takes many evaluations.
     sharpest: f64,
 }
@@ -70,7 +70,7 @@ impl FormulaCurve {
         FormulaCurve { of, shift, factor: 1.0, end, steepest, sharpest }
     }
 
-    /// The first x at which the function or one of its first two derivatives is undefined, among the x of a search.
+    /// The first of the [`Curve::places`] at which the function or one of its first two derivatives is undefined.
     #[must_use]
     pub fn undefined_at(&self) -> Option<f64> {
         parts(self.end).into_iter().find(|&x| !self.of.at(x).into_iter().all(f64::is_finite))
@@ -160,7 +160,7 @@ impl Curve {
         }
     }
 
-    /// The first derivative with the largest absolute value, and its sign.
+    /// The first derivative where its absolute value is largest, with its sign.
     #[must_use]
     pub fn steepest(&self) -> f64 {
         match self {

@@ -136,13 +136,13 @@ fn between(coefficients: &[Complex<f64>], from: f64, to: f64) -> f64 {
     found.expect("coefficients are finite, and so are the values")
 }
 
-/// Roots of a polynomial (lowest power first) with symmetric coefficients: reversing their order conjugates the
-/// coefficients and may change their sign.
+/// Roots of the polynomial with the given coefficients, lowest power first.
+/// The coefficients are symmetric: in reverse order they are their conjugates, or the negatives of these.
 /// The roots of such a polynomial come in pairs z, 1 / conj(z).
 ///
 /// The map z = (w + a) / (1 + conj(a) w), |a| < 1, preserves the unit circle.
 /// Zero leading coefficients correspond to roots at infinity. The map moves these roots to -1 / conj(a).
-/// The magnitude of the mapped polynomial's leading coefficient is that of the original polynomial's value at a.
+/// The leading coefficient of the mapped polynomial has the magnitude of the original polynomial at a.
 /// The number a is chosen so that the polynomial's value at a is large. The companion matrix is then well scaled.
 fn roots(polynomial: &[Complex<f64>]) -> Option<Vec<Complex<f64>>> {
     let n = polynomial.len() - 1;

@@ -1,4 +1,4 @@
-//! The larger and the smaller of two numbers. The result is NaN if a number is NaN.
+//! The larger and the smaller of two numbers. `larger` and `smaller` return NaN if a number is NaN.
 //!
 //! `f64::max` and `f64::min` drop NaN.
 //! For NaN and 1, `f64::max` and `f64::min` return 1, so a later check cannot detect the NaN.

@@ -1,4 +1,4 @@
-//! Statistics of a quantity that is known row by row, eight rows at a time.
+//! Statistics of a quantity whose values arrive row by row, eight rows at a time.
 //!
 //! The order of the operations depends only on the rows. Equal values therefore give bit for bit equal results.
 
@@ -105,7 +105,7 @@ impl Tally {
     }
 
     /// Adds eight rows, beginning with `row`, a multiple of eight.
-    /// After the last row, the caller repeats the last row's value.
+    /// If fewer than eight rows are left, the caller repeats the last row's value.
     pub fn add(&mut self, row: usize, values: &[f64; LANES]) {
         match self {
             Tally::Max(peak) => peak.add(row, *values),

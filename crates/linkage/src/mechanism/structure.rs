@@ -11,7 +11,7 @@
 //! The components do not depend on the choice of matching (Dulmage and Mendelsohn 1958).
 //!
 //! A driving link stands on the ground or on an earlier driving link. Any other given joint belongs to a group.
-//! Links connected by a joint with given coordinate form one body, which is rigid at every instant. A group is
+//! Links connected by a joint with given coordinate form one body, whose shape is known at every instant. A group is
 //! therefore classified by its bodies instead of its links.
 
 mod driven;

@@ -35,7 +35,7 @@ pub struct Sampler {
     channels: Vec<Channel>,
     columns: Vec<Vec<f64>>,
     rows: Vec<usize>,
-    /// Buffer of the latest rows. The first `kept` rows are already in the columns.
+    /// Values of the latest rows, which are not in the columns yet. The first `kept` entries of `rows` are.
     block: Vec<f64>,
     kept: usize,
     /// The input in the scenario's convention. The input comes from the grid or, for a free motion, from the states.

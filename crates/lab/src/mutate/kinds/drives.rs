@@ -92,7 +92,7 @@ fn initial(case: &Case, to: impl Fn(f64) -> f64) -> Option<Case> {
 }
 
 /// Moves all instants earlier, by the time in which the crank turns by `angle` (rad) at top speed.
-/// A motion that begins at t = 0 has no earlier instants: these are set to 0.
+/// If the motion begins at t = 0, instants that would be negative become 0.
 fn shifted(case: &Case, angle: f64) -> Option<Case> {
     let begins = case.is_free() || case.crank().constant_speed().is_none();
     let by = angle / case.crank().top_speed().abs();

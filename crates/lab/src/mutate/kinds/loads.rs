@@ -131,7 +131,7 @@ fn sprung(case: &Case) -> Option<usize> {
     case.loads.iter().position(is_spring)
 }
 
-/// Index of the first friction, other than of a mesh, whose joint `is_meant` accepts.
+/// Index of the first friction load whose joint `is_meant` accepts. Friction in meshes is skipped.
 fn rubbed(case: &Case, is_meant: impl Fn(&Joint) -> bool) -> Option<usize> {
     case.frictions().find(|own| !own.is_mesh() && is_meant(&case.mechanism.joints()[own.joint])).map(|own| own.index)
 }

@@ -88,7 +88,7 @@ pub(super) const TRANSMISSION: StressFamily = StressFamily {
         // The third side of this triangle leads from the crank's end to the rocker's pivot.
         let (crank, rod) = (0.1, 0.3);
         let lengths = [crank + 2.0 * rod * (0.5 * degrees.to_radians()).sin(), crank, rod, rod];
-        // The revolution begins at the smallest transmission angle, so this angle is the angle of an instant.
+        // The revolution begins at the smallest transmission angle, so one instant has exactly this angle.
         let case = builder(lengths, rods(lengths), SPEED_OF_ALL).start(0.0).build()?;
         Ok(Setup::usual(case))
     },

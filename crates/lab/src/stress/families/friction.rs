@@ -13,7 +13,7 @@ const COEFFICIENT: f64 = 0.1;
 /// A wedge on a floor. A follower in a vertical guide drives the wedge by a shoe on the wedge's face.
 /// Friction locks the wedge up to a limiting angle of the face.
 /// The angle of the face is larger than the limiting angle, by the fraction 1 / `gain`.
-/// The driving force is about `gain` times the force that moves the wedge.
+/// The driving force is about `gain` times the driving force without friction.
 fn wedge(gain: f64) -> Result<Setup> {
     let angle = 2.0 * COEFFICIENT.atan() * (1.0 + 1.0 / gain);
     let axis = std::f64::consts::PI - angle;

@@ -156,7 +156,7 @@ proptest! {
         prop_assert!((length - below).abs() <= 16.0 * f64::EPSILON * low.abs().larger(high.abs()), "{length} {below}");
     }
 
-    /// The search keeps the requested width and makes no unnecessary steps.
+    /// The error stays within the requested tolerance, and the search makes no unnecessary steps.
     #[test]
     fn regula_falsi_stops_at_the_requested_tolerance(zero in -1.0f64..1.0, tolerance in 1e-9f64..1e-2) {
         let f = |x: f64| (x - zero).exp() - 1.0;

@@ -1,5 +1,4 @@
-//! Finds the group that is the cause if a group cannot be placed.
-//! The cause may be an earlier group that has the wrong configuration.
+//! If a group cannot be placed, finds the earlier group whose wrong configuration is the cause, if there is one.
 
 use super::{StartGroup, configurations, first_choices};
 use crate::error::{Advice, Error, ErrorKind, ErrorSubject};
@@ -9,7 +8,7 @@ use crate::sentences;
 /// A group whose configuration makes it impossible to place a later group.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Blame {
-    /// Index of the group to blame in [`Structure::at_start`].
+    /// Index, in [`Structure::at_start`], of the group to blame.
     pub group: GroupId,
     /// Number of the group's configuration, counted from 1, with which the later group can be placed.
     pub rank: usize,
@@ -44,9 +43,9 @@ pub fn blame(
     let part = before(failed.index() + 1);
     let mut own = wanted.to_vec();
     own[failed].near.clear();
-    // If the approximate positions of the failed group are ignored, the failed group may fit the present pose.
-    // If the failed group fits without its approximate positions, an earlier group is blamed only if a change of the
-    // earlier group clearly improves the fit. The failed group must come clearly nearer to its approximate positions.
+    // `stands`: without its approximate positions, the failed group fits the present pose.
+    // An earlier group is then blamed only if another configuration of this earlier group brings the failed group
+    // clearly nearer to its approximate positions.
     let stands = first_choices(mechanism, &part, drive_angles, &own).is_ok();
     let earlier = part.groups.entries().rev().filter(|(index, _)| *index < failed && wanted[*index].near.is_empty());
     for (index, group) in earlier {

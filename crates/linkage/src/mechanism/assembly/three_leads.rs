@@ -2,7 +2,8 @@
 //!
 //! Each lead has one pair with the frame (near) and one pair with the base (far). The lead imposes one condition on the
 //! base.
-//! O is the position of the base's reference point, b = e^(i beta) its direction, and w the far joint on the base:
+//! O is the position of the base's reference point, b = e^(i beta) the base's direction, w the far joint on the base,
+//! a the near joint on the frame, e the direction of a prismatic pair:
 //! - both pairs revolute: O + b w lies on a circle, |O + b w - a| = l;
 //! - near prismatic, far revolute: O + b w lies on a line of the frame, e x (O + b w - a) = h;
 //! - near revolute, far prismatic: the near pin lies on a line of the base, (b e) x (O + b w - a) = h;

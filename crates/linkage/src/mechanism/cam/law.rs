@@ -73,7 +73,7 @@ impl CamCurve {
     }
 }
 
-/// A piece of a law, which begins at the end of the previous piece.
+/// A piece of a law. The piece begins where the previous piece ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CamSegment {
     /// Angle of the cam at the end (rad).

@@ -21,7 +21,7 @@ pub enum GroupKind {
     /// Any group with more than two rigid bodies, and any group of two bodies with a transmission.
     Higher,
     /// A driving link (class I). The pose of the link follows from a joint with given coordinate on a link of an
-    /// earlier group, or from a transmission between earlier links.
+    /// earlier group, or from a transmission that couples it to earlier links.
     Driven,
 }
 
@@ -76,8 +76,8 @@ pub struct Group {
     /// Joints between a link of the group and a link whose pose is known before the group is solved.
     pub outer: Vec<JointId>,
     /// The joints of `inner` and `outer` whose coordinate is given.
-    /// Links connected by a joint with given coordinate count as one body. This body is rigid at every instant,
-    /// although its shape changes with time. Class and kind of the group are found from its bodies.
+    /// Links connected by a joint with given coordinate count as one body. The shape of this body changes with time,
+    /// but is known at every instant. Class and kind of the group are found from its bodies.
     pub given: Vec<JointId>,
     /// The transmissions that the group contains. Each transmission couples a coordinate of the group to coordinates of
     /// the same group or of earlier links.
@@ -96,8 +96,7 @@ impl Group {
         self.outer.len()
     }
 
-    /// Whether every body of the group is one link: no joint of the group has a given coordinate, and the group has no
-    /// transmission.
+    /// Whether the group has neither joints with given coordinates nor transmissions. Every body is then one link.
     #[must_use]
     pub fn is_rigid(&self) -> bool {
         self.given.is_empty() && self.trains.is_empty()

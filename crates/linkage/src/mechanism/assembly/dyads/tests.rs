@@ -52,8 +52,8 @@ impl Case {
         pose
     }
 
-    /// Opening of a prismatic `joint`. The axis through the joint's point on the first link is a line.
-    /// The opening is the distance of the joint's point on the second link from this line.
+    /// Opening of a prismatic `joint`: the distance of the joint's point on the second link from the axis through the
+    /// joint's point on the first link.
     fn off_line(&self, pose: &Pose, joint: JointId) -> f64 {
         let own = self.joint(joint);
         cross(
