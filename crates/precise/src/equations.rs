@@ -186,7 +186,8 @@ impl<'a, S: Scalar> Whole<'a, S> {
             let rows = self.case.mechanism.rows(index).start;
             let sides = [&frames[joint.first.link], &frames[joint.second.link]];
             let squares = arms[0] * (sides[0].omega * sides[0].omega) - arms[1] * (sides[1].omega * sides[1].omega);
-            // Difference of the joint's points on the second and the first link, along a direction.
+            // Right-hand side for the distance between the joint's points along `normal`. `turning` is the part due to
+            // the rotation of the normal.
             let apart = |normal: Vector<S>, turning: S| match what {
                 What::Gaps => -normal.dot(gap),
                 What::Rates => S::ZERO,

@@ -244,7 +244,7 @@ impl Scenario {
     /// `reference`: analytic side whose motion is the reference: "assur" (the default) or "newton".
     /// `step`: time step of the engine in s.
     /// `accuracy`: relative accuracy of an engine that controls its error.
-    /// `sweeps`, `substeps`, `extrapolated`: whole numbers.
+    /// `sweeps`, `substeps`, `extrapolated`: number of sweeps in a step, of substeps in a step, of extrapolations.
     /// `route`: "differences", "native" or "probe".
     /// `budget`: work allowed for the search of settings, in steps.
     /// `memory`: bytes allowed.

@@ -18,7 +18,7 @@ use crate::sweep::texts;
 use crate::table::{Table, TableColumn};
 use crate::task::released;
 
-/// Exact first derivatives of figures by numbers of the file, and tolerance stacks.
+/// Exact first derivatives of figures with respect to numbers of the file, and tolerance stacks.
 #[pyclass(module = "linkproof", frozen)]
 pub(crate) struct Sensitivity {
     name: String,
@@ -145,13 +145,13 @@ impl Sensitivity {
 
 #[pymethods]
 impl Scenario {
-    /// Differentiate figures by numbers of the file, and stack tolerances. The derivatives are exact, not difference
-    /// quotients.
+    /// Differentiate figures with respect to numbers of the file, and stack tolerances. The derivatives are exact, not
+    /// difference quotients.
     ///
     /// `figures`: statistics of quantities, such as "max:joint.A.f_N" or "rms:drive.torque_N_m".
     /// `by`: keys, such as "crank_mm" or "links.crank.mass_kg".
     /// By default, the keys are the parameters that the mechanism uses.
-    /// A mechanism without parameters is differentiated by its dimensions, masses, laws and loads.
+    /// For a mechanism without parameters, the keys are its dimensions, masses, laws and loads.
     /// `tolerances`: a dictionary from keys to the largest deviation in either sense, in the unit of the key.
     /// `samples`: number of random mechanisms within the tolerances, from 10 to 100000.
     /// `seed`: seed of the samples.

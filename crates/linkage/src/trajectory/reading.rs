@@ -9,7 +9,7 @@ pub enum ChannelSubject {
     Point,
     /// A joint.
     Joint,
-    /// A prismatic joint. A prismatic joint has these rows in addition to the rows that every joint has.
+    /// A prismatic joint: the channels that it has in addition to those of every joint.
     Slider,
     /// A revolute joint with friction.
     Journal,

@@ -28,9 +28,9 @@ pub enum FormulaCause {
     Offset(f64),
     /// Constant ratio of the formula's value to the mechanism's value.
     Factor(f64),
-    /// A term or factor of the derivation is missing.
+    /// A term or factor of inputs, parameters and earlier formulas is missing.
     Missing(Missing),
-    /// Terms of the mechanism are missing from the formula.
+    /// Terms of quantities of the mechanism are missing, such as the angular velocity of a link.
     Terms(Vec<Term>),
     /// The formula is right up to a value of the input. Beyond this value the formula follows a wrong branch.
     Leaves {

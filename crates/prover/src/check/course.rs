@@ -8,7 +8,7 @@ use linkage::math::KeepNan;
 use linkage::trajectory::{Channel, OfJoint, OfLink, OfPoint, Reading, Trajectory};
 use scenario::{Claim, Formula, MechanismFigure, PrintedChannel};
 
-/// Columns of a trajectory, each with the sign of its summand in the input.
+/// Columns of a trajectory, each with a sign. Their signed sum is the input, or one of its derivatives.
 type InputColumns = Vec<(usize, f64)>;
 
 /// A side's trajectory with the error of every value, by column and row (SI units).

@@ -122,7 +122,8 @@ impl Compared {
 
 /// Whether a cause may be named although a difference remains.
 /// A fitted number of the case may not be named, because the meaning of the number is unclear if a difference remains.
-/// The start angle of a drive is an exception: at constant speed, a rotated drive resembles late rows.
+/// The start angle of a drive is an exception: at constant speed, it has the same effect as late rows, which may be
+/// named.
 /// Numerical derivatives may not be named, because they resemble values that are late by half a row.
 /// A single wrong row may not be named.
 fn may_leave(cause: &DisagreementCause) -> bool {
@@ -137,8 +138,8 @@ fn may_leave(cause: &DisagreementCause) -> bool {
     }
 }
 
-/// Adds whole revolutions to angles, because many programs print angles without whole revolutions. Afterwards a right
-/// angle lies near the reference, and a wrong wrapped angle continues without jumps.
+/// Adds whole revolutions to angles, because many programs print angles without whole revolutions. Afterwards the
+/// angles of an agreeing channel lie near the reference, and those of a disagreeing channel continue without jumps.
 fn unwrap(values: &mut [f64], right: &[f64], is_right: bool) {
     let is_wrapped = |own: &[f64]| half_range(own) <= PI * (1.0 + 1e-9);
     if !is_right && !is_wrapped(values) {

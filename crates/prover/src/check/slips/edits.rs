@@ -81,8 +81,8 @@ fn rename(tree: &mut FormulaTree, [one, other]: [&str; 2]) {
 }
 
 /// The subexpression with other parentheses and the same order of symbols. Only groupings that the table of rules
-/// (`rules.rs`) cannot express are returned:
-/// a*b + c + d for a*(b + c + d), a/b + c for a/(b + c), sin(a) + b for sin(a + b), sin(a^2) for sin(a)^2.
+/// (`rules.rs`) cannot express are returned, here as written => returned:
+/// a*b + c + d => a*(b + c + d), a/b + c => a/(b + c), sin(a) + b => sin(a + b), sin(a^2) => sin(a)^2.
 fn regrouped(part: &FormulaTree) -> Option<FormulaTree> {
     let first = first_of(part);
     match (&part.shape, &first.shape) {
