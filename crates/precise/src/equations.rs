@@ -93,7 +93,8 @@ impl<'a, S: Scalar> Whole<'a, S> {
         3 * (self.case.mechanism.links().len() - 1)
     }
 
-    /// Adds the coefficients of `normal . (point of the link)` to a row, times `sign`.
+    /// Adds to a row the derivatives of `normal . (point of the link)` with respect to the unknowns of the link, times
+    /// `sign`.
     fn put(row: &mut [S], link: LinkId, arm: Vector<S>, normal: Vector<S>, sign: S) {
         if link == GROUND {
             return;
@@ -115,7 +116,7 @@ impl<'a, S: Scalar> Whole<'a, S> {
         let count = self.unknowns();
         let mut matrix = vec![vec![S::ZERO; count]; count];
         let one = S::ONE;
-        // Coefficients of the distance between the joint's points along an axis of the first link.
+        // Adds the derivatives of the distance between the joint's points along an axis of the first link.
         let along = |row: &mut [S], link: [LinkId; 2], arms: [Vector<S>; 2], axis: Vector<S>, gap: Vector<S>| {
             Self::put(row, link[1], arms[1], axis, one);
             Self::put(row, link[0], arms[0], axis, -one);

@@ -216,7 +216,7 @@ impl Proof {
         self.engine(py, engine)?.trajectory.clone().map(|own| Solution::of(py, own)).transpose()
     }
 
-    /// The largest time step (s) or relative accuracy of all engines.
+    /// The time step (s) or relative accuracy of the engine; of several engines, the largest of these numbers.
     #[getter]
     fn resolution(&self) -> f64 {
         self.inner.engines.iter().map(|own| own.info.settings.resolution).fold(0.0, KeepNan::larger)

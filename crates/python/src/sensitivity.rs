@@ -42,7 +42,7 @@ fn known(value: f64) -> Option<f64> {
 
 #[pymethods]
 impl Sensitivity {
-    /// One row for each figure and key: the columns of the CSV file of `linkproof sensitivity`.
+    /// One row for each figure and key, with the columns of the CSV file of `linkproof sensitivity`.
     ///
     /// `derivative` is in `figure_unit` per `unit`; it is missing where the figure has a kink. `relative` is the change
     /// of the figure in per cent for one per cent of the key. `figure_value` is in `figure_unit`; `value` and
@@ -123,7 +123,8 @@ impl Sensitivity {
         ])
     }
 
-    /// Usual keys that were left out, each with the part of the file whose derivative by this key is not known.
+    /// Default keys that were left out, each with the part of the file whose derivative with respect to this key is not
+    /// known.
     #[getter]
     fn left_out(&self) -> BTreeMap<String, String> {
         self.found.left_out.iter().cloned().collect()

@@ -104,11 +104,11 @@ pub enum Reading {
     Frame(OfFrame),
     /// A quantity of the first drive, unless it moves a prismatic joint.
     Drive(OfDrive),
-    /// A quantity of a further drive, after the first drive, at a revolute joint.
+    /// A quantity of a drive other than the first, at a revolute joint.
     Motor(OfDrive),
     /// A quantity of the first drive, if it moves a prismatic joint.
     Thrust(OfDrive),
-    /// A quantity of a further drive, after the first drive, at a prismatic joint.
+    /// A quantity of a drive other than the first, at a prismatic joint.
     FurtherThrust(OfDrive),
 }
 

@@ -138,8 +138,8 @@ impl Built {
         }
     }
 
-    /// Returns `size`, or the natural size from the case's data for this unit if `size` is only a rounding error of
-    /// that natural size.
+    /// Returns `size`. If `size` is only a rounding error of the natural size that follows from the case's data,
+    /// returns that natural size instead.
     pub(crate) fn unless(&self, size: f64, unit: Unit) -> f64 {
         let own = self.of(unit, 1.0);
         if size <= VANISHING * own { own } else { size }

@@ -169,7 +169,7 @@ const NEGLIGIBLE: f64 = 0.1;
 /// bound. The factor equals the larger safety factor of the estimate, which is applied a second time.
 const DISPROVEN: f64 = 3.0;
 
-/// Text about the largest part of an engine's error, which is appended to a reason, and advice on how to reduce this
+/// Text that names the largest part of an engine's error, for the end of a reason, and advice on how to reduce this
 /// part.
 fn way_out(parts: Parts) -> (&'static str, Vec<Advice>) {
     match parts.largest() {

@@ -249,8 +249,8 @@ fn sought(trial: &mut Trial, claim: &Claim, course: &KnownTrajectory) -> Option<
     // match only one number. The match is then weak evidence.
     let is_weak = trial.is_constant() || trial.is_number;
     if let Some(first) = sound.first().copied() {
-        // Stronger evidence than a matching number is a wrong sign, a wrong unit, or units that only the correction
-        // makes consistent.
+        // A wrong sign, a wrong unit, or units that only the correction makes consistent are stronger evidence than a
+        // matching number.
         let own = formulas.list[trial.index].tree.clone();
         let is_natural = match first.slip.kind {
             SlipKind::Sign | SlipKind::Branch | SlipKind::PerRadian | SlipKind::PerSecond => true,

@@ -23,7 +23,7 @@ pub struct KnownTrajectory<'a> {
     /// Columns of the input in a motion that forces determine. The input then has an integration error. `None` in a
     /// prescribed motion, and if a column is missing.
     angle: Option<InputColumns>,
-    /// Values of the whole mechanism, in SI units.
+    /// Figures of the whole mechanism, such as its mean reduced moment of inertia, in SI units.
     figures: &'a [(MechanismFigure, Rounded)],
     /// Smallest error assumed for every channel, in its SI unit; empty for no lower limit.
     least: &'a [f64],

@@ -162,8 +162,8 @@ fn unwrap(values: &mut [f64], right: &[f64], is_right: bool) {
 /// Smallest number of rows among which a single wrong row is sought.
 const FEWEST: usize = 8;
 
-/// A single wrong row is not sought in so many rows, because the search would take several times as long as the rest of
-/// the examination.
+/// A single wrong row is not sought in this many rows or more, because the search would take several times as long as
+/// the rest of the examination.
 const MOST_ROWS: usize = 20_000;
 
 /// Data for the search for causes. Only rows at which all channels have numbers are included.
@@ -205,8 +205,8 @@ impl Stage {
             }
             names.push(printed.channel.clone());
             columns.push(rows.iter().map(|&row| printed.to_si(values[row].value)).collect::<Vec<f64>>());
-            // A cause is judged by a single bound for each channel. A tighter bound, from numbers with more digits,
-            // would reject right causes.
+            // A cause is judged by a single bound for each channel, usually the loosest bound of its numbers. A tighter
+            // bound, from numbers with more digits, would reject right causes.
             let largest = own.largest.map_or(0.0, |at| at.difference.abs());
             let bound = if largest > own.loosest { own.loosest } else { own.worst.map_or(0.0, |worst| worst.bound) };
             bounds.push((own.claim.text.clone(), printed.to_si(bound), own.since.is_none()));

@@ -235,7 +235,7 @@ fn in_order(mut rows: Vec<usize>) -> Vec<usize> {
 mod tests {
     use super::Misfit;
 
-    /// The expected ranges were computed by hand from -1 <= own + amount effect <= 1 for every value.
+    /// The expected ranges were computed by hand from -1 <= own + amount * effect <= 1 for every value.
     #[test]
     fn amounts_of_an_effect_keep_all_values_within_bounds() {
         for (own, effect, wanted) in [
