@@ -93,7 +93,8 @@ impl<'a, S: Scalar> Whole<'a, S> {
         3 * (self.case.mechanism.links().len() - 1)
     }
 
-    /// Adds the coefficients of `normal . (point of the link)` to a row, times `sign`.
+    /// Adds to a row the derivatives of `normal . (point of the link)` with respect to the unknowns of the link, times
+    /// `sign`.
     fn put(row: &mut [S], link: LinkId, arm: Vector<S>, normal: Vector<S>, sign: S) {
         if link == GROUND {
             return;
@@ -115,7 +116,7 @@ impl<'a, S: Scalar> Whole<'a, S> {
         let count = self.unknowns();
         let mut matrix = vec![vec![S::ZERO; count]; count];
         let one = S::ONE;
-        // Coefficients of the distance between the joint's points along an axis of the first link.
+        // Adds the derivatives of the distance between the joint's points along an axis of the first link.
         let along = |row: &mut [S], link: [LinkId; 2], arms: [Vector<S>; 2], axis: Vector<S>, gap: Vector<S>| {
             Self::put(row, link[1], arms[1], axis, one);
             Self::put(row, link[0], arms[0], axis, -one);
@@ -186,7 +187,8 @@ impl<'a, S: Scalar> Whole<'a, S> {
             let rows = self.case.mechanism.rows(index).start;
             let sides = [&frames[joint.first.link], &frames[joint.second.link]];
             let squares = arms[0] * (sides[0].omega * sides[0].omega) - arms[1] * (sides[1].omega * sides[1].omega);
-            // Difference of the joint's points on the second and the first link, along a direction.
+            // Right-hand side for the distance between the joint's points along `normal`. `turning` is the part due to
+            // the rotation of the normal.
             let apart = |normal: Vector<S>, turning: S| match what {
                 What::Gaps => -normal.dot(gap),
                 What::Rates => S::ZERO,

@@ -43,7 +43,7 @@ use linkage::input::Input;
 use linkage::mechanism::GroupKind;
 use linkage::trajectory::Trajectory;
 
-/// Name of the method that computed the numbers, in words.
+/// Name of the method by which [`solve`] solves a case, in words.
 pub fn method(case: &Case) -> &'static str {
     if has_closed_form(case) {
         sentences::CLOSED_FORM_IN_DOUBLE_DOUBLE

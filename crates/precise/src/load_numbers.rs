@@ -74,7 +74,7 @@ pub(crate) enum LoadNumbers<S> {
 #[derive(Clone, Debug)]
 pub(crate) enum CourseNumbers<S> {
     Constant(S),
-    /// A table, evaluated in doubles, with its derivatives.
+    /// A table, evaluated in doubles. `slopes` has one derivative of the table for each direction of differentiation.
     Table {
         table: Course,
         slopes: Vec<(S, Course)>,

@@ -13,7 +13,8 @@ use super::numbers::CaseNumbers;
 use super::scalar::Scalar;
 use super::vector::Vector;
 
-/// An angular velocity or speed below this fraction of the fastest angular velocity counts as rounding error.
+/// An angular velocity below this fraction of the fastest one counts as rounding error. For the speed of a point, the
+/// fastest angular velocity is multiplied by the mechanism's size.
 const STANDSTILL: f64 = 1e-12;
 
 /// The resultants of all loads on every link, the ground included. `input` is the input of the first drive.
@@ -74,7 +75,8 @@ impl<S: Scalar> Sum<'_, S> {
         self.at.frames.iter().map(|frame| frame.omega.value().abs()).fold(0.0, |a, b| if a < b { b } else { a })
     }
 
-    /// Sense of a speed (1 or -1); 0 if the speed may be a rounding error. `length` is 1 for an angular velocity.
+    /// Sense of a speed (1 or -1); 0 if the speed may be a rounding error. `length` is the mechanism's size for a speed
+    /// in m/s, and 1 for an angular velocity.
     fn sense(&self, speed: S, length: f64) -> f64 {
         let speed = speed.value();
         if speed.abs() > STANDSTILL * self.fastest() * length { speed.signum() } else { 0.0 }

@@ -67,7 +67,7 @@ pub struct Readings<'a, S> {
 }
 
 impl<'a, S: Scalar> Readings<'a, S> {
-    /// The channels of a mechanism.
+    /// A reader of the channels of a mechanism.
     #[must_use]
     pub fn of(whole: Whole<'a, S>) -> Self {
         let mechanism = &whole.case.mechanism;

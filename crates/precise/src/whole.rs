@@ -14,7 +14,8 @@ use super::readings::trajectory;
 use super::scalar::{Scalar, angle_of};
 use super::task::{at_start, check_instants, stuck};
 
-/// Largest rotation of a driving link in one step between requested instants (rad).
+/// Largest change of an input in one step between requested instants: a rotation (rad), or a slide divided by the
+/// mechanism's size.
 const STEP: f64 = std::f64::consts::PI / 180.0;
 /// Limit that replaces the smaller limit [`Scalar::SETTLED`] at steps between requested instants.
 const NEAR: f64 = 1e-10;

@@ -123,7 +123,7 @@ pub struct FigureComparison {
     /// Channels whose bound is now much wider than the accepted bound.
     pub wider: Vec<Wider>,
     /// Channels whose accepted bound is much wider than the bound of the present run.
-    /// An accepted bound of this width would have allowed almost any similar value.
+    /// Within so wide a bound, even a very different value agrees.
     pub looser: Vec<Wider>,
     /// Channels without accepted values.
     pub new: Vec<String>,

@@ -216,7 +216,7 @@ impl Proof {
         self.engine(py, engine)?.trajectory.clone().map(|own| Solution::of(py, own)).transpose()
     }
 
-    /// The largest time step (s) or relative accuracy of all engines.
+    /// The time step (s) or relative accuracy of the engine; of several engines, the largest of these numbers.
     #[getter]
     fn resolution(&self) -> f64 {
         self.inner.engines.iter().map(|own| own.info.settings.resolution).fold(0.0, KeepNan::larger)
@@ -244,7 +244,7 @@ impl Scenario {
     /// `reference`: analytic side whose motion is the reference: "assur" (the default) or "newton".
     /// `step`: time step of the engine in s.
     /// `accuracy`: relative accuracy of an engine that controls its error.
-    /// `sweeps`, `substeps`, `extrapolated`: whole numbers.
+    /// `sweeps`, `substeps`, `extrapolated`: number of sweeps in a step, of substeps in a step, of extrapolations.
     /// `route`: "differences", "native" or "probe".
     /// `budget`: work allowed for the search of settings, in steps.
     /// `memory`: bytes allowed.

@@ -18,7 +18,7 @@ use crate::sweep::texts;
 use crate::table::{Table, TableColumn};
 use crate::task::released;
 
-/// Exact first derivatives of figures by numbers of the file, and tolerance stacks.
+/// Exact first derivatives of figures with respect to numbers of the file, and tolerance stacks.
 #[pyclass(module = "linkproof", frozen)]
 pub(crate) struct Sensitivity {
     name: String,
@@ -42,7 +42,7 @@ fn known(value: f64) -> Option<f64> {
 
 #[pymethods]
 impl Sensitivity {
-    /// One row for each figure and key: the columns of the CSV file of `linkproof sensitivity`.
+    /// One row for each figure and key, with the columns of the CSV file of `linkproof sensitivity`.
     ///
     /// `derivative` is in `figure_unit` per `unit`; it is missing where the figure has a kink. `relative` is the change
     /// of the figure in per cent for one per cent of the key. `figure_value` is in `figure_unit`; `value` and
@@ -123,7 +123,8 @@ impl Sensitivity {
         ])
     }
 
-    /// Usual keys that were left out, each with the part of the file whose derivative by this key is not known.
+    /// Default keys that were left out, each with the part of the file whose derivative with respect to this key is not
+    /// known.
     #[getter]
     fn left_out(&self) -> BTreeMap<String, String> {
         self.found.left_out.iter().cloned().collect()
@@ -145,13 +146,13 @@ impl Sensitivity {
 
 #[pymethods]
 impl Scenario {
-    /// Differentiate figures by numbers of the file, and stack tolerances. The derivatives are exact, not difference
-    /// quotients.
+    /// Differentiate figures with respect to numbers of the file, and stack tolerances. The derivatives are exact, not
+    /// difference quotients.
     ///
     /// `figures`: statistics of quantities, such as "max:joint.A.f_N" or "rms:drive.torque_N_m".
     /// `by`: keys, such as "crank_mm" or "links.crank.mass_kg".
     /// By default, the keys are the parameters that the mechanism uses.
-    /// A mechanism without parameters is differentiated by its dimensions, masses, laws and loads.
+    /// For a mechanism without parameters, the keys are its dimensions, masses, laws and loads.
     /// `tolerances`: a dictionary from keys to the largest deviation in either sense, in the unit of the key.
     /// `samples`: number of random mechanisms within the tolerances, from 10 to 100000.
     /// `seed`: seed of the samples.

@@ -9,7 +9,7 @@ pub enum ChannelSubject {
     Point,
     /// A joint.
     Joint,
-    /// A prismatic joint. A prismatic joint has these rows in addition to the rows that every joint has.
+    /// A prismatic joint: the channels that it has in addition to those of every joint.
     Slider,
     /// A revolute joint with friction.
     Journal,
@@ -104,11 +104,11 @@ pub enum Reading {
     Frame(OfFrame),
     /// A quantity of the first drive, unless it moves a prismatic joint.
     Drive(OfDrive),
-    /// A quantity of a further drive, after the first drive, at a revolute joint.
+    /// A quantity of a drive other than the first, at a revolute joint.
     Motor(OfDrive),
     /// A quantity of the first drive, if it moves a prismatic joint.
     Thrust(OfDrive),
-    /// A quantity of a further drive, after the first drive, at a prismatic joint.
+    /// A quantity of a drive other than the first, at a prismatic joint.
     FurtherThrust(OfDrive),
 }
 

@@ -11,7 +11,8 @@
 //! Let each number of sweeps be r times the previous one, and each difference s times the previous one.
 //!
 //! - If the differences continue to shrink by the factor s, the remaining error is s / (1 - s) times the last
-//!   difference (Aitken). This case is the worst case: differences of a geometric convergence shrink faster and faster.
+//!   difference (Aitken). This is an upper limit, because differences of a geometric convergence shrink faster and
+//!   faster.
 //! - Differences may grow at first: an iteration that has hardly begun changes little from run to run, and s is close
 //!   to r. If one mode dominates the iteration, the remaining error is then at most (r - 1) s / (r - s) times the last
 //!   difference.

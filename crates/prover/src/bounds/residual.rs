@@ -138,8 +138,8 @@ impl Built {
         }
     }
 
-    /// Returns `size`, or the natural size from the case's data for this unit if `size` is only a rounding error of
-    /// that natural size.
+    /// Returns `size`. If `size` is only a rounding error of the natural size that follows from the case's data,
+    /// returns that natural size instead.
     pub(crate) fn unless(&self, size: f64, unit: Unit) -> f64 {
         let own = self.of(unit, 1.0);
         if size <= VANISHING * own { own } else { size }
@@ -341,7 +341,7 @@ mod tests {
         let all = trajectory(&[("joint.A.fx_N", vec![2e9, -1e9]), ("frame.fx_N", vec![3.0, 4.0])]);
         assert_eq!(magnitudes(&all), [2e9, 2e9]);
         assert_eq!(magnitudes_by(&all, &[0, 0], &|_, _| true), [2e9, 2e9]);
-        // The magnitudes of channels in a second set count only if the channel's set is computed from the second set.
+        // The magnitudes of another set count for a channel only if the channel's set is computed from that set.
         assert_eq!(magnitudes_by(&all, &[0, 1], &|from, to| from == to), [2e9, 4.0]);
         assert_eq!(magnitudes_by(&all, &[0, 1], &|from, to| from <= to), [2e9, 2e9]);
         // The scale of the channel, however, is half the channel's own range.

@@ -162,14 +162,14 @@ impl Verdict {
 
 /// If a bound is below this fraction of the widest conclusive bound, no order of convergence is required.
 /// Below this limit, runs at three steps differ so little that rounding or the last iterations determine the order.
-/// Below this limit, the discretisation part of the bound is six to ten times the larger difference between two of the
-/// three runs.
+/// The bound is reliable nevertheless: without an order, its discretisation part is six to ten times the larger
+/// difference between two of the three runs.
 const NEGLIGIBLE: f64 = 0.1;
 /// A number disagrees with a bound that is too wide to prove agreement only if the number exceeds this multiple of the
 /// bound. The factor equals the larger safety factor of the estimate, which is applied a second time.
 const DISPROVEN: f64 = 3.0;
 
-/// Text about the largest part of an engine's error, which is appended to a reason, and advice on how to reduce this
+/// Text that names the largest part of an engine's error, for the end of a reason, and advice on how to reduce this
 /// part.
 fn way_out(parts: Parts) -> (&'static str, Vec<Advice>) {
     match parts.largest() {

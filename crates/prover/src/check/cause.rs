@@ -28,9 +28,9 @@ pub enum FormulaCause {
     Offset(f64),
     /// Constant ratio of the formula's value to the mechanism's value.
     Factor(f64),
-    /// A term or factor of the derivation is missing.
+    /// A term or factor of inputs, parameters and earlier formulas is missing.
     Missing(Missing),
-    /// Terms of the mechanism are missing from the formula.
+    /// Terms of quantities of the mechanism are missing, such as the angular velocity of a link.
     Terms(Vec<Term>),
     /// The formula is right up to a value of the input. Beyond this value the formula follows a wrong branch.
     Leaves {
@@ -249,8 +249,8 @@ fn sought(trial: &mut Trial, claim: &Claim, course: &KnownTrajectory) -> Option<
     // match only one number. The match is then weak evidence.
     let is_weak = trial.is_constant() || trial.is_number;
     if let Some(first) = sound.first().copied() {
-        // Stronger evidence than a matching number is a wrong sign, a wrong unit, or units that only the correction
-        // makes consistent.
+        // A wrong sign, a wrong unit, or units that only the correction makes consistent are stronger evidence than a
+        // matching number.
         let own = formulas.list[trial.index].tree.clone();
         let is_natural = match first.slip.kind {
             SlipKind::Sign | SlipKind::Branch | SlipKind::PerRadian | SlipKind::PerSecond => true,

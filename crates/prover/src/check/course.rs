@@ -8,7 +8,7 @@ use linkage::math::KeepNan;
 use linkage::trajectory::{Channel, OfJoint, OfLink, OfPoint, Reading, Trajectory};
 use scenario::{Claim, Formula, MechanismFigure, PrintedChannel};
 
-/// Columns of a trajectory, each with the sign of its summand in the input.
+/// Columns of a trajectory, each with a sign. Their signed sum is the input, or one of its derivatives.
 type InputColumns = Vec<(usize, f64)>;
 
 /// A side's trajectory with the error of every value, by column and row (SI units).
@@ -23,7 +23,7 @@ pub struct KnownTrajectory<'a> {
     /// Columns of the input in a motion that forces determine. The input then has an integration error. `None` in a
     /// prescribed motion, and if a column is missing.
     angle: Option<InputColumns>,
-    /// Values of the whole mechanism, in SI units.
+    /// Figures of the whole mechanism, such as its mean reduced moment of inertia, in SI units.
     figures: &'a [(MechanismFigure, Rounded)],
     /// Smallest error assumed for every channel, in its SI unit; empty for no lower limit.
     least: &'a [f64],

@@ -198,7 +198,7 @@ impl Candidate {
 }
 
 /// Whether a number alone proves that a product is missing.
-/// Few products with the same unit may match the number by chance.
+/// It does so only if hardly any other product with the same unit is expected to match the number by chance.
 /// The product fits at several positions if the formula is wrong by a constant factor or offset, or if the mechanism's
 /// value is constant. `places` is then the number of these positions, otherwise `None`.
 fn is_believed(

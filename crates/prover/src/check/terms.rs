@@ -1,6 +1,6 @@
 //! Finds terms that a wrong formula lacks, by least squares over quantities of the mechanism.
-//! The quantities are functions of the crank angle, the time, and the links' angles and rates, and the velocities and
-//! accelerations of points.
+//! The quantities are velocities and accelerations of points, and functions of the time, the crank angle, and the
+//! angles and rates of links.
 
 mod squares;
 

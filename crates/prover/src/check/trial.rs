@@ -34,8 +34,8 @@ pub(super) struct Trial<'a> {
     /// Input values of the formulas at every instant. `pairs` holds the values of formula and mechanism.
     inputs: Vec<[Rounded; 4]>,
     pub(super) pairs: Vec<Pair>,
-    /// Selected instants. The selection has more instants than the first and the last, because many values are zero at
-    /// these two instants.
+    /// Selected instants: some with equal spacing, and the instant with the largest error. The first of them is not the
+    /// start of a long run, because many values are zero at the start.
     pub(super) few: Vec<usize>,
     /// The derivation, evaluated at the instants of `few`.
     pub(super) sheet: DerivationSheet,

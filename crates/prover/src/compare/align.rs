@@ -246,7 +246,7 @@ mod tests {
         let at: Vec<f64> = (0..20).map(f64::from).collect();
         let values: Vec<Rounded> = at.iter().map(|&at| Rounded { value: at, error: 1e-6 }).collect();
         // Midway between two rows the weights are -1/16, 9/16, 9/16 and -1/16.
-        // The absolute weights add up to 5/4. Equal errors of the four rows are therefore multiplied by up to 5/4.
+        // The absolute weights add up to 5/4. Equal errors of the four rows are therefore multiplied by 5/4.
         let found = Course::new(&at, &values, None).value(9.5);
         assert!((found.error - 1.25e-6).abs() < 1e-12, "{found:?}");
     }

@@ -147,7 +147,7 @@ impl Allowances<'_> {
     }
 }
 
-/// Allowed difference by all allowances in `own`, with absolute allowances in `unit`.
+/// Allowed difference by all allowances in `own`. `unit` is the size of the unit of absolute allowances.
 /// If several allowances are of the same kind, the last one counts.
 fn allowance<'a>(own: impl Iterator<Item = &'a Allowed>, scale: f64, unit: f64) -> Option<Allowance> {
     let mut sizes: [Option<f64>; 3] = [None; 3];

@@ -153,7 +153,7 @@ pub(super) struct Drift {
 }
 
 /// The largest change of every claim within the rounding of the instants: see [`shifted`].
-/// If the scenario cannot be solved within this rounding, the change is estimated from neighbouring rows.
+/// If the scenario cannot be solved at the shifted instants, the change is estimated from neighbouring rows.
 pub(super) fn drift(solved: &Solved, columns: &[PartyColumn], at: &RowKey, rows: &[usize]) -> Drift {
     let trajectory = solved.trajectory();
     let mut slack = vec![0.0; trajectory.times().len()];

@@ -122,7 +122,8 @@ impl Compared {
 
 /// Whether a cause may be named although a difference remains.
 /// A fitted number of the case may not be named, because the meaning of the number is unclear if a difference remains.
-/// The start angle of a drive is an exception: at constant speed, a rotated drive resembles late rows.
+/// The start angle of a drive is an exception: at constant speed, it has the same effect as late rows, which may be
+/// named.
 /// Numerical derivatives may not be named, because they resemble values that are late by half a row.
 /// A single wrong row may not be named.
 fn may_leave(cause: &DisagreementCause) -> bool {
@@ -137,8 +138,8 @@ fn may_leave(cause: &DisagreementCause) -> bool {
     }
 }
 
-/// Adds whole revolutions to angles, because many programs print angles without whole revolutions. Afterwards a right
-/// angle lies near the reference, and a wrong wrapped angle continues without jumps.
+/// Adds whole revolutions to angles, because many programs print angles without whole revolutions. Afterwards the
+/// angles of an agreeing channel lie near the reference, and those of a disagreeing channel continue without jumps.
 fn unwrap(values: &mut [f64], right: &[f64], is_right: bool) {
     let is_wrapped = |own: &[f64]| half_range(own) <= PI * (1.0 + 1e-9);
     if !is_right && !is_wrapped(values) {
@@ -161,8 +162,8 @@ fn unwrap(values: &mut [f64], right: &[f64], is_right: bool) {
 /// Smallest number of rows among which a single wrong row is sought.
 const FEWEST: usize = 8;
 
-/// A single wrong row is not sought in so many rows, because the search would take several times as long as the rest of
-/// the examination.
+/// A single wrong row is not sought in this many rows or more, because the search would take several times as long as
+/// the rest of the examination.
 const MOST_ROWS: usize = 20_000;
 
 /// Data for the search for causes. Only rows at which all channels have numbers are included.
@@ -204,8 +205,8 @@ impl Stage {
             }
             names.push(printed.channel.clone());
             columns.push(rows.iter().map(|&row| printed.to_si(values[row].value)).collect::<Vec<f64>>());
-            // A cause is judged by a single bound for each channel. A tighter bound, from numbers with more digits,
-            // would reject right causes.
+            // A cause is judged by a single bound for each channel, usually the loosest bound of its numbers. A tighter
+            // bound, from numbers with more digits, would reject right causes.
             let largest = own.largest.map_or(0.0, |at| at.difference.abs());
             let bound = if largest > own.loosest { own.loosest } else { own.worst.map_or(0.0, |worst| worst.bound) };
             bounds.push((own.claim.text.clone(), printed.to_si(bound), own.since.is_none()));

@@ -164,8 +164,8 @@ impl<'a> Bench<'a> {
     }
 
     /// Sum of the changes that a hypothesis makes to agreeing channels, each divided by its bound.
-    /// Of several hypotheses that explain the same number of channels, the hypothesis with the smallest sum is the
-    /// simplest.
+    /// Of several hypotheses that have the same rank and explain the same number of channels, the hypothesis with the
+    /// smallest sum is preferred.
     pub(super) fn claim(&self, start: &Misfit, misfit: &Misfit) -> f64 {
         let changes = self.by_column(&misfit.plus(-1.0, start));
         self.columns.iter().zip(changes).filter(|(column, _)| !column.disagrees).map(|(_, change)| change).sum()
@@ -235,7 +235,7 @@ fn in_order(mut rows: Vec<usize>) -> Vec<usize> {
 mod tests {
     use super::Misfit;
 
-    /// The expected ranges were computed by hand from -1 <= own + amount effect <= 1 for every value.
+    /// The expected ranges were computed by hand from -1 <= own + amount * effect <= 1 for every value.
     #[test]
     fn amounts_of_an_effect_keep_all_values_within_bounds() {
         for (own, effect, wanted) in [

@@ -77,7 +77,7 @@ pub enum DataSlip {
     Opposite(Channel),
     /// The magnitude of a vector instead of one of its components. The variant contains both components.
     Magnitude([Channel; 2]),
-    /// Differences of another channel's values between rows, in place of the channel's first or second derivative.
+    /// A numerical derivative of another channel, from differences between rows, in place of the exact derivative.
     Differences {
         /// The channel that is differentiated.
         of: Channel,

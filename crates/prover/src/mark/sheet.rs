@@ -23,8 +23,8 @@ pub struct AnswerSheet {
     pub columns: Vec<AskedColumn>,
     /// The right answers in the printed units: position by position, quantity by quantity.
     pub right: Vec<Vec<f64>>,
-    /// Requested number of decimals of each quantity. The number gives the largest value at least the requested number
-    /// of significant digits.
+    /// Requested number of decimals of each quantity. With these decimals, the largest value has at least the requested
+    /// number of significant digits.
     pub decimals: Vec<i32>,
     /// The state of the mechanism at each position.
     pub(super) states: Vec<State>,

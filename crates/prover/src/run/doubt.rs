@@ -22,8 +22,8 @@ use super::runs::Runs;
 /// Within this number of steps on either side of a jump, an engine's values are doubtful. The steps are those of the
 /// coarsest judged run.
 const STEPS: f64 = 8.0;
-/// Number of steps instead of `STEPS` for impulses of a free motion. Impulses are computed from six steps, one step
-/// late.
+/// Number of steps instead of `STEPS` for impulses of a free motion. Impulses are interpolated from six steps, and are
+/// one step late.
 const IMPULSES: f64 = 5.0;
 /// Number of steps instead of `STEPS` for a prescribed motion with extrapolated impulses. The instants at which a load
 /// jumps differ between the runs by at most this fraction of a step, because the velocities differ by about h^2 / 12
@@ -221,8 +221,8 @@ mod tests {
     }
 
     /// A pendulum with friction, released from rest, reverses twice in three seconds.
-    /// Impulses are computed from six steps, one step late. Five of the longest steps (11 ms) are therefore doubtful on
-    /// either side of each reversal.
+    /// Impulses are interpolated from six steps, and are one step late. Five of the longest steps (11 ms) are therefore
+    /// doubtful on either side of each reversal.
     /// If forces come from second differences, 17.6 ms are doubtful on either side of each reversal.
     #[test]
     fn only_forces_beside_a_reversal_of_free_motion_are_left_out() {

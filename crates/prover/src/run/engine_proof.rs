@@ -61,8 +61,8 @@ pub struct ChannelProof {
     /// For a free motion, the sensitivity to forces: largest change of the channel over the run, divided by the
     /// channel's scale and by the relative change of gravity and motor torque.
     pub sensitivity: Option<f64>,
-    /// Number of instants that are not judged. Three reasons exist: a drive or a loaded link reverses and the channel
-    /// jumps, the mechanism passes a change point, or a free motion begins.
+    /// Number of instants that are not judged, because the channel jumps near the instant, the mechanism passes a
+    /// change point, or a free motion begins.
     pub left_out: usize,
     /// Basis of the bound.
     pub basis: BoundBasis,

@@ -90,7 +90,7 @@ struct Stand<'a> {
     ladder: Ladder<'a>,
     reference: &'a Trajectory,
     left_out: usize,
-    /// Rounding errors of the single and of the finest run, by kind of channel.
+    /// Rounding errors of the runs of `engine` and of `finest`, by kind of channel.
     noise: Vec<(&'static ChannelKind, [f64; 2])>,
 }
 

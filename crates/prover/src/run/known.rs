@@ -19,8 +19,8 @@ use linkage::solver::{Solver, State};
 use linkage::trajectory::{Channel, Stage, Trajectory, Unit};
 
 /// Relative error assumed for an analytic side in well-conditioned poses. The value is chosen, not measured.
-/// Each derivative, and each linear solve for forces, multiplies the rounding error of its input by the condition
-/// number of the pose. In well-conditioned poses the condition number is at most some tens.
+/// The error grows from positions to forces, because derivatives and the solution for forces multiply rounding errors
+/// by the condition number of the pose. In well-conditioned poses the condition number is at most some tens.
 pub(super) fn usual(stage: Stage) -> f64 {
     match stage {
         Stage::Positions => 1e-12,
@@ -42,8 +42,8 @@ fn power(stage: Stage) -> i32 {
 const ULPS: f64 = 16.0;
 
 /// Factor on the difference between a side's run and its run with a tighter tolerance: the product is the assumed
-/// integration error. A factor is needed because the tighter run also has an error. A ratio of 3.2 was measured with
-/// steps that crossed knots of a load's table; now the integrator's steps end at knots.
+/// integration error. A factor is needed because the tighter run also has an error. Errors of 3.2 times the difference
+/// were measured with steps that crossed knots of a load's table; now the integrator's steps end at knots.
 const SAFETY: f64 = 4.0;
 
 /// Relative rounding error of a stage in a pose of this condition number.
@@ -316,7 +316,8 @@ mod tests {
         assert!(seen > 10, "{seen} channels have an error of their integration");
     }
 
-    /// Each derivative, and the solution for forces, divides the result by the determinant of the pose once more.
+    /// Each derivative multiplies the rounding error by the condition number once more. Forces have the power of
+    /// accelerations.
     #[test]
     fn rounding_grows_with_a_power_of_the_condition() {
         let grown = Stage::ALL.map(|stage| of_condition(stage, 2e3) / of_condition(stage, 1e3));

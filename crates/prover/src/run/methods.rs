@@ -71,7 +71,7 @@ impl Worst {
     }
 }
 
-/// One group with the methods that are checked on it.
+/// One group, and the methods by which the reference is checked on it.
 struct Watch {
     triad: Triad,
     scales: [f64; 4],

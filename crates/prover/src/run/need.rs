@@ -58,7 +58,7 @@ impl Need {
     }
 }
 
-/// Sweeps and step are both to blame for a bound if the sweeps cause at most this fraction of the bound.
+/// If the sweeps cause the largest part of a bound, but at most this fraction of the bound, the step is to blame too.
 const SHARED: f64 = 0.8;
 
 /// Cause of the largest bound.
@@ -150,8 +150,8 @@ const MOST_VAGUE: usize = 2;
 const BRINGS: f64 = 0.7;
 /// If more sweeps reduce the bound to at most this fraction, the additional sweeps are worth their work.
 const HELPS: f64 = 0.5;
-/// Rounding is to blame if half the step at least doubles the bound in this number of consecutive rounds. The rounding
-/// part of the bound may then be small.
+/// Rounding is to blame if half the step at least doubles the bound in this number of consecutive rounds, even if the
+/// rounding part of the bound is small.
 const MOST_WIDER: usize = 2;
 /// Number of rounds that must pass before more sweeps are tried again after more sweeps have helped little.
 const PATIENCE: usize = 3;

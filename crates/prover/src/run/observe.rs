@@ -164,8 +164,8 @@ pub(super) fn observe(
             (*opening, reach) = (own, reach.larger(far));
         }
         if with_power {
-            // A crank at rest has no power. If the crank's speed changes, powers are therefore compared instead of
-            // moments. After the run, the powers are divided by the top speed.
+            // At a crank at rest, no moment follows from a power. If the crank's speed changes, powers are therefore
+            // compared instead of moments. After the run, the powers are divided by the top speed.
             (power[row], torque[row]) = match steady {
                 true => (power::balancing_moment(case, state), reduced_torque(case, state)),
                 false => (-power::of_known_forces(case, state), state.drive_power(case)),
@@ -250,8 +250,9 @@ fn beside(crank: f64, [jump, period]: [f64; 2]) -> Vec2 {
     unit(PI * share) * (period * share.smaller(1.0 - share))
 }
 
-/// Part of the force (N) and of the moment about the origin (N m) that does not follow from a state. A load on a link
-/// or point at rest already opposes the motion that begins, but in the state all velocities are still zero.
+/// Largest part of the shaking force (N) and of the shaking moment about the origin (N m) that the state does not
+/// determine. A load on a link or point at rest already opposes the motion that begins, but in the state all velocities
+/// are still zero.
 fn open(case: &Case, state: &State, crank: f64) -> [f64; 2] {
     let mut open = [0.0; 2];
     let of_state =

@@ -155,8 +155,8 @@ impl Found {
         if used.is_nan() { f64::INFINITY } else { used }
     }
 
-    /// Whether a significant deviation is within the bound, although the deviation may be due to the rounded instant
-    /// only.
+    /// Whether the deviation is within the bound, but both the deviation and the part of the bound from the rounded
+    /// instant are significant. Such a number proves nothing.
     fn is_open(&self) -> bool {
         self.used() <= 1.0 && self.deviation.smaller(self.instant) > TELLING * self.scale
     }

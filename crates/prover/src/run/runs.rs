@@ -18,9 +18,9 @@ use linkage::work::limited;
 
 /// The runs that judge an engine at some settings.
 pub(super) struct Runs {
-    /// Runs at double, single and half the resolution.
+    /// Runs at double, single and half the step (or accuracy), the coarsest run first.
     pub(super) resolutions: [Arc<Observed>; 3],
-    /// Runs at the single resolution, with other numbers of sweeps than the judged run.
+    /// Runs at the single step, with other numbers of sweeps than the judged run.
     pub(super) other_sweeps: OtherSweeps<Arc<Observed>>,
 }
 
@@ -138,8 +138,8 @@ impl<'a> Bank<'a> {
         Ok(seen)
     }
 
-    /// The runs that judge the engine at `settings`: the runs at double, single and half the resolution, and the runs
-    /// with the numbers of sweeps `others` (at most two numbers).
+    /// The runs that judge the engine at `settings`: the runs at double, single and half the step (or accuracy), and
+    /// the runs with the numbers of sweeps `others` (at most two numbers).
     pub(super) fn runs(&mut self, settings: Settings, others: &[usize], progress: Progress) -> Result<Runs, Stopped> {
         let rungs = rungs(settings, others);
         self.keep_few(&rungs);
@@ -167,8 +167,8 @@ impl<'a> Bank<'a> {
     }
 }
 
-/// Settings of the runs that judge an engine at `settings`: first the single resolution, then the half and the double
-/// resolution, then the other numbers of sweeps.
+/// Settings of the runs that judge an engine at `settings`: first with the single step (or accuracy), then with the
+/// half and the double step, then with the other numbers of sweeps.
 pub(super) fn rungs(settings: Settings, others: &[usize]) -> Vec<Settings> {
     let at = |factor: f64| Settings { resolution: settings.resolution * factor, ..settings };
     let other = others.iter().map(|&sweeps| Settings { sweeps, ..settings });

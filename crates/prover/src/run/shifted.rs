@@ -15,8 +15,8 @@ use scenario::{OraclePoint, When, within};
 /// The known errors of the analytic sides cover an error of this size.
 const EXACT: f64 = 4.0;
 /// Shifts of the instants at which the case is solved, as fractions of the rounding error of the instant.
-/// If the values form a parabola over the interval, these two ends suffice, even if the vertex of the parabola lies
-/// between them.
+/// If the values form a parabola over the interval, the largest change occurs at one of these two ends, even if the
+/// vertex of the parabola lies between them.
 const ENDS: [f64; 2] = [-1.0, 1.0];
 /// If the crank rotates by more than `FAR` (rad) between an instant and an end of its rounding interval, the case is
 /// also solved at `BETWEEN`.

@@ -130,7 +130,7 @@ struct Sandbox {
 }
 
 impl Sandbox {
-    /// Makes the world, with the velocities that the window has at t - h.
+    /// Makes the world, with the velocities at t - h: t is the time of the middle pose, and h is the tiny step.
     fn new(middle: &Middle, tiny: &TinyStep, sweeps: usize) -> Sandbox {
         let mut world = PhysicsWorld::new();
         world.gravity = Vector::ZERO;
@@ -166,9 +166,9 @@ impl Sandbox {
     fn step(&mut self, middle: &Middle, tiny: &TinyStep) -> Result<Vec<JointReaction>, ReactionError> {
         let before = placements(middle, -tiny.step);
         self.drive(middle, &middle.snapshot.model.stances(&before), -tiny.step);
-        // The velocities of the window violate the joints only by the errors of second differences. One step is
-        // therefore enough to make them consistent. This step also adds the acceleration of each free coordinate times
-        // h to the velocity at t - h, for both tiny steps of the probe.
+        // The velocities at t - h are computed from the poses of the window by differences. They satisfy the joints up
+        // to the small error of these differences, so one step is enough to make them consistent. This step also adds
+        // the acceleration of each free coordinate times h to the velocity at t - h, for both tiny steps of the probe.
         self.place(&before);
         self.world.step();
         let now = placements(middle, 0.0);

@@ -1,5 +1,5 @@
-//! Dictionary of terms and factors that may be missing in a derivation: steps, sines and cosines of angles, and
-//! products of such expressions.
+//! Dictionary of terms and factors that may be missing in a derivation: steps (earlier formulas), sines and cosines of
+//! angles, and products of such expressions.
 
 use crate::check::slips::{at_every_place, with_parts};
 use crate::check::trial::Trial;

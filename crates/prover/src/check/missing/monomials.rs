@@ -100,7 +100,7 @@ fn calls(formulas: &Formulas, formula: usize) -> Vec<(FormulaTree, f64)> {
     };
     for own in &formulas.list[..=formula] {
         crate::check::slips::at_every_place(&own.tree, &mut |_, part| {
-            // Only a name is accepted as argument, because a longer argument is not an angle of a drawing.
+            // Only a name is accepted as argument, because each angle given in a drawing is a single parameter.
             if let NodeShape::Call(Function::Sin | Function::Cos, arguments) = &part.shape
                 && matches!(arguments[0].shape, NodeShape::Name(_))
             {

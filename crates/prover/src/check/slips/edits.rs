@@ -36,8 +36,8 @@ fn is_unit(value: f64) -> bool {
     GRAVITY.contains(&value) || [1e3, 1e6, 1e-3, 1e-6, 30.0, 60.0, 90.0, 180.0, 270.0, 360.0, 3600.0].contains(&value)
 }
 
-/// If the subexpression is the key of a parameter, which denotes the number in the unit of the file, returns the name
-/// of the quantity.
+/// If the subexpression is the key of a parameter, such as `r_mm` (the number in the file), returns the name of the
+/// quantity in SI units, such as `r`.
 fn quantity<'a>(part: &FormulaTree, parameters: &'a [Parameter]) -> Option<&'a str> {
     let NodeShape::Name(own) = &part.shape else { return None };
     parameters.iter().find(|parameter| parameter.key == *own).and_then(Parameter::short)
@@ -81,8 +81,8 @@ fn rename(tree: &mut FormulaTree, [one, other]: [&str; 2]) {
 }
 
 /// The subexpression with other parentheses and the same order of symbols. Only groupings that the table of rules
-/// (`rules.rs`) cannot express are returned:
-/// a*b + c + d for a*(b + c + d), a/b + c for a/(b + c), sin(a) + b for sin(a + b), sin(a^2) for sin(a)^2.
+/// (`rules.rs`) cannot express are returned, here as written => returned:
+/// a*b + c + d => a*(b + c + d), a/b + c => a/(b + c), sin(a) + b => sin(a + b), sin(a^2) => sin(a)^2.
 fn regrouped(part: &FormulaTree) -> Option<FormulaTree> {
     let first = first_of(part);
     match (&part.shape, &first.shape) {

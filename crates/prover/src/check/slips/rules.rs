@@ -12,8 +12,9 @@ use scenario::formula::OMEGA;
 /// Letters of the written form:
 /// `a`, `b` and `c` are any subexpressions. `n` is a number. `q` is any subexpression except a number or pi. `u` is
 /// any subexpression except a number, pi or a function call. `t` contains the crank angle or the time outside function
-/// calls; multiples of `t` may change by whole revolutions from instant to instant. `r` is any subexpression except a
-/// number, pi or a `t`. `g` is an `r` in a file without a parameter in m/s^2; gravity is then written as a number.
+/// calls. Few factors are tried for `t`: its product with a factor can equal an angle by chance, up to whole
+/// revolutions. `r` is any subexpression except a number, pi or a `t`. `g` is an `r` in a file without a parameter in
+/// m/s^2; gravity is then written as a number.
 /// `w` is the crank's angular velocity.
 const RULES: [(SlipKind, &str); 52] = [
     (SlipKind::Sign, "a + b => a - b"),

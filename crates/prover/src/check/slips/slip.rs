@@ -64,7 +64,7 @@ linkage::words! {
 /// Order of slips. The simplest slip has the smallest rank.
 /// The rank has four entries: whether the units contradict the correction, whether the slip occurs at many positions,
 /// whether the slip is in a step, and the kind of slip.
-/// For a wrong value, the second entry is true if the digits of the value are not confused.
+/// For a wrong value, the second entry is true unless digits of the value were exchanged, lost, added or doubled.
 type Rank = (bool, bool, bool, SlipKind);
 
 /// A slip and the effect of its correction.

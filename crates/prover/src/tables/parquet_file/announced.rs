@@ -149,7 +149,8 @@ pub(super) fn check_pages(file: &File, rows: u64, column: &ColumnChunkMetaData) 
         }
         let mut body = from.by_ref().take(stored);
         let unpacked = match column.compression() {
-            // Only gzip data is unpacked to measure its size, because only gzip unpacks more than requested.
+            // Only gzip data is unpacked to measure its size, because only the unpacking of gzip does not stop at the
+            // size that the header states.
             Compression::GZIP(_) => io::copy(&mut MultiGzDecoder::new(&mut body).take(held + 1), &mut io::sink())?,
             Compression::UNCOMPRESSED | Compression::SNAPPY | Compression::ZSTD(_) => 0,
             Compression::BROTLI(_) | Compression::LZ4 | Compression::LZ4_RAW | Compression::LZO => 0,
