@@ -48,7 +48,7 @@ pub struct Rapier {
 impl Rapier {
     /// Solver sweeps per step.
     /// With 256 sweeps, velocities of random chains of three dyads keep a first-order error.
-    /// A finer step does not reveal this error.
+    /// Differences between runs do not reveal this error, because it cancels in them (docs/findings.md).
     /// With 512 sweeps, one channel in a hundred keeps this error; with 1024 sweeps, no tested channel keeps it.
     pub const SWEEPS: usize = 1024;
     /// Sweeps per step of the impulse build, where errors propagate along the chain joint by joint.
