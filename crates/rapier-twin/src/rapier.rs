@@ -66,7 +66,7 @@ impl Rapier {
         Rapier { build, precision, settings: Settings { resolution: step, sweeps, substeps, route, extrapolated: 0 } }
     }
 
-    /// An engine with the build and precision of this engine, with the given settings, and without extrapolation.
+    /// This engine with the given settings, but without extrapolation.
     pub fn set(&self, settings: Settings) -> Self {
         Rapier { settings: Settings { extrapolated: 0, ..settings }, ..*self }
     }
