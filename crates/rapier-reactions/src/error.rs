@@ -11,7 +11,7 @@ pub enum ReactionError {
     Unsupported(String, &'static str),
     /// Fewer than three poses have been pushed since the joints last changed. The field is the number of poses.
     TooFewPoses(usize),
-    /// Bodies or joints were added, removed or switched between the two calls.
+    /// Bodies or joints were added, removed or switched since `ImpulseReader::before_step`, or it was not called.
     Changed,
     /// The equations do not determine the forces of these joints.
     NotDetermined(Vec<String>),

@@ -45,7 +45,7 @@ pub(crate) struct Stance {
     pub(crate) rows: JointRows,
     /// Origin of joint frame 2, where the force on body 2 acts (m).
     pub(crate) point: Vec2,
-    /// Distance by which the locked coordinates are violated (m), without the rotation.
+    /// Distance by which the locked translations are violated (m).
     pub(crate) gap: f64,
     /// Sine of the angle by which a locked rotation is violated.
     pub(crate) twist: f64,

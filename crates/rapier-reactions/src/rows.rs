@@ -85,8 +85,8 @@ impl JointRows {
     ///
     /// Rapier's modified Gram-Schmidt method (`JointConstraintHelper::finalize_constraints` in version 0.36.1) replaces
     /// the row c_i by c_i - sum over j of k_ij c_j, in the metric of the inverse masses.
-    /// The sum of lambda_i c_i is the impulse, so lambda_j decreases by k_ij lambda_i, from the last row back to the
-    /// first.
+    /// The impulse, the sum of lambda_i c_i, is the same for the original rows, so each lambda_j decreases by
+    /// k_ij lambda_i. This is computed from the last row back to the first.
     /// The linear parts of the rows along x and y are orthogonal; only their levers change.
     fn undone(&self, joint_type: JointType, mut rows: [f64; 3], inverse: [[f64; 2]; 2]) -> [f64; 3] {
         let turning =

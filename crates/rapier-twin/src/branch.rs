@@ -58,8 +58,8 @@ impl Branches {
         Branches { groups: case.structure.groups.ids().map(of).collect() }
     }
 
-    /// Checks that all groups of a state at `t` (s) are on their start branches. If the crank passes change points, it
-    /// checks instead that the groups have passed these points smoothly. Free motions are not checked.
+    /// Checks that all groups of a state at `t` (s) are on their start branches. If the crank passes change points, the
+    /// groups must instead have passed these points smoothly. Free motions are not checked.
     ///
     /// # Errors
     /// [`ErrorKind::Numeric`] if a group has changed its branch.

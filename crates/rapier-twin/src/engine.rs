@@ -103,7 +103,7 @@ impl Engine for Rapier {
     }
 
     fn told(&self) -> Vec<(&'static str, String)> {
-        // Three settings are not listed here: the engine's name states the resolution, and `how` states the route.
+        // Three settings are not listed here: reports state the step size separately, and `how` states the route.
         // `Extrapolated`, which combines runs of this engine, lists the extrapolation.
         let Settings { resolution: _, sweeps, substeps, route: _, extrapolated: _ } = self.settings;
         let build = match self.build {

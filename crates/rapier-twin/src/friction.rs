@@ -97,7 +97,7 @@ impl InverseDynamics {
     }
 
     /// Newton's method for the normal forces, starting from their present values. Returns whether the method has
-    /// converged.
+    /// converged to normal forces that are not negative.
     fn find(&mut self, case: &Case, state: &mut State, t: f64, sense: &dyn Fn(usize) -> f64) -> Result<bool> {
         let (n, mut last) = (self.normals.len(), f64::INFINITY);
         for _ in 0..MOST {

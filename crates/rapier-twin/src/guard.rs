@@ -140,7 +140,7 @@ impl<'a> Guard<'a> {
         }
     }
 
-    /// Sets the loads on all links from a state.
+    /// Sets the loads of the case that act on all links in a state.
     pub(super) fn load(&mut self, state: &State) {
         if self.case.loads.is_empty() {
             return;

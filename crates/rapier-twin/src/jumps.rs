@@ -2,7 +2,7 @@
 //!
 //! If a table jumps within a step, the load of the step is the mean of the values before and after the jump, weighted
 //! by the fractions of the step.
-//! Without the weights, the error of the motion after the jump would not fall regularly with the step.
+//! Without the weights, the error of the motion after the jump would have no clear order of convergence.
 
 use linkage::case::Case;
 use linkage::drive::InputState;

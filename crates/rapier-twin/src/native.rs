@@ -1,5 +1,5 @@
 //! Reactions and moments as the engine reports them during the run.
-//! The contribution of loads is added afterwards by the Newton-Euler equations.
+//! In a prescribed motion, the contribution of loads is added afterwards by the Newton-Euler equations.
 //! The reason is that loads jump where a link reverses, and a jump cannot be interpolated between steps.
 
 use super::ghost::Ghost;
@@ -50,9 +50,8 @@ impl Native {
         let width = 3 * case.mechanism.joints().len() + case.mechanism.transmissions().len() + case.drives.len();
         let reporters = reporters(case, &cuts);
         // In a free motion, the first reported step is step 1.
-        // If bodies move at the start, the impulses of the first steps are incomplete, so these steps are left out.
-        // The first steps use velocities along the constraints of the present pose.
-        // Later steps use velocities along the constraints of the previous pose.
+        // The impulses of the first steps are incomplete, so these steps are left out: they begin with velocities along
+        // the constraints of the present pose, later steps with velocities along the constraints of the previous pose.
         let lowest = if case.is_free() { 3 + first_steps(case, plain) } else { i64::MIN / 2 };
         let (step, late) = (settings.resolution, LATE / settings.substeps as f64);
         let (ring, ghost, row) = (Ring::new(width, start), Ghost::of(case, !case.is_free()), vec![0.0; width]);

@@ -48,7 +48,7 @@ pub struct Rapier {
 impl Rapier {
     /// Solver sweeps per step.
     /// With 256 sweeps, velocities of random chains of three dyads keep a first-order error.
-    /// A finer step does not reveal this error.
+    /// Differences between runs do not reveal this error, because it cancels in them (docs/findings.md).
     /// With 512 sweeps, one channel in a hundred keeps this error; with 1024 sweeps, no tested channel keeps it.
     pub const SWEEPS: usize = 1024;
     /// Sweeps per step of the impulse build, where errors propagate along the chain joint by joint.
@@ -66,7 +66,7 @@ impl Rapier {
         Rapier { build, precision, settings: Settings { resolution: step, sweeps, substeps, route, extrapolated: 0 } }
     }
 
-    /// An engine with the build and precision of this engine, with the given settings, and without extrapolation.
+    /// This engine with the given settings, but without extrapolation.
     pub fn set(&self, settings: Settings) -> Self {
         Rapier { settings: Settings { extrapolated: 0, ..settings }, ..*self }
     }

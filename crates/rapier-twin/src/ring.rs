@@ -5,7 +5,7 @@ use std::ops::Range;
 use linkage::math::interpolate::{POINTS, lagrange_weights};
 
 /// Number of stored steps. The interpolation needs six steps, and second differences need one more step at either end.
-/// The other steps are for reactions that the engine reports up to two steps late, and for the first steps of a free
+/// The other steps are for reactions, which the engine reports up to one step late, and for the first steps of a free
 /// motion.
 pub(super) const NODES: usize = POINTS + 8;
 
@@ -34,7 +34,7 @@ impl Place {
         self.before - 2
     }
 
-    /// This instant. If the instant lies before step `lowest`, the result is step `lowest` with a negative fraction.
+    /// The same instant. If it lies before step `lowest`, it is counted from step `lowest`, with a negative fraction.
     pub(super) fn from(self, lowest: i64) -> Self {
         let before = self.before.max(lowest);
         Place { before, share: self.share + (self.before - before) as f64 }

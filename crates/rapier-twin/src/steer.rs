@@ -5,17 +5,18 @@
 //! convergence.
 //! Consider the line from a link's pin in the tree to its cut pin.
 //! Rotation of the link moves the cut pin across this line, not along it.
-//! The rows are therefore laid along and across the line on the more mobile of the two links.
+//! The rows are therefore laid along and across the line of the link that moves more easily.
 //! With these directions, each sweep leaves at most half of the error.
-//! With mobilities a and b >= a of the two links and an angle mu between their lines, the remaining fraction is a cos^2
-//! mu / (a cos^2 mu + b).
+//! The remaining fraction is a cos^2 mu / (a cos^2 mu + b), where mu is the angle between the lines of the two links.
+//! Here a and b >= a are the squares of the lengths of the lines, each divided by the moment of inertia of its link
+//! about the pin in the tree.
 //! If the rows have other directions than along and across this line, the remaining fraction may come close to 1.
 
 use linkage::math::Vec2;
 use linkage::mechanism::{GROUND, Joint, Mechanism};
 use linkage::mechanism::{LinkId, spanning_tree::SpanningTree};
 
-/// The links of a cut pin, the more mobile link first, and the direction of the first row in that link's frame.
+/// The links of a cut pin, the link that moves more easily first, and the direction of the first row in its frame.
 /// `masses` are mass (kg) and moment of inertia (kg m^2) of every link. `None` if there is no choice of directions.
 pub(super) fn steered(
     tree: &SpanningTree,

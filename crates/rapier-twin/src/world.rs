@@ -14,7 +14,7 @@ pub enum LinkAngle {
     /// The angle itself, including full turns.
     /// For a link of the tree, the angle is the sum of the joint coordinates from the ground to the link.
     Whole(f64),
-    /// Full turns (rad), to be added to the angle of the link's direction between -pi and pi.
+    /// Full turns (rad), to be added to the angle of the link's direction. This angle is between -pi and pi.
     /// A separate body has a direction only; the arc tangent is computed on demand.
     Turns(f64),
 }

@@ -107,7 +107,7 @@ pub fn read_bytes(bytes: &[u8], path: &Path) -> Result<Vec<(String, Trajectory)>
 }
 
 /// Content of a message's topic, from the topic's name and from the descriptor in the file.
-/// `None` if the topic does not have this format.
+/// `None` if the topic is not one of a side, or not in protobuf.
 fn topic(message: &Message, names: &mut schema::Names) -> std::result::Result<Option<Topic>, DecodeError> {
     let channel = &message.channel;
     let parts = channel.topic.strip_prefix('/').and_then(|rest| rest.split_once('/'));

@@ -59,7 +59,7 @@ pub struct RecordedSide<'a> {
 /// One line of the recording's log.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LogEntry {
-    /// Time on the trajectories' clock (s).
+    /// Simulated time (s), as in the trajectories.
     pub time: f64,
     /// Importance of the entry.
     pub level: Level,

@@ -41,7 +41,7 @@ impl MessageKind {
         MessageKind::protobuf(M::SCHEMA, M::DESCRIPTOR)
     }
 
-    /// Kind of a text message of robot programs.
+    /// The type of a text message in ROS 2.
     pub fn text() -> MessageKind {
         let [schema, encoding, data, message] = ["std_msgs/msg/String", "ros2msg", "string data", "cdr"];
         MessageKind { schema: schema.into(), encoding: encoding.into(), data: data.into(), message: message.into() }

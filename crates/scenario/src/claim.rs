@@ -193,7 +193,7 @@ fn magnitude(name: &str, all: &[Channel]) -> Option<(FormulaTree, &'static str)>
     Some((FormulaTree::call(Function::Sqrt, vec![sum]), unit))
 }
 
-/// The channel of the first drive, if `name` contains its joint: `drive.force_N` for `drive.X.force_N`.
+/// The channel of the first drive, such as `drive.force_N`, if `name` also contains a joint: `drive.X.force_N`.
 fn of_first_drive<'a>(name: &str, known: &'a [String]) -> Option<&'a str> {
     let (joint, quantity) = name.strip_prefix("drive.")?.split_once('.')?;
     let is_further = known.iter().any(|own| own.starts_with(&format!("drive.{joint}.")));

@@ -63,7 +63,7 @@ pub const SECTIONS: &[Section] = &[
 /// Default tolerance of a swept area, divided by the area.
 const AREA: f64 = 5e-3;
 /// Lower limit of the tolerance of a swept area, divided by the area.
-/// The number of squares grows with the inverse of the tolerance.
+/// The area is found by squares, whose number grows with the inverse of the tolerance.
 const SMALLEST_AREA: f64 = 1e-5;
 /// Lower limit of a tolerance, divided by the mechanism's size. A finer tolerance would be below the rounding error.
 const FINEST: f64 = 1e-10;
@@ -175,7 +175,7 @@ fn default(table: &TomlTable, points: &[Point], radius: f64) -> Result<Outline> 
 fn of_link(mut table: TomlTable, default_radius: Option<f64>, link: &Link) -> Result<Outline> {
     let drawn = drawn(&mut table, &link.points)?;
     let solid = matches!(drawn, Some(("corners", _)));
-    // A line without a radius has no interior, so its radius must be positive.
+    // A line has no interior, so its radius must be positive.
     let sign = if solid { Sign::NotNegative } else { Sign::Positive };
     let radius = table.optional_quantity("radius", &LENGTH, sign)?;
     table.finish()?;

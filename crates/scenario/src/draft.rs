@@ -144,8 +144,8 @@ fn guessed(mechanism: &Mechanism, crank: f64) -> Option<Drive> {
     Some(Drive::prescribed(index, joints[index].other(GROUND).link, 0.0, crank, MotionLaw::ConstantSpeed(1.0)))
 }
 
-/// The mechanism without the points whose position could not be read. No joint lies at such a point, because the reader
-/// of joints leaves these joints out.
+/// The mechanism without the points whose position could not be read. The reader of joints has left out the joints at
+/// these points.
 fn with_places(mechanism: &Mechanism) -> Mechanism {
     let mut links = mechanism.links().to_vec();
     for link in &mut links {

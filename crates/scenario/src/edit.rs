@@ -28,7 +28,7 @@ pub fn parameters(text: &str) -> Result<Vec<(String, f64)>> {
     Ok(all.filter_map(|(key, item)| Some((key.to_string(), number(item)?))).collect())
 }
 
-/// The text with the plain number `value` for a parameter, in the unit of its key, with at most six digits.
+/// The text in which the parameter `key` has the plain number `value` (in the unit of the key), rounded to six digits.
 ///
 /// # Errors
 /// [`ErrorKind::Input`] if the text is not TOML, or if the parameter is missing or an expression.

@@ -189,7 +189,7 @@ impl EngineSettings {
         }
     }
 
-    /// Prepares these settings for the search for the settings of a motion.
+    /// These settings, prepared for a search of the settings that are free.
     /// Extrapolation would use steps finer than a given step. If the step is given, extrapolation is therefore off by
     /// default.
     #[must_use]

@@ -120,7 +120,7 @@ pub fn read(tables: Vec<TomlTable>, mechanism: &Mechanism, faults: &mut Faults) 
     tables.into_iter().filter_map(|mut table| faults.read(&mut table, |table| load(table, mechanism))).collect()
 }
 
-/// `joint`: a joint, and its links.
+/// Reads `joint`: a joint, and its links.
 fn joint(table: &mut TomlTable, mechanism: &Mechanism) -> Result<(JointId, [LinkId; 2])> {
     let name = table.string("joint")?;
     let Some(joint) = mechanism.joint_named(&name) else {
@@ -131,7 +131,7 @@ fn joint(table: &mut TomlTable, mechanism: &Mechanism) -> Result<(JointId, [Link
     Ok((joint, [own.first.link, own.second.link]))
 }
 
-/// `joint`: a prismatic joint, and its links.
+/// Reads `joint`: a prismatic joint, and its links.
 fn slide(table: &mut TomlTable, mechanism: &Mechanism) -> Result<(JointId, [LinkId; 2])> {
     let found = joint(table, mechanism)?;
     let own = &mechanism.joints()[found.0];
@@ -354,7 +354,7 @@ fn moving(table: &mut TomlTable, name: &str, mechanism: &Mechanism) -> Result<Li
     Ok(link)
 }
 
-/// A link that can turn, from the key `name`.
+/// The link called `name`, which must be able to turn.
 fn turning(table: &mut TomlTable, name: &str, mechanism: &Mechanism) -> Result<LinkId> {
     let link = link(table, name, mechanism.links())?;
     if link == GROUND {
@@ -368,7 +368,7 @@ fn turning(table: &mut TomlTable, name: &str, mechanism: &Mechanism) -> Result<L
     Ok(link)
 }
 
-/// `link` and `point`: a point of a moving link.
+/// The point under the keys `link` and `point`, which must be on a moving link.
 fn loaded_point(table: &mut TomlTable, mechanism: &Mechanism, (name, point): (String, String)) -> Result<JointSide> {
     let link = moving(table, &name, mechanism)?;
     side(table, mechanism, link, &point, "point")
@@ -384,7 +384,7 @@ fn side(table: &TomlTable, mechanism: &Mechanism, link: LinkId, point: &str, key
     found.map(|found| JointSide { link, local: found.local }).ok_or_else(missing)
 }
 
-/// `links`: two links, either of which may be the ground.
+/// The two links under the key `links`. One of them may be the ground.
 fn pair(table: &mut TomlTable, mechanism: &Mechanism, names: &[String]) -> Result<[LinkId; 2]> {
     let [first, second] = names else {
         let message = sentences::found_links_but_this_load(&names.len());

@@ -13,7 +13,7 @@ use linkage::input::Input;
 /// The mapping of the numbers of a table to instants and channels.
 #[derive(Clone, Debug, Default)]
 pub struct Mapping {
-    /// The instants of the rows, under names such as `time_s`, as in the measurements of a scenario.
+    /// The instants of the rows, under names such as `time_s`.
     pub at: Vec<Mapped>,
     /// Channels, or arithmetic expressions of channels.
     pub channels: Vec<Mapped>,
@@ -117,7 +117,6 @@ impl Mapped {
 
     /// The factor to SI and the kind of input of a name in [`INSTANTS`]; `None` for any other name. A time has no kind
     /// of input.
-    /// Otherwise `None`.
     #[must_use]
     pub fn instant(&self) -> Option<(f64, Option<Input>)> {
         INSTANTS.iter().find(|(name, ..)| *name == self.name).map(|&(_, factor, input)| (factor, input))

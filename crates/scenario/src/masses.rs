@@ -70,7 +70,7 @@ pub fn check(mechanism: &Mechanism, drives: &Drives) -> Result<()> {
     }
     let inertia = |link: &Link| link.inertia + link.mass * size * size;
     let motors: f64 = drives.iter().map(Drive::moving_inertia).sum();
-    // The sum is formed anew for every link, because a difference of two sums would lose all significant digits.
+    // The sum is formed without the link, because the difference of two sums would lose all significant digits.
     let others = |link: &Link| moving().filter(|other| other.name != link.name).map(inertia).sum::<f64>() + motors;
     let Some(link) = moving().max_by(|a, b| inertia(a).total_cmp(&inertia(b))) else { return Ok(()) };
     let (own, others) = (inertia(link), others(link));

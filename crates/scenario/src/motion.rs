@@ -140,8 +140,8 @@ fn check_beside(table: &TomlTable, drive: &Drive, before: &[Drive]) -> Result<()
     Ok(())
 }
 
-/// Reads a drive. `before` are the drives already read. `first` is given for the first drive: the stated angle of a
-/// crank, and the request that replaces the start.
+/// Reads a drive. `before` are the drives already read. `first` is `Some` only for the first drive. It contains the
+/// crank angle from `[start]`, if stated, and the request, which may replace the start of the file.
 /// If the mechanism is `whole`, all its joints are known.
 fn drive(
     table: &mut TomlTable,

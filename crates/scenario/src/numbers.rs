@@ -1,6 +1,6 @@
 //! Finds numbers of a scenario file by their paths, and replaces them.
 //!
-//! A path consists of the keys from the root of the file, joined by points, as in messages.
+//! A path consists of the keys from the root of the file, joined by dots, as in messages.
 //! An entry of a list of tables is given by its name (`joints.A.axis_deg`), or by its number from 1 if it has no name
 //! (`loads[1].force_N`).
 

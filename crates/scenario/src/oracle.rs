@@ -97,7 +97,7 @@ pub struct Oracle {
     /// The name that the scenario states. Without a stated name, the file name of the table (`positions.csv`) is used.
     /// Numbers in the scenario itself are named `inline 1`, `inline 2`, ...
     pub name: String,
-    /// Source of the numbers. If the numbers have a known error, the text also states the reason for the error.
+    /// Source of the numbers, as the scenario states it.
     pub source: String,
     /// How the numbers are known.
     pub basis: OracleBasis,

@@ -114,7 +114,7 @@ fn moment(case: &Case) -> Found {
     let gained =
         sum(powers).map_or(FormulaTree::number(0.0), |sum| FormulaTree::pair(Operator::Over, sum, input(case, 1)));
     let drive = if case.crank().input == Input::Slide { "drive.force_N" } else { "drive.torque_N_m" };
-    // If the crank has no driving torque, no driving moment is subtracted.
+    // A free crank without a motor has no driving moment to subtract.
     Ok(match case.drives.with_moment().next() {
         Some(_) => FormulaTree::pair(Operator::Minus, gained, FormulaTree::name(drive)),
         None => gained,

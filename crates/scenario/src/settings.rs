@@ -66,8 +66,8 @@ pub fn called(case: &Case, words: &[String]) -> std::result::Result<Vec<Channel>
 /// Default of [`engine_rel`]. This default is a choice and has no derivation.
 pub const ENGINE_REL: f64 = 1e-2;
 
-/// Reads the limit of the engine's error bound divided by a channel's scale. If the error bound exceeds this limit,
-/// agreement is no longer a proof.
+/// Reads the limit of a ratio: the bound on the engine's error, divided by a channel's scale. If the ratio exceeds this
+/// limit, agreement proves nothing.
 pub fn engine_rel(table: &mut TomlTable) -> Result<f64> {
     let share = table.optional_number("engine_rel")?.unwrap_or(ENGINE_REL);
     table.finish()?;

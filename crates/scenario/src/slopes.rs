@@ -3,7 +3,7 @@
 //! A key is a parameter (`a_mm`), or the path of another number of the file (see `numbers.rs`).
 //! Expressions are differentiated symbolically, and units are factors, so the derivatives are exact.
 //! This module reads the file independently of the readers of the sections. Tests compare every number with that of the
-//! case, and every derivative with the case of a file in which the key is changed.
+//! case, and every derivative with the change of the number when the key in the file is changed.
 
 mod drives;
 mod file;

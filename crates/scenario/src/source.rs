@@ -51,7 +51,7 @@ pub struct Source<'a> {
     pub parameters: Parameters,
     /// The rows of the table of keys for a section, by the path of the section; empty for files that are not scenarios.
     pub rows: fn(&str) -> &'static [key::FileKey],
-    /// This module finds the position of the key that an error of the `linkage` crate names.
+    /// The whole text again, shared with the positions in errors.
     shared: Arc<str>,
 }
 

@@ -44,7 +44,8 @@ pub const SECTIONS: &[Section] = &[
     ]),
 ];
 
-/// Whether groups whose assembly mode the file does not state are placed anyway and listed.
+/// What happens to a group whose assembly mode the file does not state: it is an error (`No`), or the group is placed
+/// anyway and listed (`Undecided`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Lists {
     No,

@@ -1,6 +1,7 @@
 //! Cases of a sweep that are solved in batches. The cases of a batch differ only in points, masses and moments of
 //! inertia of links. The mechanism has a crank at constant speed, dyads with three pins, and no loads other than
-//! moments of resistance. All figures are figures of channels.
+//! moments of resistance. The figures are statistics of channels, inputs at extremes of channels, and the smallest
+//! transmission angle.
 //! The figures of a batch equal, bit by bit, the figures of a case that is read and solved alone. Cases that do not
 //! suit a batch are read and solved alone.
 
@@ -126,8 +127,8 @@ impl Figures<'_> {
             }
             FigureKind::Reach(_) | FigureKind::Verdict(_) => return None,
         };
-        // Only channels are allowed in the claim: parameters, reduced quantities and transfer functions have numbers
-        // that may vary from case to case.
+        // Only channels are allowed in the claim, because the numbers of parameters and of reduced quantities may vary
+        // from case to case.
         let claim = Claim::of_channels(&own.quantity, &self.case.all_channels()).ok()?;
         if let (NodeShape::Name(_), [(_, printed)]) = (&claim.tree.shape, &claim.channels[..]) {
             let (tally, unit) = (self.grid.tally(own.statistic)?, printed.to_si(1.0));

@@ -1,4 +1,4 @@
-//! The joined table, row group by row group, so that memory does not grow with the table.
+//! Reads the joined table one row group at a time, so that memory does not grow with the table.
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -38,7 +38,7 @@ pub struct SweepGroups {
     next: usize,
 }
 
-/// What `read` returns. The reader of Parquet may panic on a broken table.
+/// Calls `read`. A panic becomes an error, because the reader of Parquet may panic on a broken table.
 fn sound<T>(table: &Path, read: impl FnOnce() -> std::result::Result<T, ParquetError>) -> Result<T> {
     match guarded(read) {
         Ok(read) => read.map_err(|error| broken(table, &error)),

@@ -133,7 +133,7 @@ impl SweepPlan {
         serde_json::to_string_pretty(&stored).expect("texts and numbers") + "\n"
     }
 
-    /// [`ErrorKind::Input`] if the text is not a plan that this version has stored.
+    /// Reads the stored form of a plan. The path of the scenario is empty.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] if the text is not a plan that this version has stored.
@@ -248,9 +248,8 @@ impl CaseSolver<'_> {
     }
 }
 
-/// Usual number of cases of a part. There are enough parts for many threads and for a short repetition after a stop,
-/// and few enough for a directory and for the list of row groups at the end of the table. A part is small enough for
-/// memory.
+/// Usual number of cases of a part. There are enough parts for many threads, and few enough for one directory and for
+/// the list of row groups at the end of the table. A part fits into memory, and a stop loses only a part per thread.
 fn usual_part(cases: u64) -> u64 {
     (cases / 64).clamp(64, (cases / 10_000).clamp(20_000, 1_000_000))
 }

@@ -74,7 +74,7 @@ pub struct SweepSummary {
     pub refused: u64,
     /// Reasons of refusals.
     pub reasons: Reasons,
-    /// Verdicts of the proven cases.
+    /// Number of proven cases for each verdict.
     pub verdicts: BTreeMap<String, u64>,
     /// Statistics of every figure; `None` if the figure exists in no case.
     pub figures: Vec<Option<FigureSpread>>,

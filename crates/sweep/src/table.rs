@@ -39,7 +39,7 @@ pub(crate) struct Rows {
     pub results: Vec<CaseResult>,
 }
 
-/// State of a case.
+/// State of a solved case.
 pub const SOLVED: &str = "solved";
 /// State of a case that could not be solved.
 pub const REFUSED: &str = "refused";

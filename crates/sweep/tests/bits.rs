@@ -100,7 +100,8 @@ fn plan(text: &str, axes: &[&str], figures: &[&str], cases: u64) -> SweepPlan {
     SweepPlan::of((text.into(), "x.toml".as_ref()), Vec::new(), design, &figures, None, None).unwrap()
 }
 
-/// Returns the numbers of solved and of refused cases.
+/// Solves every case with and without batches, and compares the bits. Returns the numbers of solved and of refused
+/// cases.
 fn compared(plan: &SweepPlan) -> [usize; 2] {
     let (mut fast, mut alone) = (plan.solver().unwrap(), plan.solver().unwrap().one_by_one());
     assert!(fast.is_fast() && !alone.is_fast());

@@ -27,7 +27,7 @@ fn pin_force(phi: f64, omega: f64, alpha: f64) -> Pair {
     [-sin * towards_pin + cos * along_motion, cos * towards_pin + sin * along_motion]
 }
 
-/// A pendulum that hangs at the angle `phi` from the vertical, and its joint.
+/// A world with a pendulum, and the pendulum's body.
 struct Pendulum {
     world: PhysicsWorld,
     body: RigidBodyHandle,
@@ -75,7 +75,8 @@ impl Pendulum {
     }
 }
 
-/// The three readings after `steps` steps, the angle of the pendulum at their instant (rad), and the residual.
+/// The three readings after `steps` steps, the angle of the pendulum at their instant (rad), and the residual of the
+/// differences.
 struct Readings {
     impulses: Vec<JointReaction>,
     differences: JointReaction,

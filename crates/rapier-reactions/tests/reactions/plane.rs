@@ -35,7 +35,8 @@ pub fn solved(a: Pair, b: Pair, right: Pair) -> Pair {
     [cross(right, b) / determinant, cross(a, right) / determinant]
 }
 
-/// Acceleration of a point at `arm` from a point with the acceleration `of`, on a body with `omega` and `alpha`.
+/// Acceleration of a point of a body that has `omega` and `alpha`. `arm` leads to the point from another point of the
+/// body, which has the acceleration `of`.
 pub fn carried(of: Pair, arm: Pair, omega: f64, alpha: f64) -> Pair {
     let across = [-arm[1], arm[0]];
     add(of, less(times(across, alpha), times(arm, omega * omega)))

@@ -84,8 +84,8 @@ fn a_joint_too_many_is_named() {
     assert!(error.to_string().contains("impulse joint 0, impulse joint 1; remove"), "{error}");
 }
 
-/// Three parallel rockers carry a table. The third rocker repeats the constraint of the other two, for any gaps of the
-/// loops.
+/// Three parallel rockers carry a table. The third rocker repeats the constraint of the other two, even if the loops
+/// have small gaps.
 #[test]
 fn a_repeated_rocker_is_named() {
     let mut world = empty_world(2e-3, 256);

@@ -1,8 +1,7 @@
 //! Fixed and prismatic joints between moving bodies, in closed form.
 //!
-//! An arm turns about the origin at constant speed. A block is joined to the arm at a point, fixed or sliding at
-//! constant speed along an inclined line. The mass centre of the block is not at the joint, so all rows of the joint
-//! are loaded.
+//! An arm turns about the origin at constant speed. A block is fixed to the arm, or slides on it at constant speed
+//! along an inclined line. The mass centre of the block is not at the joint, so all rows of the joint are loaded.
 
 use super::four_bar::{GRAVITY, body, driven, empty_world, pin};
 use super::plane::{Pair, add, converges, cross, dot, less, times, turned};
@@ -76,7 +75,7 @@ fn exact(link: Link, time: f64) -> (Pair, f64, f64) {
     (force, cross(arm, force), thrust)
 }
 
-/// Errors of force, moment and thrust, relative to weight and centrifugal force, by each route.
+/// For each route, the largest error of force, moment and thrust, relative to weight and centrifugal force.
 fn errors(link: Link, steps: usize) -> [f64; 3] {
     let (step, time) = (0.4 / steps as f64, 0.4);
     let (mut world, handle) = world(link, step);

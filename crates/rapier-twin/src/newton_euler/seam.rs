@@ -51,8 +51,8 @@ pub(super) struct Pass {
     moment: Term,
 }
 
-/// One term of a linear function for a force and a moment about a link's mass centre: x and y of the force, then the
-/// moment.
+/// The force (x, y) on a link and the moment about its mass centre. This load is a linear function of the unknown joint
+/// components; a `Term` is its constant part, or its part per unit of one component.
 pub(super) type Term = [f64; 3];
 
 impl Seam {

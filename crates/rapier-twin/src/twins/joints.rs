@@ -35,7 +35,7 @@ pub(super) fn free() -> GenericJointBuilder {
     locking(JointAxesMask::empty())
 }
 
-/// A joint that locks the direction of its x axis only.
+/// A joint that locks only the translation along its x axis.
 pub(super) fn along_a_line() -> GenericJoint {
     locking(JointAxesMask::LIN_X).build()
 }

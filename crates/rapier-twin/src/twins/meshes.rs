@@ -1,9 +1,11 @@
 //! Transmissions as Rapier joints: one constraint row along the line of action, realigned before every step.
 //!
 //! Rapier has no gear joint.
-//! A joint between the two members locks the direction of the first line of action at its foot.
-//! Direction and foot turn with the carrier, so they are set before every step.
-//! The gap of the row is the residual of the transmission, c2 (q2 - f(q1)), minus the residual at the start.
+//! A joint between the two members locks the translation along the first line of action, at the point where the force
+//! acts.
+//! Line and point turn with the carrier, so they are set before every step.
+//! The gap of the row is the residual of the transmission: q2 - f(q1) minus its value at the start, times the factor of
+//! the contact.
 
 use super::{Mesh, Twin, joints, wide};
 use crate::world::World;

@@ -7,14 +7,14 @@ use super::{Entry, TomlTable};
 use crate::words::{choice, nearest};
 use linkage::error::{Error, ErrorKind, Result};
 
-/// In each table, a similar known key is looked up only for the first unknown keys, up to this number.
+/// Number of unknown keys in a table for which a similar known key is looked up.
 const MOST: usize = 20;
 
 /// The mistakes of a file.
 #[derive(Debug)]
 pub struct Faults {
     all: Vec<Error>,
-    /// Whether all parts could be read on which other parts of the file depend. If not, only errors about the keys and
+    /// Whether all parts on which other parts of the file depend could be read. If not, only errors about the keys and
     /// values of a table are reported.
     pub whole: bool,
     /// Whether all links and their points could be read. Errors about unknown names are reported only if all links and

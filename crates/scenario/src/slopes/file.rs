@@ -135,7 +135,8 @@ impl<'a> SlopeFile<'a> {
         }
     }
 
-    /// Records that the part of the file at `path` uses the keys of a number without a known derivative.
+    /// Records that the part of the file at `path` uses the keys of `slope`, and that the derivatives of this part by
+    /// these keys are not known.
     pub(super) fn put_untold(&mut self, slope: &Slope, path: &str) {
         self.found.untold.extend(slope.by.keys().map(|key| (*key, path.to_string())));
     }
