@@ -97,8 +97,7 @@ fn time_that_jumps_back_is_reported() {
     assert!(compared("mujoco_crank_rocker", "mujoco_crank_rocker.csv", &[]).pairs[0].turns_back.is_none());
 }
 
-/// For each case: the map, a wrong line for it, and words of the cause that must be named (empty if no cause must be
-/// named).
+/// For each case: the map, a wrong line for it, and words of the cause that must be named (empty if none is required).
 const LINES: [(&str, &str, &str); 17] = [
     ("mujoco_crank_rocker", "54.19349837312087 + q_rocker*180/pi=link.rocker.angle_deg", "opposite sense"),
     ("mujoco_crank_rocker", "54.19349837312087 - q_rocker=link.rocker.angle_deg", ""),

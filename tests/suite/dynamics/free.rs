@@ -222,7 +222,7 @@ fn twin_run_ups_are_of_order_one_and_extrapolate_accurately() {
 
 /// The case has neither rotor nor flywheel inertia.
 /// A second pass of Rapier over the constraints, after each step, would multiply the error by 23.
-/// The second pass would remove the velocity that moved the bodies across the constraints.
+/// The pass would remove the part of the velocities that moved the bodies against the constraints in this step.
 #[test]
 fn the_twin_keeps_the_velocities_that_moved_it() {
     let scenario = shipped("crank_rocker_runup.toml");
