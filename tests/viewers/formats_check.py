@@ -147,7 +147,7 @@ def check_sdf(case, text):
         slides = joint.get("type") == "prismatic"
         axes = [turn(pose[5] + own[5]) @ xyz[:2]] if slides else None
         check("axis", slides or np.array_equal(xyz, [0, 0, 1]), xyz)
-        # SDF gives the joint only in the child. A slide may be displaced at the start: its parent anchor is not compared.
+        # SDF gives the joint only in the child. A slide may be displaced: its parent anchor is not compared.
         other = anchor if slides else case.place(joint.get("name"), case.ground if parent == "world" else parent)
         compare_joint(case, joint.get("name"), case.ground if parent == "world" else parent, child, [other, anchor], axes, False)
 

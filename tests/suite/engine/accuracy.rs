@@ -1,4 +1,4 @@
-//! Accuracy of Rapier's twin at a step of 0.08 deg of the crank.
+//! Accuracy of the Rapier model (crate `rapier-twin`) at a step of 0.08 deg of the crank.
 //! The tested figures are those of `docs/rapier.md`, with the numbers of sweeps given in that page.
 
 use analytic::AssurSolver;
