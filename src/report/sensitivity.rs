@@ -1,4 +1,4 @@
-//! Exact derivatives of figures by the numbers of a file, and tolerance stacks.
+//! Exact derivatives of figures with respect to the numbers of a file, and tolerance stacks.
 
 use crate::sentences;
 use serde_json::json;
@@ -52,7 +52,7 @@ fn derivative(value: f64, unit: &str, key: &CaseKey) -> String {
     if key.unit.is_empty() { number } else { sentences::per_unit(&number, &key.unit) }
 }
 
-/// The figures, each with the keys of the largest effects and its tolerance stack.
+/// The figures, each with its tolerance stack and the keys that affect it most.
 pub(crate) fn text(all: &Sensitivities, most: usize, width: Option<usize>) -> String {
     let keys = &all.found.keys;
     let mut text = format!("{}: {}\n", all.scenario.name, all.scenario.title);

@@ -43,7 +43,7 @@ pub(crate) fn solution(trajectory: &Trajectory, to: &mut dyn Write) -> Result<()
     table(&["t_s", trajectory.input().key()], trajectory, rows, to)
 }
 
-/// Writes the crank and the motor's moment in a run-up, then all requested channels.
+/// Writes time, motion of the crank and moment of the motor in a run-up, then all requested channels.
 ///
 /// # Errors
 /// The errors of `to`.

@@ -1,4 +1,5 @@
-//! The page of `linkproof watch`: the text of the file beside the page of its proof, and the messages of both sides.
+//! The page of `linkproof watch`: the text of the file beside the page of its proof.
+//! Also the messages between this page and the program.
 
 use std::sync::Arc;
 

@@ -142,7 +142,7 @@ def check_keys(tab, count):
     # From the top of the page, the tab key reaches the first control.
     tab.evaluate("() => document.activeElement.blur()")
     tab.keyboard.press("Tab")
-    # A wide block of a wrong formula lies above the picture; the keyboard scrolls it.
+    # The block about a wrong formula lies above the picture; it scrolls, so the tab key reaches it first.
     while tab.evaluate("() => document.activeElement.matches('#why pre')"):
         tab.keyboard.press("Tab")
     for own in ["play", "back", "on", "slider", "speed", "loop"]:

@@ -22,7 +22,7 @@ from playwright.sync_api import sync_playwright
 
 TOP = Path(__file__).resolve().parent.parent.parent
 SAVES = 30
-# A bound against standstill, not a measurement: machines of tests are slow.
+# Only a standstill takes this long (ms), even on a slow machine.
 PATIENCE = 60_000
 
 
@@ -132,7 +132,7 @@ def main(linkproof, chromium, directory):
             page.status("AGREE")
             need(not page.frame().is_checked("#show-names"), "a box is reset by the next page")
             need(page.frame().evaluate("document.querySelectorAll('#charts > details')[2].open"), "a group of channels is closed by the next page")
-            # The coupler point, dragged while the mechanism stands.
+            # Joint B is dragged while the mechanism stands.
             frame = page.frame()
             if frame.get_attribute("#play", "aria-pressed") == "true":
                 frame.click("#play")

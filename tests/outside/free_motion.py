@@ -245,7 +245,7 @@ class Motion:
         wanted = np.array([second for _, _, second in self.drives(t, y)])
         jacobian, bias = np.vstack([jacobian, extra[held]]), np.concatenate([bias, (own - wanted)[held]])
         c = len(bias)
-        # Multipliers are forces as large as the loads: in SI, all rows are of similar size for these machines.
+        # No scaling is needed: in SI, the rows of this matrix have similar sizes for these machines.
         full = np.block([[mass, jacobian.T], [jacobian, np.zeros((c, c))]])
         a = np.linalg.solve(full, np.concatenate([force, -bias]))
         for _ in range(100 if self.rubbed else 0):

@@ -128,7 +128,8 @@ class Transmission:
         else:
             b = self.m.at(q, self.carrier, self.b)
             ux, uy = unit(b[0] - a[0], b[1] - a[1])
-            # A wheel touches its ring gear on the side away from the ring's axle. Seen from the ring, this is the wheel's side.
+            # A wheel touches its ring gear on the side away from the ring's axle.
+            # From the ring's axle, the contact lies beyond the wheel's axle.
             far = self.inside and self.radii[0] < self.radii[1]
             reach = -self.radii[0] if far else self.radii[0]
             at, (tx, ty) = (a[0] + reach * ux, a[1] + reach * uy), (-uy, ux)

@@ -48,7 +48,7 @@ def test_derivatives_are_those_of_the_scenario(slider_crank):
     assert rows["crank_mm"] == pytest.approx(1.0, rel=1e-12) and rows["rod_mm"] == pytest.approx(1.0, rel=1e-12)
     assert table["figure_unit"][0] == "mm" and table["unit"][table["key"].index("crank_mm")] == "mm"
     assert found.figures["value"].tolist() == [200.0] and found.stacks.rows == 0 and found.left_out == {}
-    # The changes of a scenario count.
+    # The derivatives are those of the changed scenario.
     longer = slider_crank.set(crank_mm=50).sensitivity("max:point.B.x_mm", "crank_mm")
     assert longer.figures["value"].tolist() == pytest.approx([210.0], rel=1e-15) and longer.derivatives["value"].tolist() == [50.0]
     one = slider_crank.at(input=[0.5]).sensitivity("max:point.B.x_mm", "crank_mm").derivatives

@@ -179,9 +179,9 @@ fn placeholder(line: &str) -> Option<String> {
     words.find(|word| is_capital(word)).map(|word| format!("`{word}` is no file: {line}"))
 }
 
-/// The commands to run.
-/// The short forms `check` and `run` give one command for each scenario.
-/// For each row, its written commands follow, except those that an earlier row has.
+/// The commands to run, each only once.
+/// The short forms `check` and `run` give one command for each scenario, as separate jobs.
+/// The commands written in a row form one job.
 fn jobs(page: &str) -> Vec<Vec<(String, i32)>> {
     let (mut seen, mut short, mut jobs) = (BTreeSet::new(), BTreeSet::new(), Vec::new());
     for row in SECTIONS.iter().flat_map(|(section, _)| rows(page, section)) {

@@ -1,5 +1,5 @@
 //! The parts of every bound of a few scenarios, as a reviewed table.
-//! Tests that plant multiples of a bound also pass if the bound is a thousand times too wide.
+//! Tests that plant an error of several bounds also pass if the bound is a thousand times too wide.
 //! This test fails if a bound is a thousand times too wide.
 //!
 //! Numbers have two digits.

@@ -290,8 +290,8 @@ fn wrong_input_is_refused_with_a_remedy() {
 }
 
 /// A small picture has no letters.
-/// Every picture takes the dark colours of a viewer in dark mode.
-/// Pictures inside a page and printed pictures stay light.
+/// A picture opened by itself is dark in a viewer in dark mode.
+/// Inside a page or printed, it stays light.
 #[test]
 fn small_pictures_have_no_letters_and_pictures_follow_a_dark_viewer() {
     let small = svg(&[&file("crank_rocker"), "--traces", "--small"]);

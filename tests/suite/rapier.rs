@@ -1,3 +1,3 @@
-//! Parts of the Rapier twin that are tested on shipped scenarios.
+//! Parts of the crate `rapier-twin` that are tested on shipped scenarios.
 
 mod newton_euler;

@@ -11,8 +11,8 @@ use design::sensitivity::{SensitivityQuestion, sensitivity};
 use scenario::{Scenario, StartRequest};
 
 /// The file computes many numbers of the case from one parameter.
-/// The derivative by the parameter equals the difference quotient of two solutions of the crate `precise`, for files
-/// with two values of the parameter.
+/// The derivative with respect to the parameter equals a difference quotient: two solutions of the crate `precise`, for
+/// two values of the parameter.
 #[test]
 fn a_parameter_has_the_derivative_of_differences() {
     let scenario = shipped("boom_lift.toml");

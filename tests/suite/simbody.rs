@@ -234,7 +234,7 @@ fn loads_of_all_sorts_agree() {
 }
 
 /// All kinds of sliders, with their links in either order.
-/// In the Oldham coupling, a chain of sliding joints alone also connects links to the crank.
+/// In the Oldham coupling, only sliding joints connect the disc and the output to the crank.
 #[test]
 fn sliders_agree_however_their_joints_are_written() {
     for sample in sliders::all() {

@@ -34,7 +34,7 @@ struct Differences {
     condition: f64,
     /// Largest condition number of the chain of dyads.
     chain: f64,
-    /// Number of exchanges of the conditional driver.
+    /// Number of exchanges of the conditional driver: the ground lead that the method of class change drives.
     exchanges: usize,
     /// Number of reversals of the first lead on the ground.
     limits: usize,

@@ -48,7 +48,7 @@ impl Watched {
         serde_json::from_str(&answer).unwrap()
     }
 
-    /// The state as soon as `holds` does.
+    /// The first state for which `holds` is true.
     fn state(&self, holds: impl Fn(&Value) -> bool) -> Value {
         let mut version = 0;
         loop {

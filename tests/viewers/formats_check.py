@@ -27,15 +27,15 @@ from urdf_parser_py import urdf as ros
 
 # Errors relative to the size of the mechanism. The physics attributes of USD have single precision.
 DOUBLE, SINGLE = 1e-12, 2e-7
-# Shares of the time whose inputs are further starts.
+# Further starts: the inputs at these fractions of the motion's time.
 STARTS = (0.25, 0.5, 0.75)
-# Part of the time before the first change point. After it, the mode of the file is another configuration.
+# Fraction of the time before the first change point. After it, the mode in the file gives another configuration.
 UNTIL = {"n_four_bar_1": 0.07, "n_four_bar_2": 0.07}
 # Number of poses in which URDF is compared beside the start pose, and number of poses for the errors of relations.
 POSES, RELATED = 3, 10_000
 # Degrees of the relations, and the largest bound as a multiple of the largest error found.
 DEGREES, TIGHT = (1, 4, 9), 1.5
-# Bounds are not tightened below this value (rad; of a length divided by the mechanism's size).
+# Bounds below this value need not be tight (rad; for a length, as a fraction of the mechanism's size).
 FLOOR = 1e-9
 
 results = []
@@ -147,7 +147,7 @@ def check_sdf(case, text):
         slides = joint.get("type") == "prismatic"
         axes = [turn(pose[5] + own[5]) @ xyz[:2]] if slides else None
         check("axis", slides or np.array_equal(xyz, [0, 0, 1]), xyz)
-        # The pose in the child alone places the joint: the parent's anchor is the parent's point at the start, moved along the slide.
+        # SDF gives the joint only in the child. A slide may be displaced: its parent anchor is not compared.
         other = anchor if slides else case.place(joint.get("name"), case.ground if parent == "world" else parent)
         compare_joint(case, joint.get("name"), case.ground if parent == "world" else parent, child, [other, anchor], axes, False)
 
@@ -393,7 +393,7 @@ def check_urdf(case, text):
         axes = None
         if joint.type == "prismatic":
             axes = [poses[joint.child][1] @ np.array(joint.axis[:2])]
-            # A slide's frame is that of the link, not the joint's point.
+            # The frame of a sliding link is at the link's origin, not at the joint's point.
             arm = poses[joint.child][1] @ case.point(joint.name, joint.child)
             anchors = [anchor + arm for anchor in anchors]
         compare_joint(case, joint.name, parent, joint.child, anchors, axes, False)
@@ -445,7 +445,7 @@ def further_starts(linkproof, path, case):
     last = case.json["times_s"][-1] * UNTIL.get(case.json["name"], 1.0)
     motion = Motion(case, linkproof, path, ",".join(repr(share * last) for share in STARTS))
     name, inputs = list(motion.columns.items())[1]
-    # Further drives are at every start as they are at t = 0.
+    # At every start, further drives have their inputs at t = 0.
     is_one = len(case.json["drives"]) == 1
     found = []
     for row, value in enumerate(inputs):
@@ -453,7 +453,7 @@ def further_starts(linkproof, path, case):
         try:
             own = Case(linkproof, path, start)
         except subprocess.CalledProcessError as error:
-            # The phases of transmissions, and laws as formulas, belong to the start of the file.
+            # The phases of transmissions, and laws given as formulas, are valid only for the start in the file.
             check("a start is refused with a reason", re.search(r"starts of the transmissions|law begins", error.stderr), error.stderr)
             print(f"  further starts: {error.stderr.splitlines()[0]}")
             return []

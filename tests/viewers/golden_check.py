@@ -16,7 +16,8 @@ TOP = Path(__file__).resolve().parent.parent.parent
 STEPS = (360, 720, 1440)
 PRESCRIBED = ("double_crank", "six_bar_slider", "fourth_class")
 POSITIONS = ("angles", "positions")
-# Of each engine: sorts of quantities whose order is checked, and the order under forces. It is 2 where the speed is prescribed.
+# For each engine: sorts of quantities whose order of convergence is checked, and this order under forces.
+# At prescribed speed, the order is 2.
 ENGINES = {
     "rapier": (POSITIONS, 1),
     "mujoco": (POSITIONS, 1),

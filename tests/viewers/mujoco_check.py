@@ -76,7 +76,7 @@ class Scenario:
     def __init__(self, linkproof, path):
         self.toml = tomllib.loads(Path(path).read_text())
         self.name = self.toml["name"]
-        # Loads in SI units: a number of the file may be a formula.
+        # The loads come from the export, in SI units, because a number in the file may be a formula.
         self.loads = json.loads(told(linkproof, "export", path, "-o", "-.json"))["loads"]
         drive = self.toml["drive"]
         self.drives = [table["joint"] for table in (drive if isinstance(drive, list) else [drive])]

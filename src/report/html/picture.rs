@@ -11,7 +11,7 @@ const MARGIN: f64 = 15.0;
 /// Radius of an engine's pins divided by the radius of the reference's pins.
 const RING: f64 = 1.5;
 
-/// The view of an area (m), in picture units: x, y (downwards), width, height.
+/// The view box that shows an area (m): left, top (y downwards), width and height in picture units.
 pub(super) fn view([x, y]: [[f64; 2]; 2], unit: f64) -> [f64; 4] {
     let [wide, height] = [x, y].map(|ends| (ends[1] - ends[0]) / unit + 2.0 * MARGIN);
     // The picture is at most as high as wide, so that the controls below stay visible.

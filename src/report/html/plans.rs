@@ -9,7 +9,7 @@ use design::plan::{Planner, Quantity, VectorPlan};
 use linkage::case::Case;
 use linkage::solver::State;
 
-/// Approximate number of single-precision values in a row.
+/// Approximate number of single-precision values that the plans add to a row.
 pub(super) fn width(case: &Case, placed: &Placed, row: usize) -> usize {
     let (planner, state) = (Planner::of(&case.mechanism), placed.state(case, row));
     quantities(placed).map(|quantity| 2 * planner.plan(quantity, &state).tips.len()).sum()

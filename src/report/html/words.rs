@@ -22,7 +22,7 @@ pub(super) fn verdict(proof: &Proof) -> String {
     format!("<span class=\"{class}\"><span aria-hidden=\"true\">{sign}</span> {word}</span>")
 }
 
-/// One sentence on how much was judged, and by which parties.
+/// How much was judged, with which reference, and with which engines.
 pub(super) fn sentence(proof: &Proof) -> String {
     let engine = if proof.engines.len() == 1 { "Engine" } else { "Engines" };
     let parties: Vec<&str> = proof.engines.iter().map(|engine| engine.info.name).collect();

@@ -43,7 +43,7 @@ impl Graph {
         Graph { modules }
     }
 
-    /// Edges between files: from, to, and the path of the edge.
+    /// Edges between files: the using file, the used file, and the path in the code that names the item.
     pub fn edges(&self) -> BTreeMap<(PathBuf, PathBuf), String> {
         let mut edges = BTreeMap::new();
         for (at, module) in &self.modules {

@@ -19,7 +19,7 @@ fn sliders() {
     const GUIDE: &str = "links = [\"ground\", \"slider\"]\npoints = [\"O\", \"B\"]";
     const OTHER: &str =
         "name = \"B\"\ntype = \"prismatic\"\naxis_deg = 0\nlinks = [\"rod\", \"slider\"]\npoints = [\"B\", \"C\"]";
-    // The slider has the point named in this edit; the rod does not have this point.
+    // The edit names the slider's point C, because B is also a point of the rod.
     const POINT: (&str, &str) = ("[links.slider.points]\nB =", "[links.slider.points]\nC =");
     const PLACE: (&str, &str) = ("points = [\"O\", \"B\"]", "points = [\"O\", \"C\"]");
     const PIN: &str = "name = \"B\"\ntype = \"revolute\"\nlinks = [\"rod\", \"slider\"]";

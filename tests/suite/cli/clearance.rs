@@ -78,7 +78,7 @@ fn several_drives_with_laws_are_answered_over_the_time() {
     assert_eq!(found["range_s"], serde_json::json!([0.0, 1.5]), "{found}");
     for pair in found["pairs"].as_array().unwrap() {
         let (t, crank) = (pair["t_s"].as_f64().unwrap(), pair["crank_rad"].as_f64().unwrap());
-        // The cycloid of 1.6 s, from the first to the last row of the table.
+        // The crank follows a cycloid of 1.6 s; the last row of the CSV table is at 1.5 s.
         let gone = |t: f64| t / 1.6 - (std::f64::consts::TAU * t / 1.6).sin() / std::f64::consts::TAU;
         let share = gone(t) / gone(1.5);
         let csv = fs::read_to_string(place.path("arm.csv")).unwrap();

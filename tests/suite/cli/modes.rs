@@ -105,7 +105,7 @@ fn invalid_modes_are_refused() {
 fn inspect_reports_how_unambiguous_the_start_is() {
     let place = Place::new();
     // `inspect` reports how far point E is from its approximate position in two configurations: the selected one and
-    // the next one of the list.
+    // the next-nearest one.
     // The two reported distances must follow from the positions that `--modes` lists.
     let found: Value = serde_json::from_str(&place.ok("inspect scenarios/fourth_class.toml --modes --json -")).unwrap();
     let at = |mode: usize| {

@@ -99,7 +99,7 @@ fn lengths_that_do_not_fit_are_written_and_reported() {
     }
 }
 
-/// `new --shipped` writes the files that the remaining examples in the help texts need.
+/// `new --shipped` writes the files that examples in the help texts need.
 #[test]
 fn help_examples_run_in_an_empty_directory() {
     let place = Place::empty();

@@ -1,4 +1,4 @@
-//! An output that cannot be written is detected before the work; otherwise its name is reported. No output is left
+//! An output that cannot be written is reported by its name, before the work if possible. No output is left
 //! incomplete.
 #![cfg(unix)]
 

@@ -38,7 +38,7 @@ fn a_slider_crank_is_found_written_and_proven() {
 
 const MOTION: &str = "synthesize motion --pose 0,0,0 --pose 40,25,15 --pose 80,30,35 --pose 115,20,60";
 
-/// The closed forms of three, four and five positions are written, proven, and proven again by `run`.
+/// Four-bars found in closed form for three, four and five positions are written, proven, and proven again by `run`.
 #[test]
 fn four_bars_through_precision_points_are_written_and_proven() {
     let place = Place::new();

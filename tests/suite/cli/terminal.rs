@@ -1,4 +1,5 @@
-//! Reports fit the terminal: verdict first, 80 columns, colours only on a terminal, any number of jobs.
+//! Reports on a terminal: the verdict comes first, lines fit 80 columns, and only a terminal gets colours.
+//! The number of jobs does not affect the output.
 
 use std::fs;
 

@@ -106,6 +106,7 @@ pub const FAMILIES: [Family; 18] = {
     }
     [
         of(&CLASS_3, &[]),
+        // A slider lead has a prismatic outer joint, a swivel lead a prismatic inner joint. In this order:
         // One slider lead, on the crank or on the ground; one swivel lead, on the crank or on the ground.
         // Two slider leads, or a swivel lead and a slider lead; three slider leads; three swivel leads.
         // A lead on the ground with two prismatic joints, which prevents rotation of the base.

@@ -53,8 +53,8 @@ fn three_programs_agree_within_their_tolerances() {
         let found = compared(map, table, &[]);
         let channels = &found.pairs[0].channels;
         assert_eq!(found.verdict.word(), "agree", "{map}: {:?}", found.verdict);
-        // In each table, some error must come near its tolerance, because otherwise the test would prove nothing.
-        // Tables of closed formulas have errors of only about their last digit, so a smaller ratio is enough for them.
+        // In each table, some error must use a part of its tolerance, because otherwise the test would prove nothing.
+        // Tables from closed formulas contain only rounding errors, so a smaller part is enough for these tables.
         let near = if map.starts_with("pylinkage") { 0.01 } else { 0.3 };
         assert!(channels.iter().any(|own| own.worst.unwrap().used() > near), "{map}");
         let mapping = Mapping::load(&path(&format!("{map}.map.toml"))).unwrap();
@@ -97,8 +97,7 @@ fn time_that_jumps_back_is_reported() {
     assert!(compared("mujoco_crank_rocker", "mujoco_crank_rocker.csv", &[]).pairs[0].turns_back.is_none());
 }
 
-/// For each case: the map, a wrong line for it, and words of the cause that must be named (empty if no cause must be
-/// named).
+/// For each case: the map, a wrong line for it, and words of the cause that must be named (empty if none is required).
 const LINES: [(&str, &str, &str); 17] = [
     ("mujoco_crank_rocker", "54.19349837312087 + q_rocker*180/pi=link.rocker.angle_deg", "opposite sense"),
     ("mujoco_crank_rocker", "54.19349837312087 - q_rocker=link.rocker.angle_deg", ""),

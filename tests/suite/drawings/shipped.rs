@@ -32,7 +32,8 @@ fn mechanisms() -> Vec<(String, Case)> {
     paths.iter().map(|path| (path.display().to_string(), Scenario::load(path).unwrap().case.nominal())).collect()
 }
 
-/// States over a turn of the crank, otherwise over the grid of the case.
+/// States over a turn of the crank, or over the grid of the case if the crank cannot make a turn or there are several
+/// drives.
 fn states(case: &Case) -> Vec<State> {
     let solved = |grid: Grid| -> Option<Vec<State>> {
         let case = case.on(grid).ok()?;

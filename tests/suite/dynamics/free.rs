@@ -1,4 +1,4 @@
-//! Free motion: the two analytic sides against each other, against textbook equations, and against Rapier's twin.
+//! Free motion: the two analytic sides against each other, against textbook equations, and against the Rapier engine.
 
 use analytic::{AssurSolver, NewtonSolver};
 use linkage::case::{Case, Grid, Wanted};
@@ -208,7 +208,7 @@ fn twin_run_ups_are_of_order_one_and_extrapolate_accurately() {
         let forces = worst(&reference, &best, force);
         println!("{name} {}: {most:.1e} rad, {forces:.1e} of the range of forces", route.name());
         assert_within!(most, 1e-6, "{name} {}: {most:e} rad, {forces:e}", route.name());
-        // The wider bound includes the start, where forces are extrapolated from the forces of later steps.
+        // At the start, forces are extrapolated from the forces of later steps: there the bound is wider.
         assert_within!(forces, 4e-5, "{name} {}: {most:e} rad, {forces:e}", route.name());
         let forces = crank.iter().filter(|residual| force(&residual.channel) && residual.max > 0.0);
         let later = forces.map(|residual| {
@@ -222,7 +222,7 @@ fn twin_run_ups_are_of_order_one_and_extrapolate_accurately() {
 
 /// The case has neither rotor nor flywheel inertia.
 /// A second pass of Rapier over the constraints, after each step, would multiply the error by 23.
-/// The second pass would remove the velocity that moved the bodies across the constraints.
+/// The pass would remove the part of the velocities that moved the bodies against the constraints in this step.
 #[test]
 fn the_twin_keeps_the_velocities_that_moved_it() {
     let scenario = shipped("crank_rocker_runup.toml");

@@ -140,8 +140,8 @@ fn a_force_against_a_point_of_a_pendulum_is_a_moment() {
     }
 }
 
-/// Symptom: if the loaded point reversed within a step, the twin kept the direction of the resisting force for the
-/// whole step.
+/// Symptom: if the loaded point reversed within a step, the Rapier model kept the direction of the resisting force
+/// for the whole step.
 /// If the reversal came just after the start of a step, all runs had the same error, so the bound from their
 /// differences was too small.
 /// Moments that resist a rotation were right: in such a step, each sense of rotation counts for its share of the step.

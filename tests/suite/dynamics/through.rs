@@ -185,8 +185,8 @@ fn drift(case: &Case, found: &Trajectory) -> f64 {
     (most - least) / all[0].abs().larger(1.0)
 }
 
-/// Mechanisms with change points that occur in no fault report.
-/// Kites and antiparallelograms are tested, and a four-bar whose longest and shortest links together are as long as the
+/// Mechanisms with change points that were never the subject of a fault.
+/// These are kites, antiparallelograms, and a four-bar whose longest and shortest links together are as long as the
 /// two remaining links.
 /// The energy is constant, and the sides agree.
 #[test]
@@ -237,7 +237,7 @@ fn a_loaded_parallelogram_passes_its_change_points() {
 }
 
 /// A motion that reverses next to a change point, before or behind the change point.
-/// Near the change point, the sides do not solve the equations of the pose.
+/// Near the change point, the sides interpolate the motion, because the equations of the pose are nearly singular.
 #[test]
 fn motions_may_reverse_beside_a_change_point() {
     for (start, left) in [(2.0f64, true), (0.1, true), (0.001, true), (-2.0, false), (-0.1, false), (-0.001, false)] {
@@ -378,9 +378,8 @@ fn higher_groups_pass_their_change_points() {
         let plain = driven.replace("through = \"smooth\"\n", "");
         let case = Scenario::parse(&plain, Path::new("through.toml")).unwrap_or_else(|error| panic!("{error}")).case;
         // The different steps put instants at different distances from the change point.
-        // The wrong branch keeps the sign of the determinant.
-        // Near the change point, the wrong branch is as close to the previous pose as the branch that continues the
-        // motion.
+        // The sign of the determinant does not reveal the wrong branch, which keeps this sign.
+        // Near the change point, the distance from the previous pose does not reveal the wrong branch either.
         for steps in [20.0f64, 30.0, 60.0, 37.0, 100.0, 200.0, 300.0, 731.0, 2000.0] {
             let times = (0..).map(|k| 0.6 * f64::from(k) / steps).take_while(|&t| t <= 0.6).collect();
             let case = case.on(Grid::of_times(case.crank(), times)).unwrap();

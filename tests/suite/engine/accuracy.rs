@@ -1,4 +1,4 @@
-//! Accuracy of Rapier's twin at a step of 0.08 deg of the crank.
+//! Accuracy of the Rapier model (crate `rapier-twin`) at a step of 0.08 deg of the crank.
 //! The tested figures are those of `docs/rapier.md`, with the numbers of sweeps given in that page.
 
 use analytic::AssurSolver;
@@ -277,9 +277,8 @@ fn regress_60_single_precision_is_within_its_rounding_bound() {
         let turn = std::f64::consts::TAU / base.crank().at(0.0).rate.abs();
         let times = (0..=45).map(|k| turn * (from + (to - from) * f64::from(k) / 45.0)).collect();
         let case = base.on(linkage::case::Grid::of_times(base.crank(), times)).unwrap();
-        // In an impulse, rows of ill-conditioned loops have more weight than rows of well-conditioned loops.
-        // The constants of the routes by impulses were found on the crank-rocker, so only the crank-rocker uses all
-        // routes.
+        // The rounding error of an impulse grows with the condition number of the loop that determines the impulse.
+        // The constants of the bounds were found on the crank-rocker, so the probe is tested only there.
         let routes: &[Route] = if name == "crank_rocker" { &Route::ALL } else { &[Route::Differences, Route::Native] };
         for (single, double) in [("rapier-f32", "rapier"), ("impulse-f32", "impulse")] {
             // Short grids also use the smaller step. Long grids need `LINKPROOF_DRAWS` above 1 for the smaller step.

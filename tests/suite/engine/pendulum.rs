@@ -29,7 +29,7 @@ struct Pendulum {
     handle: MultibodyJointHandle,
 }
 
-/// A pendulum held at its amplitude, built and started as in the twin.
+/// A pendulum held at its amplitude, built and started as in the crate `rapier-twin`.
 /// If `damped`, the pendulum keeps Rapier's default damping.
 fn pendulum(dt: f64, damped: bool) -> Pendulum {
     let mut world = PhysicsWorld::new();

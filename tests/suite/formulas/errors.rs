@@ -90,14 +90,14 @@ fn shares(list: &[u8]) -> [usize; 4] {
     counts
 }
 
-/// The half of the list with which the search was developed.
+/// The list with which the search was developed.
 #[test]
 fn causes_of_wrong_formulas_are_named() {
     let [all, named, _, other] = shares(include_bytes!("errors.csv"));
     assert!(all >= 80 && 100 * named >= 75 * all && other == 0, "{named} of {all}, {other} by another");
 }
 
-/// The half of the list that was run only once, after the search was finished.
+/// The list that was run only once, after the search was finished.
 #[test]
 fn causes_of_unseen_wrong_formulas_are_named() {
     let [all, named, _, other] = shares(include_bytes!("errors_unseen.csv"));

@@ -129,7 +129,7 @@ fn instant_centres_obey_the_theorem_of_three_centres() {
     }
 }
 
-/// If the input is a slide, transfer functions are derivatives by the slide.
+/// If the input is a slide, transfer functions are derivatives with respect to the slide.
 #[test]
 fn a_slide_may_be_the_input() {
     let scenario = scenario("boom_lift");

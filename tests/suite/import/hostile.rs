@@ -1,4 +1,4 @@
-//! Damaged sources end with a message that says where, and how to go on.
+//! The import of a damaged source ends with a message that says where the damage is, and how to go on.
 
 use super::data;
 use crate::cli::tools::Place;
@@ -35,7 +35,7 @@ fn a_broken_link_is_refused_with_its_place() {
     place.refused("import none.pmks", &["the source none.pmks cannot be read"]);
 }
 
-/// Random damage of links, models and files of Linkage never panics and never takes long.
+/// The import of randomly damaged models and files of Linkage never panics and never takes long.
 #[test]
 fn damaged_sources_never_panic() {
     let model = mjcf(&shipped("quick_return.toml").case, &AssurSolver, "m", 1e-3).unwrap();
@@ -64,7 +64,7 @@ fn damaged_sources_never_panic() {
     }
 }
 
-/// Random damage of a link whose last character is correct again after the damage.
+/// The same for a randomly damaged link of PMKS+, whose last character is correct again after the damage.
 #[test]
 fn damaged_links_never_panic() {
     let names = ["four_bar", "slot", "force", "welded", "driven_slide"];

@@ -1,12 +1,13 @@
-//! Links of PMKS+. The test compares the points with the coordinates from which the links were made by hand.
+//! Links of PMKS+: web addresses that contain a mechanism.
+//! The test compares the points with the coordinates from which the addresses were made by hand.
 
 use super::{data, imported, proven};
 use crate::cli::tools::{Place, Table};
 use crate::common::assert_within;
 use linkage::math::KeepNan;
 
-/// A link, its unit of length in m, the positions of moving points at t = 0 in this unit, and the speed of the input
-/// (rpm; 0 if the test does not check the speed).
+/// A web address, its unit of length in m, the positions of moving points at t = 0 in this unit, and the speed of the
+/// input (rpm; 0 if the test does not check the speed).
 struct Link {
     name: &'static str,
     metres: f64,
@@ -96,7 +97,7 @@ fn every_link_becomes_a_scenario_that_is_proven() {
         }
         assert!(!told.is_empty() || stderr.is_empty(), "{name}: {stderr}");
         proven(&place, name);
-        // The start pose is the drawing; coordinates in a link have three decimals.
+        // The start pose is the drawing; coordinates in an address have three decimals.
         let table = Table::of(&place.ok("solve own.toml --with newton --times 0"));
         for (point, [x, y]) in points {
             let found = ["x", "y"].map(|axis| table.column(&format!("point.{point}.{axis}_m"))[0]);
@@ -120,8 +121,8 @@ fn masses_and_forces_have_the_units_of_the_document() {
         let own = links.iter().find(|own| own.name == link).unwrap();
         (own.mass, own.inertia, scenario.case.gravity, scenario.case.loads.len())
     };
-    // Units of mass and moment of inertia: g and kg cm^2 in a link in cm, lb and lb in^2 in a link in inches, kg and kg
-    // m^2 in a link in m.
+    // Units of mass and moment of inertia: g and kg cm^2 in an address in cm, lb and lb in^2 in one in inches, kg and
+    // kg m^2 in one in m.
     let (own, inertia, gravity, loads) = mass("four_bar.pmks", "BC");
     assert_within!((own - 0.06).abs() + (inertia - 3e-4).abs() + gravity.norm(), 1e-15);
     assert_eq!(loads, 0);

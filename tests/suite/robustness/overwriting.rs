@@ -32,7 +32,7 @@ const RUN: &str = "run scenarios/pendulum.toml --route differences";
 
 const SWEEP: &str = "sweep scenarios/crank_rocker.toml --vary links.crank.mass_kg=1:2:3 --figure max:joint.A.fx_N";
 
-/// A link of PMKS+: a four-bar.
+/// The import of a four-bar from a web address of PMKS+.
 const LINK: &str = concat!(
     "import ?00.VG.K,0.101.6A,A,0,0,0.0B,B,ku,VG,0.0C,C,2SG,1jO,0.4D,D,2xW,0,0..YRAB,AB,4uW,7q,NS,Fe,c5cae9,A,B,,.",
     "YRBC,BC,EfW,ku,1ba,16K,c5cae9,B,C,,.YRCD,CD,CDG,VG,2hu,si,c5cae9,C,D,,...N_q"

@@ -53,9 +53,7 @@ fn motion_and_work_are_the_same_after_1e5_turns() {
     }
 }
 
-/// Motions that do not repeat after a revolution are followed revolution by revolution.
-/// A parallelogram is refused at its change points.
-/// A motion law does not consist of whole revolutions, and two drives have no common revolution.
+/// Two drives have no common revolution, so their motion is followed revolution by revolution.
 #[test]
 fn several_drives_are_followed_turn_by_turn() {
     let case = shipped("five_bar.toml").case;

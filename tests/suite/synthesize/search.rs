@@ -124,7 +124,8 @@ fn a_path_passes_its_points_in_order() {
     let achieved = Achieved::of(&Task { case, ..task.clone() }, found.forward).unwrap();
     let places = achieved.points.iter().zip(task.points.all());
     let apart = places.map(|(own, wanted)| (own.place - wanted.place.unwrap()).norm()).fold(0.0, f64::larger);
-    // The points are 25 mm long; both coordinates are within 0.1 %, and dimensions are rounded to a micrometre.
+    // The bound allows errors of 0.1 % of the points' span (25 mm) in both coordinates, and dimensions rounded to a
+    // micrometre.
     assert_within!(apart, 5e-5, "{achieved:?}");
     assert!(achieved.points.windows(2).all(|pair| pair[0].turn < pair[1].turn), "{:?}", achieved.points);
     assert!(achieved.transmission.unwrap() > 19.9f64.to_radians());

@@ -105,7 +105,7 @@ function setUpReduced() {
     const unit = nice(graph.unit);
     const marks = graph.marks.map((mark) => `${mark.word} ${digits(mark.at[1])} at ${digits(onAxis(mark.at[0]), 4)} deg`);
     const [x, y] = [singles(graph.x).map((own) => own * degrees), singles(graph.y)];
-    // A smaller mean is a rounding error.
+    // A mean below 1e-12 of the largest value is only rounding.
     const mean = Math.abs(graph.mean) < 1e-12 * largestOf([y]) ? 0 : graph.mean;
     const told = graph.constant ? `constant: ${digits(mean)} ${unit}` : `${graph.mean_word} ${digits(mean)} ${unit} (dashed), ${marks.join(', ')}`;
     const symbol = graph.symbol.replace('_', '');

@@ -191,7 +191,7 @@ function tellLoads() {
 /** Table of all forces at the instant shown: loads first, then reactions. */
 function setUpForces() {
   const body = byId('force-rows');
-  // Smaller values are rounding errors of the largest forces of the run.
+  // Values below 1e-12 of the largest value of the run are only rounding.
   const naturalForce = 1e-12 * Math.max(largestForce(), largestLoad);
   const naturalMoment = Math.max(naturalForce * motion.size, 1e-12 * largestMoment);
   const seen = (size, natural) => (Math.abs(size) > natural ? size : 0);

@@ -25,7 +25,7 @@ function resume(view) {
   setPlaying(false);
   byId('speed').selectedIndex = view.speed;
   for (const own of boxes()) {
-    // The engine is shown by the difference between both sides, as on the first page.
+    // The new page itself decides whether the engine is shown.
     if (own.id === 'show-engine' || !view.boxes.has(own.id) || view.boxes.get(own.id) === own.checked) continue;
     own.checked = !own.checked;
     own.dispatchEvent(new Event('change'));
