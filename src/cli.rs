@@ -115,7 +115,7 @@ commands! {
         /// Show the structure of a mechanism (links, joints, mobility, driving link and Assur groups), its
         /// configurations and its range of motion
         Inspect(inspect::Args) = inspect::inspect,
-        /// Serve a page with the moving mechanism and its verdict, renewed whenever the file is saved
+        /// Serve a page with the moving mechanism and its verdict, renewed at each save of the file
         Watch(watch::Args) = watch::watch,
         /// Draw mechanisms, also those that cannot be assembled yet, and all configurations: SVG, PDF, PNG, animated
         /// GIF and WebP

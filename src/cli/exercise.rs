@@ -38,8 +38,8 @@ pub(super) struct Args {
     #[arg(long, value_name = "PERCENT", default_value = "20", value_parser = per_cent)]
     spread: f64,
     /// Smallest transmission angle over the whole range and at the requested positions. Its sine is reduced, if it is
-    /// larger, to three quarters of a group's smallest sine in the original mechanism (range), or of a group's largest
-    /// sine in the sheet's mechanism (positions)
+    /// larger, to three quarters of a group's smallest sine in the original mechanism (range), or of its largest sine
+    /// in the sheet's mechanism (positions)
     #[arg(long, value_name = "DEG", default_value = "20", value_parser = angle)]
     transmission_deg: f64,
     /// Requested quantities: a channel, a magnitude (point.B.v_m_s, point.B.a_m_s2, joint.B.f_N), or a stage

@@ -82,8 +82,8 @@ impl Desk {
         self.changed.notify_all();
     }
 
-    /// Stores the text of the file (`None` if the file is missing), and takes it as the newest draft unless it equals the
-    /// present draft.
+    /// Stores the text of the file (`None` if the file is missing), and takes it as the newest draft unless it equals
+    /// the present draft.
     pub(super) fn saw(&self, disk: Option<String>) {
         let disk: Option<Arc<str>> = disk.map(Into::into);
         let state = self.state();
