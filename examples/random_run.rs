@@ -107,8 +107,8 @@ fn run(binary: &str, file: &Path, limit: Duration, further: &[String]) -> Outcom
     Outcome { word, why, seconds: since.elapsed().as_secs_f64() }
 }
 
-/// The verdict, and the check or channel that causes it.
-/// This check or channel has the largest ratio of residual to bound, or the widest bound.
+/// The verdict, and its reason: the first two checks with this verdict, and the worst channel.
+/// The worst channel has the largest ratio of residual to bound, or, unless the run disagrees, the widest bound.
 fn judged(report: &Value) -> (&'static str, String) {
     let Some(run) = report["runs"].get(0) else {
         let error = &report["errors"][0];

@@ -115,7 +115,7 @@ commands! {
         /// Show the structure of a mechanism (links, joints, mobility, driving link and Assur groups), its
         /// configurations and its range of motion
         Inspect(inspect::Args) = inspect::inspect,
-        /// Serve a page that shows the mechanism moving and its verdict whenever the file is saved
+        /// Serve a page with the moving mechanism and its verdict, renewed at each save of the file
         Watch(watch::Args) = watch::watch,
         /// Draw mechanisms, also those that cannot be assembled yet, and all configurations: SVG, PDF, PNG, animated
         /// GIF and WebP
@@ -223,7 +223,7 @@ pub fn main() -> ExitCode {
     ExitCode::from(run(std::env::args_os()))
 }
 
-/// Silences panics that are caught and become errors. Call it once, at the start of the process.
+/// Silences panics that are caught and become errors. One call at the start of the process is enough.
 pub fn silence() {
     panics::silence(linkage::quiet::is_guarded);
 }

@@ -27,8 +27,8 @@ def simulate(path, compiled=True):
     d = RRPDyad(c, o2, above, distance=8, x=0, y=13)
     linkage = Linkage([o1, o2, above, a, b, c, d])
     linkage.set_input_velocity(a, omega=1.0)  # derivatives with respect to the crank angle
-    # The compiled path is used, because step_with_derivatives() gives no velocity of a PointTracker, and
-    # the velocity 0 of the joints attached to the tracker.
+    # The compiled path is used, because step_with_derivatives() gives no velocity for a PointTracker, and gives 0 for
+    # the joints attached to the tracker.
     every = linkage.step_fast_with_kinematics(STEPS) if compiled else stepped(linkage)
     phi = np.arange(1, STEPS + 1) * math.tau / STEPS
     columns, names = [phi], ["phi"]

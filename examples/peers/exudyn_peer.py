@@ -22,7 +22,7 @@ SETTINGS = {
     "alpha, radius 0.5, full Newton": dict(spectralRadius=0.5),
     "Newmark, index 2": dict(useNewmark=True, useIndex2Constraints=True),
 }
-# Loads beside those that are constant.
+# Types of load that this peer has besides constant forces and moments.
 LOADS = ("resistance", "spring", "damper", "torsion_spring", "torsion_damper")
 # Numbers of steps in an interval of the grid.
 PARTS = (1, 2, 4, 8, 16)
@@ -291,7 +291,7 @@ def motion_of(case, model):
 
 def reactions(case, model, motion):
     """Adds the force of the first link on the second; Exudyn gives that of the second marker on the first."""
-    # Gears exert moments alone here, so that their axles lack the tooth forces.
+    # This model of gears exerts only moments, so the reactions of the axles lack the tooth forces.
     geared = {link for own in case.data["transmissions"] for link in (*own["links"], own["carrier"], "ground")}
     for joint in case.joints:
         name = joint["name"]

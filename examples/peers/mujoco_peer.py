@@ -92,7 +92,7 @@ def moment_of(case, model, data, joint):
     """Moment on the body that a joint of the tree carries, about the joint's point, in world axes."""
     read = data.sensor(f"{joint}.moment").data[2]
     carried = model.jnt_bodyid[model.joint(joint).id]
-    # MuJoCo computes the sensor's moment backwards from the motion, without the loads on the links beyond this joint.
+    # MuJoCo computes the sensor's moment by inverse dynamics, without the loads on the links beyond this joint.
     for load in case.loads:
         body = model.body(load["link"]).id
         while body not in (0, carried):

@@ -14,7 +14,7 @@ LINKPROOF = os.environ.get("LINKPROOF", "linkproof")
 FOLDER = pathlib.Path(os.environ.get("SCENARIOS", pathlib.Path(__file__).parent / "scenarios"))
 FILES = sorted(FOLDER.glob("*.toml"))
 
-# Largest number of channels and checks shown that do not agree.
+# Of the channels and checks that do not agree, at most this number is shown.
 SHOWN = 5
 
 

@@ -14,7 +14,7 @@ CASE = {"in batches": 4.1e-6, "one by one": 300e-6}
 BYTES = 31
 #: Fixed time of a share on its worker (s), and time of a share for scheduler and client (s).
 SHARE, SCHEDULER = 0.006, 0.003
-#: Time until a worker takes its first share (s), and between two workers. Not measured: this depends on the cluster.
+#: Time until the first worker takes a share, and between the starts of two workers (s). Not measured: they depend on the cluster.
 START, NEXT = 20.0, 0.05
 #: Mean life of a worker (s), and time until a dead one is replaced. Not measured either.
 LIFE, REPLACED = 4 * 3600.0, 60.0

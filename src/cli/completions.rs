@@ -9,7 +9,7 @@ use linkage::error::Result;
 #[derive(Debug, clap::Args)]
 #[command(after_help = include_str!("help/completions.txt").trim_ascii_end())]
 pub(super) struct Args {
-    /// Shell that completes
+    /// Name of the shell
     shell: Shell,
 }
 

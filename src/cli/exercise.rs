@@ -37,9 +37,9 @@ pub(super) struct Args {
     /// Largest change of a number, in per cent
     #[arg(long, value_name = "PERCENT", default_value = "20", value_parser = per_cent)]
     spread: f64,
-    /// Smallest allowed transmission angle, over the whole range and at the requested positions. Over the range, the
-    /// limit of its sine is at most three quarters of the smallest sine of the original mechanism; at the positions, at
-    /// most three quarters of the largest sine
+    /// Smallest transmission angle over the whole range and at the requested positions. Its sine is reduced, if it is
+    /// larger, to three quarters of a group's smallest sine in the original mechanism (range), or of its largest sine
+    /// in the sheet's mechanism (positions)
     #[arg(long, value_name = "DEG", default_value = "20", value_parser = angle)]
     transmission_deg: f64,
     /// Requested quantities: a channel, a magnitude (point.B.v_m_s, point.B.a_m_s2, joint.B.f_N), or a stage

@@ -24,7 +24,7 @@ pub(super) struct Args {
     file: PathBuf,
     #[command(flatten)]
     outputs: Outputs<Exports>,
-    /// Initial time step of the file in seconds [default: the scenario's time step, else a quarter of a degree of the
+    /// Time step stated in the file, in seconds [default: the scenario's time step, else a quarter of a degree of the
     /// fastest driving link]
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = number::positive)]
     dt: Option<f64>,

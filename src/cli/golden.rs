@@ -85,7 +85,7 @@ fn one(&Entry { path, name, sort, bytes }: &Entry, place: &Path) -> Result<Golde
         put(&directory.join(file), &bytes)?;
     }
     let step = scenario.engine.step.get().unwrap_or_else(|| usual_step(&scenario.case));
-    // A format that holds every mechanism: the case as numbers.
+    // The JSON contains the case as numbers, so it can describe every mechanism.
     let numbers = case_json::text(&scenario.name, &scenario.case, &first_state(&scenario.case, &AssurSolver)?);
     put(&directory.join(format!("{name}.json")), numbers.as_bytes())?;
     let mut models = vec![("json", None)];

@@ -59,8 +59,8 @@ impl GridArgs {
         self.crank_deg.is_some() || self.times.is_some()
     }
 
-    /// The grid of the arguments, for a first drive with this input: the name of the grid's values, and the grid's text
-    /// as given. `None` if the arguments give no grid.
+    /// Name (with unit) and text of the values that the arguments give; `input` is the input of the first drive.
+    /// `None` if the arguments give no grid.
     pub(super) fn told(&self, input: Input) -> Option<(&'static str, &str)> {
         match &self.crank_deg {
             Some(values) => Some((input.shown_in().1, &values.text)),

@@ -11,7 +11,7 @@ use scenario::header::is_name;
 #[derive(Debug, clap::Args)]
 #[command(after_help = include_str!("help/import.txt").trim_ascii_end())]
 pub(super) struct Args {
-    /// Share link of PMKS+ in quotes, or a file: with such a link, with a model for MuJoCo, or of Linkage; `-` for
+    /// Share link of PMKS+ in quotes, or a file with such a link, a model for MuJoCo or a file of Linkage; `-` for
     /// standard input
     #[arg(value_name = "SOURCE")]
     source: PathBuf,

@@ -157,14 +157,14 @@ fn without_drive(args: &Args, asked: &StartRequest, error: Error) -> Result<()> 
     args.outputs.deliver(made, |_| fixed.text(args.modes) + further)
 }
 
-/// The drawing. If a fault leaves out parts of the drawing, the fault is printed as a warning.
+/// The drawing. If parts of it are missing because of a fault, the fault is printed as a warning.
 fn drawing_of(drawn: Drawn, wish: &PictureOptions) -> Made {
     drawn.fault.iter().for_each(output::warn);
     drawing(drawn, wish).into()
 }
 
 /// The structures for the driven joint or the driving link called `name`.
-/// For the name `all`, the result contains the structure for every joint that no drive other than the crank's moves.
+/// For the name `all`, the result contains the structure for every joint, except the joints of the further drives.
 fn drivers(case: &Case, name: &str) -> Result<Drivers> {
     let (links, joints) = (case.mechanism.links(), case.mechanism.joints());
     let is_open = |id: &JointId| case.drives.further().iter().all(|drive| drive.joint != *id);

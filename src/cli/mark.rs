@@ -51,7 +51,7 @@ results! { Marks {
     Html = "all of these pages in one page",
 } }
 
-/// A class: its directory, its key, and the sheets to be marked with the paths of their answers.
+/// A class: its directory, its key, and the sheets to be marked, each with the path of its answers.
 struct Class {
     directory: PathBuf,
     key: ClassKey,

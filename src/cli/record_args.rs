@@ -63,7 +63,7 @@ pub(super) struct Recorded {
 }
 
 impl RecordArgs {
-    /// Refuses options without effect when neither a recording nor a live view is requested.
+    /// Refuses options that have no effect without a recording. Do not call it for a live view, which uses them too.
     pub(super) fn refuse_idle(&self) -> Result<()> {
         let given = [
             ("--slow", self.slow.is_some()),
@@ -190,7 +190,7 @@ fn sides(proof: &Proof) -> Vec<RecordedSide<'_>> {
     sides
 }
 
-/// Message about a large recording of these instants (s): the number of instants, and how to reduce the recording.
+/// Message about a large recording of these instants (s): the value of `--record-hz` that gives a handy size.
 fn large(bytes: u64, times: &[f64], hz: Option<f64>) -> String {
     if bytes < LARGE {
         return String::new();

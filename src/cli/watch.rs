@@ -1,11 +1,11 @@
 //! `linkproof watch`: a page on this machine that follows a scenario file.
 //!
 //! - `desk`: the text of the file, the draft on the page, and what is known about the draft. Every change has a number.
-//! - `work`: two threads. One thread solves the newest draft analytically, the other thread proves this draft if it has
-//!   no mistakes. Results of older drafts are dropped.
+//! - `work`: three threads. One follows the file, one solves the newest draft analytically, and one proves this draft
+//!   if it has no mistakes. Results of older drafts are dropped.
 //! - `server`: HTTP on 127.0.0.1. The address contains a random word, and requests of other pages are refused.
 //!
-//! The page is that of `run --html`, in a frame beside the text. Only `keep` writes to the file.
+//! The page is that of `run -o PAGE.html`, in a frame beside the text. Only `keep` writes to the file.
 
 #[cfg(feature = "watch")]
 mod desk;

@@ -29,8 +29,8 @@ pub(super) struct RequestedPoints {
 }
 
 impl RequestedPoints {
-    /// The points whose names are requested, and with `all_traces` all moving points without a joint.
-    /// If several positions are requested and no paths, the paths of all moving points are drawn.
+    /// The points whose names are requested, and with `all_traces` all moving points. The points at joints are then in
+    /// `joints`. If several positions are requested and no paths, all moving points are in `traced`.
     pub(super) fn of(mechanism: &Mechanism, wish: &PictureOptions) -> Self {
         let [traces, enlarged, ..] = wish.keys();
         let mut unknown = Vec::new();

@@ -199,8 +199,8 @@ impl Drawn {
         let free = scenario.case.clone();
         let scenario = scenario.nominal();
         let case = &scenario.case;
-        // A time within a free motion selects an instant of this motion. The position with full lines is then one of
-        // the positions of the series.
+        // A time within a free motion selects an instant of this motion. The position with full lines then belongs to
+        // the motion of the series.
         let shown = match (&course, when) {
             (Some(Ok(course)), When::Time(_)) if course.is_timed => &free,
             _ => case,

@@ -1,5 +1,5 @@
-//! The short report of a proof: the verdict, what the file says the mechanism is, its figures, and all information that
-//! the user needs to act.
+//! The short report of a proof: the verdict, the mechanism as the file describes it, its figures, and all information
+//! that the user needs to act.
 
 use super::cells::{flush, trimmed};
 use super::judged::{self, Grade, counts, grade, ranked, verdicts};
@@ -102,7 +102,7 @@ fn largest_difference(proof: &Proof) -> Option<(f64, &Channel)> {
     shares.max_by(|(one, _), (other, _)| one.total_cmp(other))
 }
 
-/// What the file says the mechanism is, and the figures of its motion.
+/// The mechanism as the file describes it, and the figures of its motion.
 pub fn facts(proof: &Proof, width: Option<usize>, text: &mut String) {
     text.push('\n');
     for (what, told) in machine::rows(proof) {

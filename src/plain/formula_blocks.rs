@@ -1,4 +1,4 @@
-//! Wrong and open formulas in words: a block for each formula, with the wrong position, the largest difference and the
+//! Wrong and open formulas in words: a block for each formula, with its wrong part, the largest difference and the
 //! cause.
 
 use std::collections::{BTreeMap, BTreeSet};

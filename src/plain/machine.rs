@@ -1,4 +1,4 @@
-//! What the file says the mechanism is: links, joints, drives, transmissions and loads. A proof shows that methods
+//! The mechanism as the file describes it: links, joints, drives, transmissions and loads. A proof shows that methods
 //! agree on the file. Only a reader can see whether the file describes the intended mechanism.
 
 use super::cells::some;

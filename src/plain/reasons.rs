@@ -78,8 +78,7 @@ impl Reason {
     }
 }
 
-/// The distinct reasons of all verdicts, disagreements first. Formulas with a block of their own ([`formulas`]) are left
-/// out.
+/// The distinct reasons of all verdicts, disagreements first. Formulas that have a block ([`formulas`]) are left out.
 pub fn grouped(proof: &Proof, tell: Tell) -> Vec<Reason> {
     let mut all: Vec<Reason> = Vec::new();
     let told = in_blocks(proof);
@@ -139,11 +138,11 @@ pub fn expected(proof: &Proof, tell: Tell, text: &mut String) {
     say!(text, sentences::checks_disagree_as_expected_see(&count, &(told.join(",\n  "))));
 }
 
-/// Largest number of instants at rest that are solved for the interval of the driving moment or force.
+/// Largest number of instants at rest at which the interval of possible driving moments or forces is computed.
 const MOST_AT_REST: usize = 20;
 
 /// Reports joints with friction and transmissions with losses, if they are at rest.
-/// Also reports the widest interval of the first drive's moment or force at these instants.
+/// Also reports the widest interval of possible moments or forces of the first drive at these instants.
 fn at_rest(proof: &Proof, width: Option<usize>, text: &mut String) {
     let (case, reference) = (&proof.scene.case, &proof.reference_trajectory);
     if case.is_free() {

@@ -54,7 +54,7 @@ pub(crate) fn fastest<'a>(
     timed.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, point)| point)
 }
 
-/// The Pareto fronts as text: for each error, the fastest program that reaches this error.
+/// The Pareto fronts as text; below each front, for each error in [`DECADES`], the fastest engine or peer.
 pub(crate) fn text(bench: &Bench) -> String {
     let mut text = format!("{}: {}\n\n", bench.scenario[0], bench.scenario[1]);
     let failed = bench.points.iter().filter(|point| point.run().is_none()).count();

@@ -115,7 +115,7 @@ fn panel(bench: &Bench, stage: Stage, axis: CostAxis, [left, right]: [f64; 2]) -
         Some([cost(bench, axis, point)?, shown(point.error(stage)?.max)])
     };
     let mut is_empty = true;
-    // The last program is drawn first: the marks of the first programs are the smallest and stay visible.
+    // The last program is drawn first, so that the marks of the first programs are on top.
     for (number, program) in programs(bench).into_iter().enumerate().rev() {
         let own = |point: &BenchPoint| point.program == program;
         let best = front(&bench.points, stage, axis, floor, &own);

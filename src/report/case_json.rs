@@ -124,7 +124,7 @@ fn motor_of(motor: &Motor) -> Value {
 }
 
 /// The value of a load over the motion: a number if it is constant.
-/// A table is not written. An object states its period in turns, or that its variable is a slide.
+/// A table is not written. In its place, an object states the table's period in turns, or that its variable is a slide.
 fn course(course: &Course) -> Value {
     match course {
         Course::Constant(value) => json!(value),

@@ -140,8 +140,8 @@ const SHAPES: [&[[f64; 2]]; 8] = [
     &[[-1.1, -1.1], [-1.1, 1.1], [1.1, -1.1], [1.1, 1.1]],
 ];
 
-/// Colour of the party with this number. After each party that uses the last mark, the order of the colours moves on by
-/// one, so that no pair of mark and colour repeats at once.
+/// Colour of the party with this number. Whenever the shapes of marks begin again, the colours are shifted by one, so
+/// that a pair of shape and colour repeats only after many parties.
 pub(super) fn colour(party: usize) -> &'static str {
     SERIES[(party + party / SHAPES.len()) % SERIES.len()].light
 }

@@ -51,11 +51,11 @@ pub(crate) struct Golden {
     pub(crate) title: String,
     /// What sort of mechanism it is.
     pub(crate) sort: &'static str,
-    /// Endings of the models. A model that is missing has the reason for this.
+    /// Endings of the models, each with the reason if the model is missing.
     pub(crate) models: Vec<(&'static str, Option<String>)>,
     /// The instants and the channels of the truth.
     pub(crate) size: [usize; 2],
-    /// Largest bound of a channel, as a share of the channel's scale.
+    /// Largest bound of a channel, divided by the largest magnitude of all channels with its unit.
     pub(crate) bound: f64,
 }
 

@@ -174,7 +174,7 @@ fn filled_page(proof: &Proof, beside: &Beside, judged: &Judged, tell: Tell, scri
     )
 }
 
-/// Number of instants on the page, if some instants are omitted.
+/// Number of instants on the page; if some are omitted, also the number of all instants.
 fn told(thinned: &Thinned) -> String {
     let (shown, all) = (thinned.rows.len(), thinned.all);
     if shown == all { format!("{all} instants.") } else { sentences::of_instants_evenly_chosen_and_those(&shown, &all) }

@@ -108,8 +108,8 @@ pub(super) fn check(args: &CheckArgs) -> Result<()> {
     args.outputs.deliver(result, |_| report::text(&story))
 }
 
-/// A mechanism at the speed `speed` (rad/s), with its largest accelerations, reactions and moments. The name in a task
-/// is the name of the scenario that a search writes, so the comparison names the task after its `file`.
+/// A mechanism at the speed `speed` (rad/s), with its largest accelerations, reactions and moments. Its task gets the
+/// name of its `file`, because the tasks of all mechanisms come from one synthesis file and have the same name.
 fn contender((scenario, task, achieved): &(Scenario, Task, Achieved), file: &Path, speed: f64) -> Result<Contender> {
     let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let task = Task { name, case: at_speed(&task.case, speed)?, ..task.clone() };

@@ -85,8 +85,8 @@ impl Desk {
         self.changed.notify_all();
     }
 
-    /// Takes the text of the file as the newest draft, unless it is the text of the draft; `None` if the file is
-    /// missing.
+    /// Stores the text of the file (`None` if the file is missing), and takes it as the newest draft unless it equals
+    /// the present draft.
     pub(super) fn saw(&self, disk: Option<String>) {
         let disk: Option<Arc<str>> = disk.map(Into::into);
         let state = self.state();

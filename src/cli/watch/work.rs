@@ -23,7 +23,7 @@ use scenario::{Draft, Scenario, StartRequest, edit};
 
 /// Time between two looks at the file.
 const TICK: Duration = Duration::from_millis(2);
-/// The file is read at least this often, because an editor may keep length and time of change.
+/// The file is read at least this often, because a change may leave its length and its time of change as they were.
 const RELOOK: Duration = Duration::from_millis(500);
 
 /// Limits for the columns of the first picture and of the later pages (bytes): fewer instants, but the browser shows

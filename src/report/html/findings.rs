@@ -12,7 +12,7 @@ const FIRST: usize = 3;
 /// Largest number of reasons written in full; the tables of the page have the other reasons.
 const MOST: usize = 12;
 
-/// For the top of the page, the reasons why the verdict is not *agree*: the diagnosis and the first reasons.
+/// For the top of the page, the reasons why the verdict is not *agree*: faults, diagnosis, first reasons and formulas.
 /// The text is empty if everything agrees.
 pub(super) fn why(proof: &Proof, tell: Tell) -> String {
     if agrees(proof) {

@@ -37,7 +37,8 @@ pub(super) fn of(proof: &Proof) -> Vec<FormulaCurve<'_>> {
             off - claim.turn().map_or(0.0, |turn| turn * (off / turn).round())
         };
         let difference = (0..mechanism.len()).map(off).collect();
-        // The verdict shown is the verdict of the check, because only the bound of the check may be scaled.
+        // The verdict of the check is shown, because `--tolerance-scale` scales the bound of the check, but not the
+        // bound of the formula.
         let check =
             proof.formula_checks().find(|(own, check)| own.name == formula.name && check.verdict.word() == "disagree");
         let own = proof.formula_checks().find(|(own, _)| own.name == formula.name && own.order == 0);
