@@ -43,7 +43,7 @@ def simulated(shares, work, workers, start=START, seed=1):
 
 
 def main(cases, workers, *counts):
-    part = min(max(cases // 256, 64), max(20_000, min(cases // 10_000, 1_000_000)))
+    part = min(max(cases // 64, 64), max(20_000, min(cases // 10_000, 1_000_000)))
     parts = -(-cases // part)
     print(f"{parts} parts of {part} cases, {part * BYTES / 1e6:.1f} MB each; table {cases * BYTES / 1e9:.1f} GB")
     for kind, case in CASE.items():

@@ -133,11 +133,10 @@ pub(super) fn sweep(args: &Args) -> Result<u8> {
     let goal = goal(args.best.as_deref(), &plan)?;
     let directory = args.outputs.first(Sweeps::Results).unwrap_or(Path::new("sweep"));
     let store = SweepStore::open(directory, &plan)?;
-    let whole = args.shard.unwrap_or(Shard::WHOLE);
     if !store.is_complete() {
-        let cases = whole.cases(&plan);
+        let cases = args.shard.unwrap_or(Shard::WHOLE).cases(&plan);
         let mut bar = Bar::new(&sentences::cases_of(&cases));
-        let tally = run(&plan, &store, whole, args.jobs.unwrap_or(cores()), &mut |tally| {
+        let tally = run(&plan, &store, args.shard, args.jobs.unwrap_or(cores()), &mut |tally| {
             bar.at(tally.cases() as f64 / cases as f64);
             ControlFlow::Continue(())
         })?;
@@ -153,7 +152,6 @@ pub(super) fn sweep(args: &Args) -> Result<u8> {
             output::print(&report::of_shard(&tally, shard, directory))?;
             return Ok(AGREE);
         }
-        store.join(&plan, &[])?;
     }
     let summary = SweepSummary::of(&plan, &store.table(), goal)?;
     told(&plan, &summary, goal, &store)?;

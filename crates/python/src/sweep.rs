@@ -36,15 +36,12 @@ impl SweepWish {
         if store.is_complete() {
             tally.stored = cases;
         } else if !self.plan_only {
-            tally = run(&plan, &store, shard, self.jobs, &mut |tally| tell((tally.cases(), cases)))?;
+            tally = run(&plan, &store, self.shard, self.jobs, &mut |tally| tell((tally.cases(), cases)))?;
             if let Some(case) = tally.disagreement {
                 let error = Error::new(ErrorKind::Numeric, sentences::the_proof_of_a_case_disagrees(&case));
                 return Err(error
                     .key("prove_every")
                     .help(sentences::prove_the_case(&dictionary(&plan.setting_of(case)))));
-            }
-            if self.shard.is_none() && tally.cases() == cases {
-                store.join(&plan, &[])?;
             }
         }
         Ok(Sweep { plan, store, shard, tally })

@@ -1,5 +1,6 @@
 //! Runs a sweep on several threads.
 
+use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 use std::sync::{Mutex, PoisonError};
 
@@ -9,7 +10,7 @@ use linkage::threads::side_by_side;
 
 use crate::plan::{CaseResult, CaseSolver, SweepPlan, one_line};
 use crate::sentences;
-use crate::store::SweepStore;
+use crate::store::{Failure, SweepStore};
 use crate::table::Rows;
 
 /// One of several shares of a sweep's parts. The shares are equal, up to one part.
@@ -75,22 +76,56 @@ impl SweepTally {
     }
 }
 
-/// Solves the parts of a shard that are not stored yet. `progress` receives the numbers of cases after every part.
+/// Solves the parts of a shard, or of the whole sweep, that are not stored yet. `progress` receives the numbers of cases after every part.
 /// If `progress` returns `Break`, the sweep stops.
 /// If the proof of a case disagrees, the sweep stops after the part of this case; finished parts remain stored.
+/// Without `shard`, the parts are joined to one table while further parts are solved.
 ///
 /// # Errors
-/// [`linkage::error::ErrorKind::Io`] if a part cannot be written.
+/// [`linkage::error::ErrorKind::Io`] if a part or the joined table cannot be written.
 pub fn run(
+    plan: &SweepPlan,
+    store: &SweepStore,
+    shard: Option<Shard>,
+    threads: usize,
+    progress: &mut dyn FnMut(&SweepTally) -> ControlFlow<()>,
+) -> Result<SweepTally> {
+    if let Some(shard) = shard {
+        return stored(plan, store, shard, threads, &mut |tally, _| progress(tally));
+    }
+    let mut outcome = Ok(SweepTally::default());
+    store.fill(plan, |table| {
+        // Parts are appended in their order. A part that is stored before an earlier part waits.
+        let (mut waiting, mut next, mut broken) = (BTreeSet::<u64>::new(), 0, None);
+        outcome = stored(plan, store, Shard::WHOLE, threads, &mut |tally, parts| {
+            waiting.extend(parts);
+            while broken.is_none() && waiting.remove(&next) {
+                broken = table.append(&store.part(next)).err();
+                next += 1;
+            }
+            if broken.is_some() { ControlFlow::Break(()) } else { progress(tally) }
+        });
+        match (broken, &outcome) {
+            (Some(error), _) => Err(error.into()),
+            (None, Ok(tally)) if next == plan.parts() && tally.disagreement.is_none() => Ok(()),
+            (None, Ok(_) | Err(_)) => Err(Failure::Unfinished),
+        }
+    })?;
+    outcome
+}
+
+/// Solves and stores parts. `done` receives the numbers of cases and the parts stored since its last call. Its first call
+/// has the parts of an earlier run.
+fn stored(
     plan: &SweepPlan,
     store: &SweepStore,
     shard: Shard,
     threads: usize,
-    progress: &mut dyn FnMut(&SweepTally) -> ControlFlow<()>,
+    done: &mut dyn FnMut(&SweepTally, &[u64]) -> ControlFlow<()>,
 ) -> Result<SweepTally> {
     let mut tally = SweepTally::default();
-    let (stored, open): (Vec<u64>, Vec<u64>) = shard.parts(plan).partition(|part| store.has(*part));
-    tally.stored = cases_of(plan, stored.into_iter());
+    let (old, open): (Vec<u64>, Vec<u64>) = shard.parts(plan).partition(|part| store.has(*part));
+    tally.stored = cases_of(plan, old.iter().copied());
     let mut failed = None;
     // Idle solvers. A thread takes an idle solver for its next part, so each thread reads the scenario file only once.
     let solvers: Mutex<Vec<CaseSolver>> = Mutex::default();
@@ -104,14 +139,21 @@ pub fn run(
         Ok((rows.first, rows.results))
     };
     let work = |index: usize, tell: &mut dyn FnMut(Result<(u64, Vec<CaseResult>)>)| tell(part(open[index]));
-    side_by_side(open.len(), threads, work, |_, part| {
+    let mut old = old;
+    side_by_side(open.len(), threads, work, |index, part| {
         match part {
-            Ok((first, results)) => tally.add(first, &results),
+            Ok((first, results)) => {
+                tally.add(first, &results);
+                old.push(open[index]);
+            }
             Err(error) => failed = failed.take().or(Some(error)),
         }
-        let go_on = progress(&tally);
+        let go_on = done(&tally, &std::mem::take(&mut old));
         if failed.is_some() || tally.disagreement.is_some() { ControlFlow::Break(()) } else { go_on }
     });
+    if open.is_empty() {
+        let _ = done(&tally, &old);
+    }
     failed.map_or(Ok(tally), Err)
 }
 

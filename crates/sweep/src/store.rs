@@ -10,7 +10,7 @@ use parquet::errors::ParquetError;
 
 use crate::plan::SweepPlan;
 use crate::sentences;
-use crate::table::{self, Rows};
+use crate::table::{self, JoinedTable, Rows};
 
 /// Name of the stored plan.
 const PLAN: &str = "sweep.json";
@@ -31,17 +31,21 @@ pub(crate) fn broken(path: &Path, error: &dyn std::fmt::Display) -> Error {
         .help(sentences::CHOOSE_ANOTHER_DIRECTORY)
 }
 
-/// An error while a table is written. Errors of the file system are a separate variant.
-enum Failure {
+/// Why a table is not written. Errors of the file system are a separate variant.
+pub(crate) enum Failure {
     Io(io::Error),
     Table(ParquetError),
+    /// The sweep was stopped, or has failed.
+    Unfinished,
 }
 
 impl Failure {
-    fn at(self, path: &Path) -> Error {
+    /// The error; `None` for an unfinished sweep.
+    fn at(self, path: &Path) -> Option<Error> {
         match self {
-            Failure::Io(error) => broken(path, &error),
-            Failure::Table(error) => broken(path, &error),
+            Failure::Io(error) => Some(broken(path, &error)),
+            Failure::Table(error) => Some(broken(path, &error)),
+            Failure::Unfinished => None,
         }
     }
 }
@@ -177,7 +181,8 @@ impl SweepStore {
     /// Writes the rows of a part. If a run is killed, unfinished files remain until the parts are joined and removed.
     pub(crate) fn write(&self, plan: &SweepPlan, part: u64, rows: &Rows) -> Result<()> {
         let at = self.part(part);
-        put::<Failure>(&target(&at), |file| Ok(table::write(plan, rows, file)?)).map_err(|failure| failure.at(&at))
+        let written = put::<Failure>(&target(&at), |file| Ok(table::write(plan, rows, file)?));
+        written.or_else(|failure| failure.at(&at).map_or(Ok(()), Err))
     }
 
     /// Joins all parts to one table, and removes the parts of this directory.
@@ -195,9 +200,25 @@ impl SweepStore {
             };
             parts.push(holder.part(part));
         }
+        self.fill(plan, |table| parts.iter().try_for_each(|part| Ok(table.append(part)?)))
+    }
+
+    /// Lets `fill` append all parts to the joined table, and removes the parts of this directory.
+    /// If `fill` returns [`Failure::Unfinished`], there is no joined table, and the parts stay.
+    pub(crate) fn fill(
+        &self,
+        plan: &SweepPlan,
+        fill: impl FnOnce(&mut JoinedTable) -> std::result::Result<(), Failure>,
+    ) -> Result<()> {
         let at = self.table();
-        let fill = |file: &File| Ok(table::join(plan, parts.iter(), file)?);
-        replace::<Failure>(&target(&at), fill).map_err(|failure| failure.at(&at))?;
+        let filled = replace::<Failure>(&target(&at), |file| {
+            let mut table = JoinedTable::new(plan, file)?;
+            fill(&mut table)?;
+            Ok(table.close()?)
+        });
+        if let Err(failure) = filled {
+            return failure.at(&at).map_or(Ok(()), Err);
+        }
         let own = self.directory.join(PARTS);
         fs::remove_dir_all(&own).map_err(|error| broken(&own, &error))
     }

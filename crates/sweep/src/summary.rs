@@ -107,13 +107,14 @@ impl SweepSummary {
             best: Vec::new(),
             sample: Vec::new(),
         };
-        // Sums of squared deviations from the running mean (Welford 1962).
-        let mut squares = vec![0.0; figures];
         let mut case = 0;
         for group in groups {
             let group = group?;
+            for (spread, column) in summary.figures.iter_mut().zip(&group.figures) {
+                *spread = FigureSpread::joined(*spread, FigureSpread::of(column, case));
+            }
             for row in 0..group.reasons.len() {
-                summary.add(&group, row, case, &mut squares);
+                summary.count(&group, row);
                 let is_solved = group.reasons[row].is_none();
                 let rank = goal.rank(group.figures[goal.figure][row]);
                 let of = |row: usize| SweepRow {
@@ -133,15 +134,13 @@ impl SweepSummary {
                 case += 1;
             }
         }
-        for (spread, squares) in summary.figures.iter_mut().zip(squares) {
-            if let Some(spread) = spread.as_mut().filter(|spread| spread.count > 1) {
-                spread.deviation = (squares / (spread.count - 1) as f64).sqrt();
-            }
+        for spread in summary.figures.iter_mut().flatten().filter(|spread| spread.count > 1) {
+            spread.deviation = (spread.deviation / (spread.count - 1) as f64).sqrt();
         }
         Ok(summary)
     }
 
-    fn add(&mut self, group: &RowGroup, row: usize, case: u64, squares: &mut [f64]) {
+    fn count(&mut self, group: &RowGroup, row: usize) {
         if let Some(reason) = &group.reasons[row] {
             self.refused += 1;
             count_reason(&mut self.reasons, reason);
@@ -149,23 +148,72 @@ impl SweepSummary {
         if let Some(Some(verdict)) = group.verdicts.get(row) {
             *self.verdicts.entry(verdict.clone()).or_default() += 1;
         }
-        for ((spread, squares), column) in self.figures.iter_mut().zip(squares).zip(&group.figures) {
-            let value = column[row];
-            if value.is_nan() {
-                continue;
-            }
-            let none = FigureSpread { count: 0, least: (value, case), most: (value, case), mean: 0.0, deviation: 0.0 };
-            let spread = spread.get_or_insert(none);
-            spread.count += 1;
-            if value < spread.least.0 {
-                spread.least = (value, case);
-            }
-            if value > spread.most.0 {
-                spread.most = (value, case);
-            }
-            let off = value - spread.mean;
-            spread.mean += off / spread.count as f64;
-            *squares += off * (value - spread.mean);
+    }
+}
+
+impl FigureSpread {
+    /// The statistics of a column whose first row is the case `first`; `None` if all values are NaN.
+    /// `deviation` is the sum of the squared deviations from the mean.
+    fn of(column: &[f64], first: u64) -> Option<FigureSpread> {
+        let present = || (first..).zip(column).filter(|(_, value)| !value.is_nan());
+        let (case, &first_value) = present().next()?;
+        let (mut count, mut sum, mut least, mut most) = (0, 0.0, (first_value, case), (first_value, case));
+        for (case, &value) in present() {
+            (count, sum) = (count + 1, sum + (value - first_value));
+            least = if value < least.0 { (value, case) } else { least };
+            most = if value > most.0 { (value, case) } else { most };
         }
+        // Equal values have exactly their value as mean.
+        let mean = first_value + sum / count as f64;
+        let deviation = present().map(|(_, value)| (value - mean).powi(2)).sum();
+        Some(FigureSpread { count, least, most, mean, deviation })
+    }
+
+    /// The statistics of two columns. The sums of squares about the joint mean follow from those about the two means, as
+    /// moments of inertia about another axis do (Steiner's theorem).
+    fn joined(one: Option<FigureSpread>, other: Option<FigureSpread>) -> Option<FigureSpread> {
+        let (Some(one), Some(other)) = (one, other) else { return one.or(other) };
+        let count = one.count + other.count;
+        let (apart, share) = (other.mean - one.mean, other.count as f64 / count as f64);
+        Some(FigureSpread {
+            count,
+            least: if other.least.0 < one.least.0 { other.least } else { one.least },
+            most: if other.most.0 > one.most.0 { other.most } else { one.most },
+            mean: one.mean + apart * share,
+            deviation: one.deviation + other.deviation + apart * apart * share * one.count as f64,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    fn joined(parts: &[&[f64]]) -> Option<FigureSpread> {
+        let mut first = 0;
+        parts.iter().fold(None, |before, part| {
+            let own = FigureSpread::of(part, first);
+            first += part.len() as u64;
+            FigureSpread::joined(before, own)
+        })
+    }
+
+    #[test]
+    fn statistics_do_not_depend_on_the_parts() {
+        let column: Vec<f64> = (0..40).map(|k| 1e3 + f64::from(k * k % 17) - f64::from(k)).collect();
+        let whole = joined(&[&column]).unwrap();
+        let nan = f64::NAN;
+        for parts in [vec![&column[..7], &column[7..]], vec![&column[..1], &[], &column[1..30], &column[30..]]] {
+            let found = joined(&parts).unwrap();
+            assert_eq!((found.count, found.least, found.most), (40, whole.least, whole.most));
+            assert_relative_eq!(found.mean, whole.mean, max_relative = 1e-14);
+            assert_relative_eq!(found.deviation, whole.deviation, max_relative = 1e-12);
+        }
+        // Cases without a value do not count; equal values have no deviation.
+        let found = joined(&[&[nan, 0.1], &[nan], &[0.1, nan, 0.1]]).unwrap();
+        assert_eq!((found.count, found.least, found.most), (3, (0.1, 1), (0.1, 1)));
+        assert_eq!((found.mean, found.deviation), (0.1, 0.0));
+        assert!(joined(&[&[nan], &[]]).is_none());
     }
 }

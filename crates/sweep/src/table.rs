@@ -39,6 +39,9 @@ pub(crate) struct Rows {
     pub results: Vec<CaseResult>,
 }
 
+/// Number of bytes after which the joined table waits for the storage device, so that the wait at its end is short.
+const SYNCED: u64 = 2 << 20;
+
 /// State of a solved case.
 pub const SOLVED: &str = "solved";
 /// State of a case that could not be solved.
@@ -149,18 +152,26 @@ pub(crate) fn write(plan: &SweepPlan, rows: &Rows, to: &File) -> Result<(), Parq
     Ok(())
 }
 
-/// Joins the tables of all parts, in the order of the parts, without decoding the tables.
-pub(crate) fn join(
-    plan: &SweepPlan,
-    parts: impl Iterator<Item = impl AsRef<Path>>,
-    to: &File,
-) -> Result<(), ParquetError> {
-    let mut writer = SerializedFileWriter::new(to, schema(plan)?, properties(plan, Some(metadata(plan))))?;
-    for part in parts {
+/// The joined table while the tables of the parts are appended to it.
+pub(crate) struct JoinedTable<'f> {
+    file: &'f File,
+    writer: SerializedFileWriter<&'f File>,
+    /// Bytes that the storage device may not have stored yet.
+    unsynced: u64,
+}
+
+impl<'f> JoinedTable<'f> {
+    pub(crate) fn new(plan: &SweepPlan, file: &'f File) -> Result<JoinedTable<'f>, ParquetError> {
+        let writer = SerializedFileWriter::new(file, schema(plan)?, properties(plan, Some(metadata(plan))))?;
+        Ok(JoinedTable { file, writer, unsynced: 0 })
+    }
+
+    /// Appends the table of a part without decoding it.
+    pub(crate) fn append(&mut self, part: &Path) -> Result<(), ParquetError> {
         let file = File::open(part)?;
         let reader = SerializedFileReader::new(file.try_clone()?)?;
         for group in reader.metadata().row_groups() {
-            let mut out = writer.next_row_group()?;
+            let mut out = self.writer.next_row_group()?;
             for metadata in group.columns() {
                 let close = ColumnCloseResult {
                     bytes_written: metadata.compressed_size() as u64,
@@ -170,11 +181,19 @@ pub(crate) fn join(
                     column_index: None,
                     offset_index: None,
                 };
+                self.unsynced += close.bytes_written;
                 out.append_column(&file, close)?;
             }
             out.close()?;
         }
+        if self.unsynced > SYNCED {
+            self.file.sync_data()?;
+            self.unsynced = 0;
+        }
+        Ok(())
     }
-    writer.close()?;
-    Ok(())
+
+    pub(crate) fn close(self) -> Result<(), ParquetError> {
+        self.writer.close().map(drop)
+    }
 }
