@@ -206,7 +206,7 @@ fn pieces(rail: [Vec2; 2], pivots: &[Vec2], unit: f64) -> Vec<[Vec2; 2]> {
 /// Fractions of a segment's length at which the segment enters and leaves the box around `centre` (Liang and Barsky
 /// 1984).
 pub fn inside(segment: &[Vec2; 2], centre: Vec2, half: Vec2) -> Option<[f64; 2]> {
-    let [start, end] = segment.map(|point| point - centre);
+    let (start, end) = (segment[0] - centre, segment[1] - centre);
     let along = end - start;
     let (mut from, mut to) = (0.0f64, 1.0f64);
     for axis in 0..2 {

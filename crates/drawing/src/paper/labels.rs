@@ -302,6 +302,14 @@ fn ring(label: &PlacedLabel, distance: f64) -> impl Iterator<Item = Vec2> {
 
 /// Length of the part of a segment inside the box around `centre`.
 fn length_inside(segment: &[Vec2; 2], centre: Vec2, half: Vec2) -> f64 {
+    let (from, to) = (segment[0] - centre, segment[1] - centre);
+    let is_beside = |axis: usize| {
+        from[axis] > half[axis] && to[axis] > half[axis] || from[axis] < -half[axis] && to[axis] < -half[axis]
+    };
+    // Nearly all segments are beside the box.
+    if is_beside(0) || is_beside(1) {
+        return 0.0;
+    }
     inside(segment, centre, half).map_or(0.0, |[from, to]| (to - from) * (segment[1] - segment[0]).norm())
 }
 
