@@ -58,7 +58,7 @@ impl Contender {
 enum Good {
     Small,
     Large,
-    /// No value is best, because the task requires a certain value.
+    /// Neither small nor large: the task prescribes the value, so no mechanism is marked as the best.
     Open,
 }
 

@@ -114,7 +114,7 @@ def test_files_and_their_maps(crank_rocker):
     place = TOP / "examples/foreign"
     found = crank_rocker.compare(place / "data/wrong_mujoco_late.csv", place / "mujoco_crank_rocker.map.toml")
     assert found.verdict == "disagree" and found.channels["second"].shape == found.channels["bound"].shape
-    # The same table, read by pandas. Its numbers count with all their digits.
+    # The same table, read by pandas. Numbers of a data frame are taken as exact, those of a file as rounded.
     table = pd.read_csv(place / "data/mujoco_crank_rocker.csv", comment="#")
     told = crank_rocker.compare(place / "data/mujoco_crank_rocker.csv", place / "mujoco_crank_rocker.map.toml")
     again = crank_rocker.compare(table, place / "mujoco_crank_rocker.map.toml")

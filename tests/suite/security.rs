@@ -28,7 +28,7 @@ fn sentences(text: &str) -> Vec<String> {
     line.trim_end_matches('.').split(". ").map(str::trim).filter(|own| !own.is_empty()).map(String::from).collect()
 }
 
-/// Tests that a text names.
+/// Names of tests in a text: all words in backquotes that contain `::`.
 fn tests_in(text: &str) -> Vec<String> {
     text.split('`').skip(1).step_by(2).filter(|word| word.contains("::")).map(String::from).collect()
 }

@@ -47,7 +47,7 @@ type = "revolute"
 links = ["rod", "slider"]
 "#;
 
-/// Slider-crank with the given guide: its links and axis.
+/// Slider-crank. `guide` contains the links, points and axis of the prismatic joint, as keys of the file.
 fn slider_crank(guide: &str, start: &str) -> linkage::Result<Scenario> {
     let guide = format!("[[joints]]\nname = \"guide\"\ntype = \"prismatic\"\n{guide}\n");
     parse("G = { x_mm = 10, y_mm = 0 }", &format!("{SLIDER}{guide}"), 90.0, start)

@@ -91,7 +91,7 @@ pub(super) fn bound(case: &Case, engine: &Rapier, channel: &ChannelKind) -> f64 
     }
 }
 
-/// Lever arm (m) of the forces in a moment.
+/// Lever arm (m) that converts the noise of forces to the noise of a moment.
 /// For a driving moment, the arm extends to the far end of the driving link.
 /// A prismatic joint may transmit its force anywhere in the mechanism, so the arm of this force is the mechanism's
 /// size.

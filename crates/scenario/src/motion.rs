@@ -142,7 +142,7 @@ fn check_beside(table: &TomlTable, drive: &Drive, before: &[Drive]) -> Result<()
 
 /// Reads a drive. `before` are the drives already read. `first` is `Some` only for the first drive. It contains the
 /// crank angle from `[start]`, if stated, and the request, which may replace the start of the file.
-/// If the mechanism is `whole`, all its joints are known.
+/// `whole` says whether all links and joints of the file could be read. Only then is an unknown joint reported.
 fn drive(
     table: &mut TomlTable,
     mechanism: &Mechanism,

@@ -102,8 +102,8 @@ fn all_links_may_be_massless() {
     let mut run = model.run(IntegrationSettings::default()).unwrap();
     run.advance(0.1).unwrap();
     let state = run.read(true).unwrap();
-    // The loaded crank needs a moment of 6 N m. The axial force in the coupler exerts this moment, and the drive
-    // supplies 6 N m.
+    // The loaded crank needs a moment of 6 N m, which it gets from the axial force in the coupler. The driven crank is
+    // parallel and as long, so its drive supplies the same moment.
     close_to(state.loops[0].force, [-6.0 / 1.1_f64.sin(), 0.0], 1e-11);
     assert!((state.bodies[0].drive - 6.0).abs() < 1e-11);
 }

@@ -22,7 +22,7 @@ fn sheet() -> DraftContents {
     DraftContents { name: "found".into(), title: "Found".into(), comment: "a test".into(), speed: 6.0, bar: 2.0 }
 }
 
-/// States at the positions, by side 1 and by side 2, of the scenario that is written.
+/// Writes the four-bar as a scenario. Returns its states at the precision positions, by side 1 and by side 2.
 fn followed(own: &PrecisionFourBar) -> [Vec<State>; 2] {
     let text = own.scenario(&sheet());
     let case = Scenario::parse(&text, Path::new("found.toml")).unwrap_or_else(|error| panic!("{error}\n{text}")).case;

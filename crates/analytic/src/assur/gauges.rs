@@ -15,7 +15,7 @@
 //! with several driving links whose speed ratios change.
 //!
 //! The bounds of one step are stored and used for later steps.
-//! The gauges may therefore vary within a band that is wider than the present step needs.
+//! For this purpose they are computed for a band of each gauge that is wider than the present step needs.
 //! The stored bounds hold until a gauge leaves its band, a step is longer than the stored step, or the crank has moved
 //! farther than the stored travel.
 //! See docs/numerics/change_points.md.

@@ -143,7 +143,7 @@ impl Rrr {
         [vector, motion.origin + vector, motion.velocity_beyond(vector), motion.acceleration_beyond(vector)]
     }
 
-    /// The vectors r1 and r2 for outer joints at these positions, the product D and d^2.
+    /// For outer joints at these positions: the vectors r1 and r2, then D = r1 x r2 and d^2.
     #[inline(always)]
     fn close(&self, [p1, p2]: [Vec2; 2]) -> Result<([Vec2; 2], [f64; 2]), Misfit> {
         let d = p2 - p1;
