@@ -29,7 +29,7 @@ def write():
     exudyn_crank_rocker.simulate(2.5e-4, DATA / "wrong_exudyn_inertia.csv", inertia=about_end)
     exudyn_crank_rocker.simulate(1e-3, DATA / "wrong_exudyn_ringing.csv", radius=0.9)
     exudyn_crankcase.simulate(exudyn_crankcase.END / 1440, DATA / "wrong_exudyn_no_gravity.txt", gravity=0.0)
-    pylinkage_crank_rocker.simulate(DATA / "wrong_pylinkage_late.csv", first=0)
+    pylinkage_crank_rocker.simulate(DATA / "wrong_pylinkage_early.csv", first=0)
     pylinkage_crank_rocker.simulate(DATA / "wrong_pylinkage_branch.csv", coupler_above=False)
     pylinkage_six_bar.simulate(DATA / "wrong_pylinkage_tracker.csv", compiled=False)
 

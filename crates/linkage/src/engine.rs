@@ -92,6 +92,6 @@ pub trait Engine: Solver {
     fn is_noise_measured(&self) -> bool;
 
     /// The engine's properties that influence the result, as names and values for display.
-    /// Step size and extrapolation are not included.
+    /// The step size is not included.
     fn told(&self) -> Vec<(&'static str, String)>;
 }

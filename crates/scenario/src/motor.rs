@@ -43,8 +43,8 @@ pub const SECTIONS: &[Section] = &[
         optional("output_inertia", ValueKind::INERTIAS.of(Sign::NotNegative), "0")
             .means("moment of inertia of the reducer's output shaft, which rotates with the crank"),
         optional("rated_torque", ValueKind::MOMENTS.of(Sign::Positive), "unknown").means(
-            "rated torque; with a linear law, the command `drive` then reports a torque above the largest usual \
-             breakdown torque",
+            "rated torque; if it is given for a linear law, the command `drive` warns of torques above the largest \
+             usual breakdown torque",
         ),
     ]),
     Section::at("motor.points").with(&[

@@ -72,7 +72,7 @@ const WRONG: [(&str, &str, &str); 11] = [
     ("wrong_exudyn_inertia.csv", "exudyn_crank_rocker", "moment of inertia of coupler: taken about joint A"),
     ("wrong_exudyn_ringing.csv", "exudyn_crank_rocker", ""),
     ("wrong_exudyn_no_gravity.txt", "exudyn_crankcase", "gravity: missing"),
-    ("wrong_pylinkage_late.csv", "pylinkage_crank_rocker", "1 row too early"),
+    ("wrong_pylinkage_early.csv", "pylinkage_crank_rocker", "1 row too early"),
     ("wrong_pylinkage_branch.csv", "pylinkage_crank_rocker", "another configuration of coupler, rocker"),
     ("wrong_pylinkage_tracker.csv", "pylinkage_six_bar", "zero instead of point.D.vy_m_s"),
 ];

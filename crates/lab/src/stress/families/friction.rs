@@ -31,7 +31,7 @@ fn wedge(gain: f64) -> Result<Setup> {
         .slider("guide", ("ground", "G"), ("follower", "P"), [upright, upright])
         .slider("face", ("wedge", "W"), ("shoe", "P"), [axis, 0.0])
         .pin("P", "shoe", "follower")
-        .driven_from("guide", 0.05, MotionLaw::Cycloidal { rise: 0.01, time: 1.0 })
+        .driven("guide", MotionLaw::Cycloidal { rise: 0.01, time: 1.0 })
         .load(Load::ResistingForce {
             at: linkage::mechanism::JointSide { link: LinkId(1), local: linkage::math::Vec2::zeros() },
             force: 100.0,
