@@ -17,7 +17,7 @@ html_static_path = ["static"]
 html_extra_path = ["extra"]
 templates_path = ["templates"]
 html_css_files = ["site.css"]
-# The theme's sidebar, with the API below it, which docs/site/build adds.
+# The theme's sidebar, and below it a link to the pages of the API. docs/site/build adds these pages to the site.
 html_sidebars = {
     "**": [
         "sidebar/brand.html",
