@@ -106,7 +106,7 @@ impl Case {
         Case::new(parts)
     }
 
-    /// Changes coordinates, masses and moments of inertia of links, and positions of joints on links, without any check.
+    /// Changes coordinates, masses and moments of inertia of links, and positions of joints on links, without a check.
     /// Names, kinds and order must remain. The start pose is not changed, so it may no longer fit the mechanism.
     pub fn renumber(&mut self, change: impl FnOnce(&mut [Link], &mut [Joint])) {
         self.parts.mechanism.renumber(change);
