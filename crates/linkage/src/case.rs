@@ -68,8 +68,8 @@ impl Case {
     /// [`ErrorKind::Input`](crate::ErrorKind::Input) also if a number in one of these parts is NaN, infinite or out of
     /// range.
     /// [`ErrorKind::Input`](crate::ErrorKind::Input) also if the structure does not match mechanism and drives.
-    /// [`ErrorKind::Geometry`](crate::ErrorKind::Geometry) if a joint is open in the start pose, a driven joint does
-    /// not have its start coordinate, or a crank has no length.
+    /// [`ErrorKind::Geometry`](crate::ErrorKind::Geometry) if a joint is open in the start pose, a driven joint is
+    /// not at the start coordinate of its drive, or a crank has no length.
     /// [`ErrorKind::Unsupported`](crate::ErrorKind::Unsupported) for an input that the driven joint does not have, and
     /// for a combination of drives that this version does not solve.
     /// The errors of [`Structure::of`](crate::mechanism::Structure::of) and [`Grid::check`] are passed on.
@@ -106,7 +106,7 @@ impl Case {
         Case::new(parts)
     }
 
-    /// Changes the numbers of links, and the positions of joints on links, without any check.
+    /// Changes coordinates, masses and moments of inertia of links, and positions of joints on links, without a check.
     /// Names, kinds and order must remain. The start pose is not changed, so it may no longer fit the mechanism.
     pub fn renumber(&mut self, change: impl FnOnce(&mut [Link], &mut [Joint])) {
         self.parts.mechanism.renumber(change);
@@ -150,7 +150,8 @@ impl Case {
         self.with(|parts| *parts.drives.crank_mut() = self.crank().with_motor(motor))
     }
 
-    /// Returns this case with every drive replaced by its nominal motion. Crank angles refer to the nominal motion.
+    /// Returns this case with every drive replaced by its nominal motion.
+    /// The crank angles of the grid belong to the nominal motion.
     #[must_use]
     pub fn nominal(&self) -> Case {
         self.of_parts(CaseParts { drives: self.drives.map(Drive::nominal), ..self.parts.clone() })
@@ -187,7 +188,7 @@ impl Case {
     }
 
     /// Whether unwrapped angles of links are needed.
-    /// If single channels are requested, angles are needed only for channels that are the angle of a link.
+    /// If only some channels are requested, angles are needed only if one of these channels is the angle of a link.
     #[must_use]
     pub fn wants_angles(&self) -> bool {
         self.only.as_ref().is_none_or(|only| only.iter().any(|own| own.kind.reading == Reading::Link(OfLink::Angle)))
@@ -260,10 +261,9 @@ impl Case {
     }
 
     /// Actions of the moment (N m) or force (N) of a drive.
-    /// The first action is on the link that carries the drive, the second action is on the driving link.
-    /// The frame carries the drive of a crank.
-    /// At a joint between moving links, and for a slide, the joint's first link exerts the moment or force on the
-    /// second link.
+    /// For a crank, the first action is on the frame, and the second action is on the crank.
+    /// At a joint between moving links, and for a slide, the first action is on the joint's first link, and the second
+    /// action is on the joint's second link; the first link exerts the moment or force on the second link.
     #[must_use]
     pub fn effort(&self, drive: &Drive, effort: f64, motions: &[Motion]) -> [Action; 2] {
         match drive.input {
