@@ -119,7 +119,7 @@ pub struct Scenario {
     pub engine_rel: f64,
     /// Published numbers.
     pub oracles: Vec<Oracle>,
-    /// Parameters and formulas. A formula may claim the value of a channel.
+    /// Parameters and formulas. A formula may claim the value of a channel or a figure.
     pub formulas: Formulas,
     /// Outlines of the bodies and the question about the distances between the bodies, if the scenario asks this
     /// question.

@@ -31,7 +31,7 @@ pub(super) fn replace(tree: &mut DeTable, set: &[(String, f64)]) -> Result<()> {
             let error = Error::new(ErrorKind::Input, sentences::the_file_has_no_number_at(path));
             return Err(error.key(path.clone()).help(suggestion(path, known, "`")));
         };
-        // The number is stored as a text, because a text is read like an arithmetic expression.
+        // The number is stored as a text: a text value is read as an arithmetic expression, and a number is one.
         *found.as_mut() = DeValue::String(format!("{value:?}").into());
     }
     Ok(())
