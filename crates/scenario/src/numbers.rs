@@ -82,7 +82,8 @@ fn name<'v>(value: &'v DeValue) -> Option<&'v str> {
     value.get("name")?.get_ref().as_str()
 }
 
-/// A plain number; `None` for any other value, and for digits that do not form a number.
+/// A plain number; `None` for any other value, and for a number that cannot be converted, such as an integer that is
+/// too large.
 #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the TOML parser")]
 pub(super) fn plain_number(value: &DeValue) -> Option<f64> {
     match value {

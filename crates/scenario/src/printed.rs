@@ -27,7 +27,7 @@ impl Printed {
         Printed { value, digits, half_unit: 0.5 * 10f64.powi(-digits) * (1.0 + 1e-9) }
     }
 
-    /// A number of a column, with the uncertainty caused by the printing of the column's digits.
+    /// A number of a column. The uncertainty of the number comes from the count of digits that the column prints.
     #[must_use]
     pub fn of_column(number: &Rounded) -> Printed {
         let Rounded { value, error } = *number;
@@ -42,7 +42,7 @@ impl Printed {
     }
 }
 
-/// Upper limit of the count of decimals that makes sense in double precision.
+/// Upper limit of the magnitude of a count of decimals. In double precision, a larger count makes no sense.
 pub const MOST_DIGITS: i32 = 20;
 
 /// Ending of a name that denotes the magnitude of a joint's reaction.
