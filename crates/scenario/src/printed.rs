@@ -141,7 +141,7 @@ impl PrintedChannel {
         if self.magnitude { other() } else { None }
     }
 
-    /// The printed number of a value of the channel in SI. `other` is the value of the
+    /// Converts a value of the channel from SI to the printed unit. `other` is the value of the
     /// [other component](PrintedChannel::other_component), if there is one.
     #[must_use]
     pub fn from_si(&self, value: f64, other: Option<f64>) -> f64 {
@@ -149,7 +149,7 @@ impl PrintedChannel {
         self.unit.map_or(size, |unit| size / unit.to_si(1.0))
     }
 
-    /// A printed number in SI.
+    /// Converts a printed number to SI.
     #[must_use]
     pub fn to_si(&self, value: f64) -> f64 {
         self.unit.map_or(value, |unit| unit.to_si(value))
@@ -185,7 +185,8 @@ impl Correction {
     }
 }
 
-/// Reads the anchor under the key `finding`. If this key is present, the key `right` is required too.
+/// Reads the key `finding`: the anchor of a section of `docs/findings.md`. If this key is present, the key `right` is
+/// required too.
 pub(super) fn finding(entry: &mut TomlTable) -> Result<Option<String>> {
     let finding = entry.optional_string("finding")?;
     let help = sentences::A_NUMBER_KNOWN_TO_BE_WRONG;

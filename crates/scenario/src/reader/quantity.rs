@@ -18,7 +18,7 @@ type Spelled = (&'static UnitFamily, usize, &'static NamedUnit);
 pub(crate) const SMALLEST: f64 = 1e-100;
 
 impl<'a> TomlTable<'a> {
-    /// The row of a quantity in the table of keys, which states its units and its sign.
+    /// The row of a quantity in the table of keys. This row states the allowed units and signs.
     fn row(&self, key: &str) -> &'static FileKey {
         let is_own = |row: &&FileKey| row.name == key && !row.kind.families().is_empty();
         self.rows.iter().find(is_own).unwrap_or_else(|| panic!("section `{}` has no quantity `{key}`", self.section))
