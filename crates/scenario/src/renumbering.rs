@@ -21,7 +21,7 @@ use linkage::mechanism::{Joint, Link, Mechanism};
 
 /// An expression of parameters, for a key with a unit.
 struct Expression {
-    /// The names in the expression: parameter, and conversion to the unit of the key.
+    /// For each name in the expression: the index of the parameter, and the conversion to the unit of the key.
     names: Vec<(usize, Conversion)>,
     inputs: Vec<Rounded>,
     program: Program,
@@ -78,16 +78,16 @@ struct LinkNumbers {
     centre: Option<PlaceNumbers>,
     mass: Option<LinkNumber>,
     inertia: Option<LinkNumber>,
-    /// Joints on the link: index of the joint, whether the link is the second of its two links, and index of the link's
+    /// Joints on the link: index of the joint, whether this link is the joint's second link, and index of the link's
     /// point.
     joints: Vec<(usize, bool, usize)>,
     /// Positions of the points as last computed.
     places: Vec<Vec2>,
 }
 
-/// Recomputes the points, masses and moments of inertia of links, and the positions of joints on them, from the varied
-/// values of the file.
-/// Links that do not depend on these values stay unchanged.
+/// Recomputes links from the varied numbers of the file: their points, masses and moments of inertia, and the positions
+/// of joints on the links.
+/// Links that do not depend on these numbers stay unchanged.
 pub struct Renumbering {
     /// Parameters, with the numbers that were last computed.
     parameters: Vec<Parameter>,

@@ -139,7 +139,8 @@ impl<'a> TomlTable<'a> {
         Err(self.wrong_at(key, value.span(), message).help(sentences::CHECK_THE_UNIT_AND_THE_EXPONENT))
     }
 
-    /// Family, index and unit of the only entry whose key is `base` with a unit of the families.
+    /// Finds the entry whose key is `base` with a unit of one of the families; returns the family, the entry's index
+    /// and the unit. Two such entries are an error.
     /// All spellings are recorded as requested.
     fn spelled(&mut self, base: &str, families: &[&'static UnitFamily]) -> Result<Option<Spelled>> {
         let spellings: Vec<String> = families.iter().flat_map(|family| family.keys(base)).collect();
