@@ -88,8 +88,8 @@ impl<'a> TomlTable<'a> {
     }
 
     /// Calls `read`. If there are mistakes of keys or values, returns only these mistakes, as the second part of the
-    /// result. Otherwise, returns the value or the error of `read`. If `names` is true, the mistakes include unknown
-    /// names.
+    /// result. Otherwise, returns the value or the error of `read`. Unknown names are such mistakes too, but they are
+    /// returned only if `names` is true.
     fn tried<T>(
         &mut self,
         names: bool,
