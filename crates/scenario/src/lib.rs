@@ -119,7 +119,7 @@ pub struct Scenario {
     pub engine_rel: f64,
     /// Published numbers.
     pub oracles: Vec<Oracle>,
-    /// Formulas that depend on the parameters, and the claims of the formulas.
+    /// Parameters and formulas. A formula may claim the value of a channel or a figure.
     pub formulas: Formulas,
     /// Outlines of the bodies and the question about the distances between the bodies, if the scenario asks this
     /// question.
@@ -175,7 +175,7 @@ impl Scenario {
     /// Published numbers belong to the file's branch. If the start is on a branch other than the file's branch,
     /// published numbers are left out.
     /// Numbers that depend on the input at t = 0 are left out too if this input differs from the input in the file.
-    /// These numbers are distances at t = 0 and values at times.
+    /// These numbers are the distances of points at t = 0, and all values that the file gives at a time.
     /// Values at crank angles or slides are left out too if they depend on the input at t = 0. There are three such
     /// cases: the crank's speed is not constant, there are further drives, or a torsional spring counts turns from the
     /// start.

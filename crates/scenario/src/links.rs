@@ -74,8 +74,8 @@ pub fn read(ground: Option<TomlTable>, links: Option<TomlTable>, faults: &mut Fa
         faults.read(&mut table, |table| fill(table, &mut link));
         all.push(link);
     }
-    // Sections other than `[ground]` and `[links]` may name a link or a point that is left out. Errors about unknown
-    // names are then not reported.
+    // If not all links and points could be read, other sections may name a link or a point that is missing here. Errors
+    // about unknown names are then not reported.
     faults.names &= all.len() > 1 && all.iter().all(|link| !link.points.is_empty());
     faults.whole &= faults.names;
     all

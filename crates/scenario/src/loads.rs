@@ -212,8 +212,8 @@ fn resisting_force(table: &mut TomlTable, mechanism: &Mechanism) -> Result<Load>
     let point = (table.string("link")?, table.string("point")?);
     let force = table.si("force")?;
     let at = loaded_point(table, mechanism, point)?;
-    // A point at a ground pivot has the velocity zero plus rounding error. A point at a ground pivot is refused,
-    // because the rounding error would decide the direction of the force.
+    // A point at a ground pivot does not move. Its computed velocity is only rounding error. A point at a ground pivot
+    // is refused, because the rounding error would decide the direction of the force.
     let mut pins = mechanism.joints().iter().filter(|joint| joint.is_pin() && joint.on(GROUND).is_some());
     if pins.any(|joint| joint.on(at.link) == Some(at.local)) {
         let message = sentences::THE_POINT_DOES_NOT_MOVE_IT_IS_HINGED;
@@ -360,7 +360,7 @@ fn turning(table: &mut TomlTable, name: &str, mechanism: &Mechanism) -> Result<L
     if link == GROUND {
         return table.refuse("link", sentences::THE_GROUND_DOES_NOT_TURN, sentences::NAME_A_MOVING_LINK);
     }
-    // A link that cannot turn has the angular velocity zero plus rounding error. A link that cannot turn is refused,
+    // If a link cannot turn, its computed angular velocity is only rounding error. A link that cannot turn is refused,
     // because the rounding error would decide the sense of the moment.
     if !mechanism.can_turn(link) {
         return table.refuse("link", sentences::link_does_not_turn_prismatic(&name), sentences::NAME_A_LINK_THAT_TURNS);

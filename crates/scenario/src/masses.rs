@@ -12,11 +12,12 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
 use linkage::mechanism::{Link, Mechanism};
 
-/// Upper limit of the distance of a mass centre from the nearest point of its link, divided by the largest link's size.
+/// Upper limit of the distance between a mass centre and the nearest point of its link, as a multiple of the size of
+/// the largest link.
 const FARTHEST: f64 = 1e3;
 /// Upper limit of a link's moment of inertia, divided by the sum of the moments of inertia of all other links and of
 /// the motors.
-/// The moment of inertia includes the link's mass at a distance of the mechanism's size.
+/// Each link's moment of inertia is its own one plus its mass times the square of the largest link's size.
 const HEAVIEST: f64 = 1e12;
 
 /// Speed of light (m/s).

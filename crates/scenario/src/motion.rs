@@ -141,7 +141,7 @@ fn check_beside(table: &TomlTable, drive: &Drive, before: &[Drive]) -> Result<()
 }
 
 /// Reads a drive. `before` are the drives already read. `first` is `Some` only for the first drive. It contains the
-/// crank angle from `[start]`, if stated, and the request, which may replace the start of the file.
+/// crank angle that `[start]` states, if any, and the caller's request, which may replace the file's start.
 /// `whole` says whether all links and joints of the file could be read. Only then is an unknown joint reported.
 fn drive(
     table: &mut TomlTable,
@@ -163,7 +163,7 @@ fn drive(
         None => (guessed(table), LinkId(1)),
     };
     let stated = match first {
-        // If the angle is missing, the error is in `[start]`.
+        // A missing angle is set to zero here. The reader of `[start]` reports the mistake.
         Some((crank, _)) if input == Input::Angle => Some(crank.unwrap_or_default()),
         Some(_) | None if table.has("points") || table.has("formula") => {
             table.optional_quantity("start", of_input(input), Sign::Any)?
@@ -235,7 +235,7 @@ fn through(table: &mut TomlTable) -> Result<bool> {
     }
 }
 
-/// A law, and the input with which the law begins, if the law states this input.
+/// A law, and the input at t = 0 if the law itself gives this input.
 type Begun = (MotionLaw, Option<f64>);
 
 /// Laws of motion, each with its reader. The reader gets the input at t = 0.
@@ -259,7 +259,8 @@ fn law(table: &mut TomlTable, start: InputValue) -> Result<Begun> {
     constant(table, start)
 }
 
-/// The law with its start. If the law states `begin` and the drive states `start`, both must be equal.
+/// The law with its start. `begin` is the input at t = 0 that the law itself gives; `start` is the stated or requested
+/// start. If both are given, they must be equal.
 fn begun(
     table: &mut TomlTable,
     input: Input,

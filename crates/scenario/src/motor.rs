@@ -147,7 +147,8 @@ fn points(table: &mut TomlTable) -> Result<MotorLaw> {
     Ok(MotorLaw::Table { speeds, torques })
 }
 
-/// Moments of inertia of the parts that turn with the motor and the reducer; zero if the key is missing.
+/// Moments of inertia of the parts that turn with the motor and the reducer. A moment of inertia whose key is missing
+/// is zero.
 fn inertia(table: &mut TomlTable) -> Result<ShaftInertia> {
     let mut shaft = |name: &str| -> Result<f64> { Ok(table.optional_si(name)?.unwrap_or(0.0)) };
     let (rotor, input) = (shaft("rotor_inertia")?, shaft("input_inertia")?);

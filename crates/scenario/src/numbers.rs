@@ -31,7 +31,7 @@ pub(super) fn replace(tree: &mut DeTable, set: &[(String, f64)]) -> Result<()> {
             let error = Error::new(ErrorKind::Input, sentences::the_file_has_no_number_at(path));
             return Err(error.key(path.clone()).help(suggestion(path, known, "`")));
         };
-        // The number is stored as a text, because a text is read like an arithmetic expression.
+        // The number is stored as a text: a text value is read as an arithmetic expression, and a number is one.
         *found.as_mut() = DeValue::String(format!("{value:?}").into());
     }
     Ok(())
@@ -82,7 +82,8 @@ fn name<'v>(value: &'v DeValue) -> Option<&'v str> {
     value.get("name")?.get_ref().as_str()
 }
 
-/// A plain number; `None` for any other value, and for digits that do not form a number.
+/// A plain number; `None` for any other value, and for a number that cannot be converted, such as an integer that is
+/// too large.
 #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the TOML parser")]
 pub(super) fn plain_number(value: &DeValue) -> Option<f64> {
     match value {

@@ -1,4 +1,5 @@
-//! `[[oracle]]`: numbers that the mechanism must reproduce. The digits of a number determine its bound.
+//! `[[oracle]]`: numbers that the mechanism must reproduce. The bound on the error of a number follows from its printed
+//! digits.
 
 use super::figure::MechanismFigure;
 use super::figure::{self, OracleFigure};
@@ -99,7 +100,7 @@ pub struct Oracle {
     pub name: String,
     /// Source of the numbers, as the scenario states it.
     pub source: String,
-    /// How the numbers are known.
+    /// How the numbers were obtained.
     pub basis: OracleBasis,
     /// Values of channels at inputs (crank angles or slides) or at times.
     pub series: Vec<OracleSeries>,

@@ -9,8 +9,8 @@ use linkage::error::{Error, ErrorKind, Result};
 
 /// Reads the section `[parameters]`. Numbers in `set` replace numbers of the file. If `may_add` is true, keys that the
 /// file does not have are added.
-/// A parameter with a mistake is left out. Only the first mistake in a parameter is returned, because it may cause
-/// later mistakes.
+/// A parameter with a mistake is left out. Of all mistakes in the section, only the first is returned, because it may
+/// cause the later ones.
 ///
 /// # Errors
 /// Mistakes in `set`.

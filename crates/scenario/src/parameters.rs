@@ -16,7 +16,7 @@ pub struct Parameter {
     unit: Option<&'static NamedUnit>,
 }
 
-/// A conversion of units by a factor. The conversion of the number 1 gives this factor.
+/// A conversion of units: multiplication by a factor, which is the result for the number 1.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Conversion {
     /// Unit of the given number; `None` if the number is not converted.
@@ -61,7 +61,8 @@ impl Parameter {
         self.short().unwrap_or(&self.key)
     }
 
-    /// The number that `name`, a name of the parameter, denotes in an expression for a key with the unit `wanted`.
+    /// The number that the parameter's name `name` stands for in an expression. The expression gives the value of a key
+    /// with the unit `wanted`.
     pub(super) fn denoted(&self, name: &str, wanted: Option<&'static NamedUnit>) -> f64 {
         self.conversion(name, wanted).of(self.given)
     }

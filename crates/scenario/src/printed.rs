@@ -27,7 +27,7 @@ impl Printed {
         Printed { value, digits, half_unit: 0.5 * 10f64.powi(-digits) * (1.0 + 1e-9) }
     }
 
-    /// A number of a column, with the uncertainty caused by the printing of the column's digits.
+    /// A number of a column. The uncertainty of the number comes from the count of digits that the column prints.
     #[must_use]
     pub fn of_column(number: &Rounded) -> Printed {
         let Rounded { value, error } = *number;
@@ -42,7 +42,7 @@ impl Printed {
     }
 }
 
-/// Upper limit of the count of decimals that makes sense in double precision.
+/// Upper limit of the magnitude of a count of decimals. In double precision, a larger count makes no sense.
 pub const MOST_DIGITS: i32 = 20;
 
 /// Ending of a name that denotes the magnitude of a joint's reaction.
@@ -141,7 +141,7 @@ impl PrintedChannel {
         if self.magnitude { other() } else { None }
     }
 
-    /// The printed number of a value of the channel in SI. `other` is the value of the
+    /// Converts a value of the channel from SI to the printed unit. `other` is the value of the
     /// [other component](PrintedChannel::other_component), if there is one.
     #[must_use]
     pub fn from_si(&self, value: f64, other: Option<f64>) -> f64 {
@@ -149,7 +149,7 @@ impl PrintedChannel {
         self.unit.map_or(size, |unit| size / unit.to_si(1.0))
     }
 
-    /// A printed number in SI.
+    /// Converts a printed number to SI.
     #[must_use]
     pub fn to_si(&self, value: f64) -> f64 {
         self.unit.map_or(value, |unit| unit.to_si(value))
@@ -185,7 +185,8 @@ impl Correction {
     }
 }
 
-/// Reads the anchor under the key `finding`. If this key is present, the key `right` is required too.
+/// Reads the key `finding`: the anchor of a section of `docs/findings.md`. If this key is present, the key `right` is
+/// required too.
 pub(super) fn finding(entry: &mut TomlTable) -> Result<Option<String>> {
     let finding = entry.optional_string("finding")?;
     let help = sentences::A_NUMBER_KNOWN_TO_BE_WRONG;

@@ -71,7 +71,8 @@ impl<'a> TomlTable<'a> {
             .iter()
             .map(|(key, value)| Entry { key: key.get_ref().as_ref(), key_span: key.span(), value })
             .collect();
-        // If the header of a table comes after the header of one of its child tables, the parser moves the table.
+        // If the header of a table comes after the header of one of its child tables, the parser's order differs from
+        // the order of the file.
         // The entries are therefore sorted by their position in the file.
         entries.sort_by_key(|entry| entry.key_span.start);
         let places = entries.iter().enumerate().map(|(place, entry)| (entry.key, place)).collect();
@@ -186,8 +187,8 @@ impl<'a> TomlTable<'a> {
 
     fn fault_at(&self, key: &str, value: &Spanned<DeValue>, fault: &FormulaFault) -> Error {
         let (mut span, text) = (value.span(), value.get_ref().as_str().unwrap_or_default());
-        // If the value contains no escapes, its text occurs literally in the file, and the position in this text is
-        // used.
+        // If the value contains no escapes, its text occurs literally in the file. The error is then placed at the
+        // mistake within the text.
         if let Some(offset) = self.source.text[span.clone()].find(text) {
             let start = span.start + offset;
             // A fault beyond the end of the text is located at the last character of the text.
@@ -246,8 +247,8 @@ impl<'a> TomlTable<'a> {
         self.scalar(key, Needed::Text, None, |value| value.as_str().map(ToString::to_string))
     }
 
-    /// The value in `words` for the word under a key, if the key is present. The message for an unknown word consists
-    /// of this word and `wrong`, such as "is not an engine".
+    /// The value that `words` assigns to the word under a key, if the key is present. The message for an unknown word
+    /// consists of this word and `wrong`, such as "is not an engine".
     pub fn optional_choice<T: Copy>(&mut self, key: &str, wrong: &str, words: &[(&str, T)]) -> Result<Option<T>> {
         let Some(word) = self.optional_string(key)? else { return Ok(None) };
         let found = words.iter().find(|(own, _)| *own == word).map(|(_, meant)| *meant);
@@ -259,7 +260,7 @@ impl<'a> TomlTable<'a> {
         Ok(found)
     }
 
-    /// The value in `words` for the word under a key.
+    /// The value that `words` assigns to the word under a key.
     pub fn choice<T: Copy>(&mut self, key: &str, wrong: &str, words: &[(&str, T)]) -> Result<T> {
         let found = self.optional_choice(key, wrong, words)?;
         match self.faults.last() {

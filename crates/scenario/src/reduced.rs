@@ -55,7 +55,8 @@ impl Quantity {
     }
 }
 
-/// Checks that a case has one drive. The quantity `name` belongs to the input of this drive.
+/// Checks that a case has one drive. With several drives, the quantity `name` has no meaning, because it refers to the
+/// input of a single drive.
 ///
 /// # Errors
 /// Message and help for several drives.

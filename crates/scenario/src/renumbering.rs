@@ -21,7 +21,7 @@ use linkage::mechanism::{Joint, Link, Mechanism};
 
 /// An expression of parameters, for a key with a unit.
 struct Expression {
-    /// The names in the expression: parameter, and conversion to the unit of the key.
+    /// For each name in the expression: the index of the parameter, and the conversion to the unit of the key.
     names: Vec<(usize, Conversion)>,
     inputs: Vec<Rounded>,
     program: Program,
@@ -78,22 +78,22 @@ struct LinkNumbers {
     centre: Option<PlaceNumbers>,
     mass: Option<LinkNumber>,
     inertia: Option<LinkNumber>,
-    /// Joints on the link: index of the joint, whether the link is the second of its two links, and index of the link's
+    /// Joints on the link: index of the joint, whether this link is the joint's second link, and index of the link's
     /// point.
     joints: Vec<(usize, bool, usize)>,
     /// Positions of the points as last computed.
     places: Vec<Vec2>,
 }
 
-/// Recomputes the points, masses and moments of inertia of links, and the positions of joints on them, from the varied
-/// values of the file.
-/// Links that do not depend on these values stay unchanged.
+/// Recomputes links from the varied numbers of the file: their points, masses and moments of inertia, and the positions
+/// of joints on the links.
+/// Links that do not depend on these numbers stay unchanged.
 pub struct Renumbering {
     /// Parameters, with the numbers that were last computed.
     parameters: Vec<Parameter>,
     /// The varied parameters: index of the parameter, and index of the varied number.
     set: Vec<(usize, usize)>,
-    /// Expressions of parameters that depend on varied parameters, in the order of the file.
+    /// Parameters whose expressions depend on varied parameters, with these expressions, in the order of the file.
     derived: Vec<(usize, Expression)>,
     links: Vec<LinkNumbers>,
 }
@@ -257,8 +257,8 @@ fn in_order<'t, 'a>(table: &'t DeTable<'a>) -> Vec<(&'t str, &'t DeTable<'a>)> {
 }
 
 impl Reading<'_> {
-    /// The expressions of parameters that depend on varied parameters. `fixed` are parameters that are set for all
-    /// cases.
+    /// The parameters whose expressions depend on varied parameters, with these expressions. `fixed` are parameters
+    /// that are set for all cases.
     fn derived(
         &mut self,
         tree: &DeTable,
@@ -302,7 +302,8 @@ impl Reading<'_> {
         }
     }
 
-    /// The number of a table under one of the spellings of `base`. The result contains `None` if the key is missing.
+    /// The number of a table under one of the spellings of `base`. `Some(None)` if the key is missing; `None` if the
+    /// value cannot be read.
     fn number(
         &mut self,
         table: &DeTable,
@@ -336,7 +337,8 @@ impl Reading<'_> {
         Some(PlaceNumbers::Coordinates([x, y]))
     }
 
-    /// The numbers of a link. The result contains `None` if the numbers of the link do not depend on varied numbers.
+    /// The numbers of a link. `Some(None)` if the numbers of the link do not depend on varied numbers; `None` if the
+    /// link cannot be recomputed.
     fn link(&mut self, index: usize, table: &DeTable, path: &str, case: &Case) -> Option<Option<LinkNumbers>> {
         let below = format!("{path}.");
         let has_varied = self.paths.keys().any(|own| own.starts_with(&below));
@@ -365,7 +367,8 @@ impl Reading<'_> {
         for (joint, own) in case.mechanism.joints().entries() {
             for (is_second, side) in [(false, own.first), (true, own.second)] {
                 if side.link.index() == index {
-                    // Points that coincide may lie apart for other numbers, so the joint needs the name of its point.
+                    // The joint's point is found by its position. Points that coincide here may lie apart for other
+                    // numbers. Of such points, only the one with the joint's name is certainly the joint's point.
                     let mut at = link.points.iter().enumerate().filter(|(_, point)| point.local == side.local);
                     let named = link.points.iter().position(|point| own.is_pin() && point.name == own.name);
                     let found = named.filter(|at| link.points[*at].local == side.local);

@@ -135,8 +135,7 @@ impl Known<'_> {
     }
 }
 
-/// A time may exceed the last instant by this fraction of the last instant, because the conversion between units is
-/// rounded.
+/// Relative margin by which a time may exceed the last instant. The margin covers the rounding of unit conversions.
 const ROUNDING: f64 = 1e-12;
 
 const HELP: &str = sentences::A_NUMBER_HOLDS_AT_A_CRANK;
@@ -232,7 +231,7 @@ const COLUMN_HELP: &str = sentences::NAME_THE_COLUMN_OF_CRANK;
 pub(super) const TIME_HELP: &str = sentences::GIVE_A_TIME_WITHIN_THE_RUN;
 
 /// The last instant (s) of a motion that forces determine.
-/// `None` if a law prescribes the motion, or if the caller replaces the grid of the file.
+/// `None` if a law prescribes the motion, or if the case has no grid because the caller replaces the grid of the file.
 pub(super) fn end(case: &Case) -> Option<f64> {
     let is_solved = case.is_free() && !case.grid.is_empty();
     is_solved.then(|| case.grid.ascending().last().map_or(0.0, |&row| case.grid.times[row]))

@@ -2,8 +2,9 @@
 //!
 //! A key is a parameter (`a_mm`), or the path of another number of the file (see `numbers.rs`).
 //! Expressions are differentiated symbolically, and units are factors, so the derivatives are exact.
-//! This module reads the file independently of the readers of the sections. Tests compare every number with that of the
-//! case, and every derivative with the change of the number when the key in the file is changed.
+//! This module reads the file independently of the readers of the sections. Tests compare every number with the same
+//! number of the case. They also change each key in the file, and compare the change of every number with the
+//! derivative.
 
 mod drives;
 mod file;

@@ -21,7 +21,7 @@ const LONGEST_TEXT: usize = 10_000;
 /// Upper limit of the number of values in a file.
 /// The number of values is estimated by the number of the characters `,` `=` `[` `{` `.`.
 /// Every value needs some 200 bytes of memory, even if its text is short.
-/// The limit therefore also limits the memory, before the memory is used.
+/// The limit therefore also bounds the memory. It is checked before the text is parsed.
 const MOST_VALUES: usize = 2_000_000;
 
 /// Upper limit of the number of parts of a file: tables, such as points, links, joints, loads and formulas.
@@ -51,7 +51,7 @@ pub struct Source<'a> {
     pub parameters: Parameters,
     /// The rows of the table of keys for a section, by the path of the section; empty for files that are not scenarios.
     pub rows: fn(&str) -> &'static [key::FileKey],
-    /// The whole text again, shared with the positions in errors.
+    /// A copy of the whole text. The positions in errors share this copy.
     shared: Arc<str>,
 }
 

@@ -104,7 +104,8 @@ pub fn groups(
 }
 
 /// Refuses a start that lacks assembly modes.
-/// `is_given` says whether the file states the start of a group; the groups in `asked` are requested elsewhere.
+/// `is_given` says whether the file states the start of a group. For the groups in `asked`, the caller requests the
+/// start.
 fn missing(
     start: &TomlTable,
     is_given: impl Fn(GroupId) -> bool,
@@ -173,8 +174,8 @@ fn group_of(links: &[LinkId], structure: &Structure) -> Option<GroupId> {
     structure.groups.find(|group| group.links == sorted)
 }
 
-/// Whether the first of the group's `links` belongs to the group's first body.
-/// An assembly mode refers to the order of the two bodies.
+/// Whether the first link of `links` belongs to the group's first body. `links` are the group's links in the order in
+/// which the request names them. An assembly mode refers to the order of the two bodies.
 fn is_in_order(links: &[LinkId], group: &Group, mechanism: &Mechanism) -> bool {
     let leads = group.leads(mechanism);
     let body = |link: LinkId| group.links.iter().position(|&own| own == link).map(|at| leads[at]);

@@ -44,7 +44,8 @@ pub const SECTIONS: &[Section] = &[Section::at("").with(&[
     optional("report", ValueKind::Table, "its usual figures").means("figures in the report of a proof"),
 ])];
 
-/// The sections of a file. Sections whose content depends on the whole case are still tables.
+/// The sections of a file. Sections whose content depends on the whole case are not read yet; they are stored as
+/// tables.
 /// A part with a mistake is left out or replaced by an empty default.
 pub struct FileSections<'a> {
     pub name: String,
@@ -79,7 +80,7 @@ impl<'a> FileSections<'a> {
     /// Reads every section. Mistakes of all sections are noted in `root`.
     ///
     /// # Errors
-    /// An error in a file that this version cannot read at all.
+    /// An error if no section can be read: if the file is empty or has an unknown format version.
     pub fn read(root: &mut TomlTable<'a>, asked: &StartRequest) -> Result<FileSections<'a>> {
         check_format(root)?;
         let (name, title, source) = (name(root), root.string("title"), root.optional_string("source"));
@@ -110,7 +111,7 @@ impl<'a> FileSections<'a> {
         let has_all = ground.is_ok() && links.is_ok() && drives.is_ok() && start.is_ok();
         faults.whole = has_all && !root.has_unknown_table();
         faults.names = ground.is_ok() && links.is_ok();
-        // The errors that `finish` finds are noted.
+        // The result is not needed, because `finish` notes its errors in `root`.
         let _ = root.finish();
 
         let engine_rel = tolerances.and_then(|mut table| faults.read(&mut table, settings::engine_rel));

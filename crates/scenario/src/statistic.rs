@@ -54,7 +54,7 @@ const STATISTICS: [(&str, Statistic); 6] = [
 /// The characters before the input in the text of a [`Statistic::At`].
 const AT: &str = "at=";
 
-/// An instant has the input of a [`Statistic::At`] if the two inputs differ by at most this limit (degrees or
+/// Largest difference between the input of a [`Statistic::At`] and the input of the instant that it denotes (degrees or
 /// millimetres).
 const SAME_INPUT: f64 = 1e-6;
 
@@ -134,7 +134,7 @@ impl FromStr for TurnFigure {
 pub struct FigureGrid {
     input: Input,
     inputs: Vec<f64>,
-    /// A mean with the weights of the grid, before values are added.
+    /// An empty accumulator for a mean: it has the weights of the grid, but no values yet.
     mean: Weighted,
 }
 
@@ -145,7 +145,7 @@ impl FigureGrid {
         FigureGrid { input, inputs: inputs.to_vec(), mean: Weighted::of(&mean_weights(times)) }
     }
 
-    /// A statistic of the instants, without values yet; `None` if no instant has the input of a [`Statistic::At`].
+    /// An empty accumulator for a statistic of the instants; `None` if no instant has the input of a [`Statistic::At`].
     #[must_use]
     pub fn tally(&self, statistic: Statistic) -> Option<Tally> {
         Some(match statistic {
@@ -207,7 +207,7 @@ impl TurnFigure {
         Ok(SampledFigure { value: tally.value(), rows: tally.rows().into_iter().flatten().collect() })
     }
 
-    /// The figure of a solved run that contains all channels of its quantity.
+    /// The figure of a solved run. The run must contain all channels of the figure's quantity.
     ///
     /// # Errors
     /// The errors of [`TurnFigure::of`] and of [`sampled_values`].

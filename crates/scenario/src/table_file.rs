@@ -17,7 +17,7 @@ use linkage::case::{Case, When};
 use linkage::error::{Advice, Error, ErrorKind, Place, Result};
 use linkage::mechanism::is_unseen;
 
-/// An instant under `expect` denotes a row if their inputs (rad or m) or times (s) differ by at most this limit.
+/// Largest difference between an instant under `expect` and the instant of the row that it denotes (rad, m or s).
 const SAME: f64 = 1e-9;
 
 /// Memory for a row of a table during reading (bytes): the row's position in the text, and its instant.

@@ -18,7 +18,7 @@ type Spelled = (&'static UnitFamily, usize, &'static NamedUnit);
 pub(crate) const SMALLEST: f64 = 1e-100;
 
 impl<'a> TomlTable<'a> {
-    /// The row of a quantity in the table of keys, which states its units and its sign.
+    /// The row of a quantity in the table of keys. This row states the allowed units and signs.
     fn row(&self, key: &str) -> &'static FileKey {
         let is_own = |row: &&FileKey| row.name == key && !row.kind.families().is_empty();
         self.rows.iter().find(is_own).unwrap_or_else(|| panic!("section `{}` has no quantity `{key}`", self.section))
@@ -139,7 +139,8 @@ impl<'a> TomlTable<'a> {
         Err(self.wrong_at(key, value.span(), message).help(sentences::CHECK_THE_UNIT_AND_THE_EXPONENT))
     }
 
-    /// Family, index and unit of the only entry whose key is `base` with a unit of the families.
+    /// Finds the entry whose key is `base` with a unit of one of the families; returns the family, the entry's index
+    /// and the unit. Two such entries are an error.
     /// All spellings are recorded as requested.
     fn spelled(&mut self, base: &str, families: &[&'static UnitFamily]) -> Result<Option<Spelled>> {
         let spellings: Vec<String> = families.iter().flat_map(|family| family.keys(base)).collect();

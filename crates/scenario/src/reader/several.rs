@@ -7,7 +7,7 @@ use super::{Entry, TomlTable};
 use crate::words::{choice, nearest};
 use linkage::error::{Error, ErrorKind, Result};
 
-/// Number of unknown keys in a table for which a similar known key is looked up.
+/// Upper limit of the number of similar keys that are looked up for unknown keys of one table.
 const MOST: usize = 20;
 
 /// The mistakes of a file.
@@ -87,9 +87,9 @@ impl<'a> TomlTable<'a> {
         }
     }
 
-    /// Calls `read`. Returns the value or the error of `read`, and separately the mistakes of keys and values.
-    /// If there are such mistakes, neither the value nor the error of `read` is returned.
-    /// If all `names` could be read, the mistakes include unknown names.
+    /// Calls `read`. If there are mistakes of keys or values, returns only these mistakes, as the second part of the
+    /// result. Otherwise, returns the value or the error of `read`. Unknown names are such mistakes too, but they are
+    /// returned only if `names` is true.
     fn tried<T>(
         &mut self,
         names: bool,
@@ -98,7 +98,7 @@ impl<'a> TomlTable<'a> {
         self.goes_on = true;
         let found = read(self);
         // The missing keys are noted here, but unknown keys are not noted.
-        // If the reading has stopped early, a key that was not requested yet may still be correct.
+        // The reason: if the reading has stopped early, a key that was not requested yet may still be correct.
         self.pair_missing();
         let unknown = std::mem::take(&mut self.unknown_names);
         let is_sound = self.faults.is_empty() && unknown.is_empty();
@@ -173,8 +173,8 @@ impl<'a> TomlTable<'a> {
     /// The error for a missing key, and the entry whose key is a misspelling of the missing key.
     fn missing_by(&self, spellings: &[String], help: Option<&'static str>) -> (Error, Option<&'a str>) {
         let wanted = choice(spellings.iter().map(String::as_str), "`");
-        // In a named table, the error already has a name, and `key` does not change it. The top level has no name, so
-        // the error gets the name of the missing key.
+        // In a table with a path, the error already has this path as its key, and the call of `key` does not change it.
+        // The top level has no path, so the error gets the name of the missing key.
         let error = self.fault(sentences::is_missing(&wanted)).key(spellings[0].clone());
         let spelling = |key: &str| nearest(key, spellings.iter().map(String::as_str));
         let unread = self.entries.iter().filter(|entry| self.is_unknown(entry));

@@ -135,8 +135,8 @@ impl<'a> SlopeFile<'a> {
         }
     }
 
-    /// Records that the part of the file at `path` uses the keys of `slope`, and that the derivatives of this part by
-    /// these keys are not known.
+    /// Records all keys on which `slope` depends as keys without a known derivative. `path` is the part of the file
+    /// that uses them.
     pub(super) fn put_untold(&mut self, slope: &Slope, path: &str) {
         self.found.untold.extend(slope.by.keys().map(|key| (*key, path.to_string())));
     }
@@ -167,7 +167,8 @@ impl<'a> SlopeFile<'a> {
     }
 
     /// The value of an expression of parameters for a key, in the unit of the key.
-    /// If a derivative does not exist, for example at a kink, its keys are recorded as keys without a derivative.
+    /// If the expression has no derivative by one of its parameters, for example at a kink, the keys of this parameter
+    /// are recorded as keys without a derivative.
     pub(super) fn expression(&mut self, text: &str, key: &str, path: &str) -> Option<Slope> {
         let value = arithmetic(text, key, &self.parameters).ok()?;
         let tree = FormulaTree::parse(text).ok()?;

@@ -71,9 +71,10 @@ impl CaseSlopes {
     }
 
     /// Indices of the keys for a user who names no keys.
-    /// These keys are the parameters on which the case depends, because the parameters are the free dimensions.
-    /// If the case depends on no parameter, the keys are those of the dimensions, masses, and numbers of laws and loads
-    /// on which the case depends.
+    /// These keys are the parameters on which the case depends, because the author of a file makes the free dimensions
+    /// parameters.
+    /// If the case depends on no parameter, these keys are all other keys on which the case depends, except those of
+    /// the sort [`KeySort::Other`].
     #[must_use]
     pub fn usual(&self) -> Vec<usize> {
         let used = self.used();

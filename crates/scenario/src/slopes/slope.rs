@@ -19,7 +19,7 @@ impl Slope {
         Slope { value, by: BTreeMap::new() }
     }
 
-    /// A function of this number, by the chain rule.
+    /// The value of a function of this number, with its derivatives by the chain rule.
     /// `value` is the function's value at this number, and `slope` the function's derivative at this number.
     #[must_use]
     pub fn chained(&self, value: f64, slope: f64) -> Slope {
