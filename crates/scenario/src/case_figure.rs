@@ -1,4 +1,5 @@
-//! A figure of a whole motion, as sweeps and the section `[report]` request it: one number of a case.
+//! A figure: one number that describes the whole motion of a case.
+//! Sweeps and the section `[report]` request figures.
 
 use super::claim::Claim;
 use super::formula::Formulas;
