@@ -130,7 +130,7 @@ impl CaseFigure {
         matches!(self.kind, FigureKind::Verdict(_))
     }
 
-    /// Unit of the figure, as channels have it; empty for a number without a unit.
+    /// Unit of the figure, written like the unit of a channel; empty for a number without a unit.
     #[must_use]
     pub fn unit(&self, case: &Case, formulas: &Formulas) -> String {
         let input = case.crank().input.shown_in().0;
