@@ -1,4 +1,5 @@
-//! The part of a scenario file that is needed to draw its mechanism. The mechanism may have mistakes, or may be impossible to assemble.
+//! The part of a scenario file that is needed to draw its mechanism.
+//! The mechanism may have mistakes, or may be impossible to assemble.
 
 use std::path::Path;
 

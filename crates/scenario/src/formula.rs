@@ -40,7 +40,7 @@ pub const SECTIONS: &[Section] = &[Section::at("formula").with(&[
     ),
 ])];
 
-/// Name of the crank's angular velocity in a diagnosis.
+/// Name of the crank's angular velocity in the diagnosis of a formula that disagrees with its claim.
 pub const OMEGA: &str = "omega_crank";
 
 /// The formulas of a scenario. The formulas depend on the parameters, the input of the first drive and the time.
