@@ -1,5 +1,5 @@
 //! `[engine]`: engines by name, and their settings. Files and arguments pass the settings to the proof.
-//! A setting that is not given is free: a search can choose its value.
+//! A setting that is not given is free: the program chooses its value.
 //!
 //! [`ROWS`] is the only definition of a setting. Reader, writer and argument follow from a setting's row.
 //! Schema and documents follow from the setting's key in [`SECTIONS`].
