@@ -16,7 +16,7 @@ use crate::trajectory::{Channel, Trajectory};
 pub enum Provision {
     /// The solver computes the channel, or the engine reports the channel without conversion.
     Computed,
-    /// The channel is computed from other quantities. The text describes the method.
+    /// The channel is derived from other results of the engine. The text describes the method.
     Derived(&'static str),
 }
 

@@ -16,11 +16,11 @@ pub fn cores() -> usize {
 
 /// Calls `work` for every index below `count`, on at most `threads` threads. Each thread takes the next free index.
 /// `work` may send any number of messages.
-/// The calling thread passes each message with its index to `hear`.
+/// The calling thread passes each message to `hear`, with the index of the work that sent it.
 /// After `hear` returns a break, no work is started for further indices.
 /// The [counts](work) of the work done on the threads are added to the counts of the calling thread.
 ///
-/// If `threads` is at most 1, or if the system cannot start a thread, the calling thread does the work.
+/// If `threads` is at most 1, or if the system cannot start any thread, the calling thread does all the work.
 ///
 /// # Panics
 /// If `work` panics. The other threads finish their work before the panic is passed on.

@@ -51,7 +51,7 @@ impl Trajectory {
         Ok(Trajectory { times, input: Input::Angle, inputs, channels, columns })
     }
 
-    /// This trajectory, with `input` as the meaning of its input values.
+    /// This trajectory, whose input values are values of `input`.
     #[must_use]
     pub fn of_input(self, input: Input) -> Self {
         Trajectory { input, ..self }

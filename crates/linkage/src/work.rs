@@ -27,7 +27,7 @@ crate::words! {
         Forces = "forces",
         /// Evaluations of an equation of motion.
         Evaluations = "evaluations",
-        /// Accepted integration steps of a motion that forces determine.
+        /// Accepted integration steps of a free motion.
         Intervals = "intervals",
         /// Engine worlds built.
         Worlds = "worlds",
@@ -89,13 +89,14 @@ pub fn add(work: &Work) {
     DONE.set(DONE.get().and(work));
 }
 
-/// Work of placing one Assur group. A step of Newton's method for all constraints costs this much per link.
+/// Work of placing one Assur group.
+/// The work of one step of Newton's method for all constraints is this value times the number of links.
 /// The unit is the unit of budgets: one time step of an engine on a four-bar, without sweeps.
 /// The value was measured on chains of 1 to 1000 four-bars.
 pub const PLACED: f64 = 0.2;
 
 thread_local! {
-    /// The innermost [limit](limited) of this thread: the remaining work and the total allowed work.
+    /// The [limit](limited) that applies on this thread: the remaining work and the total allowed work.
     static ALLOWED: Cell<[f64; 2]> = const { Cell::new([f64::INFINITY; 2]) };
 }
 

@@ -14,7 +14,8 @@ use super::reader::TomlTable;
 use super::source::Source;
 use linkage::error::{Error, ErrorKind, Result};
 
-/// Figures of a reference. The figures were either accepted by people or found by a run.
+/// Figures of a scenario's reference trajectory.
+/// The figures come from a file, after people accepted them, or from the proof of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Accepted {
     /// Name of the scenario.

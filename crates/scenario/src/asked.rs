@@ -16,8 +16,8 @@ pub struct StartRequest {
     /// Groups and their modes, each as `LINK,LINK=MODE` or `LINK,LINK=NUMBER`.
     /// LINK and MODE are names in the file. If the links are in another order than in the file, left and right are
     /// exchanged.
-    /// NUMBER is the position in the list of [`configurations`](linkage::mechanism::assembly::configurations) at the
-    /// start, counted from 1.
+    /// NUMBER is the position of the requested configuration in the list of
+    /// [`configurations`](linkage::mechanism::assembly::configurations) at the start, counted from 1.
     pub modes: Vec<String>,
     /// Requested input at t = 0 (rad or m), in place of `crank` in `[start]` or of `start` of the first drive.
     /// Modes of the file also apply at the requested input.
@@ -29,8 +29,7 @@ pub struct StartRequest {
     /// the number in the unit in which people write it.
     pub is_shown: bool,
     /// Whether the caller defines a grid in place of the file's grid.
-    /// If the caller defines a grid, the case has no instants, and the drive need not reach the instants of the file's
-    /// grid.
+    /// If so, the case is built with an empty grid, and the drive need not reach the instants of the file's grid.
     pub without_grid: bool,
     /// Parameters, given by their keys, and other numbers, given by their paths such as `links.crank.mass_kg`.
     /// Each value is in the unit of its key, and replaces the value of the file.
@@ -147,7 +146,7 @@ impl Start<'_> {
     }
 
     /// Places all groups by the starts `starts`. `crank` is the input of the first drive (rad or m).
-    /// If the caller lists undecided groups, each of them starts in one of its configurations.
+    /// With [`Lists::Undecided`], each undecided group is placed in one of its configurations and listed.
     /// If no group is undecided, the pose counts as lying on the branch of the file's start.
     fn settled(&self, crank: f64, mut starts: Vec<StartGroup>) -> Result<Placed> {
         let angles = self.angles(crank);

@@ -1,4 +1,5 @@
-//! A figure of a whole motion, as sweeps and the section `[report]` request it: one number of a case.
+//! A figure: one number that describes the whole motion of a case.
+//! Sweeps and the section `[report]` request figures.
 
 use super::claim::Claim;
 use super::formula::Formulas;
@@ -129,7 +130,7 @@ impl CaseFigure {
         matches!(self.kind, FigureKind::Verdict(_))
     }
 
-    /// Unit of the figure, as channels have it; empty for a number without a unit.
+    /// Unit of the figure, written like the unit of a channel; empty for a number without a unit.
     #[must_use]
     pub fn unit(&self, case: &Case, formulas: &Formulas) -> String {
         let input = case.crank().input.shown_in().0;

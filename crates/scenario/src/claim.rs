@@ -56,7 +56,8 @@ impl Claim {
         Claim::read(text, all, None, &[])
     }
 
-    /// The names that a claim about a case may contain, without figures and quantities reduced to the crank.
+    /// The names that a claim about a case may contain, except the names of figures and of quantities reduced to the
+    /// crank.
     /// Channels in every unit and magnitudes of vectors come first, in the order of the channels.
     /// Then come transfer functions, instant centres and acceleration poles.
     #[must_use]
@@ -71,6 +72,7 @@ impl Claim {
         };
         let channel = |name: &str| PrintedChannel::named(name).filter(|found| all.contains(&found.channel));
         // A channel name may contain characters that are operators in an arithmetic expression.
+        // The text is therefore parsed as an expression only if it is not a channel or magnitude as a whole.
         let written = match channel(text).is_some() || magnitude(text, all).is_some() {
             true => FormulaTree { shape: NodeShape::Name(text.into()), at: 0..text.len() },
             false => FormulaTree::parse(text)?,
@@ -193,7 +195,8 @@ fn magnitude(name: &str, all: &[Channel]) -> Option<(FormulaTree, &'static str)>
     Some((FormulaTree::call(Function::Sqrt, vec![sum]), unit))
 }
 
-/// The channel of the first drive, such as `drive.force_N`, if `name` also contains a joint: `drive.X.force_N`.
+/// The channel of the first drive that `name` means, such as `drive.force_N` for `drive.X.force_N`.
+/// The name of this channel contains no joint, but the names of all other drives' channels do.
 fn of_first_drive<'a>(name: &str, known: &'a [String]) -> Option<&'a str> {
     let (joint, quantity) = name.strip_prefix("drive.")?.split_once('.')?;
     let is_further = known.iter().any(|own| own.starts_with(&format!("drive.{joint}.")));

@@ -63,7 +63,7 @@ pub const SECTIONS: &[Section] = &[
 /// Default tolerance of a swept area, divided by the area.
 const AREA: f64 = 5e-3;
 /// Lower limit of the tolerance of a swept area, divided by the area.
-/// The area is found by squares, whose number grows with the inverse of the tolerance.
+/// The area is found by division of the plane into squares. Their number grows with the inverse of the tolerance.
 const SMALLEST_AREA: f64 = 1e-5;
 /// Lower limit of a tolerance, divided by the mechanism's size. A finer tolerance would be below the rounding error.
 const FINEST: f64 = 1e-10;

@@ -1,4 +1,5 @@
-//! The content of a scenario file for a picture. The mechanism may have mistakes, or may be impossible to assemble.
+//! The part of a scenario file that is needed to draw its mechanism.
+//! The mechanism may have mistakes, or may be impossible to assemble.
 
 use std::path::Path;
 
@@ -37,8 +38,8 @@ pub struct Draft {
     pub gravity: Vec2,
     /// Input at t = 0 (SI).
     pub crank: f64,
-    /// Start of each group, in the order of the structure at the start.
-    /// Without a valid start in the file, each start is the default.
+    /// Start of each group, in the order of the groups of [`Structure::at_start`]; empty if there is no structure.
+    /// Without a valid start in the file, every start that the caller does not request is the default.
     pub starts: Vec<StartGroup>,
     /// The mistakes of the file, if there are any.
     pub mistakes: Option<Error>,

@@ -42,8 +42,8 @@ pub fn with_parameter(text: &str, key: &str, value: f64) -> Result<String> {
 
 /// The text in which the point `point` of a link is moved from `from` to `to`. These coordinates (m) are in the frame
 /// of the link; for the ground, in the world frame.
-/// A coordinate that is a number gets the new number. A coordinate that is the name of a parameter, or minus this name,
-/// changes the parameter. A coordinate that stays the same is not written.
+/// A coordinate that is a number gets the new number. If a coordinate is the name of a parameter, or minus this name,
+/// the parameter gets the new number. A coordinate that stays the same is not written.
 ///
 /// # Errors
 /// [`ErrorKind::Input`] if the text is not TOML, if it has no such point, or if a coordinate is another expression.

@@ -1,4 +1,5 @@
-//! `[engine]`: engines by name, and their settings, given or free. Files and arguments pass the settings to the proof.
+//! `[engine]`: engines by name, and their settings. Files and arguments pass the settings to the proof.
+//! A setting that is not given is free: the program chooses its value.
 //!
 //! [`ROWS`] is the only definition of a setting. Reader, writer and argument follow from a setting's row.
 //! Schema and documents follow from the setting's key in [`SECTIONS`].
@@ -33,7 +34,7 @@ linkage::words! {
 }
 
 impl EngineName {
-    /// Cargo feature that a build needs to contain the engine. `None` if every build contains it.
+    /// Cargo feature that adds the engine to a build. `None` if every build contains the engine.
     #[must_use]
     pub fn feature(self) -> Option<&'static str> {
         match self {
@@ -75,7 +76,7 @@ settings! {
     step: f64,
     /// Relative accuracy of engines that control their error.
     accuracy: f64,
-    /// Number of sweeps of the iteration in a step.
+    /// Number of sweeps over the constraints in a step.
     sweeps: usize,
     /// Number of parts into which an engine divides a step.
     substeps: usize,
@@ -262,8 +263,10 @@ pub fn read(table: &mut TomlTable, drive: &Drive) -> Result<EngineSettings> {
     }
 }
 
-/// A whole number within `range`. For a number outside a range without an upper limit, the message says that an engine
-/// needs at least one. For a range with an upper limit, the message is about the number of extrapolations.
+/// A whole number within `range`.
+/// The message for a number outside `range` depends on the upper limit of `range`.
+/// Without an upper limit, the message says that an engine needs at least one.
+/// With an upper limit, the message is about the number of extrapolations.
 fn whole(table: &mut TomlTable, key: &str, range: RangeInclusive<usize>) -> Result<EngineSetting<usize>> {
     let Some(number) = table.optional_integer(key)? else { return Ok(EngineSetting::Free) };
     if let Some(count) = usize::try_from(number).ok().filter(|count| range.contains(count)) {

@@ -154,7 +154,7 @@ fn distance(entry: &mut TomlTable, case: &Case) -> Result<(MechanismFigure, Stri
         return entry.refuse("points", message, "write `points = [\"A\", \"B\"]`");
     };
     let places = [places(entry, case, first)?, places(entry, case, second)?];
-    // A distance between two points of one link only repeats the file.
+    // The distance between two points of one link follows from the coordinates in the file and tests no pose.
     // The two points are therefore taken on different links: their distance then results from the solved pose, not
     // from the file alone.
     let has = |link: LinkId, of: &[JointSide]| of.iter().any(|side| side.link == link);

@@ -40,7 +40,7 @@ pub const SECTIONS: &[Section] = &[Section::at("formula").with(&[
     ),
 ])];
 
-/// Name of the crank's angular velocity in a diagnosis.
+/// Name of the crank's angular velocity in the diagnosis of a formula that disagrees with its claim.
 pub const OMEGA: &str = "omega_crank";
 
 /// The formulas of a scenario. The formulas depend on the parameters, the input of the first drive and the time.
@@ -213,10 +213,9 @@ impl Formulas {
     }
 
     /// The formulas that a search for a mistake in the formula `of` needs, and the index of `of` among these formulas.
-    /// The needed formulas are `of`, the `beside` formulas before it, and all formulas that `of` and the `beside`
-    /// formulas use.
-    /// At most `beside` unused parameters are kept. All other formulas of the file are left out, so the length of the
-    /// file does not matter.
+    /// The needed formulas are `of`, the last formulas before `of` (at most `beside`), and all formulas that these use.
+    /// All other formulas of the file are left out, so the length of the file does not matter.
+    /// Of the parameters that no needed formula uses, at most `beside` are kept.
     #[must_use]
     pub fn derivation(&self, of: usize, beside: usize) -> (Formulas, usize) {
         let places = self.places(of);
@@ -278,7 +277,8 @@ impl Formulas {
     }
 }
 
-/// A mistake in the range (rad or m) or in the error of a claim: the key `to` or `error`, with message and help.
+/// Checks the range `valid` (rad or m) and the claimed error `error` of a formula.
+/// Returns the key of a wrong value (`to` or `error`), with message and help.
 #[must_use]
 pub fn fault_of_claim(
     valid: [Option<f64>; 2],
@@ -304,8 +304,8 @@ pub(super) fn read(parameters: Vec<Parameter>, tables: Vec<TomlTable>, case: &Ca
     let mut formulas = Formulas::over(parameters);
     for mut table in tables {
         let read = faults.read(&mut table, |table| formula(table, &mut formulas, case));
-        // Later formulas may use a formula that is left out. After a mistake in a formula, errors that may follow from
-        // it are therefore not reported (see `Faults::whole`).
+        // A later formula of the file may name a formula that was left out because of a mistake.
+        // After such a mistake, errors that may follow from it are therefore not reported (see `Faults::whole`).
         faults.whole &= read.is_some();
     }
     formulas

@@ -40,7 +40,7 @@ pub(crate) fn rows(path: &str) -> &'static [FileKey] {
     section(path).map_or(&[], |section| section.keys)
 }
 
-/// The section with a path.
+/// The section at `path`; `None` if there is no such section.
 #[must_use]
 pub fn section(path: &str) -> Option<&'static Section> {
     sections().find(|section| section.path == path)

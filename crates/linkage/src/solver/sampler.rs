@@ -35,10 +35,12 @@ pub struct Sampler {
     channels: Vec<Channel>,
     columns: Vec<Vec<f64>>,
     rows: Vec<usize>,
-    /// Values of the latest rows, which are not in the columns yet. The first `kept` entries of `rows` are.
+    /// Values of the latest rows, which are not in the columns yet.
     block: Vec<f64>,
+    /// The values of the rows `rows[..kept]` are already in the columns.
     kept: usize,
-    /// The input in the scenario's convention. The input comes from the grid or, for a free motion, from the states.
+    /// The input at every instant of the grid, in the scenario's convention.
+    /// The input comes from the grid or, for a free motion, from the states.
     inputs: Vec<f64>,
 }
 
@@ -62,8 +64,7 @@ impl Mask {
     }
 }
 
-/// The requested rows of the table, for every subject with at least one requested row. The key is kind and name of the
-/// subject.
+/// For every subject with requested channels: the mask of these channels. The key is kind and name of the subject.
 fn masks(channels: &[Channel]) -> BTreeMap<(ChannelSubject, &str), Mask> {
     let mut masks: BTreeMap<(ChannelSubject, &str), Mask> = BTreeMap::new();
     for channel in channels {
@@ -242,7 +243,7 @@ impl Sampler {
     }
 }
 
-/// The remaining part of a row of values. Values are filled in the order of channels.
+/// The part of a row of values that is not filled yet. Values are filled in the order of channels.
 struct Row<'a> {
     values: &'a mut [f64],
 }

@@ -25,8 +25,8 @@ pub struct State {
     pub torques: Vec<f64>,
     /// Condition number for the bound on rounding errors while the mechanism passes a change point; `None` elsewhere.
     /// The condition number of the pose itself grows without bound near a change point.
-    /// The solver does not compute at the change point itself, so this number replaces the condition number of the
-    /// pose.
+    /// Near the change point the solver interpolates between poses on both sides of it and solves no equations.
+    /// This number therefore replaces the condition number of the pose.
     pub passing: Option<f64>,
 }
 
@@ -105,6 +105,7 @@ impl State {
     }
 
     /// Largest opening of a joint (m), and largest distance of a joint from the origin (m).
+    /// The opening is the distance between the joint's points on its two links.
     /// In a prismatic joint the opening is measured perpendicular to the guide.
     /// The sine of the angle between the joint's two axes, multiplied by `size` (m), also counts as an opening.
     #[must_use]
@@ -120,7 +121,7 @@ impl State {
         largest
     }
 
-    /// Largest moment (N m): the moment of a drive, or the force of a joint or drive times the lever arm `arm` (m).
+    /// The largest of the drives' moments (N m) and of the forces of joints and drives times the lever arm `arm` (m).
     #[must_use]
     pub fn largest_moment(&self, case: &Case, arm: f64) -> f64 {
         // Only forces are multiplied by the lever arm.

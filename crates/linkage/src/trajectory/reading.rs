@@ -9,7 +9,7 @@ pub enum ChannelSubject {
     Point,
     /// A joint.
     Joint,
-    /// A prismatic joint: the channels that it has in addition to those of every joint.
+    /// A prismatic joint, as the subject of the channels that only prismatic joints have.
     Slider,
     /// A revolute joint with friction.
     Journal,
@@ -47,7 +47,7 @@ impl ChannelSubject {
         }
     }
 
-    /// Whether the subject is the moment or force of a drive.
+    /// Whether the subject is a drive.
     #[must_use]
     pub fn is_drive(self) -> bool {
         match self {

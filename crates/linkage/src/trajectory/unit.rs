@@ -4,7 +4,8 @@ use std::fmt;
 
 crate::words! {
     /// SI unit of a channel.
-    /// Code that depends on the unit matches on this enum. Such code does not compile until it handles every new unit.
+    /// Code that depends on the unit matches on this enum.
+    /// After a unit is added, such code does not compile until it handles this unit.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
     pub enum Unit: symbol {
         /// Angles (rad).

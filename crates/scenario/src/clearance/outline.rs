@@ -53,11 +53,11 @@ impl Outline {
         Ok(Outline { corners: places.to_vec(), solid: false, radius, parts })
     }
 
-    /// A polygon with its interior, rounded by `radius` (m, may be 0).
+    /// A polygon with the given corners (m) and its interior, rounded by `radius` (m, may be 0).
     /// The polygon need not be convex, and its corners may be in either sense of rotation.
     ///
     /// # Errors
-    /// A [`Flaw`] of its corners (m).
+    /// A [`Flaw`] of the corners or the radius.
     pub fn polygon(corners: &[Vec2], radius: f64) -> Result<Outline, Flaw> {
         check(corners, radius, 3)?;
         check_simple(corners)?;

@@ -67,7 +67,7 @@ pub fn pairs(mechanism: &Mechanism, bodies: &[ClearanceBody], ignored: &[[usize;
     pairs
 }
 
-/// Whether two links share a joint, or are connected at the same pin by further links.
+/// Whether two links share a joint, or are hinged to each other through further links whose pins all lie at one point.
 #[must_use]
 pub fn are_joined(mechanism: &Mechanism, [a, b]: [LinkId; 2]) -> bool {
     if mechanism.joints().iter().any(|joint| joint.on(a).is_some() && joint.on(b).is_some()) {

@@ -82,7 +82,7 @@ pub(super) fn gears(
     let (along, across) = (between.normalize(), turned(between.normalize()));
     [one.radius, other.radius] = radii.map(f64::abs);
     let pitch = one.place + along * radii[0];
-    // External teeth push the axles apart; the teeth of a ring gear and its pinion pull them together.
+    // External teeth push the axles apart; the teeth of a ring gear and its pinion pull the axles together.
     let apart = if radii[0] > 0.0 && radii[1] > 0.0 { 1.0 } else { -1.0 };
     let line = |side: f64| {
         let direction = across * (side * angle.cos()) + along * (apart * angle.sin());
