@@ -224,7 +224,7 @@ impl Error {
         self
     }
 
-    /// Marks the error: a pose cannot be reached on the branch of the case.
+    /// Marks the error as out of reach: the mechanism cannot reach a pose on the branch of the case.
     /// A caller with access to the solvers can then add the reachable crank angles.
     pub fn out_of_reach(mut self) -> Self {
         self.0.out_of_reach = true;
@@ -238,7 +238,7 @@ impl Error {
     }
 
     /// Names the scenario key (dotted path) at fault.
-    /// A key that is already set stays, because the innermost caller sets the first key and knows the fault best.
+    /// A key that is already set stays: the function closest to the fault sets its key first and knows the fault best.
     pub fn key(mut self, key: impl Into<KeyPath>) -> Self {
         self.0.key.get_or_insert_with(|| key.into());
         self
