@@ -262,7 +262,8 @@ impl Error {
         &self.0.message
     }
 
-    /// The scenario key at fault in words, if known: its dotted path. For an Assur group, the group's links follow.
+    /// Text of the scenario key at fault, if known. The text is the dotted path of the key.
+    /// For an Assur group, the group's links follow the path.
     #[must_use]
     pub fn scenario_key(&self) -> Option<&str> {
         self.0.key.as_ref().map(|key| key.text.as_str())
@@ -310,7 +311,8 @@ impl Error {
         self.0.reached
     }
 
-    /// Whether the error carries the mark set by [`Error::out_of_reach`] and removed by [`Error::explained`].
+    /// Whether the error is marked as out of reach.
+    /// [`Error::out_of_reach`] sets the mark, and [`Error::explained`] removes the mark.
     #[must_use]
     pub fn is_out_of_reach(&self) -> bool {
         self.0.out_of_reach
