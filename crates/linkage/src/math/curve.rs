@@ -21,7 +21,7 @@ pub trait Smooth: Debug + Send + Sync {
 pub enum Curve {
     /// A spline through points.
     Table(Piecewise),
-    /// The function amplitude (sin(2 pi x / period + phase) - sin(phase)), for all x.
+    /// f(x) = amplitude * (sin(2 pi x / period + phase) - sin(phase)), for all x.
     /// The value of the function is 0 at x = 0.
     Harmonic {
         /// Amplitude, not zero.
@@ -31,11 +31,11 @@ pub enum Curve {
         /// Phase at x = 0 (rad).
         phase: f64,
     },
-    /// A formula that begins at x = 0.
+    /// A formula, from x = 0 to a given end.
     Formula(FormulaCurve),
 }
 
-/// The function factor (f(x) - f(0)) from x = 0 to `end`.
+/// The function g(x) = factor * (f(x) - f(0)), from x = 0 to `end`.
 #[derive(Clone, Debug)]
 pub struct FormulaCurve {
     /// The function f.
