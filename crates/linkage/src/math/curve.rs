@@ -150,7 +150,8 @@ impl Curve {
         }
     }
 
-    /// Ascending x between which extremes and values are searched for: the knots of a table, otherwise equal steps.
+    /// Ascending values of x that divide the curve into intervals for searches.
+    /// For a table, these are the knots; for any other curve, they are equally spaced.
     #[must_use]
     pub fn places(&self) -> Vec<f64> {
         match self {
@@ -191,7 +192,7 @@ impl Curve {
         values().fold(f64::NEG_INFINITY, f64::larger) - values().fold(f64::INFINITY, f64::smaller)
     }
 
-    /// Whether the numbers of the curve are finite. Only the knots of a table are tested.
+    /// Whether the numbers that define the curve are finite. For a table, only the knots are tested, not the values.
     #[must_use]
     pub fn is_finite(&self) -> bool {
         match self {

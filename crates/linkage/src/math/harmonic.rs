@@ -19,7 +19,7 @@ type Coefficients = Vec<Complex<f64>>;
 
 /// A root of the derivative is used only if its distance from the unit circle is at most this limit.
 /// A rounding error moves a simple root by about the size of the error.
-/// A nearly double root moves by the square root of the rounding error (1e-8), times the root's condition number.
+/// A nearly double root moves by about 1e-8, the square root of the rounding error, times the root's condition number.
 /// The limit may be generous, because a superfluous root only adds one more candidate.
 const ON_CIRCLE: f64 = 1e-3;
 /// A value below this fraction of the argument `scale` counts as zero.
