@@ -26,7 +26,7 @@ const ON_CIRCLE: f64 = 1e-3;
 /// The limit is the rounding error of the coefficients, multiplied by a margin of two digits.
 const ZERO: f64 = 1e-14;
 /// Two zeros closer together than this distance (rad) count as one touching zero.
-/// A parabola of unit curvature and height `ZERO` has about this width.
+/// If a parabola of unit curvature has the depth `ZERO` between its zeros, the zeros have about this distance.
 const APART: f64 = 1e-7;
 
 /// Real zeros in [0, 2 pi), in ascending order, of the trigonometric polynomial that equals `f`.
@@ -137,7 +137,7 @@ fn between(coefficients: &[Complex<f64>], from: f64, to: f64) -> f64 {
 }
 
 /// Roots of the polynomial with the given coefficients, lowest power first.
-/// The coefficients are symmetric: in reverse order they are their conjugates, or the negatives of these.
+/// The coefficients must be symmetric: c_(n-k) = conj(c_k) for all k, or c_(n-k) = -conj(c_k) for all k.
 /// The roots of such a polynomial come in pairs z, 1 / conj(z).
 ///
 /// The map z = (w + a) / (1 + conj(a) w), |a| < 1, preserves the unit circle.

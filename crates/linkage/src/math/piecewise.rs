@@ -1,5 +1,5 @@
 //! A function through given points.
-//! Between neighbouring points, the function is a cubic polynomial: a straight line or a piece of a spline.
+//! Between neighbouring points, the function is a straight line or a cubic piece of a spline.
 
 use crate::math::KeepNan;
 
