@@ -195,7 +195,8 @@ pub fn polished<E>(
 /// The search ends if the next change would be at most four rounding errors of the length.
 /// The search also ends if the next change would be as large as the length itself.
 /// Returns the length whose value was nearest to zero.
-/// The last step may give a different length, because a secant between values as small as rounding errors is arbitrary.
+/// This length need not be the last one: between values as small as rounding errors, the slope of a secant is
+/// arbitrary, and so is the next length.
 ///
 /// # Errors
 /// The first error of `value`.
