@@ -137,7 +137,7 @@ fn between(coefficients: &[Complex<f64>], from: f64, to: f64) -> f64 {
 }
 
 /// Roots of the polynomial with the given coefficients, lowest power first.
-/// The coefficients must be symmetric: c_(n-k) = conj(c_k) for all k, or c_(n-k) = -conj(c_k) for all k.
+/// If n is the degree, the coefficients must satisfy c_(n-k) = conj(c_k) for all k, or c_(n-k) = -conj(c_k) for all k.
 /// The roots of such a polynomial come in pairs z, 1 / conj(z).
 ///
 /// The map z = (w + a) / (1 + conj(a) w), |a| < 1, preserves the unit circle.
