@@ -65,7 +65,7 @@ pub trait Engine: Solver {
     /// Returns a function that computes reactions and balancing moments from a motion, by the engine's method.
     /// Returns `None` if the motion alone does not determine the forces.
     /// If the result is `None`, the engine must report the forces.
-    /// Extrapolation calls this function to compute the forces of the extrapolated motion.
+    /// [`Extrapolated`] uses the returned function to compute the forces of the extrapolated motion.
     fn statics(&self, case: &Case) -> Option<Statics>;
 
     /// Runs the whole case and returns its states.
@@ -77,8 +77,7 @@ pub trait Engine: Solver {
         Rows::of_solver(self, case, progress)
     }
 
-    /// Number of additional time steps in a run of a prescribed motion, before the first and after the last instant of
-    /// the grid.
+    /// Largest number of time steps by which a run of a prescribed motion extends beyond either end of the grid.
     fn overrun(&self) -> f64;
 
     /// Expected order of convergence of a channel, with the engine's present method and extrapolation.
@@ -87,8 +86,8 @@ pub trait Engine: Solver {
     /// Bound on the rounding error of a channel on the grid of a case, in the channel's unit.
     fn noise(&self, case: &Case, channel: &ChannelKind) -> f64;
 
-    /// Whether the factors in [`Engine::noise`] are measured values.
-    /// If the result is false, the factors are assumed values.
+    /// Whether the bound of [`Engine::noise`] is based on measured rounding errors.
+    /// If the result is false, the bound is based on assumed rounding errors.
     fn is_noise_measured(&self) -> bool;
 
     /// The engine's properties that influence the result, as names and values for display.

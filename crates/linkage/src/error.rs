@@ -224,7 +224,7 @@ impl Error {
         self
     }
 
-    /// Marks the error: a pose cannot be reached on the branch of the case.
+    /// Marks the error as out of reach: the mechanism cannot reach a pose on the branch of the case.
     /// A caller with access to the solvers can then add the reachable crank angles.
     pub fn out_of_reach(mut self) -> Self {
         self.0.out_of_reach = true;
@@ -238,7 +238,7 @@ impl Error {
     }
 
     /// Names the scenario key (dotted path) at fault.
-    /// A key that is already set stays, because the innermost caller sets the first key and knows the fault best.
+    /// A key that is already set stays: the function closest to the fault sets its key first and knows the fault best.
     pub fn key(mut self, key: impl Into<KeyPath>) -> Self {
         self.0.key.get_or_insert_with(|| key.into());
         self
@@ -262,7 +262,8 @@ impl Error {
         &self.0.message
     }
 
-    /// The scenario key at fault in words, if known: its dotted path. For an Assur group, the group's links follow.
+    /// Text of the scenario key at fault, if known. The text is the dotted path of the key.
+    /// For an Assur group, the group's links follow the path.
     #[must_use]
     pub fn scenario_key(&self) -> Option<&str> {
         self.0.key.as_ref().map(|key| key.text.as_str())
@@ -310,7 +311,8 @@ impl Error {
         self.0.reached
     }
 
-    /// Whether the error carries the mark set by [`Error::out_of_reach`] and removed by [`Error::explained`].
+    /// Whether the error is marked as out of reach.
+    /// [`Error::out_of_reach`] sets the mark, and [`Error::explained`] removes the mark.
     #[must_use]
     pub fn is_out_of_reach(&self) -> bool {
         self.0.out_of_reach

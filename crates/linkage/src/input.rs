@@ -25,7 +25,7 @@ impl Input {
     /// All quantities.
     pub const ALL: [Input; 3] = [Input::Angle, Input::Turn, Input::Slide];
 
-    /// The input with the value `value` (in its SI unit), formatted for messages.
+    /// The value `value` (in the SI unit) of this input, in a form that messages can display.
     #[inline]
     pub const fn at(self, value: f64) -> InputValue {
         InputValue { input: self, value }
@@ -80,7 +80,7 @@ impl Input {
         }
     }
 
-    /// The unit in pictures, behind a number.
+    /// Sign of the unit that follows a number in pictures.
     #[must_use]
     pub const fn sign(self) -> &'static str {
         match self {
@@ -138,7 +138,7 @@ impl Input {
     }
 
     /// Length that corresponds to one unit of the input, if `size` (m) is the size of the mechanism.
-    /// A slide is a length itself. An angle moves points by up to the size of the mechanism.
+    /// A slide is a length itself. A rotation by 1 rad moves points by up to the size of the mechanism.
     #[inline]
     #[must_use]
     pub const fn reach(self, size: f64) -> f64 {

@@ -28,7 +28,7 @@ pub type Vec2 = nalgebra::Vector2<f64>;
 /// Complex number, as a vector of the plane or a rotation.
 pub type Complex = nalgebra::Complex<f64>;
 
-/// Matrix of any size, for quantities that are not computed in every pose.
+/// Matrix of any size, for quantities that are computed in only a few poses.
 pub type Matrix = nalgebra::DMatrix<f64>;
 
 /// Column of any length.

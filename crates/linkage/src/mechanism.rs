@@ -50,7 +50,7 @@ pub struct Mechanism {
     size: f64,
 }
 
-/// Size of a mechanism (m): the largest extent of a link. The size is 1 m if all links are points.
+/// Size of a mechanism (m): the largest extent of a link. The size is 1 m if no link has an extent.
 fn size_of(links: &[Link]) -> f64 {
     let size = links.iter().map(Link::extent).fold(0.0, f64::larger);
     if size > 0.0 { size } else { 1.0 }
@@ -101,7 +101,7 @@ impl Mechanism {
         Mechanism { links, joints, transmissions: PerTransmission::default(), on, rows, size }
     }
 
-    /// Changes the numbers of links, and the positions of joints on links, without any check.
+    /// Changes the numerical data of links, and the positions of joints on links, without any check.
     pub(crate) fn renumber(&mut self, change: impl FnOnce(&mut [Link], &mut [Joint])) {
         change(&mut self.links, &mut self.joints);
         self.size = size_of(&self.links);
@@ -166,7 +166,7 @@ impl Mechanism {
         self.equations() + self.transmissions.len() + drive
     }
 
-    /// Indices of a joint's equations in a list of all joints' equations, in the order of joints.
+    /// Indices of a joint's equations in the list of all joints' equations. The list is in the order of the joints.
     #[inline]
     #[must_use]
     pub fn rows(&self, joint: JointId) -> Range<usize> {

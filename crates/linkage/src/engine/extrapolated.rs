@@ -39,9 +39,9 @@ impl Extrapolated {
 /// Weights of the runs at h, h / 2, ....
 /// The terms of the error are proportional to the powers `order`, `order` + 1, ... of the step.
 /// Each run after the first cancels one of these terms.
-/// Neville's scheme, for run k after j extrapolations: T(k, j) = T(k + 1, j - 1) + (T(k + 1, j - 1) - T(k, j - 1)) /
-/// (2^p - 1).
-/// The formula of Neville's scheme removes the error term with the power p.
+/// T(k, j) denotes the value from run k after j extrapolations.
+/// Extrapolation j removes the error term with the power p = `order` + j - 1 by Neville's scheme:
+/// T(k, j) = T(k + 1, j - 1) + (T(k + 1, j - 1) - T(k, j - 1)) / (2^p - 1).
 fn weights(order: f64, runs: usize) -> Vec<f64> {
     let mut rows: Vec<Vec<f64>> =
         (0..runs).map(|run| (0..runs).map(|k| f64::from(u8::from(k == run))).collect()).collect();
@@ -201,8 +201,9 @@ mod tests {
     use crate::fixtures;
     use crate::mechanism::LinkId;
 
-    /// A test engine whose links rotate by t + h^2. The engine records the step and the sweeps of each run.
-    /// Runs listed in `fails` stop at the second instant.
+    /// A test engine. At the time t, all link angles are t + h^2 + 1e-3 / sweeps.
+    /// The engine records the step and the sweeps of each run.
+    /// A run with the step and the sweeps in `fails` stops with an error at the second instant.
     #[derive(Clone, Debug)]
     struct Counted {
         settings: Settings,
@@ -292,7 +293,7 @@ mod tests {
         Counted { settings: Settings { extrapolated: 0, ..ASKED }, runs: Arc::default(), fails }
     }
 
-    /// Settings of the runs of a proof, in order.
+    /// Four settings as in a convergence study: the original, half the step, twice the step, and half the sweeps.
     fn rungs() -> [Settings; 4] {
         let at = |factor: f64| Settings { resolution: ASKED.resolution * factor, ..ASKED };
         [ASKED, at(0.5), at(2.0), Settings { sweeps: ASKED.sweeps / 2, ..ASKED }]
@@ -303,7 +304,8 @@ mod tests {
         case.on(Grid::of_times(case.crank(), vec![0.2, 0.0, 0.1])).unwrap()
     }
 
-    /// Rows and angles in the engine's order of delivery, with the result of the run.
+    /// Runs the case. Returns row and angle of each state, in the order in which the engine delivers the states.
+    /// The second value tells whether the run failed.
     /// The function asserts that the progress rises from 0 to 1.
     fn run(engine: &dyn Engine, case: &Case) -> (Vec<(usize, f64)>, Result<()>) {
         let (mut seen, mut far) = (Vec::new(), 0.0);

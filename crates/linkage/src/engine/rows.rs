@@ -34,14 +34,15 @@ struct Layout {
     joints: usize,
     /// The joints that transmit a moment, if forces are stored.
     sliding: Vec<JointId>,
-    /// Number of transmissions, and number of drives, whose forces are stored.
+    /// Number of transmissions whose forces are stored.
     transmissions: usize,
+    /// Number of drives whose forces are stored.
     drives: usize,
 }
 
 impl Layout {
     /// Layout of the numbers that the requested channels of a case need.
-    /// All velocities are stored if forces are stored, because forces depend on the whole motion.
+    /// If forces are stored, velocities and accelerations are also stored, because forces depend on the whole motion.
     /// Velocities are also stored if a load depends on a sense of motion.
     fn of(case: &Case) -> Self {
         let deepest = case.wanted.deepest();

@@ -25,8 +25,8 @@ impl fmt::Display for Route {
     }
 }
 
-/// Settings of an engine. Every setting influences the results.
-/// An engine lists the settings that it uses in [`told`](super::Engine::told).
+/// Settings of an engine. Every setting that the engine uses influences the results.
+/// [`told`](super::Engine::told) lists these settings, apart from the step size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
     /// Time step (s) of an engine with a fixed step; relative accuracy of an engine that controls its error.

@@ -1,4 +1,4 @@
-//! Wraps a solver or an engine, and changes the results of the wrapped solver or engine.
+//! Wraps a solver or an engine, and changes its input and its results.
 
 use super::{Engine, Settings, StandIn, Statics};
 use crate::case::Case;
@@ -20,7 +20,7 @@ pub trait Hook: Clone + Send + Sync + 'static {
     /// Changes a state before it is returned. `case` is the requested case, `row` the row of its grid.
     fn answer(&self, case: &Case, row: usize, state: &mut State);
 
-    /// The hook for the wrapped engine after a change of its settings from `from` to `to`.
+    /// The hook that replaces this hook when the engine's settings change from `from` to `to`.
     #[must_use]
     fn with(&self, from: Settings, to: Settings) -> Self {
         let _ = (from, to);
@@ -31,7 +31,7 @@ pub trait Hook: Clone + Send + Sync + 'static {
 /// A solver or an engine with a [`Hook`]. Apart from the hook it behaves like the wrapped solver or engine.
 #[derive(Clone, Debug)]
 pub struct Wrapped<H, S: ?Sized> {
-    /// The changes to the results.
+    /// The changes to the input and the results.
     pub hook: H,
     /// The wrapped solver or engine.
     pub inner: Box<S>,

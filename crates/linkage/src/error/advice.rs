@@ -9,7 +9,7 @@ use std::fmt;
 /// [`Advice::Text`] is advice about a scenario's text, for a person to read. Programs can act on the other variants.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Advice {
-    /// Advice in words only, such as the name of a scenario key.
+    /// Advice in words only. The words name, for example, the scenario key to change.
     Text(String),
     /// A smaller time step of the engine.
     SmallerStep {
@@ -96,6 +96,7 @@ pub enum Advice {
 
 impl Advice {
     /// This advice, completed with a number to try.
+    /// If the engine controls its error, advice on the time step becomes advice on the accuracy.
     /// The number is computed from the engine's present settings: its `resolution` and its number of `sweeps`.
     /// `resolution` is a time step (s), or a relative accuracy if the engine `controls_error`.
     #[must_use]

@@ -44,8 +44,8 @@ impl Error {
         [self].into_iter().chain(&self.0.further)
     }
 
-    /// The text that is equal for all errors of one cause: the message, in which the unit alone replaces a key that
-    /// ends with a unit.
+    /// The text that is equal for all errors of one cause.
+    /// The text is the message. If the last name of the key ends with a unit, only the unit is left of that name.
     fn cause(&self) -> String {
         let key = self.scenario_key().map(|key| key.rsplit('.').next().unwrap_or(key).to_string());
         let Some(key) = key else { return self.message().into() };
@@ -116,7 +116,7 @@ mod tests {
         let pair = Error::all([one(1), one(2)]).unwrap();
         assert_eq!(pair.to_string(), "mistake 1\nmistake 2");
         let many = Error::all((0..30).map(one)).unwrap();
-        // Errors that an earlier combination only counted are added to the count.
+        // `many` already contains errors that were only counted. The new count includes them.
         let more = Error::all([pair, many]).unwrap();
         let told = more.to_string();
         assert!(

@@ -23,12 +23,13 @@ pub enum MotionCentre {
     Everywhere,
 }
 
-/// A velocity or acceleration of a motion below these limits counts as zero.
+/// Limits below which velocities or accelerations count as zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MotionNoise {
-    /// Angular velocity (rad/s), or angular acceleration and squared angular velocity (rad/s^2).
+    /// For a velocity centre: limit of the angular velocity (rad/s).
+    /// For an acceleration centre: limit of the angular acceleration and of the squared angular velocity (rad/s^2).
     pub turning: f64,
-    /// Velocity (m/s), or acceleration (m/s^2).
+    /// Limit of the velocity (m/s) for a velocity centre, or of the acceleration (m/s^2) for an acceleration centre.
     pub shift: f64,
 }
 

@@ -21,7 +21,7 @@ pub trait Smooth: Debug + Send + Sync {
 pub enum Curve {
     /// A spline through points.
     Table(Piecewise),
-    /// The function amplitude (sin(2 pi x / period + phase) - sin(phase)), for all x.
+    /// f(x) = amplitude * (sin(2 pi x / period + phase) - sin(phase)), for all x.
     /// The value of the function is 0 at x = 0.
     Harmonic {
         /// Amplitude, not zero.
@@ -31,11 +31,11 @@ pub enum Curve {
         /// Phase at x = 0 (rad).
         phase: f64,
     },
-    /// A formula that begins at x = 0.
+    /// A formula, from x = 0 to a given end.
     Formula(FormulaCurve),
 }
 
-/// The function factor (f(x) - f(0)) from x = 0 to `end`.
+/// The function g(x) = factor * (f(x) - f(0)), from x = 0 to `end`.
 #[derive(Clone, Debug)]
 pub struct FormulaCurve {
     /// The function f.
@@ -150,7 +150,8 @@ impl Curve {
         }
     }
 
-    /// Ascending x between which extremes and values are searched for: the knots of a table, otherwise equal steps.
+    /// Ascending values of x that divide the curve into intervals for searches.
+    /// For a table, these are the knots; for any other curve, they are equally spaced.
     #[must_use]
     pub fn places(&self) -> Vec<f64> {
         match self {
@@ -191,7 +192,7 @@ impl Curve {
         values().fold(f64::NEG_INFINITY, f64::larger) - values().fold(f64::INFINITY, f64::smaller)
     }
 
-    /// Whether the numbers of the curve are finite. Only the knots of a table are tested.
+    /// Whether the numbers that define the curve are finite. For a table, only the knots are tested, not the values.
     #[must_use]
     pub fn is_finite(&self) -> bool {
         match self {

@@ -4,11 +4,11 @@
 /// The largest value is then exact up to rounding error.
 const REFINEMENTS: usize = 44;
 
-/// Encloses the position of the largest value between `low` and `high` by `steps` steps of golden section (Kiefer
-/// 1953).
+/// Encloses the position of the largest value between `low` and `high` by golden section (Kiefer 1953).
+/// The search performs `steps` steps.
 /// Each step reduces the interval to 0.618 of its length. Returns both ends of the remaining interval.
 /// If the function has several extremes in the interval, the remaining interval encloses one extreme.
-/// After about 40 steps the interval's length has fallen by a factor equal to the square root of the rounding error.
+/// After about 40 steps, the interval's length is 1e-8 of its original length, the square root of the rounding error.
 /// Further steps gain little.
 /// NaN counts as less than any number.
 ///
@@ -127,7 +127,8 @@ mod tests {
             prop_assert!(samples.iter().all(|&sample| value >= sample) && value == f(place));
             let dense = (0..7000).map(|k| f(k as f64 * 1e-3)).fold(f64::NEG_INFINITY, f64::larger);
             // If two maxima are nearly equal, the samples may select the wrong maximum.
-            // The error is then at most the height of a parabola between two samples.
+            // Near each maximum the function is about a parabola.
+            // The result is then too small by at most the height by which this parabola rises between two samples.
             prop_assert!(value >= dense - 5.0 * (7.0 / count as f64).powi(2), "{value} {dense}");
         }
     }

@@ -19,14 +19,14 @@ type Coefficients = Vec<Complex<f64>>;
 
 /// A root of the derivative is used only if its distance from the unit circle is at most this limit.
 /// A rounding error moves a simple root by about the size of the error.
-/// A nearly double root moves by the square root of the rounding error (1e-8), times the root's condition number.
+/// A nearly double root moves by about 1e-8, the square root of the rounding error, times the root's condition number.
 /// The limit may be generous, because a superfluous root only adds one more candidate.
 const ON_CIRCLE: f64 = 1e-3;
 /// A value below this fraction of the argument `scale` counts as zero.
 /// The limit is the rounding error of the coefficients, multiplied by a margin of two digits.
 const ZERO: f64 = 1e-14;
 /// Two zeros closer together than this distance (rad) count as one touching zero.
-/// A parabola of unit curvature and height `ZERO` has about this width.
+/// If a parabola of unit curvature has the depth `ZERO` between its zeros, the zeros have about this distance.
 const APART: f64 = 1e-7;
 
 /// Real zeros in [0, 2 pi), in ascending order, of the trigonometric polynomial that equals `f`.
@@ -137,7 +137,7 @@ fn between(coefficients: &[Complex<f64>], from: f64, to: f64) -> f64 {
 }
 
 /// Roots of the polynomial with the given coefficients, lowest power first.
-/// The coefficients are symmetric: in reverse order they are their conjugates, or the negatives of these.
+/// If n is the degree, the coefficients must satisfy c_(n-k) = conj(c_k) for all k, or c_(n-k) = -conj(c_k) for all k.
 /// The roots of such a polynomial come in pairs z, 1 / conj(z).
 ///
 /// The map z = (w + a) / (1 + conj(a) w), |a| < 1, preserves the unit circle.

@@ -6,7 +6,8 @@ pub const POINTS: usize = 6;
 /// Lagrange weights of six equally spaced samples at the position `s`.
 /// The unit of `s` is the spacing, and `s` is 0 at the first sample.
 ///
-/// Between the two middle samples (2 <= s <= 3) the interpolation error is below 0.005 h^6 times the sixth derivative.
+/// Between the two middle samples (2 <= s <= 3) the interpolation error is below 0.005 h^6 times the sixth derivative,
+/// where h is the spacing.
 /// If `s` is the position of a sample, this sample has exactly the weight one, and all others have exactly the weight
 /// zero.
 /// Berrut and Trefethen, "Barycentric Lagrange interpolation", SIAM Review 2004.

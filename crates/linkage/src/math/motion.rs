@@ -81,7 +81,7 @@ impl Motion {
         self.velocity + turned(arm) * self.omega
     }
 
-    /// Velocity of the body point that coincides with the world point `place` at this instant (m/s).
+    /// Velocity (m/s) of the body point that coincides with the world point `place` at this instant.
     #[inline]
     #[must_use]
     pub fn velocity_at(&self, place: Vec2) -> Vec2 {
@@ -102,7 +102,7 @@ impl Motion {
         self.acceleration + turned(arm) * self.alpha - arm * (self.omega * self.omega)
     }
 
-    /// Acceleration of the body point that coincides with the world point `place` at this instant (m/s^2).
+    /// Acceleration (m/s^2) of the body point that coincides with the world point `place` at this instant.
     #[inline]
     #[must_use]
     pub fn acceleration_at(&self, place: Vec2) -> Vec2 {

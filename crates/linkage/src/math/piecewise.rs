@@ -1,5 +1,5 @@
 //! A function through given points.
-//! Between neighbouring points, the function is a cubic polynomial: a straight line or a piece of a spline.
+//! Between neighbouring points, the function is a straight line or a cubic piece of a spline.
 
 use crate::math::KeepNan;
 
@@ -20,7 +20,7 @@ pub struct Piecewise {
 
 impl Piecewise {
     /// Straight lines through `(x, y)`, repeated with `period`.
-    /// The x ascend within one period. At least one point is needed.
+    /// The values of x ascend, all within one period; two of them may be equal. At least one point is needed.
     /// At two points with the same x the function jumps.
     /// At this x the function has the value of the second point.
     pub fn periodic_lines(points: &[(f64, f64)], period: f64) -> Self {
@@ -34,7 +34,7 @@ impl Piecewise {
         Piecewise { knots, pieces, periodic: true }
     }
 
-    /// This function of straight lines, after all jumps are moved back by `by`.
+    /// Moves all jumps to smaller x by `by`. The function must consist of straight lines.
     /// The line after a jump is extended back to the moved jump.
     pub fn with_jumps_before(mut self, by: f64) -> Self {
         let last = self.pieces.len();
@@ -51,7 +51,7 @@ impl Piecewise {
 
     /// The periodic cubic spline through `(x, y)`, with continuous first and second derivatives.
     /// De Boor, "A practical guide to splines", 1978, chapter IV.
-    /// The x ascend within one period. At least one point is needed.
+    /// The values of x ascend, all within one period. At least one point is needed.
     pub fn periodic_spline(points: &[(f64, f64)], period: f64) -> Self {
         let (knots, values) = closed(points, period);
         let n = points.len();
@@ -66,7 +66,7 @@ impl Piecewise {
 
     /// The cubic spline through `(x, y)` with given slopes at its ends. Its first two derivatives are continuous.
     /// De Boor, chapter IV, as for the periodic spline.
-    /// The x ascend. At least two points are needed. The outer pieces continue beyond the ends.
+    /// The values of x ascend. At least two points are needed. The outer pieces continue beyond the ends.
     pub fn clamped_spline(points: &[(f64, f64)], [first, last]: [f64; 2]) -> Self {
         let (knots, values): (Vec<f64>, Vec<f64>) = points.iter().copied().unzip();
         let (h, slope) = differences(&knots, &values);

@@ -36,7 +36,8 @@ impl Projective {
         Self::unit([normal.x, normal.y, -normal.dot(&at)])
     }
 
-    /// The line through two points, or the intersection of two lines; and the sine of the angle between the vectors.
+    /// The line through two points, or the intersection of two lines.
+    /// The second value is the sine of the angle between the unit vectors of the two points or lines.
     /// `None` if the two points or the two lines are equal, up to rounding errors.
     #[must_use]
     pub fn with(self, other: Self) -> Option<(Self, f64)> {
@@ -76,7 +77,8 @@ mod tests {
         let away = rising.with(shifted).unwrap().0.place().unwrap_err();
         assert!((away.x.abs() - 0.5f64.sqrt()).abs() < 1e-15 && (away.x - away.y).abs() < 1e-15);
         assert!(a.with(a).is_none() && rising.with(rising).is_none());
-        // Two points at infinity give the line at infinity, which meets every line in the direction of that line.
+        // The line through two points at infinity is the line at infinity.
+        // The line at infinity meets any other line at infinity in the direction of the other line.
         let [x, y] = [Vec2::x(), Vec2::y()].map(Projective::at_infinity);
         let direction = x.with(y).unwrap().0.with(rising).unwrap().0.place().unwrap_err();
         assert!((direction.x - direction.y).abs() < 1e-15);

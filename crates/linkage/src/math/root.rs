@@ -83,7 +83,7 @@ pub struct Close {
 }
 
 /// The zero between two positions with different signs, by regula falsi in the Illinois form.
-/// If a step does not move a bound, the value at this bound is halved.
+/// If two successive steps move the same bound, the value at the other bound is halved.
 /// Source: Dowell and Jarratt, BIT 11, 1971, 168-174; order 1.44.
 /// `None` if the signs are the same, a value is NaN, or `steps` are not enough.
 ///
@@ -141,7 +141,7 @@ pub fn newton<E>(
     mut value: impl FnMut(f64) -> Result<(f64, f64), E>,
 ) -> Result<Option<f64>, E> {
     /// Largest number of steps.
-    /// Bisection needs one step per bit of a double, and some steps of Newton's method are added.
+    /// Bisection alone needs at most one step per bit of a double. The remaining steps are for Newton's method.
     const MOST: usize = 100;
     let mut at = start;
     for _ in 0..MOST {
@@ -190,11 +190,13 @@ pub fn polished<E>(
 }
 
 /// A length at which the value is zero, found by at most `steps` secant steps.
-/// The first secant goes through the lengths of `known` and `guess`, which are positive.
+/// The first secant goes through `known` and through the function's point at the length `guess`.
+/// Both lengths are positive.
 /// The search ends if the next change would be at most four rounding errors of the length.
 /// The search also ends if the next change would be as large as the length itself.
 /// Returns the length whose value was nearest to zero.
-/// The last step may give a different length, because a secant between values as small as rounding errors is arbitrary.
+/// This length need not be the last one: between values as small as rounding errors, the slope of a secant is
+/// arbitrary, and so is the next length.
 ///
 /// # Errors
 /// The first error of `value`.

@@ -1,4 +1,4 @@
-//! Statistics of a quantity whose values arrive row by row, eight rows at a time.
+//! Statistics of a quantity that has one value per row. Eight rows are added at a time, each in its own lane.
 //!
 //! The order of the operations depends only on the rows. Equal values therefore give bit for bit equal results.
 
@@ -8,7 +8,7 @@ use std::sync::Arc;
 /// Number of rows that are added at once.
 pub const LANES: usize = 8;
 
-/// The largest score so far, with its first row, for every lane.
+/// For every lane: the largest score so far, and the first row that has this score.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(align(64))]
 pub struct LanePeak {
@@ -64,7 +64,7 @@ pub enum Tally {
 /// A weighted sum.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Weighted {
-    /// Weights of all rows, eight by eight.
+    /// Weights of all rows, in groups of eight.
     pub weights: Arc<[[f64; LANES]]>,
     /// The sum of every lane.
     pub sums: [f64; LANES],
@@ -74,7 +74,7 @@ impl Weighted {
     /// A sum with one weight for each row.
     #[must_use]
     pub fn of(weights: &[f64]) -> Weighted {
-        // Rows after the last row have the weight zero.
+        // If the last group has fewer than eight rows, weights of zero fill the group.
         let weight = |row: usize| weights.get(row).copied().unwrap_or(0.0);
         let blocks = (0..weights.len()).step_by(LANES);
         Weighted { weights: blocks.map(|row| array::from_fn(|lane| weight(row + lane))).collect(), sums: [0.0; LANES] }
@@ -153,7 +153,8 @@ impl Tally {
         }
     }
 
-    /// The rows that determine the statistic: the first rows with the extreme values; `None` if all rows count.
+    /// The rows that determine the statistic. For an extreme value, this is the first row with that value.
+    /// Only a range has two rows. Both entries are `None` if all rows count.
     #[must_use]
     pub fn rows(&self) -> [Option<usize>; 2] {
         match self {
