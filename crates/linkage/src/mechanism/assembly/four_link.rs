@@ -1,8 +1,7 @@
 //! All real configurations of an Assur group of four links, with any revolute and prismatic pairs.
 //!
 //! Assur groups of four links are of two kinds.
-//! The class III group of order 3 is a base link that three leads (binary links) connect with the links before the
-//! group.
+//! In the class III group of order 3, three leads (binary links) connect a base link with the links before the group.
 //! The class IV group of order 2 is a movable quadrilateral of two ternary and two binary links.
 //! In class IV, one ternary link is taken as the frame and the second ternary link as the base.
 //! Relative to the frame, the base is then also connected by three leads.
