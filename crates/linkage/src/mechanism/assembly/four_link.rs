@@ -91,7 +91,7 @@ impl Layout {
         }
         let frame = match in_frame.iter().find(|(body, ..)| *body == Body::World) {
             // The world is one of the leads, so its pose relative to the frame is known.
-            // The position of the frame in the world follows from one point of the world.
+            // The position of the frame in the world follows from a point with known coordinates in both.
             Some((_, place, world)) => LinkPose::through(world.point(*place), *place, -world.angle),
             None => LinkPose::GROUND,
         };
@@ -134,7 +134,7 @@ pub(super) fn configurations(mechanism: &Mechanism, group: &Group, pose: &Pose) 
             .help(sentences::CHECK_THE_LENGTHS_AND_THE_GROUND));
     }
     let index = group.links.iter().position(|&link| link == layout.base).expect("the base is a link of the group");
-    // Angles are sorted in the interval from just below zero to just below one turn.
+    // For the order, each angle is reduced to the interval from just below zero to just below one turn.
     // A rounding error of an angle near zero then does not change the order.
     let rank = |one: &Configuration| (one.links[index].angle + 1e-9).rem_euclid(TAU);
     all.sort_by(|a, b| rank(a).total_cmp(&rank(b)));
