@@ -137,8 +137,8 @@ impl System<'_> {
         gaps.collect()
     }
 
-    /// World direction of the axis on the second link, if the joint fixes the angle between its links. `None` for a joint
-    /// that does not fix this angle.
+    /// World direction of the axis on the second link, if the joint fixes the angle between its links.
+    /// `None` for a joint that does not fix this angle.
     fn second_axis(&self, joint: &Joint, pose: &Pose) -> Option<Vec2> {
         Some(rotated(unit(pose.0[joint.second.link].angle), joint.kind.axes()?[1]))
     }
@@ -249,7 +249,7 @@ impl System<'_> {
             jacobian.solve(&mut step);
             *pose = self.moved(pose, &step);
         }
-        // `Joint::opening` is used here, because it also recognises axes in opposite directions as open.
+        // By `Joint::opening`, a joint also counts as open if its two axes have opposite directions.
         let open = |joint: &Joint| {
             let sides = [joint.first, joint.second];
             let places = sides.map(|side| pose.0[side.link].point(side.local));
