@@ -19,7 +19,7 @@ impl LinkPose {
     /// Pose of the ground: its frame coincides with the world frame.
     pub const GROUND: LinkPose = LinkPose { origin: Vec2::new(0.0, 0.0), angle: 0.0 };
 
-    /// Pose of a link in motion: the angle is between -pi and pi.
+    /// Pose of a link, taken from its motion. The angle is between -pi and pi.
     pub fn of(motion: &Motion) -> LinkPose {
         LinkPose { origin: motion.origin, angle: motion.direction.y.atan2(motion.direction.x) }
     }
