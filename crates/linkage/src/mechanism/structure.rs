@@ -283,7 +283,7 @@ fn carries(mechanism: &Mechanism, drivers: &[DrivingLink], joint: JointId, link:
     base == GROUND || drivers.iter().any(|driver| driver.link == base && !driver.in_group)
 }
 
-/// Assembly modes of the groups of the structure `to`. `modes` contains the modes of the groups of the structure `from`.
+/// Assembly modes of the groups of the structure `to`. `modes` contains the modes of the groups of `from`.
 /// A group that exists in both structures keeps its mode.
 fn carried(from: &Structure, modes: &[AssemblyMode], to: &Structure) -> Vec<AssemblyMode> {
     let mode = |group: &Group| match from.groups.find(|own| own == group) {
