@@ -28,7 +28,8 @@ use crate::error::{Error, Result};
 
 /// The start pose, and the assembly mode of each group.
 /// The driven joints have the coordinates `drive_angles` (rad or m, in the order of [`Structure::drivers`]).
-/// Each group has the configuration required in `wanted`, in the order of the groups of [`Structure::at_start`].
+/// Each group has the configuration that its entry of `wanted` requires.
+/// The entries of `wanted` are in the order of the groups of [`Structure::at_start`].
 /// The returned assembly modes belong to the groups of `structure`.
 ///
 /// # Errors

@@ -5,7 +5,7 @@
 //! R(q2) is the centre of the roller, the knife edge, or a point of the flat face.
 //! The derivatives are R' = dR / dq2 and f' = df / dq1.
 //! Relative to the cam, R has the velocity T = R' f' - z x (R - A) for a unit rate of the cam.
-//! A roller or knife edge touches the cam along the normal of T.
+//! The contact of a roller or knife edge lies on the line through R perpendicular to T.
 //! A flat face has a fixed normal n. At the contact, face and cam have the same speed along n.
 //! The distance of the contact from the line through A along n is therefore f' n . R'.
 //! Norton, Cam Design and Manufacturing Handbook, 2nd ed., Industrial Press 2009, chapter 7.
@@ -59,7 +59,7 @@ impl CamContact {
 /// Motion of the follower's point R in the frame of the carrier.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Follower {
-    /// R is at `at` for slide 0 and moves by `along` per unit of slide.
+    /// At coordinate 0, R is at `at`. R moves by `along` per unit of the coordinate.
     Slides { at: Vec2, along: Vec2 },
     /// R turns about `pivot`; `arm` is the vector from the pivot to R at angle 0.
     Swings { pivot: Vec2, arm: Vec2 },

@@ -7,10 +7,10 @@ use std::ops::{Deref, DerefMut, Index, IndexMut, RangeFrom};
 
 /// Number of a link, joint, group or transmission.
 pub trait Ordinal: Copy {
-    /// The number with this index, counted from 0.
+    /// The number of the item at this index, counted from 0.
     fn at(index: usize) -> Self;
 
-    /// Index of the number, counted from 0.
+    /// Index of the item with this number, counted from 0.
     fn index(self) -> usize;
 }
 
@@ -22,7 +22,7 @@ macro_rules! ids {
         pub struct $name(pub usize);
 
         impl $name {
-            /// Index of the number, counted from 0.
+            /// Index of the item with this number, counted from 0.
             #[inline]
             #[must_use]
             pub const fn index(self) -> usize {

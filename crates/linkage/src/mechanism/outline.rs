@@ -2,7 +2,7 @@
 
 use crate::math::{KeepNan, Vec2, cross};
 
-/// Limit for collinear points. All points must be near the line through the mean point and the farthest point.
+/// Limit for collinear points. The reference line goes through the mean point and the point farthest from it.
 /// A point's distance from the line must not exceed this fraction of the distance between mean point and farthest
 /// point.
 const ON_ONE_LINE: f64 = 1e-6;

@@ -4,7 +4,7 @@ use super::ids::LinkId;
 use crate::input::Input;
 use crate::math::{KeepNan, Motion, Vec2, cross, rotated};
 
-/// The ground (frame), as a number of [`Mechanism::links`](super::Mechanism::links).
+/// Number of the ground (frame) in [`Mechanism::links`](super::Mechanism::links).
 pub const GROUND: LinkId = LinkId(0);
 
 /// Rigid member of a mechanism. Points and mass centre are given in the link's frame.
@@ -54,7 +54,8 @@ pub struct Point {
 }
 
 /// Kind of kinematic pair.
-/// [`JointKind::equations`] gives the number of equations of a kind, and so its relative degrees of freedom.
+/// [`JointKind::equations`] gives the number of equations of a kind.
+/// The links' relative degrees of freedom are three minus this number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum JointKind {
     /// Revolute pair (pin): the joint's points on both links coincide.
@@ -286,7 +287,7 @@ impl Joint {
             JointKind::Revolute => (gap.norm(), 0.0),
             JointKind::Prismatic { axes } => {
                 let [first, second] = [0, 1].map(|k| rotated(directions[k], axes[k]));
-                // Axes in opposite directions have a small sine although the joint is open.
+                // If the axes have opposite directions, the sine is small although the joint is open.
                 // For such axes the largest possible opening is returned.
                 let turn = if first.dot(&second) > 0.0 { cross(first, second).abs() } else { 1.0 };
                 (cross(first, gap).abs(), turn)

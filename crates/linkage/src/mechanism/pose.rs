@@ -19,7 +19,7 @@ impl LinkPose {
     /// Pose of the ground: its frame coincides with the world frame.
     pub const GROUND: LinkPose = LinkPose { origin: Vec2::new(0.0, 0.0), angle: 0.0 };
 
-    /// Pose of a link in motion: the angle is between -pi and pi.
+    /// Pose of a link, taken from its motion. The angle is between -pi and pi.
     pub fn of(motion: &Motion) -> LinkPose {
         LinkPose { origin: motion.origin, angle: motion.direction.y.atan2(motion.direction.x) }
     }
@@ -64,7 +64,7 @@ impl Joint {
     }
 
     /// Coordinate of `input` in a pose, as in [`Drive::coordinate`](crate::drive::Drive::coordinate).
-    /// `link` is the driven link. If the coordinate is an angle, it counts whole turns, as the angles in `pose` do.
+    /// `link` is the driven link. An angle as coordinate includes whole turns, as the angles in `pose` do.
     #[must_use]
     pub fn coordinate(&self, link: LinkId, input: Input, pose: &Pose) -> f64 {
         let [first, second] = [self.first, self.second].map(|side| pose.0[side.link]);
@@ -86,7 +86,7 @@ impl Joint {
 pub struct Pose(pub PerLink<LinkPose>);
 
 impl Pose {
-    /// Pose of links in motion: the angles are between -pi and pi.
+    /// Pose of the links, taken from their motions. The angles are between -pi and pi.
     #[must_use]
     pub fn of(motions: &[Motion]) -> Pose {
         Pose(motions.iter().map(LinkPose::of).collect())

@@ -15,7 +15,7 @@ use super::{GROUND, Joint, LinkPose, Mechanism};
 use crate::math::{rotated, unit};
 use crate::mechanism::{JointId, LinkId};
 
-/// A link that a joint of the tree connects to its parent.
+/// A link of the tree, with the link's parent and the joint between the two.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TreeBranch {
     /// The link.
@@ -45,7 +45,7 @@ impl SpanningTree {
 
     /// Several spanning trees. Each joint in `joints` is cut in at least one tree.
     /// The first tree is that of [`SpanningTree::of`].
-    /// Each further tree cuts joints that no earlier tree cuts, as many as possible.
+    /// Each further tree cuts as many as possible of the joints that no earlier tree cuts.
     #[must_use]
     pub fn covering(mechanism: &Mechanism, joints: &[JointId]) -> Vec<Self> {
         let mut trees = vec![SpanningTree::of(mechanism)];

@@ -10,7 +10,8 @@
 //! The components are listed in the order in which they can be solved.
 //! The components do not depend on the choice of matching (Dulmage and Mendelsohn 1958).
 //!
-//! A driving link stands on the ground or on an earlier driving link. Any other given joint belongs to a group.
+//! A driving link stands on the ground or on an earlier driving link. A given joint that moves
+//! no such link belongs to a group.
 //! Links connected by a joint with given coordinate form one body, whose shape is known at every instant. A group is
 //! therefore classified by its bodies instead of its links.
 
@@ -200,7 +201,7 @@ impl Structure {
         Ok(())
     }
 
-    /// The driving links that stand on the ground or on an earlier driving link, with the numbers of their drives.
+    /// The driving links that stand on the ground or on an earlier driving link, each with the index of its drive.
     pub fn leading(&self) -> impl DoubleEndedIterator<Item = (usize, &DrivingLink)> {
         self.drivers.iter().enumerate().filter(|(_, driver)| !driver.in_group)
     }
@@ -282,8 +283,8 @@ fn carries(mechanism: &Mechanism, drivers: &[DrivingLink], joint: JointId, link:
     base == GROUND || drivers.iter().any(|driver| driver.link == base && !driver.in_group)
 }
 
-/// Assembly modes of the groups of the structure `to`. A group that also exists in the structure `from` keeps its mode,
-/// which is its entry of `modes`.
+/// Assembly modes of the groups of the structure `to`. `modes` contains the modes of the groups of `from`.
+/// A group that exists in both structures keeps its mode.
 fn carried(from: &Structure, modes: &[AssemblyMode], to: &Structure) -> Vec<AssemblyMode> {
     let mode = |group: &Group| match from.groups.find(|own| own == group) {
         Some(own) => modes[own],

@@ -137,9 +137,8 @@ pub struct Losses {
     pub joint: JointId,
     /// Rate of the first member relative to the carrier, divided by the rate of this joint's coordinate (1, or 1/m).
     pub per: f64,
-    /// Moment of the losses for a force of 1 N in the first line of action, divided by the lost fraction of the power
-    /// (m). The lever is positive if this force takes power from the first member while the joint's coordinate
-    /// increases.
+    /// Lever of the losses (m): their moment for a force of 1 N in the first line of action and a lost fraction of 1.
+    /// The lever is positive if this force takes power from the first member while the joint's coordinate increases.
     pub lever: f64,
     /// Lost power divided by the power at the second member.
     /// The first number applies if power flows to the second member, the second number if power comes from the second
@@ -168,7 +167,8 @@ impl Coordinate {
 }
 
 impl Transmission {
-    /// Finds the geometry of a transmission between these links and joints; `size` is the size of the mechanism (m).
+    /// Finds the geometry of a transmission in a mechanism with these links and joints.
+    /// `size` is the size of the mechanism (m).
     ///
     /// # Errors
     /// [`ErrorKind::Input`] if members and carrier are not three links, if a member has no axle or guide on the
@@ -263,7 +263,7 @@ impl Transmission {
         let shown = [(links[0], 1.0), (links[1], 1.0 / ratio)].into_iter().find_map(|(link, per)| {
             let is_meant = |joint: &Joint| joint.on(link).is_some() && joint.on(self.design.carrier).is_some();
             let (id, joint) = joints.entries().find(|(_, joint)| is_meant(joint))?;
-            // For a rack, the ratio already contains the sign of the slide.
+            // If the second member slides, the ratio already contains the sign of the slide.
             let sign = if joint.slides() { 1.0 } else { sense(joint, link) };
             Some((id, per * sign))
         });
@@ -338,8 +338,8 @@ impl Transmission {
         [against(self.members[0].link), q2]
     }
 
-    /// Time (s) in which the cam, at its present speed, turns to the nearest knot of its law. A knot is an end of a
-    /// piece of the law; the nearest knot can lie before or after the pose.
+    /// Time (s) between the pose and the nearest knot of the cam's law, at the present speed of the cam. A knot is an
+    /// end of a piece of the law; the nearest knot can lie before or after the pose.
     /// The time is infinite for a transmission without a cam, and if the cam stands still.
     #[must_use]
     pub fn time_to_knot(&self, joints: &PerJoint<Joint>, motions: &[Motion]) -> f64 {
@@ -348,8 +348,8 @@ impl Transmission {
         if spin == 0.0 { f64::INFINITY } else { cam.to_knot(self.coordinates_in(joints, motions)[0]) / spin.abs() }
     }
 
-    /// The actions of a force of 1 N in the first line of action on the two members, in a pose. Each action consists of
-    /// the member's link, the force on this link, and the point at which the force acts (m).
+    /// The actions on the two members in a pose, if the force in the first line of action is 1 N. Each action consists
+    /// of the member's link, the force on this link, and the point at which the force acts (m).
     #[must_use]
     pub fn unit_actions(&self, joints: &PerJoint<Joint>, motions: &[Motion]) -> [(LinkId, Vec2, Vec2); 2] {
         let (carrier, line) = (&motions[self.design.carrier], self.contact_in(joints, motions).lines[0]);

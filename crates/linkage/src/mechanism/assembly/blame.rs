@@ -43,7 +43,7 @@ pub fn blame(
     let part = before(failed.index() + 1);
     let mut own = wanted.to_vec();
     own[failed].near.clear();
-    // `stands`: without its approximate positions, the failed group fits the present pose.
+    // `stands`: the failed group can be placed if its approximate positions are ignored.
     // An earlier group is then blamed only if another configuration of this earlier group brings the failed group
     // clearly nearer to its approximate positions.
     let stands = first_choices(mechanism, &part, drive_angles, &own).is_ok();

@@ -2,10 +2,11 @@
 //!
 //! A dyad has one outer joint on each link and the inner joint between the links. One scalar equation closes the dyad.
 //! An RRR dyad closes at the intersections of two circles.
-//! An RRP dyad closes at the intersections of a circle and a line. An RPR dyad does so in the frame of its guide.
+//! An RRP dyad closes at the intersections of a circle and a line. In the frame of its guide,
+//! an RPR dyad closes in the same way.
 //! RPP and PRP dyads close at the intersection of two lines.
 //! A prismatic pair fixes the angle between its two links.
-//! A prismatic pair also keeps the joint's point on the second link on a line parallel to the axis.
+//! Relative to the first link, the joint's point of the second link moves along a line parallel to the axis.
 //! This line goes through the joint's point on the first link.
 
 #[cfg(test)]
@@ -204,7 +205,7 @@ fn rrp(members: &[Member; 2]) -> Result<Vec<Configuration>> {
 }
 
 /// The vector d leads from one outer pin to the other.
-/// The component h of d perpendicular to the axis e follows from the offsets of the links: e x d = h.
+/// The component h of d perpendicular to the axis e is the difference of the pins' offsets from the axis: e x d = h.
 /// The component along the axis is +sqrt(d^2 - h^2) or -sqrt(d^2 - h^2).
 /// The direction e follows from d and these two components.
 fn rpr(members: &[Member; 2]) -> Result<Vec<Configuration>> {

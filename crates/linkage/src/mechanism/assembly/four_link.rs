@@ -1,8 +1,7 @@
 //! All real configurations of an Assur group of four links, with any revolute and prismatic pairs.
 //!
 //! Assur groups of four links are of two kinds.
-//! The class III group of order 3 is a base link that three leads (binary links) connect with the links before the
-//! group.
+//! In the class III group of order 3, three leads (binary links) connect a base link with the links before the group.
 //! The class IV group of order 2 is a movable quadrilateral of two ternary and two binary links.
 //! In class IV, one ternary link is taken as the frame and the second ternary link as the base.
 //! Relative to the frame, the base is then also connected by three leads.
@@ -92,7 +91,7 @@ impl Layout {
         }
         let frame = match in_frame.iter().find(|(body, ..)| *body == Body::World) {
             // The world is one of the leads, so its pose relative to the frame is known.
-            // The position of the frame in the world follows from one point of the world.
+            // The position of the frame in the world follows from a point with known coordinates in both.
             Some((_, place, world)) => LinkPose::through(world.point(*place), *place, -world.angle),
             None => LinkPose::GROUND,
         };
@@ -135,7 +134,7 @@ pub(super) fn configurations(mechanism: &Mechanism, group: &Group, pose: &Pose) 
             .help(sentences::CHECK_THE_LENGTHS_AND_THE_GROUND));
     }
     let index = group.links.iter().position(|&link| link == layout.base).expect("the base is a link of the group");
-    // Angles are sorted in the interval from just below zero to just below one turn.
+    // For the order, each angle is reduced to the interval from just below zero to just below one turn.
     // A rounding error of an angle near zero then does not change the order.
     let rank = |one: &Configuration| (one.links[index].angle + 1e-9).rem_euclid(TAU);
     all.sort_by(|a, b| rank(a).total_cmp(&rank(b)));

@@ -60,7 +60,7 @@ impl Fused {
         self.member(side.link).map_or(side, |&(_, link, pose)| JointSide { link, local: pose.point(side.local) })
     }
 
-    /// The requested start of the group, with its points on the leads.
+    /// The requested start of the group. Each point with an approximate position becomes a point of a lead.
     pub(super) fn wanted(&self, wanted: &StartGroup) -> StartGroup {
         let mut own = wanted.clone();
         own.near.iter_mut().for_each(|(point, _)| point.side = self.side(point.side));

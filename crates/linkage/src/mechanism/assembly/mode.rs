@@ -15,12 +15,12 @@ crate::words! {
         /// The line leads from the first link's outer joint to the second link's outer joint.
         Right = "right",
         /// RRP dyad: along the axis of its prismatic pair, the inner joint lies ahead of the outer pin.
-        /// RPR dyad: the prismatic pair has a first and a second link.
-        /// Along the pair's axis, the outer pin of the second link lies ahead of the outer pin of the first link.
+        /// RPR dyad: along the axis of its prismatic pair, the outer pin of the pair's second link lies ahead of the
+        /// outer pin of the pair's first link.
         Ahead = "ahead",
         /// RRP dyad: along the axis of its prismatic pair, the inner joint lies behind the outer pin.
-        /// RPR dyad: the prismatic pair has a first and a second link.
-        /// Along the pair's axis, the outer pin of the second link lies behind the outer pin of the first link.
+        /// RPR dyad: along the axis of its prismatic pair, the outer pin of the pair's second link lies behind the
+        /// outer pin of the pair's first link.
         Behind = "behind",
         /// RPP or PRP dyad, or driven link: there is only one configuration.
         Only = "only",

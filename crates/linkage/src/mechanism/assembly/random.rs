@@ -5,7 +5,7 @@ use crate::mechanism::{
     Group, GroupKind, Joint, JointId, JointKind, JointSide, Link, LinkId, LinkPose, Mechanism, Pose,
 };
 
-/// Linear congruential generator (Knuth's MMIX), upper bits.
+/// Linear congruential generator (Knuth's MMIX). Only the upper 53 bits of its state are used.
 pub struct Lcg(pub u64);
 
 impl Lcg {

@@ -2,8 +2,8 @@
 //!
 //! Each link is first placed by the approximate positions of its points, and by its joints with links already placed.
 //! Then a Newton method with Levenberg-Marquardt damping closes all joints of the group at once:
-//! (J^T J + lambda) dx = -J^T f. The vector f contains the gaps of all joints. The vector has one component per
-//! unknown.
+//! (J^T J + lambda) dx = -J^T f. The vector f contains the gaps of all joints.
+//! There are as many gaps as unknowns.
 
 use super::dyads::turn;
 use super::mode::{AssemblyMode, ConfigurationChoice};
@@ -51,7 +51,7 @@ pub(super) fn place(mechanism: &Mechanism, group: &Group, near: &Near, pose: &mu
     Ok(ConfigurationChoice { mode: AssemblyMode::Followed, nearest_m: Some(farthest), next_m: None })
 }
 
-/// Half the length of the shortest link that carries the point, among the links of the group that have a length.
+/// Half the length of the shortest link of the group that carries the point. Links of zero length do not count.
 /// If there is no such link, the result is half the mechanism's size.
 fn half_link(mechanism: &Mechanism, group: &Group, point: &str) -> f64 {
     let links = group.links.iter().map(|&link| &mechanism.links()[link]);
@@ -100,7 +100,7 @@ fn lay(mechanism: &Mechanism, link: LinkId, near: &Near, hooks: &[&Joint], pose:
         Some(turn(joint.axis_on(link)?, axis))
     });
     // The rotation that best fits the link to its approximate positions.
-    // As complex numbers, the local and world vectors of each point give the product conj(local) world.
+    // The local and world vectors of each point are taken as complex numbers. Their product is conj(local) world.
     // The argument of the sum of these products is the angle of the rotation.
     let fit: Vec2 = places
         .iter()
@@ -137,7 +137,8 @@ impl System<'_> {
         gaps.collect()
     }
 
-    /// The axis on the second link of a joint that keeps the angle. `None` for a joint that does not keep the angle.
+    /// World direction of the axis on the second link, if the joint fixes the angle between its links.
+    /// `None` for a joint that does not fix this angle.
     fn second_axis(&self, joint: &Joint, pose: &Pose) -> Option<Vec2> {
         Some(rotated(unit(pose.0[joint.second.link].angle), joint.kind.axes()?[1]))
     }
@@ -153,8 +154,7 @@ impl System<'_> {
             let places = sides.map(|side| pose.0[side.link].point(side.local));
             for (k, sign) in [(0, -1.0), (1, 1.0)] {
                 let Some(at) = self.group.links.iter().position(|&link| link == sides[k].link) else { continue };
-                // The displacement of the joint's point is (dx, dy) plus a rotation: the rotation of the vector from
-                // the link's origin to the point.
+                // The joint's point is displaced by (dx, dy) and by the rotation of the link about the link's origin.
                 let arm = turned(places[k] - pose.0[sides[k].link].origin) / self.size;
                 let moves = [Vec2::new(1.0, 0.0), Vec2::new(0.0, 1.0), arm];
                 for (column, by) in moves.into_iter().enumerate() {
@@ -249,7 +249,7 @@ impl System<'_> {
             jacobian.solve(&mut step);
             *pose = self.moved(pose, &step);
         }
-        // `Joint::opening` is used here, because it also recognises axes in opposite directions as open.
+        // By `Joint::opening`, a joint also counts as open if its two axes have opposite directions.
         let open = |joint: &Joint| {
             let sides = [joint.first, joint.second];
             let places = sides.map(|side| pose.0[side.link].point(side.local));

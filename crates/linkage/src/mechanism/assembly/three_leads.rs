@@ -228,7 +228,7 @@ impl Conditions {
         let volume: f64 = (0..3).map(|k| rows[0][k] * products[0][k]).sum();
         // The determinant of the normalised rows tends to zero at a double root.
         // A double root is accurate only to half the digits, 1e-7 of the size.
-        // The limit of the determinant is therefore larger than 1e-7.
+        // The threshold for the determinant is therefore larger than 1e-7.
         if volume.abs() > 1e-5 * rows.map(norm).iter().product::<f64>() {
             return false;
         }
@@ -294,6 +294,8 @@ impl Conditions {
     }
 }
 
-/// Largest residual of a condition in a valid pose, as a fraction of the size plus the base's distance.
-/// The limit is the rounding error, with a margin for double roots: there Newton's method finds only half the digits.
+/// Largest residual of a condition in a valid pose, as a fraction of a reference length.
+/// This length is the sum of the size and of the distance from the frame's origin to the base.
+/// The limit is the rounding error, with a margin for double roots: there Newton's method finds only half the digits
+/// of the pose, but the residual grows only with the square of the pose's error.
 const CLOSED: f64 = 1e-13;

@@ -27,7 +27,7 @@ impl CamCurve {
     pub const ALL: [CamCurve; 4] =
         [CamCurve::Cycloidal, CamCurve::Polynomial345, CamCurve::Polynomial4567, CamCurve::ModifiedSine];
 
-    /// Value and first two derivatives at `x`, from 0 to 1.
+    /// Value and first two derivatives at `x`, which is between 0 and 1.
     #[must_use]
     pub fn at(self, x: f64) -> [f64; 3] {
         match self {
@@ -49,7 +49,8 @@ impl CamCurve {
                 ]
             }
             CamCurve::ModifiedSine => {
-                // The acceleration is a quarter of a sine wave at each end, and half of a slower sine wave in between.
+                // At each end, the acceleration follows a quarter period of a sine wave.
+                // In between, it follows half a period of a slower sine wave.
                 let (share, turns) = ((4.0 + PI).recip(), (x * 8.0).clamp(0.0, 8.0));
                 let (sine, cosine) = (4.0 * PI * x).sin_cos();
                 let (slow, slow_cosine) = ((4.0 * PI * x + PI) / 3.0).sin_cos();
@@ -137,7 +138,7 @@ impl CamLaw {
 
     /// Angular distance (rad) from the given cam angle to the nearest end of a piece.
     /// At the end of a piece the third derivative jumps.
-    /// A law by a harmonic or a formula has no pieces; the result is then pi.
+    /// A law that is a harmonic or a formula has no pieces. The result for such a law is pi.
     #[must_use]
     pub fn to_knot(&self, angle: f64) -> f64 {
         let away = |end: f64| ((angle - end + PI).rem_euclid(TAU) - PI).abs();

@@ -34,7 +34,6 @@ pub struct DrivingLink {
     pub joint: JointId,
     /// What the joint's coordinate measures.
     pub input: Input,
-    /// Whether the link belongs to a group. A link outside all groups stands on the ground or on an earlier driving
-    /// link.
+    /// Whether the link belongs to a group. If not, the link stands on the ground or on an earlier driving link.
     pub in_group: bool,
 }

@@ -20,13 +20,14 @@ pub enum GroupKind {
     Prp,
     /// Any group with more than two rigid bodies, and any group of two bodies with a transmission.
     Higher,
-    /// A driving link (class I). The pose of the link follows from a joint with given coordinate on a link of an
-    /// earlier group, or from a transmission that couples it to earlier links.
+    /// A driving link (class I). The pose of the link follows from a joint with given coordinate between the link and a
+    /// link of an earlier group, or from a transmission that couples the link to earlier links.
     Driven,
 }
 
 impl GroupKind {
-    /// The two assembly modes of an RRR, RRP or RPR dyad, first the mode with positive sine; `None` for other kinds.
+    /// The two assembly modes of an RRR, RRP or RPR dyad; `None` for other kinds.
+    /// The first mode is the mode in which the sine of the transmission angle is positive.
     #[must_use]
     pub const fn modes(self) -> Option<&'static [AssemblyMode; 2]> {
         match self {
@@ -164,7 +165,7 @@ impl Group {
 
 /// Number of sides of the closed contour with the most sides.
 /// A link with three or more inner pairs is a contour with as many sides as inner pairs.
-/// Every shortest loop of inner joints is a contour too.
+/// For each inner joint, the shortest loop of inner joints through it is a contour too.
 pub(super) fn highest_contour(mechanism: &Mechanism, group: &Group) -> usize {
     let leads = group.leads(mechanism);
     let body = |link: LinkId| leads[group.links.iter().position(|&own| own == link).expect("the joint is inner")];

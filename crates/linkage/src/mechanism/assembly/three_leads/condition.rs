@@ -85,7 +85,7 @@ impl Condition {
     }
 
     /// Residual of the condition at O and beta (m), and its derivatives with respect to O and beta.
-    /// The residual of a circle is divided by `size`.
+    /// The residual of a circle is a difference of squared lengths, divided by `size`.
     pub fn residual(&self, o: Vec2, beta: f64, size: f64) -> (f64, Vec2, f64) {
         let b = unit(beta);
         match *self {
