@@ -192,11 +192,13 @@ impl Curve {
         values().fold(f64::NEG_INFINITY, f64::larger) - values().fold(f64::INFINITY, f64::smaller)
     }
 
-    /// Whether the numbers that define the curve are finite. For a table, only the knots are tested, not the values.
+    /// Whether the numbers that define the curve are finite. For a table: knots and the values at the knots.
     #[must_use]
     pub fn is_finite(&self) -> bool {
         match self {
-            Curve::Table(table) => table.knots().iter().all(|knot| knot.is_finite()),
+            Curve::Table(table) => {
+                table.knots().iter().all(|&knot| knot.is_finite() && table.at(knot).iter().all(|own| own.is_finite()))
+            }
             Curve::Harmonic { amplitude, period, phase } => {
                 [amplitude, period, phase].iter().all(|own| own.is_finite())
             }
