@@ -192,8 +192,8 @@ impl KnownTrajectory<'_> {
         (0..self.len()).map(|row| holds(row).then(|| at(row))).collect()
     }
 
-    /// Returns the value that this trajectory gives for a claim at every instant, in the claim's unit. Each value has its
-    /// error.
+    /// Returns the value that this trajectory gives for a claim at every instant, in the claim's unit. Each value has
+    /// its error.
     ///
     /// # Errors
     /// If the trajectory lacks a channel of the claim.

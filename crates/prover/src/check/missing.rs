@@ -99,8 +99,8 @@ pub(super) fn missing(trial: &mut Trial, dimensions: &Dimensions) -> Vec<Missing
                             {
                                 continue;
                             }
-                            // Three things make an explanation less simple: a change of an earlier formula, the depth of
-                            // the position, and every name that is new in the formula.
+                            // Three things make an explanation less simple: a change of an earlier formula, the depth
+                            // of the position, and every name that is new in the formula.
                             let outside = usize::from(index != trial.index) + depth + own.strangers;
                             found.push((weight + 2 * outside, own));
                         }
@@ -265,8 +265,8 @@ fn signed(operator: Operator, what: &FormulaTree) -> String {
 }
 
 /// The known ways to write the product `coefficient * entry` as a formula, each with its complexity.
-/// The number is written as a product of known quantities. A constant factor may also be 1 plus or minus such a
-/// product.
+/// `coefficient` is written as a product of known quantities. If a constant factor is missing, it may also be 1 plus or
+/// minus such a product.
 fn written(monomials: &Monomials, coefficient: f64, entry: &Entry, operator: Operator) -> Vec<(FormulaTree, usize)> {
     let one = || FormulaTree::number(1.0);
     let mut factors = match (coefficient.abs() - 1.0).abs() <= ACCURACY {
@@ -299,8 +299,8 @@ fn product(factor: &FormulaTree, entry: &FormulaTree) -> FormulaTree {
 
 /// The missing amount at one position of the formula, for each instant of the trial.
 /// There may be several solutions, for example two if the amount is squared in the formula.
-/// The iteration therefore starts from the neutral value, from the amount at the previous instant, and from the amount
-/// at the next instant. All different results are returned.
+/// The iteration is therefore done three times: from the neutral value, from the amount at the previous instant, and
+/// from the amount at the next instant. All different results are returned.
 fn needed(trial: &mut Trial, place: usize, operator: Operator) -> Vec<Needed> {
     let depending = trial.sheet.depending(&[place]);
     let neutral = if operator == Operator::Plus { 0.0 } else { 1.0 };
@@ -320,7 +320,7 @@ fn needed(trial: &mut Trial, place: usize, operator: Operator) -> Vec<Needed> {
     let forwards = followed(&mut (0..count));
     let mut backwards = followed(&mut (0..count).rev());
     backwards.reverse();
-    // A result that does not depend on the starting value is unique.
+    // If another starting value leads to the same amounts, they are not returned a second time.
     let is_same = |other: &Needed| {
         afresh.iter().zip(other).all(|pair| match pair {
             (Some([one, known]), Some([other, well])) => (one - other).abs() <= known + well,
