@@ -61,7 +61,7 @@ impl ComparedParty {
         ComparedParty::table_within(path, mapping, &|_, _| Ok(()))
     }
 
-    /// Does the same as [`ComparedParty::table`], but calls `may` before memory is allocated.
+    /// Does the same as [`ComparedParty::table`], but asks `may` before each allocation whether it is permitted.
     ///
     /// # Errors
     /// The errors of [`ComparedParty::table`] and the errors of `may`.
