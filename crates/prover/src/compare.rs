@@ -61,7 +61,7 @@ impl ComparedParty {
         ComparedParty::table_within(path, mapping, &|_, _| Ok(()))
     }
 
-    /// Does the same as [`ComparedParty::table`], but calls `may` before memory is allocated.
+    /// Does the same as [`ComparedParty::table`], but asks `may` before each allocation whether it is permitted.
     ///
     /// # Errors
     /// The errors of [`ComparedParty::table`] and the errors of `may`.
@@ -109,7 +109,7 @@ const REFERENCE: &str = "reference";
 /// # Errors
 /// [`ErrorKind::Input`] if the parties have no instant or no channel in common, or if `how` names a side or channel
 /// that does not exist.
-/// The errors of the analytic sides.
+/// The errors that occur while an analytic side is solved.
 pub fn compare(parties: [ComparedParty; 2], how: &ComparisonRule) -> Result<PartyComparison> {
     let names = parties.each_ref().map(|party| party.name.clone());
     let [first, second] = parties.map(|party| party.holds);

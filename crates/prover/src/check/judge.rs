@@ -100,7 +100,7 @@ fn orders(formula: &Formula, claim: &Claim, course: &KnownTrajectory) -> Result<
     Ok(if is_value_only { 0 } else { known })
 }
 
-/// Judges all claims of a scenario's formulas for which the trajectory has the channels.
+/// Judges the claims of a scenario's formulas. A claim is left out if the trajectory lacks a channel of the claim.
 /// Each claim is judged by value, then by every derivative.
 /// A subexpression that several formulas share is evaluated once at every instant. A claim that several formulas make
 /// is also evaluated once.
@@ -192,7 +192,8 @@ impl KnownTrajectory<'_> {
         (0..self.len()).map(|row| holds(row).then(|| at(row))).collect()
     }
 
-    /// Returns the side's values of a claim, instant by instant, in the claim's unit and with their errors.
+    /// Returns the value that this trajectory gives for a claim at every instant, in the claim's unit. Each value has
+    /// its error.
     ///
     /// # Errors
     /// If the trajectory lacks a channel of the claim.

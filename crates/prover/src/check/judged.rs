@@ -136,7 +136,7 @@ impl JudgedFormula {
         own
     }
 
-    /// Enlarges the scale to the magnitude of this value of the claimed quantity, if the magnitude is larger.
+    /// Includes one value of the claimed quantity in the scale, which is the largest magnitude of these values.
     /// All values must be passed to this function before the first instant is judged.
     pub(super) fn seen(&mut self, mechanism: Rounded) {
         if has_number(mechanism) { self.scale = self.scale.larger(mechanism.value.abs()) } else { self.undefined += 1 }

@@ -42,11 +42,11 @@ const ACCURACY: f64 = 1e-9;
 /// amount cannot be determined.
 type Needed = Vec<Option<[f64; 2]>>;
 
-/// A matching number is accepted as the only evidence if the expected number of products of parameters that match by
-/// chance is at most this limit.
+/// Limit for accepting a product of parameters only because its value equals a constant amount. The limit applies to
+/// the expected number of products that equal the amount by chance.
 const CHANCE: f64 = 0.5;
-/// Assumed number of positions at which a product of several quantities may be missing, if the formula is wrong by a
-/// constant factor or offset, or if the mechanism's value is constant.
+/// Number of positions that is assumed for a missing product of several quantities. The assumption is made if the
+/// formula is wrong by a constant factor or offset, or if the mechanism's value is constant.
 const LONG: f64 = 100.0;
 
 /// The missing term or factor that makes the formula right, at one position and with consistent units.
@@ -99,8 +99,8 @@ pub(super) fn missing(trial: &mut Trial, dimensions: &Dimensions) -> Vec<Missing
                             {
                                 continue;
                             }
-                            // An explanation counts as less simple if it changes an earlier formula or a deeper
-                            // position, and for each name that is new in the formula.
+                            // Three things make an explanation less simple: a change of an earlier formula, the depth
+                            // of the position, and every name that is new in the formula.
                             let outside = usize::from(index != trial.index) + depth + own.strangers;
                             found.push((weight + 2 * outside, own));
                         }
@@ -113,7 +113,7 @@ pub(super) fn missing(trial: &mut Trial, dimensions: &Dimensions) -> Vec<Missing
     found.dedup_by(|one, other| one.1.changed == other.1.changed);
     let mut right: Vec<(usize, Candidate)> = Vec::new();
     for (weight, own) in found {
-        // Keeps only explanations at the position of the simplest explanation, and nearly as simple.
+        // Keeps only explanations that are nearly as simple as the simplest one and complete the same position.
         let is_equal = right.first().is_none_or(|(least, first)| weight <= least + 1 && own.is_beside(first));
         if is_equal && right.len() < MOST && trial.fits(&own.changed, 0.0) {
             right.push((weight, own));
@@ -133,7 +133,7 @@ struct Ratios {
 }
 
 impl Ratios {
-    /// Indices in ascending order of the entries that may be proportional to the missing amount.
+    /// Indices of the entries that may be proportional to the missing amount. The indices are in ascending order.
     /// If fewer than two instants are known, the result contains only the index of the constant 1.
     fn alike(&mut self, entries: &[Entry], needed: &Needed) -> Vec<usize> {
         let mut known: Vec<(usize, [f64; 2])> =
@@ -200,7 +200,7 @@ impl Candidate {
 /// Whether a number alone proves that a product is missing.
 /// It does so only if hardly any other product with the same unit is expected to match the number by chance.
 /// The product fits at several positions if the formula is wrong by a constant factor or offset, or if the mechanism's
-/// value is constant. `places` is then the number of these positions, otherwise `None`.
+/// value is constant. In these cases, `places` is the number of the positions; in all other cases, it is `None`.
 fn is_believed(
     monomials: &Monomials,
     dimensions: &Dimensions,
@@ -228,7 +228,7 @@ fn before(places: &[(usize, usize)], depth: usize) -> usize {
     places.partition_point(|(own, _)| *own <= depth)
 }
 
-/// Depth and number of every position of a tree at which an expression may be missing. The first entry is the whole
+/// Depth and index of every position of a tree at which an expression may be missing. The first entry is the whole
 /// tree.
 fn places(tree: &FormulaTree) -> Vec<(usize, usize)> {
     let (mut places, mut number) = (Vec::new(), 0);
@@ -265,8 +265,8 @@ fn signed(operator: Operator, what: &FormulaTree) -> String {
 }
 
 /// The known ways to write the product `coefficient * entry` as a formula, each with its complexity.
-/// The number is written as a product of known quantities. A constant factor may also be 1 plus or minus such a
-/// product.
+/// `coefficient` is written as a product of known quantities. If a constant factor is missing, it may also be 1 plus or
+/// minus such a product.
 fn written(monomials: &Monomials, coefficient: f64, entry: &Entry, operator: Operator) -> Vec<(FormulaTree, usize)> {
     let one = || FormulaTree::number(1.0);
     let mut factors = match (coefficient.abs() - 1.0).abs() <= ACCURACY {
@@ -299,8 +299,8 @@ fn product(factor: &FormulaTree, entry: &FormulaTree) -> FormulaTree {
 
 /// The missing amount at one position of the formula, for each instant of the trial.
 /// There may be several solutions, for example two if the amount is squared in the formula.
-/// The iteration therefore starts from the neutral value, from the amount at the previous instant, and from the amount
-/// at the next instant. All different results are returned.
+/// The iteration is therefore done three times: from the neutral value, from the amount at the previous instant, and
+/// from the amount at the next instant. All different results are returned.
 fn needed(trial: &mut Trial, place: usize, operator: Operator) -> Vec<Needed> {
     let depending = trial.sheet.depending(&[place]);
     let neutral = if operator == Operator::Plus { 0.0 } else { 1.0 };
@@ -320,7 +320,7 @@ fn needed(trial: &mut Trial, place: usize, operator: Operator) -> Vec<Needed> {
     let forwards = followed(&mut (0..count));
     let mut backwards = followed(&mut (0..count).rev());
     backwards.reverse();
-    // A result that does not depend on the starting value is unique.
+    // If another starting value leads to the same amounts, they are not returned a second time.
     let is_same = |other: &Needed| {
         afresh.iter().zip(other).all(|pair| match pair {
             (Some([one, known]), Some([other, well])) => (one - other).abs() <= known + well,

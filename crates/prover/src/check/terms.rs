@@ -37,8 +37,9 @@ const LARGER: f64 = 3.0;
 const KNOWN: f64 = 1e-10;
 
 /// One or two terms that explain the whole difference.
-/// A coefficient is a product of parameters with the missing unit. It may be a mere number only if its quantity is a
-/// constant, a sine or cosine of an angle, or the crank angle.
+/// A coefficient is a product of parameters. Its unit makes the term agree with the unit of the claim.
+/// A coefficient may be a mere number only in a constant term, or if it multiplies a sine or cosine of an angle, or the
+/// crank angle.
 pub(super) fn of(trial: &mut Trial, course: &KnownTrajectory, dimensions: &Dimensions) -> Option<Vec<Term>> {
     let rows = course.rows(trial.formula);
     if rows.len() != trial.pairs.len() {
@@ -62,8 +63,8 @@ pub(super) fn of(trial: &mut Trial, course: &KnownTrajectory, dimensions: &Dimen
     let mut whole: Option<(usize, Vec<Term>)> = None;
     explanations(&wrong, &bases, |parts| {
         let is_named = |(term, basis): &(Term, &TermBasis)| term.factor.is_some() || basis.unit == "rad";
-        // A term much larger than the difference is not an explanation: two such terms cancel each other, or a term
-        // cancels the formula.
+        // A term much larger than the difference explains nothing, because it is cancelled by another such term or by
+        // the formula itself.
         if parts.iter().any(|part| part.coefficient.abs() * part.basis.largest() > LARGER * largest) {
             return;
         }
@@ -123,7 +124,8 @@ impl Term {
     }
 }
 
-/// Explains the differences of numbers that have no formula, by one term, or by two terms that leave no difference.
+/// Explains the differences between right and wrong numbers that do not come from a formula. The explanation is one
+/// term, or two terms that leave no difference.
 /// Returns the terms, and the remaining difference as a fraction of the largest difference.
 #[must_use]
 pub fn missing_in_numbers(course: &KnownTrajectory, wrong: &Wrong) -> Option<(Vec<Term>, f64)> {

@@ -11,8 +11,8 @@ use scenario::{Claim, Formula, Formulas, INPUTS, Parameter};
 
 /// Number of instants at which every change is tried first, besides the instant with the largest error.
 const FIRST: usize = 9;
-/// Largest number of preceding steps that are kept although the formula does not use them, and the same limit for
-/// parameters. The author may have omitted these steps or parameters by mistake.
+/// Largest number of preceding steps that are kept although the formula does not use them. At most this number of
+/// unused parameters is kept as well. The author may have omitted these steps or parameters by mistake.
 const BESIDE: usize = 20;
 /// Cost, in operations, of changing a tree and judging the change. The cost of evaluations comes in addition.
 const TREE: u64 = 2000;
@@ -34,8 +34,8 @@ pub(super) struct Trial<'a> {
     /// Input values of the formulas at every instant. `pairs` holds the values of formula and mechanism.
     inputs: Vec<[Rounded; 4]>,
     pub(super) pairs: Vec<Pair>,
-    /// Selected instants: some with equal spacing, and the instant with the largest error. The first of them is not the
-    /// start of a long run, because many values are zero at the start.
+    /// Selected instants: some with equal spacing, and the instant with the largest error. In a long run, the equally
+    /// spaced instants begin after the start, because many values are zero at the start.
     pub(super) few: Vec<usize>,
     /// The derivation, evaluated at the instants of `few`.
     pub(super) sheet: DerivationSheet,
@@ -118,7 +118,7 @@ impl<'a> Trial<'a> {
         for step in &own.formulas.list {
             own.sheet.add(&step.name, &step.tree).expect("a formula knows what stands before it");
         }
-        // The work includes the preparation: judging the formula and searching the file.
+        // The work includes the preparation: judging the formula, and searching the file for the formulas that it uses.
         let made = (16 * own.pairs.len() + 8 * index_of_file) as u64 + 8 * own.sheet.operations;
         own.sheet.operations += made;
         Ok(own)
@@ -195,8 +195,8 @@ impl<'a> Trial<'a> {
             JudgedFormula::of((formula, claim), claim.turn(), pairs.into_iter())
         };
         let first = judged(&mut few.iter().copied());
-        // If the formula is right at the few instants, it is judged at all instants. The few instants do not suffice if
-        // digits cancel.
+        // If the formula is right at the few instants, it is judged at all instants. The few instants do not suffice,
+        // because an instant with lost digits is not judged.
         let is_right = first.since.is_none() && judged(&mut (0..inputs.len())).outcome() == FormulaOutcome::Right;
         let rows = if first.since.is_none() { inputs.len() } else { few.len() };
         let work = (program.len() * (rows + ADDED) + after * ADDED) as u64 + TREE;

@@ -47,8 +47,8 @@ pub(super) fn beside(one: &Side, other: &Side, how: &ComparisonRule) -> Result<S
     let places = places(&from, &to, how);
     let unshared = places.iter().filter(|place| matches!(place, Place::Nowhere)).count();
     let shared = to.values.len() - unshared;
-    // One common instant of several is not enough, because the instant 0 is the same in every unit of time. The
-    // comparison is then refused.
+    // The comparison is refused if the second party has several instants and only one of them is common. This instant
+    // may be 0, which is the same in every unit of time.
     if shared == 0 || shared == 1 && unshared > 0 {
         let what = if from.is_crank { one.at.input.noun() } else { "time" };
         let which = if shared == 0 { "no" } else { "only one" };

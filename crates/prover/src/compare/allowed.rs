@@ -108,7 +108,7 @@ impl Words {
     /// Indices of the words that match a claim.
     /// A word matches a claim if it is the claim's text, the name of the claim's channel in any unit, the subject or
     /// the stage of this channel, or subject and stage together.
-    /// A word matches an expression of channels if it matches all these channels.
+    /// If the claim is an expression of several channels, a word other than its text must match all these channels.
     fn meaning(&self, claim: &Claim) -> impl Iterator<Item = usize> + use<'_> {
         let mut channels = claim.channels.iter().map(|(_, own)| called(own));
         let first = channels.next().unwrap_or_default();
@@ -147,7 +147,7 @@ impl Allowances<'_> {
     }
 }
 
-/// Allowed difference by all allowances in `own`. `unit` is the size of the unit of absolute allowances.
+/// Allowed difference by all allowances in `own`. An absolute allowance is multiplied by `unit`.
 /// If several allowances are of the same kind, the last one counts.
 fn allowance<'a>(own: impl Iterator<Item = &'a Allowed>, scale: f64, unit: f64) -> Option<Allowance> {
     let mut sizes: [Option<f64>; 3] = [None; 3];

@@ -31,7 +31,7 @@ pub(super) fn held(scenario: &Scenario) -> Result<Held> {
     Ok(Held::of_columns(Held::of_trajectory(solved.trajectory()).at, columns).analytic())
 }
 
-/// Values of claims by the analytic sides; `of(row)` is the grid index of a row.
+/// Values of claims as the analytic sides calculate them; `of(row)` is the grid index of a row.
 fn columns(solved: &Solved, claims: &[Claim], of: &dyn Fn(usize) -> usize, rows: usize) -> Result<Vec<PartyColumn>> {
     let column = |claim: &Claim| {
         let values = solved.on_course(|course| course.values(claim))?;
@@ -133,8 +133,8 @@ fn grid(scenario: &Scenario, at: &RowKey) -> Result<(Grid, Vec<usize>)> {
     Ok((grid, rows))
 }
 
-/// Adds errors to the recorded values of an analytic side.
-/// The errors come from `own`, the result of solving the same channels again in this run.
+/// Enlarges the error bounds of an analytic side's recorded values. The values stay unchanged.
+/// Each bound is enlarged by the bound of the same value in `own`, for which this run solves the channels again.
 fn as_well_known(mut held: Held, own: &Held) -> Held {
     for column in &mut held.columns {
         let Some(found) = own.values_of(&column.claim) else { continue };

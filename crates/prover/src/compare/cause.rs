@@ -42,7 +42,7 @@ pub struct Explained {
 /// The further fractions allow for errors of a method, such as the step error of a simulation.
 const LEFT: [f64; 3] = [0.0, 0.01, 0.05];
 
-/// Missing terms are sought for at most this many of the channels with small differences.
+/// Largest number of channels with small differences for which missing terms are sought.
 const TRIED: usize = 12;
 
 /// Number of instants at which terms are tried first.
@@ -57,8 +57,9 @@ pub const GROSS: f64 = 0.02;
 /// Finds causes for the channels that disagree between a scenario (the party `which`) and the other party.
 /// The search has three steps. First, causes are sought that explain channels to within their bounds: for all channels
 /// together, then for the channels that are still unexplained. Such a cause may leave a single wrong row unexplained.
-/// Second, a cause is sought that explains all remaining channels except a small remainder. Third, channels with gross
-/// errors are examined, together and one by one. A cause of a gross error may leave a small remainder.
+/// Second, a cause is sought that explains all remaining channels and leaves a small fraction of their differences.
+/// Third, channels with gross errors are examined, together and one by one. A cause of a gross error may leave a small
+/// remainder.
 /// A small difference without a common cause counts as the error of a method.
 pub(super) fn explained(
     scenario: &Scenario,
@@ -150,7 +151,7 @@ fn unwrap(values: &mut [f64], right: &[f64], is_right: bool) {
     for (value, right) in values.iter_mut().zip(right) {
         let gap = *value - right;
         let near = if is_right { 0.0 } else { before.unwrap_or(gap) };
-        // The first row sets the revolution from which a wrong angle is counted.
+        // The first row of a wrong angle stays unchanged, and whole revolutions are added to the further rows.
         if is_right || before.is_some() {
             turns = -((gap - near) / TAU).round();
         }

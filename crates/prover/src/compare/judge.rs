@@ -24,8 +24,8 @@ pub struct Compared {
     /// The channel or expression, in its unit.
     pub claim: Claim,
     /// Scale over the whole run of a scenario or recording, in the claim's unit: see [`scales`](crate::bounds::scales).
-    /// For tables and for expressions of channels, the scale comes from the compared numbers.
-    /// The scale does not depend on the selection of compared channels.
+    /// For tables and for expressions of channels, the scale comes from the numbers of this claim that are compared.
+    /// The scale does not depend on which other channels are compared.
     pub scale: f64,
     /// Result of comparing the numbers of both parties, in the claim's unit.
     pub found: JudgedColumns,
@@ -79,7 +79,7 @@ pub(super) struct Both<'a> {
     pub at: &'a RowKey,
     /// What the input measures.
     pub input: Input,
-    /// Times and values of the input of the rows, as far as they are known.
+    /// For every row, the time and the value of the input. An unknown time or value is NaN.
     pub instants: [Vec<f64>; 2],
     /// Uncertainty due to the digits of the instants, by claim and row; empty if the instants are exact.
     pub drift: Vec<Vec<f64>>,
@@ -107,7 +107,7 @@ impl Both<'_> {
         self.instants.each_ref().map(Vec::as_slice)
     }
 
-    /// The scale of a channel. The scale does not depend on the selection of compared channels.
+    /// The scale of a channel. The scale does not depend on which other channels are compared.
     /// If a party has a complete trajectory, the scale comes from this trajectory.
     /// For tables and for expressions of channels, the scale comes from the numbers alone: half the range of the
     /// numbers, but at least a tenth of the largest value (a thousandth for a coordinate).

@@ -13,14 +13,14 @@ use linkage::input::Input;
 use linkage::math::statistics::half_range;
 use scenario::Claim;
 
-/// A party of a comparison.
+/// One side of a party. Only a recording can have several sides.
 pub(super) struct Side {
     /// Name in a recording; empty for a party that is not a recording.
     pub name: String,
     pub held: Held,
 }
 
-/// The comparison of two parties.
+/// The comparison of a side of one party with a side of the other party.
 #[derive(Default)]
 pub struct SidePair {
     /// Names of the sides in the recordings; empty for a party that is not a recording.
@@ -32,7 +32,7 @@ pub struct SidePair {
     pub checks: Vec<Check>,
     /// Number of instants at which the comparison takes place.
     pub instants: usize,
-    /// Number of instants of one party that the other party does not have.
+    /// Number of instants of the second party that the first party does not have.
     pub unshared: usize,
     /// Channels that only one of the two parties has.
     pub alone: [Vec<String>; 2],

@@ -15,7 +15,7 @@ use scenario::{Claim, Scenario};
 /// Largest number of instants from which scales are determined.
 const MOST: usize = 20_000;
 
-/// Scales of all channels over a whole run, and their smallest errors, by name (both in SI units).
+/// For each channel, by its name: the scale over a whole run, and a lower limit of the error of its values (SI units).
 /// The scales do not depend on which channels are compared.
 pub(super) struct Scales(BTreeMap<String, (f64, f64)>);
 

@@ -62,7 +62,8 @@ impl Misfit {
     }
 
     /// Range of factors f for which this misfit plus f times `effect` stays within all bounds. `None` if no factor
-    /// keeps all bounds. Least squares cannot find this range, because errors of a suspect are not random.
+    /// keeps all bounds. Least squares are not used, because they fit random errors, and a suspect's errors are not
+    /// random.
     pub(super) fn kept_by(&self, effect: &Misfit) -> Option<[f64; 2]> {
         let mut range = [f64::NEG_INFINITY, f64::INFINITY];
         for (own, change) in self.0.iter().zip(&effect.0) {
@@ -149,8 +150,8 @@ impl<'a> Bench<'a> {
     }
 
     /// Disagreeing channels that a hypothesis with this remaining `misfit` explains. The list is empty if an agreeing
-    /// channel disagrees under the hypothesis. A channel that exceeds its bound only slightly counts only if the
-    /// hypothesis explains all disagreeing channels.
+    /// channel disagrees under the hypothesis. If the hypothesis does not explain all disagreeing channels, channels
+    /// that exceed their bounds only slightly are left out.
     pub(super) fn explained(&self, start: &Misfit, misfit: &Misfit) -> Vec<Channel> {
         let all = misfit.fits();
         let [before, after] = [start, misfit].map(|misfit| self.by_column(misfit));
@@ -172,8 +173,8 @@ impl<'a> Bench<'a> {
     }
 }
 
-/// A cause that explains only some of the channels must explain differences above this multiple of their bound. Smaller
-/// differences do not count.
+/// If a cause explains only some of the disagreeing channels, a channel counts as explained only if its largest
+/// difference from the reference exceeds this multiple of its bound.
 const EVIDENT: f64 = 3.0;
 
 /// Number of instants of a bench, besides the worst instant of each channel.
@@ -223,7 +224,7 @@ fn spread(rows: &[usize]) -> Vec<usize> {
     if rows.len() > INSTANTS { (0..INSTANTS).map(|k| rows[k * last / (INSTANTS - 1)]).collect() } else { rows.to_vec() }
 }
 
-/// Each row once. The first row of the grid comes first, because whole revolutions are counted from this row.
+/// Each row once, in ascending order. The grid's first row is added, because whole revolutions are counted from it.
 fn in_order(mut rows: Vec<usize>) -> Vec<usize> {
     rows.push(0);
     rows.sort_unstable();

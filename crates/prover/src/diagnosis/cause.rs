@@ -86,15 +86,15 @@ pub enum DataSlip {
         /// The rows whose values are subtracted.
         over: Over,
     },
-    /// The acceleration without the Coriolis term of a block on a moving guide. The text names the joint.
+    /// The acceleration without the Coriolis term of a block on a moving guide. The field is the name of the joint.
     NoCoriolis(String),
-    /// The moment about a wrong point of reference. The text contains the vector to this point.
+    /// The moment about a wrong point of reference. The field is the vector to this point from the right one.
     About(Arm),
     /// A single row is wrong, at this time (s).
     Outlier(f64),
     /// Values of other instants: the time of each row is multiplied by a factor.
     Clock {
-        /// The values of a row are right at the time of the row multiplied by this factor.
+        /// Factor that turns the time of a row into the time at which the values of the row are right.
         factor: f64,
         /// Meaning of the factor, if it is a unit conversion.
         told: Option<&'static str>,

@@ -12,9 +12,9 @@ use super::question::{DiagnosisInput, Found, Rank};
 use super::tries::{Candidate, Tries};
 use super::whole::whole_changes;
 
-/// Largest number of changed cases that are solved on thinned grids to find changes without a number. The search for
-/// changed numbers and shifted instants has a separate limit of the same size. A prescribed motion of at most `LINKS`
-/// links costs little, so both limits are then `CHEAP` times as high.
+/// Largest number of changed cases that are solved on thinned grids to find changes other than the change of a number,
+/// such as another configuration. The search for changed numbers and shifted instants has a separate limit of the same
+/// size. A prescribed motion of at most `LINKS` links costs little, so both limits are then `CHEAP` times as high.
 const MOST: usize = 120;
 const CHEAP: usize = 3;
 /// Up to this number of links, solving a case costs hardly more than for the smallest mechanisms.
@@ -22,7 +22,7 @@ const LINKS: usize = 16;
 /// Largest number of causes that are confirmed on the whole grid.
 const CONFIRMED: usize = 6;
 /// Claims (sums of changes divided by bounds) are rounded to multiples of 1 / this number before they are compared.
-/// Smaller differences of claims are rounding.
+/// A smaller difference between two claims counts as a rounding error.
 const CLAIMED: f64 = 1e3;
 /// Limit of cases solved on the whole grid to confirm causes. The limit allows several cases per cause, because a value
 /// may need correction.
@@ -46,7 +46,7 @@ pub(super) fn found(question: &DiagnosisInput) -> (Vec<Found>, usize) {
     }
     let without_number = whole_changes(&tries);
     let spent = most - left.replace(most);
-    // If several changes are equivalent, the change of a single number is the simplest.
+    // Changes of a single number are put first, because the first of several equivalent changes is preferred.
     let mut candidates = numbers(&tries);
     candidates.extend(without_number);
     let late = late(question, &tries.thin, &tries.starts[1]);

@@ -46,7 +46,7 @@ fn assembled(parts: &mut CaseParts, wanted: &[StartGroup]) -> Option<()> {
 pub fn others(case: &Case) -> Vec<(Change, Case)> {
     let mut found = Vec::new();
     for (index, group) in case.structure.at_start().groups.entries() {
-        // Not all configurations are known for groups of more than four links.
+        // A group whose configurations are not all known is left out, such as a group of more than four links.
         let all = configurations(&case.mechanism, group, &case.start).unwrap_or_default();
         for (number, one) in all.iter().enumerate() {
             let same = |(&link, place): (&LinkId, &LinkPose)| {

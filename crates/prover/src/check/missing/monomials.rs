@@ -9,7 +9,7 @@ const MOST: usize = 14;
 /// Largest number of different products kept for one value.
 const SIMPLEST: usize = 100;
 
-/// All products of known quantities, found by their value.
+/// All products of known quantities. A search by value finds the products that equal a number.
 pub(in crate::check) struct Monomials {
     quantities: Vec<(FormulaTree, f64)>,
     products: Products,
@@ -78,7 +78,7 @@ impl Monomials {
             let powers = product.powers.iter().filter(move |(_, exponent)| (*exponent > 0) == is_above);
             powers.map(power)
         };
-        // A fractional coefficient is written as a quotient, so one half becomes a divisor of 2.
+        // A fractional coefficient is written as a quotient: one half times `a` is written as `a/2`.
         let is_whole = |below: &f64| (below * product.number).fract() == 0.0;
         let below = [1.0, 2.0, 3.0, 4.0, 8.0].into_iter().find(is_whole).unwrap_or(1.0);
         let above = below * product.number;

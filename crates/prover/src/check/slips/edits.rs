@@ -10,7 +10,7 @@ use scenario::Parameter;
 pub(super) const GRAVITY: [f64; 5] = [9.81, 9.806_65, 9.8, 9.807, 10.0];
 
 /// Returns the possible corrections of a subexpression for one kind of slip. `names` are the names of quantities.
-/// Corrections that no rule can express come first.
+/// Corrections that the table of rules (`rules.rs`) cannot express come first.
 pub(super) fn of(part: &FormulaTree, kind: SlipKind, names: &[&str], parameters: &[Parameter]) -> Vec<FormulaTree> {
     let other_than = |numbers: &[f64], own: f64| -> Vec<FormulaTree> {
         numbers.iter().filter(|other| **other != own).map(|other| FormulaTree::number(*other)).collect()

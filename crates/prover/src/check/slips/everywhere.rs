@@ -8,7 +8,8 @@ use crate::check::trial::Trial;
 use formula::{DerivationSheet, FormulaTree, Function, NodeShape, Operator};
 use scenario::Formulas;
 
-/// Tries corrections of every quantity, and of sines, cosines and tangents, at all their occurrences.
+/// Tries corrections of every quantity, and of sines, cosines and tangents. A correction is made at all occurrences at
+/// once.
 /// The corrections are tried first in the formula `used[0]` only, then in all formulas of `used`.
 /// A quantity that occurs only once is not tried.
 pub(super) fn tried(trial: &mut Trial, used: &[usize], names: &[&str], dimensions: &Dimensions, tried: &mut Tried) {
@@ -95,8 +96,8 @@ impl Search<'_, '_> {
         self.trial.sheet.depending(&places.iter().map(|(place, _)| *place).collect::<Vec<usize>>())
     }
 
-    /// Tries a correction. `changes` gives the corrected subexpressions of the derivation. `change` makes the same
-    /// correction in the tree of a formula.
+    /// Tries a correction. `changes` lists positions in the derivation, each with its corrected subexpression. `change`
+    /// makes the same correction in the tree of a formula.
     fn mended(
         &mut self,
         kind: SlipKind,

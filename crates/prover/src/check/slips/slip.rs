@@ -16,8 +16,8 @@ pub struct FormulaSlip {
     pub written: String,
     /// The corrected subexpression.
     pub right: String,
-    /// Whether the slip occurs at every occurrence of the subexpression: in the formula, or in the formula and the
-    /// steps that it uses.
+    /// Whether the slip is repeated at every occurrence of the subexpression. The occurrences are those in the formula,
+    /// or those in the formula and in the steps that the formula uses.
     pub everywhere: bool,
     /// The smallest wrong pieces of the formula's text; empty if the slip is not in a formula.
     pub marks: Vec<FormulaMark>,
@@ -106,7 +106,8 @@ impl Tried {
         let own = changed.iter().map(|(index, tree)| (&list[*index], tree)).find(|(own, _)| own.name == slip.formula);
         slip.marks = own.map(|(own, tree)| marks(&own.text, &own.tree, tree)).unwrap_or_default();
         let mended = Mended { slip, rank, left, among: self.count };
-        // A simpler correction counts as closer even if its remainder is slightly larger.
+        // The nearest correction is replaced only if a later one leaves a clearly smaller remainder, because simpler
+        // corrections are mostly tried earlier.
         if left == 0.0 {
             self.right.push(mended);
         } else if self.nearest.as_ref().is_none_or(|nearest| left < 0.8 * nearest.left) {

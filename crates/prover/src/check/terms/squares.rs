@@ -111,7 +111,7 @@ fn explained(bases: &[TermBasis], chosen: &[usize], coefficients: &[f64], place:
 fn fitted(bases: &[TermBasis], chosen: &[usize], differences: &[f64], places: &[usize]) -> Option<(Vec<f64>, f64)> {
     let matrix = Matrix::from_fn(places.len(), chosen.len(), |row, column| bases[chosen[column]].values[places[row]]);
     let right = ColumnVector::from_iterator(places.len(), places.iter().map(|&place| differences[place]));
-    // The columns are normalised, because squares of speeds and cosines differ by powers of ten.
+    // The columns are normalised, because the square of a speed can exceed a cosine by powers of ten.
     let sizes: Vec<f64> = matrix.column_iter().map(|column| column.norm()).collect();
     if sizes.iter().any(|size| !(*size > 0.0)) {
         return None;
