@@ -11,7 +11,7 @@ pub enum DriveMotion {
     Prescribed {
         /// The motion law.
         law: MotionLaw,
-        /// Motor whose speed under load is to be computed.
+        /// Motor for additional results, such as the motor's steady speed under load.
         /// The motor does not affect the motion. The link follows the law even if the motor is too weak.
         motor: Option<Motor>,
     },
@@ -21,7 +21,7 @@ pub enum DriveMotion {
         initial_speed: f64,
         /// Speed of the nominal motion (rad/s, not zero), counter-clockwise positive.
         /// The sign of this speed is the motor's sense of rotation. The speed also serves as [`Drive::top_speed`].
-        /// Crank angles refer to the nominal motion.
+        /// An instant given by a crank angle is an instant of the nominal motion.
         nominal_speed: f64,
         /// Motor that drives the link.
         motor: Option<Motor>,
