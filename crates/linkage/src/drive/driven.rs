@@ -71,8 +71,8 @@ impl Drive {
     /// Input and driving link of a drive at `joint`.
     /// A prismatic joint has its slide as input.
     /// A revolute joint on the ground has the world angle of its moving link as input.
-    /// A revolute joint between a free link and the link of a drive in `before` has the world angle of the free link as
-    /// input.
+    /// If `is_free` is true, a revolute joint connects the free driving link with the ground or with the link of a drive
+    /// in `before`. The input is then the world angle of the free link.
     /// Any other revolute joint has the angle between its two links as input.
     #[must_use]
     pub fn of_joint(joint: &Joint, before: &[Drive], is_free: bool) -> (Input, LinkId) {
@@ -112,7 +112,7 @@ impl Drive {
     }
 
     /// Constant speed (rad/s) that moves the link from its angle at time `from` to its angle at time `to` (s).
-    /// The motion takes the absolute difference of the two times.
+    /// The duration of this motion is the absolute difference of the two times.
     /// If `to` is before `from`, the speed has the sign opposite to the law's sense.
     #[inline]
     #[must_use]
@@ -252,7 +252,7 @@ impl Drive {
     }
 
     /// Returns this drive with the law's top speed at all times.
-    /// The drive of a free link is returned unchanged: the speed of its nominal motion is constant.
+    /// The drive of a free link is returned unchanged, because its top speed is its constant nominal speed.
     pub fn at_top_speed(&self) -> Drive {
         let motion = match &self.motion {
             DriveMotion::Prescribed { law, motor } => {
