@@ -379,7 +379,7 @@ mod tests {
             let motion = DriveMotion::Free { initial_speed: 0.5, nominal_speed: 4.0 * sense, motor: None };
             let free = Drive { motion, ..drive };
             assert_eq!((free.sense(), free.initial_speed()), (sense, 0.5), "{:?}", free.motion);
-            // Crank angles refer to the nominal motion, so the free drive and its nominal drive have the same state.
+            // A free drive returns the states and times of its nominal motion.
             assert_eq!(free.at(2.0), free.nominal().at(2.0));
             assert_eq!((free.time_of(3.0), free.nominal().initial_speed()), (2.5 * sense / 4.0, 4.0 * sense));
         }
