@@ -178,7 +178,8 @@ fn only_time(curve: &Curve, gone: f64) -> f64 {
     if gone == 0.0 {
         return 0.0;
     }
-    // A difference as small as rounding errors counts as zero. The curve can then reach its last value.
+    // A difference as small as rounding errors counts as zero.
+    // The last value of the curve is then found even if the computed value is slightly off.
     let off =
         |t: f64| Some(curve.at(t)[0] - gone).filter(|off| off.abs() > 4.0 * f64::EPSILON * gone.abs()).unwrap_or(0.0);
     let (places, count) = (curve.places(), if matches!(curve, Curve::Table(_)) { PARTS } else { 1 });
