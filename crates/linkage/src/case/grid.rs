@@ -48,7 +48,7 @@ impl Grid {
     }
 
     /// Upper limit of the absolute input values of a grid, in turns.
-    /// Solvers follow the assembly branch turn by turn from the start to every input value of the grid.
+    /// Solvers follow the assembly branch from the start to every input value of the grid.
     /// Above this limit, rounding removes the last digits of an angle.
     pub const MOST_TURNS: f64 = 1e5;
 

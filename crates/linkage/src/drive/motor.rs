@@ -122,8 +122,8 @@ pub struct Motor {
     /// Moments of inertia of rotor and reducer.
     pub inertia: ShaftInertia,
     /// Rated torque (N m), if it is known.
-    /// With a rated torque, a linear law describes an induction motor. The law is valid only below the breakdown torque,
-    /// which is a multiple of the rated torque.
+    /// With a rated torque, a linear law describes an induction motor.
+    /// The law is valid only below the breakdown torque, which is a multiple of the rated torque.
     pub rated_torque: Option<f64>,
 }
 
