@@ -71,8 +71,8 @@ impl Drive {
     /// Input and driving link of a drive at `joint`.
     /// A prismatic joint has its slide as input.
     /// A revolute joint on the ground has the world angle of its moving link as input.
-    /// If `is_free` is true, a revolute joint on the link of a drive in `before` has the world angle of the free link as
-    /// input.
+    /// If `is_free` is true, a revolute joint on the link of a drive in `before` has the world angle of the free link
+    /// as input.
     /// Any other revolute joint has the angle between its two links as input.
     #[must_use]
     pub fn of_joint(joint: &Joint, before: &[Drive], is_free: bool) -> (Input, LinkId) {
