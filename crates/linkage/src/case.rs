@@ -466,7 +466,8 @@ impl Case {
     /// sense of sliding.
     /// `sensed` returns the moment (N m) or force (N) of such a load.
     /// `sensed` receives the number of the load, the load and the crank angle (rad).
-    /// `sensed` is not called for links that cannot turn, because such loads do not act on these links.
+    /// `sensed` is not called for a load that depends on the sense of rotation of a link that cannot turn: this load is
+    /// zero.
     #[inline]
     pub fn loads_with(
         &self,
@@ -482,8 +483,8 @@ impl Case {
     /// `way` returns this direction (unit vector, or zero) for each load that depends on the direction.
     /// `way` receives the number of the load and the point's velocity (m/s).
     /// If the velocity is only rounding error, `way` receives zero.
-    /// For reading tables, the crank angle is limited to the interval `piece` (rad).
-    /// No load then jumps at an end of the interval.
+    /// The tables of the loads are read at the crank angle limited to the interval `piece` (rad).
+    /// If the crank angle passes an end of the interval, no load therefore jumps.
     #[inline]
     pub fn loads_along(
         &self,

@@ -54,7 +54,7 @@ pub trait Engine: Solver {
     /// Methods for joint reactions and balancing moment, the cheapest method first.
     fn routes(&self) -> &'static [Route];
 
-    /// Methods by which the engine reports the forces that it applies itself. The cheapest method comes first.
+    /// Methods by which the engine reports the forces that act in its simulation. The cheapest method comes first.
     /// The list is empty if the engine's default method already reports these forces.
     fn own_routes(&self, case: &Case) -> &'static [Route];
 

@@ -109,8 +109,8 @@ fn drives(parts: &CaseParts) -> Result<()> {
 /// A crank counts as a point if its length is below this fraction of the mechanism's size.
 const POINT: f64 = 1e-12;
 
-/// Whether a driving link carries other links without moving them.
-/// All joints of such a link are revolute and lie on its axis of rotation.
+/// Whether a driving link has joints with other links, but its rotation does not move these links.
+/// All joints of such a driving link are revolute and lie on its axis of rotation.
 fn moves_nothing(mechanism: &Mechanism, drive: &Drive) -> bool {
     let own = mechanism.joints()[drive.joint].on(drive.link);
     let others = || mechanism.joints().entries().filter(|&(index, _)| index != drive.joint);

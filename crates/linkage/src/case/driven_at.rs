@@ -20,10 +20,10 @@ impl Case {
     }
 
     /// This case with the first drive at `joint`, from the same start pose.
-    /// The start joint of a transmission is the joint whose given coordinate at t = 0 fixes the phase.
+    /// The start joint of a transmission is the joint whose given coordinate at t = 0 fixes the transmission's phase.
     /// The drive determines the coordinate of `joint`. If `joint` is a start joint, the joint between first member and
-    /// carrier therefore takes its place.
-    /// `law` gives the law of motion for the kind of input. The grid consists of `times` (s).
+    /// carrier becomes the start joint instead.
+    /// `law` receives the kind of the drive's input and returns the law of motion. The grid consists of `times` (s).
     ///
     /// # Errors
     /// The errors of [`Structure::of`], [`Mechanism::with_transmissions`] and [`Case::new`].

@@ -144,7 +144,7 @@ impl Friction<'_> {
     }
 
     /// The reaction on which the friction depends: force (N) and moment (N m).
-    /// For a transmission, the force has the component F along x.
+    /// For a transmission, the force is the vector (F, 0), and the moment is zero.
     #[inline]
     #[must_use]
     pub fn reaction(&self, all: JointReactions) -> (Vec2, f64) {
@@ -181,7 +181,7 @@ impl Friction<'_> {
 
     /// Friction divided by [`normal`](Friction::normal).
     /// In a revolute joint this ratio is mu r (m), in a prismatic joint mu (1).
-    /// For a transmission the ratio is the lever arm of the force, reduced to the joint's coordinate.
+    /// For a transmission the ratio is the magnitude of [`Losses::lever`] times [`Losses::per`].
     #[must_use]
     pub fn lever(&self) -> f64 {
         match self.seat {
@@ -235,7 +235,7 @@ impl Friction<'_> {
         match self.seat {
             FrictionSeat::Joint { .. } => Action::pair(self.of_joint(), effort, motions),
             FrictionSeat::Mesh { links: [carrier, first], losses, .. } => {
-                // The moment has the power of `effort`: effort times the rate of the joint's coordinate.
+                // The power of the moment equals `effort` times the rate of the joint's coordinate.
                 let moment = effort / losses.per;
                 [Action::of_moment(carrier, -moment), Action::of_moment(first, moment)]
             }

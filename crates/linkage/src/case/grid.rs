@@ -48,7 +48,7 @@ impl Grid {
     }
 
     /// Upper limit of the absolute input values of a grid, in turns.
-    /// Solvers follow the branch from the start to every value.
+    /// Solvers follow the assembly branch from the start to every input value of the grid.
     /// Above this limit, rounding removes the last digits of an angle.
     pub const MOST_TURNS: f64 = 1e5;
 
@@ -57,8 +57,8 @@ impl Grid {
     ///
     /// # Errors
     /// A message that names the fault.
-    /// The faults are: crank angles in the grid of a free crank, an input that the law does not reach at exactly one
-    /// time, a time outside the law of a drive, and inputs that are too large or not finite.
+    /// The faults are: crank angles in the grid of a free crank, an input that the law reaches never or more than once,
+    /// a time outside the law of a drive, and inputs that are too large or not finite.
     pub fn check(&self, drives: &Drives) -> std::result::Result<(), String> {
         self.check_crank(drives.crank())?;
         let further = (2..).zip(drives.further()).filter(|(_, drive)| drive.constant_speed().is_none());

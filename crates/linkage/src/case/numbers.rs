@@ -52,7 +52,7 @@ pub enum CaseNumber {
         /// 0 for x, 1 for y.
         axis: usize,
     },
-    /// Zero of the input of a drive (rad or m).
+    /// Coordinate of the driven joint at zero input (rad or m).
     Zero(usize),
     /// Input of a drive at t = 0 (rad or m).
     Start(usize),

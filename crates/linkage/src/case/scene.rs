@@ -9,7 +9,7 @@ use crate::mechanism::{
 };
 use crate::trajectory::{Channel, Stage};
 
-/// Upper limit of the characters that remain of a point's name when a number is appended.
+/// Before a number is appended to a point's name, the name is cut to this number of characters.
 const SHORT: usize = 80;
 
 /// The part of a case on which its requested channels depend.
@@ -141,7 +141,8 @@ impl<'a> Needs<'a> {
             let trains = group.trains.iter().flat_map(|&id| case.mechanism.transmissions()[id].links());
             group.outer.iter().flat_map(|&joint| ends(joint)).chain(trains).collect::<Vec<LinkId>>()
         };
-        // Forces on a link come from every link that depends on this link, directly or through further links.
+        // If the forces on a link are needed, the forces on all links whose motion depends on this link, directly or
+        // through further links, are needed too.
         let carries = &mut self.carries;
         for (_, &DrivingLink { link, joint, .. }) in structure.leading() {
             carries[link] |= ends(joint).into_iter().any(|base| base != GROUND && carries[base]);
@@ -250,8 +251,8 @@ impl<'a> Needs<'a> {
     }
 
     /// The links of the reduced case.
-    /// If a joint is left out, its two links still have a point with the joint's name, but no joint holds the points
-    /// together, which [`Mechanism::new`] rejects.
+    /// If a joint is left out, its two links still have a point with the joint's name.
+    /// [`Mechanism::new`] rejects two points with the same name if no joint connects them.
     /// A number is therefore added to the name of the point on the link that depends on more groups.
     fn links(&self) -> Vec<Link> {
         let whole = &self.case.mechanism;
@@ -305,7 +306,7 @@ impl<'a> Needs<'a> {
     }
 }
 
-/// New numbers of the items, in order. The entry of a removed item is only a placeholder.
+/// New number of every item, counted without the removed items. The entry of a removed item is only a placeholder.
 fn numbers<I: Ordinal>(stays: impl Iterator<Item = bool>) -> Vec<I> {
     let mut next = 0;
     stays

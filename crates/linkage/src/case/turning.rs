@@ -2,7 +2,7 @@
 //!
 //! Links connected by a prismatic joint have the same angle up to a constant.
 //! The same holds for opposite links of a parallelogram, and for all links in a chain of such pairs of links.
-//! A link that a chain of such pairs connects with the ground only translates: the link's angular velocity is zero.
+//! If a chain of such pairs connects a link with the ground, the link does not turn: its angular velocity is zero.
 //! A nonzero angular velocity that a solver computes for such a link is only rounding error.
 //! Loads must not take the sign of a rounding error for a sense of rotation.
 

@@ -14,7 +14,8 @@ const BEFORE: f64 = 4e-9;
 /// The distance is this number times (1 m + |first slide| + |last slide|).
 const FAR: f64 = 100.0;
 
-/// A knot of a table is a jump if the values on its two sides differ relatively by more than twice this number.
+/// A knot of a table is a jump if the difference of the values on its two sides exceeds this number times the sum of
+/// their magnitudes.
 const EQUAL: f64 = 1e-12;
 
 /// A constant, or a table of values against the crank angle or the slide of the first drive.
@@ -24,9 +25,9 @@ pub enum Course {
     Constant(f64),
     /// A function of the input of the first drive: crank angle (rad, in the scenario's convention) or slide (m).
     Table {
-        /// The function. Over a slide it is periodic too, but its period is far longer than the table.
+        /// The function. The function of a table over a slide is stored with a period far longer than the table.
         function: Arc<Piecewise>,
-        /// Period in revolutions of the crank; `None` for a table over a slide, which does not repeat.
+        /// Period in revolutions of the crank; `None` for a table over a slide.
         turns: Option<u32>,
     },
 }

@@ -11,7 +11,7 @@ pub enum DriveMotion {
     Prescribed {
         /// The motion law.
         law: MotionLaw,
-        /// Motor whose speed under load is to be computed.
+        /// Motor for additional results, such as the motor's steady speed under load.
         /// The motor does not affect the motion. The link follows the law even if the motor is too weak.
         motor: Option<Motor>,
     },
@@ -21,7 +21,7 @@ pub enum DriveMotion {
         initial_speed: f64,
         /// Speed of the nominal motion (rad/s, not zero), counter-clockwise positive.
         /// The sign of this speed is the motor's sense of rotation. The speed also serves as [`Drive::top_speed`].
-        /// Crank angles refer to the nominal motion.
+        /// An instant given by a crank angle is an instant of the nominal motion.
         nominal_speed: f64,
         /// Motor that drives the link.
         motor: Option<Motor>,
@@ -71,8 +71,8 @@ impl Drive {
     /// Input and driving link of a drive at `joint`.
     /// A prismatic joint has its slide as input.
     /// A revolute joint on the ground has the world angle of its moving link as input.
-    /// A revolute joint between a free link and the link of a drive in `before` has the world angle of the free link as
-    /// input.
+    /// If `is_free` is true, a revolute joint on the link of a drive in `before` has the world angle of the free link
+    /// as input.
     /// Any other revolute joint has the angle between its two links as input.
     #[must_use]
     pub fn of_joint(joint: &Joint, before: &[Drive], is_free: bool) -> (Input, LinkId) {
@@ -112,7 +112,7 @@ impl Drive {
     }
 
     /// Constant speed (rad/s) that moves the link from its angle at time `from` to its angle at time `to` (s).
-    /// The motion takes the absolute difference of the two times.
+    /// The duration of this motion is the absolute difference of the two times.
     /// If `to` is before `from`, the speed has the sign opposite to the law's sense.
     #[inline]
     #[must_use]
@@ -252,7 +252,7 @@ impl Drive {
     }
 
     /// Returns this drive with the law's top speed at all times.
-    /// The drive of a free link is returned unchanged: the speed of its nominal motion is constant.
+    /// The drive of a free link is returned unchanged, because its top speed is its constant nominal speed.
     pub fn at_top_speed(&self) -> Drive {
         let motion = match &self.motion {
             DriveMotion::Prescribed { law, motor } => {
@@ -379,7 +379,7 @@ mod tests {
             let motion = DriveMotion::Free { initial_speed: 0.5, nominal_speed: 4.0 * sense, motor: None };
             let free = Drive { motion, ..drive };
             assert_eq!((free.sense(), free.initial_speed()), (sense, 0.5), "{:?}", free.motion);
-            // Crank angles refer to the nominal motion, so the free drive and its nominal drive have the same state.
+            // A free drive returns the states and times of its nominal motion.
             assert_eq!(free.at(2.0), free.nominal().at(2.0));
             assert_eq!((free.time_of(3.0), free.nominal().initial_speed()), (2.5 * sense / 4.0, 4.0 * sense));
         }

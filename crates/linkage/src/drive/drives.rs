@@ -66,8 +66,8 @@ impl Drives {
         Drives(self.0.iter().map(change).collect())
     }
 
-    /// Coordinates of the driven joints (rad or m) at the input `crank` of the first drive, in the scenario's
-    /// convention.
+    /// Coordinates of the driven joints (rad or m) at the instant at which the first drive has the input `crank`.
+    /// The input is measured in the scenario's convention.
     #[must_use]
     pub fn coordinates(&self, crank: f64) -> Vec<f64> {
         let t = self.crank().time_of(crank);

@@ -53,7 +53,7 @@ pub enum Load {
         force: f64,
     },
     /// Spring between two points.
-    /// The spring pulls the points together. The force is stiffness times (length - free length).
+    /// The force is stiffness times (length - free length). A positive force pulls the points together.
     /// If the points coincide, the direction is undefined and the force is zero.
     Spring {
         /// End points.
@@ -64,7 +64,8 @@ pub enum Load {
         free_length: f64,
     },
     /// Damper between two points.
-    /// The damper pulls the points together. The force is damping times the rate of change of the points' distance.
+    /// The force is damping times the rate of change of the points' distance. A positive force pulls the points
+    /// together.
     /// If the points coincide, the force is zero.
     Damper {
         /// End points.
@@ -370,7 +371,8 @@ impl Load {
     /// Moment (N m) of a load with a [sensed link](Load::sensed_link), or force (N) of a [`Load::SlideForce`].
     /// The sign of `omega` is the link's sense of rotation or the sense of the sliding. `crank` is the crank angle
     /// (rad).
-    /// A moment is zero at standstill. The result is zero for any other load.
+    /// A moment is zero at standstill, and so is a force limited to one sense of the sliding.
+    /// The result is zero for any other load.
     #[inline]
     #[must_use]
     pub fn moment_in(&self, omega: f64, crank: f64) -> f64 {
@@ -426,7 +428,7 @@ impl Load {
     }
 
     /// For a [resistance](Load::Resistance): the loaded link and the magnitude of the moment (N m).
-    /// A resistance is the only load that some engines and formats support directly.
+    /// Some engines and formats directly support no other load than a resistance.
     #[inline]
     #[must_use]
     pub fn resistance(&self) -> Option<(LinkId, f64)> {

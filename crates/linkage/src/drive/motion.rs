@@ -13,7 +13,7 @@ use crate::math::{Curve, root};
 #[must_use]
 pub struct InputState {
     /// Value in the scenario's convention.
-    /// An angle is measured counter-clockwise from the drive's zero direction, and whole turns count.
+    /// An angle is measured counter-clockwise from the drive's zero direction and includes whole turns.
     pub value: f64,
     /// Rate of the value. The rate of an angle is counter-clockwise positive.
     pub rate: f64,
@@ -26,7 +26,7 @@ pub struct InputState {
 #[derive(Clone, Debug, PartialEq)]
 pub enum MotionLaw {
     /// Constant angular velocity (rad/s), counter-clockwise positive.
-    /// Only a drive other than the first may have the speed 0: such a drive holds its joint.
+    /// A drive with the speed 0 holds its joint. The first drive must not have the speed 0.
     ConstantSpeed(f64),
     /// Constant acceleration from rest to a final speed. After the acceleration the speed is constant.
     Ramp {
@@ -98,7 +98,7 @@ impl MotionLaw {
     }
 
     /// Angle, speed and acceleration at time `t` (s) of a motion with the input `start` (rad) at t = 0.
-    /// Beyond the law's end the formula continues smoothly. Callers that approach the end need this continuation.
+    /// The law continues smoothly beyond its end. Callers that approach the end need this continuation.
     #[inline]
     pub fn at(&self, start: f64, t: f64) -> InputState {
         match *self {
@@ -178,7 +178,8 @@ fn only_time(curve: &Curve, gone: f64) -> f64 {
     if gone == 0.0 {
         return 0.0;
     }
-    // A difference as small as rounding errors counts as zero. The curve can then reach its last value.
+    // A difference as small as rounding errors counts as zero.
+    // The last value of the curve is then found even if the computed value is slightly off.
     let off =
         |t: f64| Some(curve.at(t)[0] - gone).filter(|off| off.abs() > 4.0 * f64::EPSILON * gone.abs()).unwrap_or(0.0);
     let (places, count) = (curve.places(), if matches!(curve, Curve::Table(_)) { PARTS } else { 1 });

@@ -116,13 +116,14 @@ pub struct Motor {
     /// Ratio of the motor's speed to that of the crank, above 0.
     pub ratio: f64,
     /// Efficiency of the reducer, above 0 and at most 1. The efficiency is the same in both directions of power flow.
-    /// The efficiency reduces the motor's static torque.
+    /// The efficiency applies to the motor's static torque: see [`Motor::moment_on_crank`].
     /// The efficiency does not affect the moments that accelerate the shafts.
     pub efficiency: f64,
     /// Moments of inertia of rotor and reducer.
     pub inertia: ShaftInertia,
     /// Rated torque (N m), if it is known.
-    /// For an induction motor, a linear law is valid only up to a multiple of the rated torque.
+    /// With a rated torque, a linear law describes an induction motor.
+    /// The law is valid only below the breakdown torque, which is a multiple of the rated torque.
     pub rated_torque: Option<f64>,
 }
 

@@ -61,7 +61,7 @@ impl Action {
         ends.map(|(link, force)| Action { link, force: axis * force, place, moment: 0.0 })
     }
 
-    /// Total moment of the action about a world point (N m), from its force and its moment. Counter-clockwise positive.
+    /// Moment of the action's force about a world point, plus the action's moment (N m). Counter-clockwise positive.
     #[inline]
     #[must_use]
     pub fn about(&self, pole: Vec2) -> f64 {
