@@ -12,7 +12,7 @@ use linkage::case::{Case, Grid};
 use linkage::math::KeepNan;
 use linkage::trajectory::Stage;
 
-/// Largest number of steps of the search for a number.
+/// Largest number of steps of the search for a delay or a clock factor.
 const STEPS: usize = 6;
 /// If the misfit is below this fraction of the initial misfit, the present number is close to the number sought.
 const NEAR: f64 = 1e-2;
