@@ -97,8 +97,8 @@ impl Search<'_, '_> {
         self.late_candidate(&misfit, by, steps, None)
     }
 
-    /// A number with few digits near the found number, if its misfit satisfies `is_enough`. The found number has many
-    /// digits, because the search stops only at rounding.
+    /// A number with few digits near the found number, if its misfit satisfies `is_enough`. The found number is the
+    /// result of an iteration, so it has many digits.
     fn short(
         &self,
         value: f64,
