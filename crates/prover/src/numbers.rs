@@ -1,7 +1,7 @@
 //! Formats numbers for readers: short numbers as plain decimals, only meaningful digits, and zero as `0`.
 //!
 //! Whether a value counts as zero depends on a scale. [`resolved`] therefore takes the resolution of the value, and
-//! [`beside`] the bound on the difference of its values.
+//! [`beside`] takes the bound on the difference of the two values.
 
 use linkage::input::InputValue;
 use linkage::math::KeepNan;
