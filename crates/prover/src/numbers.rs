@@ -51,7 +51,7 @@ pub fn significant(value: f64, digits: usize) -> String {
     }
 }
 
-/// A value known to `resolution` (its bound or rounding error).
+/// A value with an error of up to `resolution` (the value's bound or rounding error).
 /// Digits below the resolution are left out. A value smaller than the resolution is `0`.
 /// With a resolution of 0 the value has all its digits.
 #[must_use]
