@@ -56,7 +56,8 @@ fn missing(engine: EngineName) -> linkage::Error {
 
 /// Usual rotation of the fastest driving link in one step (rad): a quarter of a degree.
 const USUAL_TURN: f64 = std::f64::consts::PI / 720.0;
-/// Rotation of the fastest driving link in the first, coarse step of a search (rad): two degrees.
+/// Rotation of the fastest driving link (rad) in the coarse time step with which a search for settings begins: two
+/// degrees.
 const COARSE_TURN: f64 = std::f64::consts::PI / 90.0;
 
 /// A time step (s) at which an engine is accurate to about 1e-4 in most cases.
@@ -67,7 +68,7 @@ pub fn usual_step(case: &Case) -> f64 {
     step(case, USUAL_TURN, 1e-4)
 }
 
-/// The time step (s) at which a search of settings begins.
+/// The time step (s) with which the search for an engine's settings begins.
 pub(crate) fn coarse_step(case: &Case) -> f64 {
     step(case, COARSE_TURN, 4e-3)
 }

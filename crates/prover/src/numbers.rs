@@ -1,7 +1,7 @@
 //! Formats numbers for readers: short numbers as plain decimals, only meaningful digits, and zero as `0`.
 //!
 //! Whether a value counts as zero depends on a scale. [`resolved`] therefore takes the resolution of the value, and
-//! [`beside`] the bound on the difference of its values.
+//! [`beside`] takes the bound on the difference of the two values.
 
 use linkage::input::InputValue;
 use linkage::math::KeepNan;
@@ -51,7 +51,7 @@ pub fn significant(value: f64, digits: usize) -> String {
     }
 }
 
-/// A value known to `resolution` (its bound or rounding error).
+/// A value with an error of up to `resolution` (the value's bound or rounding error).
 /// Digits below the resolution are left out. A value smaller than the resolution is `0`.
 /// With a resolution of 0 the value has all its digits.
 #[must_use]

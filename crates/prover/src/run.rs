@@ -61,7 +61,7 @@ use linkage::trajectory::Trajectory;
 use linkage::work::limited;
 use scenario::{CaseFigure, Formulas, Scenario};
 
-/// Work that the analytic sides may always do, even with a smaller budget, because there is no result without the
+/// Work that the analytic sides may always do, even if it exceeds the budget, because there is no result without the
 /// analytic sides. This work takes a second or two.
 pub const SIDES: f64 = 1e6;
 /// A diagnosis may use at most this multiple of the proof's budget.
@@ -92,7 +92,7 @@ pub struct Proof {
     pub formula: String,
     /// Name of the reference solver.
     pub reference: &'static str,
-    /// Checks on the analytic sides, published numbers among them.
+    /// Checks on the analytic sides, including the comparisons with published numbers.
     pub checks: Vec<Check>,
     /// The engines, in the requested order. The list is empty only for an [unjudged](Proof::unjudged) motion.
     pub engines: Vec<EngineProof>,
@@ -186,7 +186,7 @@ impl Proof {
 ///
 /// # Errors
 /// If an analytic side cannot solve the case. The error states the crank angle.
-/// If this build does not have an engine, or an engine does not have a given setting.
+/// If this build does not have a requested engine, or if an engine does not have a given setting.
 /// If the only engine cannot start.
 /// If the run would need more memory than is allowed.
 ///

@@ -13,7 +13,7 @@ const ROUNDED: f64 = 1e-12;
 /// (rows).
 const WIDEST: usize = 3;
 
-/// All wrong rules that explain channels, each with the explained channels.
+/// All errors of calculation that explain channels (such as a missing Coriolis term), each with the explained channels.
 pub(super) fn found(question: &DiagnosisInput, wrong: &[Wrong]) -> Vec<Found> {
     let mut causes = Vec::new();
     let mut put =
@@ -108,7 +108,7 @@ fn lacks_coriolis(question: &DiagnosisInput, one: &Wrong, joint: &str) -> Option
         match (one.channel.kind.unit, slide) {
             (Unit::MetrePerSecondSquared, _) if suffix.starts_with("ax") => -size * (angle[row] + local).sin(),
             (Unit::MetrePerSecondSquared, _) if suffix.starts_with("ay") => size * (angle[row] + local).cos(),
-            // The Coriolis term as an angular acceleration of the guide: divided by the distance of the block.
+            // The Coriolis term as an angular acceleration of the guide: divided by the block's position on the guide.
             (Unit::RadianPerSecondSquared, Some(slide)) => -size / slide[row],
             _ => 0.0,
         }
@@ -127,7 +127,7 @@ fn arm(question: &DiagnosisInput, one: &Wrong) -> Option<Arm> {
     let subject = one.channel.subject();
     let column = |suffix: &str| question.reference.named(&format!("{subject}.{suffix}"));
     let (x, y) = (column("fx_N")?, column("fy_N")?);
-    // The moment about a second point is the moment about the first point minus arm times force.
+    // Moment about a second point: the moment about the first point minus the cross product of arm and force.
     let gaps: Vec<f64> = one.right.iter().zip(one.found).map(|(right, found)| right - found).collect();
     let is_it = |arm: &dyn Fn(usize) -> [f64; 2]| {
         let moment = |row: usize| arm(row)[0] * y[row] - arm(row)[1] * x[row];

@@ -1,5 +1,5 @@
-//! "Knobs": parts of a case that a single number changes. This module lists the knobs of a case and changes their
-//! values.
+//! "Knobs": parts of a case that can be changed by one number each. This module lists the knobs of a case and changes
+//! their values.
 //! See docs/numerics/diagnosis.md.
 
 use crate::sentences;
@@ -28,7 +28,7 @@ pub(super) enum Shows {
     Centres,
 }
 
-/// A part of a case that a single number changes.
+/// A part of a case that can be changed by one number.
 pub(super) struct Knob {
     pub(super) part: CasePart,
     /// Value of the part in the case, and the unit of this value.
@@ -36,7 +36,7 @@ pub(super) struct Knob {
     pub(super) unit: &'static str,
     /// Values with a simple meaning, such as twice the given value, the simplest first.
     pub(super) plain: Vec<(f64, PartChange)>,
-    /// Change of the value that is large enough to show its effect.
+    /// A small change of the value with which the effect of the part is estimated.
     pub(super) nudge: f64,
     pub(super) shows: Shows,
     /// Whether a linear approximation is useless for values far from the given value.
@@ -60,7 +60,7 @@ impl Knob {
         significant_in(self.unit == "rad", value, digits)
     }
 
-    /// A knob for a quantity with the value `given`, of which multiples are tried.
+    /// A knob for a quantity. Simple multiples of its value `given` are tried.
     fn amount(
         part: CasePart,
         given: f64,
@@ -78,7 +78,7 @@ impl Knob {
         knob.times([(1e3, sentences::AS_FOR_KG_OR_FOR_MM), (1e-3, sentences::AS_KG_FOR_OR_MM_FOR)])
     }
 
-    /// A knob for a coordinate or an angle, of which multiples have no meaning. Changes are given as fractions of
+    /// A knob for a coordinate or an angle. Multiples of its value have no meaning. The nudge is a fraction of
     /// `natural`.
     fn place(
         part: CasePart,

@@ -12,7 +12,7 @@ use linkage::case::{Case, Grid};
 use linkage::math::KeepNan;
 use linkage::trajectory::Stage;
 
-/// Largest number of steps of the search for a number.
+/// Largest number of steps of the search for a delay or a clock factor.
 const STEPS: usize = 6;
 /// If the misfit is below this fraction of the initial misfit, the present number is close to the number sought.
 const NEAR: f64 = 1e-2;
@@ -97,8 +97,8 @@ impl Search<'_, '_> {
         self.late_candidate(&misfit, by, steps, None)
     }
 
-    /// A number with few digits near the found number, if its misfit satisfies `is_enough`. The found number has many
-    /// digits, because the search stops only at rounding.
+    /// A number with few digits near the found number, if its misfit satisfies `is_enough`. The found number is the
+    /// result of an iteration, so it has many digits.
     fn short(
         &self,
         value: f64,

@@ -21,7 +21,7 @@ pub enum ErrorNature {
 const PARTS: usize = 6;
 /// An error counts as growing if it is at least this many times as large in the last part as in the first part.
 const GROWS: f64 = 4.0;
-/// An error above this fraction of the channel's scale is not the error of a method.
+/// An error above this fraction of the channel's scale is not the error of a numerical method.
 const SMALL: f64 = 0.02;
 /// Limits of the ratio that `disorder` returns.
 /// The error is smooth if the ratio is below the first limit, and noise if the ratio is above the second limit.

@@ -160,9 +160,9 @@ fn of_knob(
 }
 
 /// A value of a knob that keeps all differences within their bounds, with as few digits as possible.
-/// Also returns the middle of all such values.
-/// The secant method begins at `guess`. `start` is the misfit of the given value; `None` if the given value must not be
-/// the first point.
+/// Also returns the middle of the range of values that keep the differences within their bounds.
+/// The secant method needs two points. The second point is `guess`. The first point is the value given in the case, and
+/// `start` is its misfit. If `start` is `None`, the first point is a value close to `guess`.
 fn search(knob: &Knob, guess: f64, bench: &Bench, start: Option<&Misfit>) -> Option<[f64; 2]> {
     let on = |value: f64| bench.tried(&knob.at(&bench.case, value)?);
     let (mut old, mut before) = match start {
@@ -225,10 +225,10 @@ pub(super) fn is_sure(change: &Change, excess: f64) -> bool {
 
 /// A number has few digits if it has at most this many.
 const FEW_DIGITS: usize = 4;
-/// A smaller relative change counts as a mistake in the number only with further evidence: see [`is_sure`].
+/// A relative change below this size counts as a mistake in the number only with further evidence: see [`is_sure`].
 const TRIFLE: f64 = 1e-3;
-/// A tiny change with many digits counts if the difference is at least this many times its bound. The change is then
-/// known to a hundredth.
+/// A tiny change with many digits counts as a mistake in the number if the differences are at least this many times
+/// their bounds. The change is then known to a hundredth.
 const TELLING: f64 = 100.0;
 
 /// A value near the value found on the thinned grid, if it also explains everything on the whole grid.

@@ -43,8 +43,8 @@ pub(super) fn found(question: &DiagnosisInput, wrong: &[Wrong]) -> Vec<Found> {
             continue;
         }
         let pairs = question.reference.iter().filter(|(channel, _)| channel.kind.suffix == one.channel.kind.suffix);
-        // Constant channels are left out, because a constant difference does not show that values are relative to
-        // another link or point.
+        // Constant channels are left out. Values that differ from a channel by a constant are not necessarily relative
+        // to another link or point.
         let all: Vec<(&Channel, &[f64])> = pairs.filter(|(_, values)| one.varies(values)).collect();
         if let Some(slip) = between(one, &all) {
             let is_plain = matches!(slip, DataSlip::Between { offset: 0.0, .. });

@@ -31,7 +31,7 @@ pub struct DiagnosisInput<'a> {
     pub case: &'a Case,
     /// Solver for changed cases, with errors far below the bounds.
     pub solver: &'a dyn Solver,
-    /// Time step of the suspect, or time between the suspect's rows (s), with the word for step or row; `None` if this
+    /// Time step of the suspect, or time between the suspect's rows (s), and the word "step" or "row"; `None` if this
     /// time is not constant or not known.
     pub step: Option<(f64, &'static str)>,
 }

@@ -164,8 +164,8 @@ fn fitted(wrong: &[Wrong]) -> Vec<Fitted> {
     let same_unit = wrong.iter().all(|one| one.channel.kind.unit == worst.channel.kind.unit);
     let is_angle = same_unit && worst.channel.kind.unit == Unit::Radian;
     let mut slips = Vec::new();
-    // An offset and a factor explain any values at one or two instants. Numbers are therefore fitted only if there are
-    // at least `FEWEST` instants.
+    // At one or two instants, an offset or a factor often fits by chance. Numbers are therefore fitted only if there
+    // are at least `FEWEST` instants.
     if gaps.len() >= FEWEST {
         if same_unit {
             let mean = |gaps: &[f64]| gaps.iter().sum::<f64>() / gaps.len() as f64;
@@ -186,7 +186,7 @@ pub(super) fn settled(by: f64, angle: bool, is_it: &dyn Fn(f64) -> bool) -> f64 
     (2..=9).map(|digits| significant_in(angle, by, digits)).find(|by| is_it(*by)).unwrap_or(by)
 }
 
-/// Smallest number of instants from which a number is fitted.
+/// A number is fitted only if there are at least this many instants.
 const FEWEST: usize = 4;
 
 impl Wrong<'_> {

@@ -16,9 +16,10 @@ pub(super) struct Candidate {
     pub(super) found: Found,
     /// Makes the changed case on any grid.
     pub(super) make: Make,
-    /// Sum of the changes in agreeing channels, each divided by its bound.
+    /// Sum over the agreeing channels: the change of the channel's values, divided by the channel's bound.
     pub(super) claim: f64,
-    /// If the change is a found value of a knob: the knob, the value, and the middle of all possible values.
+    /// If the change is a found value of a knob: the knob, the value, and the middle of the range of values that
+    /// explain the channels.
     pub(super) number: Option<(Rc<Knob>, [f64; 2])>,
 }
 

@@ -1,4 +1,4 @@
-//! Changes of the case without a number.
+//! Changes of the case without a fitted number.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -12,8 +12,8 @@ use linkage::drive::{Course, Load};
 use linkage::math::Vec2;
 use linkage::mechanism::{JointSide, Link, LinkId};
 
-/// Changes without a number: another configuration, gravity along another axis, mass centres at other positions,
-/// missing weights or inertia forces, loads at other points.
+/// Changes without a fitted number: another configuration, gravity along another axis, mass centres at other
+/// positions, missing weights or inertia forces, loads at other points.
 pub(super) fn whole_changes(tries: &Tries) -> Vec<Candidate> {
     let case = &tries.thin.case;
     let mut all: Vec<(Change, Make)> = Vec::new();
@@ -103,8 +103,8 @@ fn masses(case: &Case) -> Vec<(Change, Make)> {
     let mut found = Vec::new();
     let heavy = |(_, link): &(LinkId, &Link)| link.mass > 0.0;
     let all: Vec<(LinkId, &Link)> = case.mechanism.links().entries().skip(1).filter(heavy).collect();
-    // A mechanism with only one heavy link is left out, because the change of all links then equals the change of this
-    // link.
+    // If only one link has a mass, no separate change is needed for this link: the changes of all links have the same
+    // effect.
     for &(index, link) in all.iter().filter(|_| all.len() > 1) {
         let mut put = |part: fn(String) -> CasePart, make: Make| {
             found.push((Change { part: part(link.name.clone()), how: PartChange::Missing }, make));

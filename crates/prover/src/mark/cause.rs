@@ -33,7 +33,8 @@ pub enum MarkCause {
         /// Unit that the sheet asks for.
         asked: &'static str,
     },
-    /// The decimal point is at the wrong position. The field is the power of ten by which the number is too large.
+    /// The decimal point is at the wrong position. The number is too large by a power of ten, whose exponent is the
+    /// field.
     DecimalPoint(i32),
     /// Twice the value.
     Twice,
@@ -43,13 +44,13 @@ pub enum MarkCause {
     Zero,
     /// The derivative with respect to the crank angle instead of the derivative with respect to time.
     PerRadian,
-    /// The supplement: 180 deg minus the right angle.
+    /// The supplement: 180 deg minus the correct angle.
     Supplement,
-    /// The right angle plus 180 deg: the direction of the link is taken from the wrong end.
+    /// The correct angle plus 180 deg: the direction of the link is taken from the wrong end.
     OtherEnd,
-    /// The complement: 90 deg minus the right angle. The student may have exchanged cosine and sine.
+    /// The complement: 90 deg minus the correct angle. The student may have exchanged cosine and sine.
     Complement,
-    /// The right angle plus or minus 90 deg: the angle is measured from the vertical.
+    /// The correct angle plus or minus 90 deg: the angle is measured from the vertical.
     FromVertical,
     /// The angle relative to another link. The field is the name of that link.
     RelativeAngle(String),

@@ -1,4 +1,4 @@
-//! The criterion by which a cell is right.
+//! The criterion that decides whether a cell is right.
 
 use super::answers::StudentCell;
 use super::sheet::AnswerSheet;
@@ -21,7 +21,7 @@ pub enum MarkCriterion {
 }
 
 impl MarkCriterion {
-    /// Largest difference of the answer from the right value, in the printed unit.
+    /// Largest allowed difference between the answer and the right value, in the printed unit.
     #[must_use]
     pub fn allowed(self, sheet: &AnswerSheet, row: usize, column: usize, cell: &StudentCell) -> f64 {
         let asked = sheet.half_unit(column);

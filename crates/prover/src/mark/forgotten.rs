@@ -1,4 +1,4 @@
-//! Accelerations of the whole mechanism, from which a student forgot a normal or Coriolis part.
+//! Accelerations of the whole mechanism, if the student forgot a normal or Coriolis part.
 //!
 //! The accelerations solve linear equations: one or two for each joint, and one for the drive.
 //! The right-hand side consists of the centripetal parts of the links and the Coriolis parts of the slides.
@@ -67,7 +67,7 @@ pub(super) fn all(sheet: &AnswerSheet) -> Vec<Hypothesis> {
     if !table(LeftOut::Nothing).into_iter().enumerate().all(is_right) {
         return Vec::new();
     }
-    // A student may forget a part in a single quantity.
+    // A student may forget a part in one quantity only, so a single wrong quantity is enough evidence.
     let alone = |own: Hypothesis| Hypothesis { is_whole: false, ..own };
     let of = |(left_out, cause, prior)| alone(Hypothesis::of_table(cause, prior, table(left_out)));
     causes.into_iter().map(of).collect()

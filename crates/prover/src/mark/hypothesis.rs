@@ -68,8 +68,8 @@ impl Hypothesis {
         }
     }
 
-    /// The other cell whose right value the hypothesis predicts for the cell `at`; `None` if the value does not come
-    /// from another cell.
+    /// The other cell whose right value the hypothesis predicts for the cell `at`; `None` if the value is not the right
+    /// value of another cell.
     pub(super) fn other_cell(&self, at: CellPlace) -> Option<CellPlace> {
         match self.origin {
             Origin::OfColumn(column) => Some(CellPlace { column, ..at }),

@@ -132,7 +132,7 @@ enum Match {
     Against,
     /// The answer is the predicted number up to the error of a hand calculation.
     Near,
-    /// The answer is the predicted number up to its last digit.
+    /// The answer differs from the predicted number only by rounding.
     Exact,
 }
 
@@ -144,7 +144,7 @@ struct Search<'a> {
 
 /// Error of a number that is due to rounded intermediate results, as a fraction of the number.
 const ROUNDED: f64 = 1e-3;
-/// A cause may leave at most this fraction of the difference between answer and right value.
+/// A cause may leave at most this fraction of the difference between answer and right value unexplained.
 const LEFT: f64 = 0.3;
 /// A cause is named only if its score is above this value.
 const LEAST: f64 = -5.0;
@@ -184,13 +184,13 @@ impl Search<'_> {
         }
     }
 
-    /// Largest difference from the predicted value at which an answer counts as this value.
+    /// An answer that differs from the predicted value by at most this amount counts as the predicted value.
     fn resolution(&self, hypothesis: &Hypothesis, at: CellPlace, answer: &StudentCell, value: f64) -> f64 {
         let asked = self.sheet.half_unit(at.column) * hypothesis.factor.abs();
         asked.larger(answer.half_unit().smaller(0.02 * value.abs())) + ROUNDED * value.abs()
     }
 
-    /// The cause of a wrong cell with the highest score.
+    /// Of all causes of the wrong cell `at`, the cause with the highest score.
     fn cause(
         &self,
         at: CellPlace,
@@ -248,7 +248,8 @@ impl Search<'_> {
     }
 }
 
-/// The score of a cause from other cells: the largest of the scores from its row, its column and the whole sheet.
+/// The part of a cause's score that comes from other cells: the largest of the scores from its row, its column and the
+/// whole sheet.
 /// The column does not count for a mistake that changes whole positions.
 /// The score has a lower limit, because a student may make a mistake in a single cell only.
 fn support(at: CellPlace, is_whole: bool, matches: &[Vec<Match>]) -> f64 {

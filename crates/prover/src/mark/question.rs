@@ -98,7 +98,8 @@ pub const ANSWER_WORDS: [Stage; 5] =
 ///
 /// The stages of positions, velocities and accelerations select the angles, angular velocities and angular
 /// accelerations of all links that can turn, except the driving link.
-/// The stages of velocities and accelerations also select the magnitudes at all points that join moving links.
+/// The stages of velocities and accelerations also select the magnitudes of the velocities or accelerations of all
+/// points that join moving links.
 ///
 /// # Errors
 /// [`ErrorKind::Input`] for a word that selects nothing.

@@ -1,4 +1,5 @@
-//! Mistakes that follow from the right values alone: sign, unit, decimal point, angles, exchanged cells.
+//! Mistakes whose results can be computed from the right values alone: sign, unit, decimal point, angles, exchanged
+//! cells.
 
 use std::f64::consts::{PI, TAU};
 
@@ -22,7 +23,7 @@ fn units(of: Unit) -> &'static [(&'static str, f64)] {
     }
 }
 
-/// The hypotheses of mistakes that follow from the right values alone.
+/// The hypotheses of mistakes whose results can be computed from the right values alone.
 pub(super) fn all(sheet: &AnswerSheet) -> Vec<Hypothesis> {
     let mut found = Vec::new();
     let mut rule = |cause: MarkCause, prior: f64, factor: f64, rule: &dyn Fn(usize, usize, f64) -> Option<f64>| {

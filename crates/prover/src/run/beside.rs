@@ -15,7 +15,7 @@ use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Trajectory};
 use linkage::work::{Work, counted};
 
-/// Comparison of one channel of a side with its true values.
+/// Comparison of one channel of a side with the values that count as true: external numbers, or the other side.
 #[derive(Clone, Debug)]
 pub struct Deviation {
     /// The channel.
@@ -35,11 +35,11 @@ pub struct AnalyticSide {
     pub name: &'static str,
     /// Every compared channel; empty if the side failed, or if there are no values to compare with.
     pub deviations: Vec<Deviation>,
-    /// Largest opening of a joint, divided by the larger of two lengths: the mechanism's size and the mechanism's
-    /// distance from the origin.
+    /// Largest opening of a joint, divided by the larger of two lengths: the mechanism's size and the largest distance
+    /// of a joint from the origin.
     pub closure: Option<f64>,
     /// Largest difference between the balancing moment from equilibrium and the balancing moment from powers, divided
-    /// by the moments in the balance.
+    /// by the largest moment on the driving link.
     pub balance: Option<f64>,
     /// Work done to solve the case.
     pub work: Work,
@@ -52,7 +52,7 @@ pub struct AnalyticSide {
 pub struct BothSides {
     /// Side 1 and side 2.
     pub sides: [AnalyticSide; 2],
-    /// The checks of the sides that a proof makes; empty if a side failed.
+    /// The checks on the sides, the same as in a proof; empty if a side failed.
     pub checks: Vec<Check>,
     /// The overall verdict of `checks`; inconclusive if a side failed.
     pub verdict: Verdict,

@@ -14,12 +14,12 @@ use linkage::math::statistics::{ascending, share};
 use linkage::math::{KeepNan, largest_size};
 use linkage::trajectory::{Channel, ChannelKind, Stage, Trajectory, Unit};
 
-/// Upper limit of a ratio for an analytic side: the opening of a joint, divided by the larger of two lengths.
-/// These lengths are the mechanism's size and the mechanism's distance from the origin.
-/// For the shipped mechanisms the ratio is at most 5e-16.
+/// Largest allowed opening of a joint of an analytic side, as a fraction of a length.
+/// The length is the mechanism's size or, if larger, the largest distance of a joint from the origin.
+/// For the shipped mechanisms the fraction is at most 5e-16.
 const CLOSURE: f64 = 1e-13;
 /// Two methods compute the balancing moment of an analytic side. The difference of the two results, divided by the
-/// moments in the balance, must not exceed this limit.
+/// largest moment on the driving link, must not exceed this limit.
 const TWO_WAYS: f64 = 1e-11;
 
 /// Returns `TWO_WAYS`, or a larger limit for a side that passes change points. Near change points, forces are known

@@ -43,7 +43,7 @@ fn scale(check: &mut Check, dial: f64) {
     judge(&mut check.verdict, check.value, &mut check.bound, dial);
 }
 
-/// Judges again a verdict that is based on a bound.
+/// Renews a verdict that is based on a bound.
 /// A published number that `docs/findings.md` calls wrong may have the verdict `disagree` although it is within its
 /// bound. This verdict does not change.
 fn judge(verdict: &mut Verdict, value: f64, bound: &mut f64, dial: f64) {
@@ -53,8 +53,8 @@ fn judge(verdict: &mut Verdict, value: f64, bound: &mut f64, dial: f64) {
     match (&*verdict, &again) {
         (Verdict::Agree { .. }, _) => *verdict = again,
         (Verdict::Disagree { .. }, _) if beyond => *verdict = again,
-        // The verdict was expected, but the number no longer agrees with the corrected value, so the verdict becomes
-        // disagree.
+        // The verdict was `expected`, because the number agreed with the corrected value. With the new bound the number
+        // does not agree, so the verdict becomes `disagree`.
         (Verdict::Expected { .. }, Verdict::Disagree { .. }) => *verdict = again,
         (Verdict::Disagree { .. } | Verdict::Expected { .. } | Verdict::Inconclusive { .. }, _) => {}
     }

@@ -2,7 +2,7 @@
 //! motion.
 //!
 //! A load may jump when its link reverses. A load that is zero at the reversal does not jump, so no instant is left
-//! out. A table of loads may jump at a crank angle.
+//! out. A load that is a table over the crank angle may jump at an angle of the table.
 //! At the end of a piece of a cam's law, the third derivative of the motion jumps. The error of a second difference at
 //! this end depends on the position of the jump within the step.
 //! At a change point an engine follows one of many solutions.
@@ -26,8 +26,8 @@ const STEPS: f64 = 8.0;
 /// one step late.
 const IMPULSES: f64 = 5.0;
 /// Number of steps instead of `STEPS` for a prescribed motion with extrapolated impulses. The instants at which a load
-/// jumps differ between the runs by at most this fraction of a step, because the velocities differ by about h^2 / 12
-/// times their second derivative with the step h.
+/// jumps differ between the runs by at most this fraction of a step, because the velocities of runs with the step h
+/// have an error of about h^2 / 12 times their second derivative.
 const APART: f64 = 0.25;
 
 /// Number of steps instead of `STEPS` for accelerations and forces at the start of a free motion with friction. The
@@ -117,8 +117,8 @@ impl Doubt {
         self.0.iter().map(|own| !is_out(own)).collect()
     }
 
-    /// Fraction of the instants that are left out but would be kept with a finer step. The two ends of the motion are
-    /// not counted.
+    /// Number of instants that are left out but would be kept with a finer step, divided by the number of all instants.
+    /// The two ends of the motion are not counted.
     pub(super) fn too_coarse(&self) -> f64 {
         let out = self.0.iter().filter(|own| own.by_step).count().saturating_sub(ENDS);
         out as f64 / self.0.len().max(1) as f64
@@ -175,7 +175,7 @@ mod tests {
     use linkage::trajectory::Trajectory;
     use scenario::Scenario;
 
-    /// The doubt of a run that equals the reference, at steps of 1.1 ms.
+    /// The doubtful channels of a run that equals the reference, at steps of 1.1 ms.
     fn doubt(case: &Case, route: Route) -> (Doubt, Trajectory) {
         let own = Arc::new(observe(case, &AssurSolver, Watch::Side, &mut |_| {}).unwrap_or_else(|stopped| {
             panic!("{}", stopped.error);

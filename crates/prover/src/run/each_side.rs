@@ -11,7 +11,7 @@ pub enum Reference {
     /// Side 1: Assur groups, dyads in closed form.
     #[default]
     Assur,
-    /// Side 2: the whole mechanism by Newton and Lagrange multipliers.
+    /// Side 2: the whole mechanism by Newton's method and Lagrange multipliers.
     Newton,
 }
 

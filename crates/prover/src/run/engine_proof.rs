@@ -23,7 +23,7 @@ pub struct EngineInfo {
     pub controls_error: bool,
     /// Settings that influence the result, by name, as text.
     pub told: Vec<(&'static str, String)>,
-    /// For each stage, how the engine provides its channels.
+    /// For each stage, how the engine provides the channels of this stage.
     pub provides: Vec<(&'static str, Provision)>,
 }
 
@@ -75,15 +75,15 @@ pub struct ChannelProof {
 pub struct SettingsSearch {
     /// Number of runs made. Any two runs differ in step or number of sweeps.
     pub runs: usize,
-    /// Work done, in steps without sweeps. Twenty sweeps count as one additional step.
+    /// Work done. The unit is the work of one step without sweeps. Twenty sweeps count as one additional step.
     pub effort: f64,
-    /// Allowed work, in steps without sweeps.
+    /// Allowed work, in the unit of `effort`.
     pub budget: f64,
     /// Why the search ended.
     pub end: SearchEnd,
 }
 
-/// Why a search of settings ended.
+/// Why a search for settings ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SearchEnd {
     /// Further refinement is not needed or does not help. Either every channel has the target accuracy, or every
@@ -108,7 +108,7 @@ impl SearchEnd {
             return;
         }
         let (why, way_out) = match self {
-            // The result depends on the given settings only, so the verdict keeps its advice.
+            // More work would not change the result, so the verdict keeps its advice.
             SearchEnd::Decided | SearchEnd::Nothing => return,
             SearchEnd::Rounding => (sentences::A_FINER_STEP_ADDS_MORE_ROUNDING, vec![Advice::OtherEngine]),
             SearchEnd::Budget => (sentences::THE_WORK_THAT_WAS_ALLOWED, vec![Advice::MoreWork { to: 10.0 * budget }]),
@@ -178,8 +178,8 @@ impl EngineProof {
     }
 
     /// The part of the verdict that comes from the forces that the engine itself exerts.
-    /// An inconclusive verdict on these forces is reported but does not change the whole verdict, because motion and
-    /// resulting forces are judged independently of these forces.
+    /// An inconclusive verdict on these forces is reported but does not change the whole verdict, because the motion,
+    /// and the forces that follow from the motion, are judged independently of the exerted forces.
     /// The engine computes these forces as impulses. Impulses converge with a lower order than the motion, and need the
     /// true masses and many sweeps.
     #[must_use]
@@ -218,7 +218,7 @@ impl EngineProof {
         channels.map(|own| own.residual.channel.to_string()).chain(checks.map(Check::name)).collect()
     }
 
-    /// Changes all verdicts from disagree to inconclusive, with a reason and advice.
+    /// Changes every verdict `disagree` to `inconclusive`, with a reason and advice.
     pub(super) fn doubt(&mut self, why: &str, way_out: &Advice) {
         for verdict in self.verdicts_mut() {
             if let Verdict::Disagree { place } = verdict {

@@ -47,8 +47,8 @@ pub(super) fn prove(
     let Judged { mut proof, run, .. } = match found {
         Ok(found) => found,
         Err(Stopped { error, kept, spent }) => {
-            // If no work remains for finer steps, perhaps only the coarse steps fail. The verdict is then inconclusive,
-            // with the advice to allow more work.
+            // If the allowed work was too small for finer steps, the engine may have failed only because the steps were
+            // coarse. The verdict is then inconclusive, with the advice to allow more work.
             let (verdict, failure) = match spent {
                 None => (Verdict::open(error.message()), Some(error)),
                 Some(work) => {
