@@ -39,7 +39,7 @@ pub struct UnitFamily {
     pub further: &'static [NamedUnit],
     /// Upper limit of the magnitude in SI, far beyond any real machine. A number above the limit is a mistake in the
     /// unit.
-    /// Up to this limit, solvers and engines can still handle products with other quantities of the file.
+    /// Up to this limit, solvers and engines can multiply the number by other quantities of the file without overflow.
     pub most: f64,
 }
 
