@@ -144,8 +144,8 @@ pub fn with_numbers(text: &str, name: &str, numbers: &[(VariedNumber, f64)]) -> 
         let kept: Vec<&str> = title.split(", ").filter(|part| !has_digit(part)).collect();
         document["title"] = value(kept.join(", "));
     }
-    // `stretched` has two numbers for every link: the largest magnitude of its changed coordinates, and the new value of
-    // this coordinate divided by the old value. `heavier` has the new mass of every link divided by the old mass.
+    // `stretched` has two numbers for every link: the largest magnitude of its changed coordinates, and the new value
+    // of this coordinate divided by the old value. `heavier` has the new mass of every link divided by the old mass.
     let mut stretched: BTreeMap<&str, (f64, f64)> = BTreeMap::new();
     let mut heavier: BTreeMap<&str, f64> = BTreeMap::new();
     for (number, new) in numbers {
