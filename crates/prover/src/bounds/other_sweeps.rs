@@ -13,9 +13,9 @@
 //! - If the differences continue to shrink by the factor s, the remaining error is s / (1 - s) times the last
 //!   difference (Aitken). This is an upper limit: the number of sweeps grows by the factor r from run to run, so if the
 //!   convergence is geometric, each quotient of successive differences is smaller than the one before.
-//! - The differences of a channel may grow at first: if the iteration has hardly begun, the result changes in proportion
-//!   to the number of sweeps, and s is close to r. If one mode dominates the iteration, the remaining error is then at
-//!   most (r - 1) s / (r - s) times the last difference.
+//! - The differences of a channel may grow at first: if the iteration has hardly begun, the result changes in
+//!   proportion to the number of sweeps, and s is close to r. If one mode dominates the iteration, the remaining error
+//!   is then at most (r - 1) s / (r - s) times the last difference.
 //! - The position channel with the slowest convergence decides for all channels. If the differences of this channel
 //!   grow, the error of every channel is unknown.
 //!
