@@ -19,7 +19,7 @@ use linkage::math::statistics::distinct;
 use scenario::{Claim, Formulas};
 
 /// The simplest explanation of a wrong formula.
-/// If the variant says nothing else, correcting this cause removes the whole difference.
+/// Unless the description of a variant says otherwise, the whole difference vanishes if this cause is corrected.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FormulaCause {
     /// One slip in writing.
@@ -28,9 +28,9 @@ pub enum FormulaCause {
     Offset(f64),
     /// Constant ratio of the formula's value to the mechanism's value.
     Factor(f64),
-    /// A term or factor of inputs, parameters and earlier formulas is missing.
+    /// A term or a factor is missing that consists of inputs, parameters and earlier formulas.
     Missing(Missing),
-    /// Terms of quantities of the mechanism are missing, such as the angular velocity of a link.
+    /// Terms are missing that contain quantities of the mechanism, such as the angular velocity of a link.
     Terms(Vec<Term>),
     /// The formula is right up to a value of the input. Beyond this value the formula follows a wrong branch.
     Leaves {
