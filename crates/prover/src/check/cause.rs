@@ -249,8 +249,8 @@ fn sought(trial: &mut Trial, claim: &Claim, course: &KnownTrajectory) -> Option<
     // match only one number. The match is then weak evidence.
     let is_weak = trial.is_constant() || trial.is_number;
     if let Some(first) = sound.first().copied() {
-        // The evidence for a slip is stronger if it is a wrong sign or a wrong unit, or if only its correction makes the
-        // units consistent.
+        // The evidence for a slip is stronger if it is a wrong sign or a wrong unit, or if only its correction makes
+        // the units consistent.
         let own = formulas.list[trial.index].tree.clone();
         let is_natural = match first.slip.kind {
             SlipKind::Sign | SlipKind::Branch | SlipKind::PerRadian | SlipKind::PerSecond => true,

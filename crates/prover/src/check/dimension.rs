@@ -141,8 +141,8 @@ fn claimed(claim: &Claim) -> Known {
 }
 
 /// Dimension of a unit as written in channels and keys.
-/// `N_m` counts as newton metre, not as newton per metre, because moments are more frequent in formulas of linkages than
-/// spring rates.
+/// `N_m` counts as newton metre, not as newton per metre, because moments are more frequent in formulas of linkages
+/// than spring rates.
 fn of_unit(unit: &str) -> Known {
     Some(match unit {
         "rad" | "deg" => NONE,
