@@ -20,8 +20,8 @@ macro_rules! templates {
     };
 }
 
-/// All templates, in the order in which they are listed to the user. A new template needs a file in `templates/` and its
-/// name in this list.
+/// All templates, in the order in which they are listed to the user. A new template needs a file in `templates/` and
+/// its name in this list.
 pub static TEMPLATES: &[Template] = templates![
     "four-bar",
     "slider-crank",

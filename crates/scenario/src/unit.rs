@@ -127,7 +127,7 @@ pub static MASS_PER_LENGTH: UnitFamily = UnitFamily::of(sentences::A_MASS_PER_LE
 /// Powers.
 pub static POWER: UnitFamily = UnitFamily::of("a power", &[si("W"), unit("kW", 1e3, 1.0)], 1e20);
 
-/// The units in which inputs are written, for all kinds of input.
+/// The families of units in which inputs of any kind are written.
 pub static INPUTS: [&UnitFamily; 2] = [&ANGLE, &LENGTH];
 /// The units in which rates of inputs are written.
 pub static INPUT_RATES: [&UnitFamily; 2] = [&ANGULAR_SPEED, &SPEED];
