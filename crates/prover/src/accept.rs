@@ -213,7 +213,7 @@ fn by_name(accepted: &Accepted) -> BTreeMap<&str, &AcceptedChannel> {
 }
 
 /// Returns the accepted values of a channel.
-/// `None` if only one of the accepted channel and the found channel has a root mean square.
+/// `None` if the channel has none, or if only one of the two runs gives a root mean square for it.
 fn counterpart<'a>(
     known: &BTreeMap<&str, &'a AcceptedChannel>,
     found: &AcceptedChannel,

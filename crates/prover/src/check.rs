@@ -1,4 +1,5 @@
-//! Claims: compares the formulas of a scenario with the results of one side of the proof, by value and by derivative.
+//! Check of claims: the formulas of a scenario, and their time derivatives, are compared with the results of one side
+//! of the proof.
 //!
 //! The rounding error of a formula is propagated through its operations ([`formula::Rounded`]).
 //! The error of the side's channels is propagated through the claim.

@@ -242,8 +242,8 @@ impl<'a> Rows<'a> {
         (0..self.records.len()).map(|row| self.number(row, column)).collect()
     }
 
-    /// The numbers of a column. If `digits` is given, the numbers have at least `digits` decimals. If `digits` is
-    /// `None`, the column shows the number of decimals.
+    /// The numbers of a column. If `digits` is given, each number counts as printed with `digits` decimals, or with
+    /// those of its cell if the cell has more. If `digits` is `None`, the rounding errors follow from the cells.
     fn printed(&self, column: usize, digits: Option<i32>) -> Result<Vec<Printed>> {
         let cells = self.numbers(column)?;
         Ok(match digits {

@@ -20,7 +20,8 @@ macro_rules! templates {
     };
 }
 
-/// All templates, in the order of lists. A new template needs a file in `templates/` and its name in this list.
+/// All templates, in the order in which they are listed to the user. A new template needs a file in `templates/` and
+/// its name in this list.
 pub static TEMPLATES: &[Template] = templates![
     "four-bar",
     "slider-crank",
@@ -42,7 +43,7 @@ pub static TEMPLATES: &[Template] = templates![
     "cam-follower",
 ];
 
-/// The template with a name, in which `_` may replace `-`.
+/// The template called `name`. Upper case counts as lower case, and `_` or a blank in `name` counts as `-`.
 ///
 /// # Errors
 /// [`ErrorKind::Input`] if no template has the name.
@@ -91,7 +92,7 @@ impl Template {
         self.document()["title"].as_str().unwrap_or_default().into()
     }
 
-    /// Name of the template as a scenario.
+    /// Name of a scenario that is made from the template, unless another name is given.
     #[must_use]
     pub fn scenario_name(&self) -> String {
         self.name.replace('-', "_")
@@ -104,7 +105,7 @@ impl Template {
         all.iter().map(|(key, number)| format!("{key} = {number}")).collect::<Vec<_>>().join(", ")
     }
 
-    /// The text of a scenario: the template with `dimensions` in place of its dimensions.
+    /// The text of a scenario: the template, in which each dimension listed in `dimensions` has the value given there.
     /// The scenario gets the name `name` if this name is allowed for a scenario.
     pub fn scenario(&self, name: &str, dimensions: &[(String, f64)]) -> Result<String> {
         let mut document = self.document();
@@ -125,8 +126,7 @@ impl Template {
     fn lacks(&self, key: &str) -> Error {
         let all = parameters(&self.document());
         let keys = || all.iter().map(|(key, _)| key.as_str());
-        // First, the unknown key with a unit added is tried, because such a key is a better guess than the nearest
-        // spelling.
+        // A key that is the unknown key plus a unit is a better guess than the key with the nearest spelling.
         let with_unit = keys().find(|own| own.strip_prefix(key).is_some_and(|unit| unit.starts_with('_')));
         let near = with_unit.or_else(|| nearest(key, keys()));
         let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));

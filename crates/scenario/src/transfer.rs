@@ -38,10 +38,11 @@ fn word(order: u32, channel: &Channel) -> String {
 /// The transfer function, instant centre or acceleration pole called `name` as an expression of channels, and its unit.
 /// `None` if the case has no quantity of this name.
 ///
-/// With q for a position or an angle, w for the rate of the input and e for its acceleration:
+/// Let q be a position or an angle, q' and q'' its time derivatives, w the velocity of the input phi, and e the
+/// acceleration of the input. Then
 /// dq/dphi = q' / w, and d2q/dphi2 = (q'' - dq/dphi e) / w^2 (derivatives of q(phi(t)) by the chain rule).
-/// At the instant centre of two links, the velocities of both links are equal; at the pole of a link, its acceleration
-/// is zero.
+/// At the instant centre of two links, the velocities of both links are equal. The pole of a link is its point without
+/// acceleration.
 pub(super) fn named(name: &str, case: &Case) -> Option<(Found, &'static str)> {
     let (si, factor) = match name.strip_suffix("_mm") {
         Some(stem) => (format!("{stem}_m"), Some(1e3)),
@@ -98,8 +99,8 @@ fn centre(name: &str, case: &Case) -> Option<FormulaTree> {
     let links = || case.mechanism.links().iter();
     let is_pair = |one: &Link, other: &Link| one.name != other.name && of == format!("{}.{}", one.name, other.name);
     let (one, other) = links().find_map(|one| Some((one, links().find(|other| is_pair(one, other))?)))?;
-    // Component of the velocity of the link's point that coincides with the origin of the frame.
-    // The coordinate of the instant centre follows from this component.
+    // A coordinate of the instant centre follows from one velocity component in each of the two links: that of the
+    // link's point which momentarily lies at the origin of the ground's frame.
     let (velocity, across, sign) = match axis {
         "x_m" => ("vy_m_s", "x_m", Operator::Minus),
         "y_m" => ("vx_m_s", "y_m", Operator::Plus),

@@ -15,7 +15,7 @@ use linkage::input::Input;
 use linkage::mechanism::{Joint, JointId, Link, LinkId, Mechanism, TransmissionDesign, TransmissionKind};
 use std::f64::consts::FRAC_PI_2;
 
-/// Reads the keys of a type of transmission. The argument of type [`Link`] is the second member.
+/// Reads the keys of a type of transmission. The [`Link`] is the second of the two links that the transmission couples.
 /// The reader of cams also returns the units of the lifts, if the lifts have units.
 type ReadTransmission = fn(&mut TomlTable, &Link) -> Result<(TransmissionKind, Option<&'static UnitFamily>)>;
 
@@ -23,7 +23,7 @@ type ReadTransmission = fn(&mut TomlTable, &Link) -> Result<(TransmissionKind, O
 const TYPES: Words<ReadTransmission> =
     &[("gears", gears), ("rack", rack), ("screw", screw), ("belt", belt), ("cam", cam::read)];
 
-/// Words for the contact of gears, each with the sign that the larger number of teeth has in equations.
+/// Words for the contact of gears, each with a sign. In equations, the larger number of teeth has this sign.
 const CONTACTS: Words<f64> = &[("external", 1.0), ("internal", -1.0)];
 
 /// Words for the strands of a belt, and whether they cross.

@@ -39,7 +39,7 @@ pub struct UnitFamily {
     pub further: &'static [NamedUnit],
     /// Upper limit of the magnitude in SI, far beyond any real machine. A number above the limit is a mistake in the
     /// unit.
-    /// Up to this limit, solvers and engines can still handle products with other quantities of the file.
+    /// Up to this limit, solvers and engines can multiply the number by other quantities of the file without overflow.
     pub most: f64,
 }
 
@@ -127,7 +127,7 @@ pub static MASS_PER_LENGTH: UnitFamily = UnitFamily::of(sentences::A_MASS_PER_LE
 /// Powers.
 pub static POWER: UnitFamily = UnitFamily::of("a power", &[si("W"), unit("kW", 1e3, 1.0)], 1e20);
 
-/// The units in which inputs are written, for all kinds of input.
+/// The families of units in which inputs of any kind are written.
 pub static INPUTS: [&UnitFamily; 2] = [&ANGLE, &LENGTH];
 /// The units in which rates of inputs are written.
 pub static INPUT_RATES: [&UnitFamily; 2] = [&ANGULAR_SPEED, &SPEED];

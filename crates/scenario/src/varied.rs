@@ -21,7 +21,7 @@ linkage::words! {
         Lengths = "lengths",
         /// Speeds of drives.
         Speed = "speed",
-        /// Masses, with the moments of inertia of the same link.
+        /// Masses. In a file without parameters, the moment of inertia of a link is scaled with the link's mass.
         Masses = "masses",
         /// Forces and moments of loads.
         Loads = "loads",
@@ -126,11 +126,12 @@ impl VariedNumber {
     }
 }
 
-/// The text of a file with another name and with other `numbers`.
+/// The text of a scenario file, in which the scenario has the name `name`, and some numbers have the new values given
+/// in `numbers`.
 /// Sections that are valid only for the original numbers are left out.
 /// If `numbers` is not empty, comments and the parts of the title that contain digits are left out too.
-/// The mass centre of a link is scaled with the link's farthest coordinate. The moment of inertia of a link is scaled
-/// with the link's mass.
+/// The coordinates of a link's mass centre are multiplied by the ratio, new to old, of the link's coordinate with the
+/// largest magnitude. The moment of inertia of a link is multiplied by the ratio of the link's masses.
 pub fn with_numbers(text: &str, name: &str, numbers: &[(VariedNumber, f64)]) -> Result<String> {
     let bare = if numbers.is_empty() { text.to_string() } else { without_comments(text) };
     let mut document = document(&bare)?;
@@ -143,8 +144,8 @@ pub fn with_numbers(text: &str, name: &str, numbers: &[(VariedNumber, f64)]) -> 
         let kept: Vec<&str> = title.split(", ").filter(|part| !has_digit(part)).collect();
         document["title"] = value(kept.join(", "));
     }
-    // `stretched` has two numbers for every link: the magnitude of its farthest coordinate, and the new value of this
-    // coordinate divided by the old value. `heavier` has the new mass of every link divided by the old mass.
+    // `stretched` has two numbers for every link: the largest magnitude of its changed coordinates, and the new value
+    // of this coordinate divided by the old value. `heavier` has the new mass of every link divided by the old mass.
     let mut stretched: BTreeMap<&str, (f64, f64)> = BTreeMap::new();
     let mut heavier: BTreeMap<&str, f64> = BTreeMap::new();
     for (number, new) in numbers {

@@ -6,7 +6,7 @@ use strsim::osa_distance;
 /// Upper limit of the length of a word that is checked for misspelling (characters).
 /// The cost grows with the product of the lengths of word and candidate.
 const LONGEST: usize = 100;
-/// Upper limit of the number of candidates that are compared with a wrong word and shown.
+/// Upper limit of the number of candidates. If there are more, none is compared with the wrong word, and none is shown.
 const MOST: usize = 1000;
 
 /// The candidate nearest to `word`, if its edit distance from `word` is small enough.
@@ -53,7 +53,7 @@ pub fn suggestion<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>,
     }
 }
 
-/// Words of a key, each with its meaning.
+/// Words that are allowed as the value of a key, each with what it stands for.
 pub type Words<T> = &'static [(&'static str, T)];
 
 /// The words alone.

@@ -78,8 +78,8 @@ impl Convergence {
         };
         // If the observed order is below half of the formal order, the error may be as large as the coarser difference.
         // If only the finer difference is rounding, the coarser difference gives the estimate. If the observed order
-        // exceeds the formal order by more than one, the coarser difference gives a lower limit of the estimate: errors
-        // of several orders then cancel in the finer difference, which may occur if there are few instants.
+        // exceeds the formal order by more than one, the coarser difference gives a lower limit of the estimate. The
+        // finer difference is then too small: errors of several orders cancel in it, as may occur with few instants.
         let before = largest_size(&coarse);
         let largest = match observed {
             _ if observed.is_nan() => largest.larger(before * 0.5f64.powf(order)),
@@ -220,7 +220,7 @@ mod tests {
     fn a_coarse_difference_replaces_a_fine_one_below_rounding() {
         // With second order, the difference between the single and the half step is expected to be a quarter of the
         // difference between the double and the single step.
-        // The estimate adds a third of that quarter.
+        // The estimated error of the run at the single step is 4/3 of that quarter.
         let found = Convergence::of(&[3e-6], &[0.0], &[0.0], false, 2.0, 1e-12);
         assert!(found.observed.is_nan() && (found.error - 1e-6).abs() < 1e-18, "{found:?}");
     }

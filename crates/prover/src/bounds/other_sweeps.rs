@@ -11,13 +11,13 @@
 //! Let each number of sweeps be r times the previous one, and each difference s times the previous one.
 //!
 //! - If the differences continue to shrink by the factor s, the remaining error is s / (1 - s) times the last
-//!   difference (Aitken). This is an upper limit, because differences of a geometric convergence shrink faster and
-//!   faster.
-//! - Differences may grow at first: an iteration that has hardly begun changes little from run to run, and s is close
-//!   to r. If one mode dominates the iteration, the remaining error is then at most (r - 1) s / (r - s) times the last
-//!   difference.
+//!   difference (Aitken). This is an upper limit: the number of sweeps grows by the factor r from run to run, so if the
+//!   convergence is geometric, each quotient of successive differences is smaller than the one before.
+//! - The differences of a channel may grow at first: if the iteration has hardly begun, the result changes in
+//!   proportion to the number of sweeps, and s is close to r. If one mode dominates the iteration, the remaining error
+//!   is then at most (r - 1) s / (r - s) times the last difference.
 //! - The position channel with the slowest convergence decides for all channels. If the differences of this channel
-//!   grow, the error is unknown.
+//!   grow, the error of every channel is unknown.
 //!
 //! See docs/numerics/bounds.md.
 
@@ -38,7 +38,7 @@ pub struct OtherSweeps<T> {
     /// Factor between the numbers of sweeps of successive runs.
     pub factor: f64,
     /// Largest [growth](OtherSweeps::growth) over the position channels; 0 if no growth is known.
-    /// If the forces that the engine itself exerts are judged: the largest growth over these forces instead.
+    /// For the forces that the engine itself exerts, the largest growth over these forces is used instead.
     pub growth: f64,
 }
 

@@ -11,7 +11,7 @@ use linkage::input::Input;
 use linkage::math::statistics::{differences, half_range, quantile, rms, share, sorted_sizes};
 use linkage::trajectory::{Channel, Trajectory, Unit};
 
-/// A channel's scale is at least this fraction of the natural size of its quantity.
+/// A channel's scale is at least this fraction of the natural size of its quantity (both are defined at [`scales`]).
 /// A nearly constant coordinate inherits errors from neighbouring coordinates, so its small motion is no measure of its
 /// errors.
 const SMALLEST_SHARE: f64 = 1e-3;
@@ -51,15 +51,15 @@ impl Residual {
 }
 
 /// A force counts as rounding if it is at most this fraction of the largest force.
-/// Forces of the analytic sides are accurate to a tenth of this limit.
+/// The forces that the analytic sides compute have errors of at most a tenth of this limit.
 /// Any value counts as rounding if it is at most this fraction of its quantity's natural size in `Built`.
 const VANISHING: f64 = 1e-9;
 
 /// Scale of every channel: half the range of its values over the run.
 /// The scale is at least a thousandth of the natural size of the quantity.
 /// For a rate, a force or a moment the scale is also at least a tenth of the largest value.
-/// The scale of a constant rate, force or moment therefore depends on its value.
-/// The largest value does not limit the scale of a coordinate, because the origin of a coordinate is arbitrary.
+/// A constant rate, force or moment therefore has a scale that is proportional to its value.
+/// A coordinate has no such lower limit from its largest value, because the origin of a coordinate is arbitrary.
 ///
 /// The natural size of coordinates is the largest half range among the quantity's channels.
 /// The natural size of a quantity that is not a coordinate is the largest value of its channels.
@@ -80,7 +80,8 @@ pub fn scales(trajectory: &Trajectory) -> Vec<f64> {
 /// channel's value.
 ///
 /// A natural size that is no larger than the rounding error of the size in `built` is replaced by the size in `built`.
-/// Examples are a balanced rotor without gravity and a mechanism in equilibrium.
+/// This is the case, for example, for the forces of a balanced rotor without gravity, and for the rates of a mechanism
+/// in equilibrium.
 #[must_use]
 pub(crate) fn scales_beyond(errors: &[f64], trajectory: &Trajectory, built: &Built) -> Vec<f64> {
     let is_instant = trajectory.times().len() == 1;
@@ -116,8 +117,8 @@ pub(crate) struct Built {
     pub(crate) length: f64,
     /// Speed of the fastest drive (rad/s); for a free link, its nominal speed.
     pub(crate) speed: f64,
-    /// The larger of two forces (N): the weight of all links, and the force that accelerates the links at the rates
-    /// that follow from `speed` and `length`.
+    /// The larger of two forces (N): the weight of all links, and their mass times the acceleration
+    /// `speed`^2 `length`.
     pub(crate) force: f64,
 }
 

@@ -160,13 +160,14 @@ impl Verdict {
     }
 }
 
-/// If a bound is below this fraction of the widest conclusive bound, no order of convergence is required.
+/// If a bound is at most this fraction of the widest bound that proves agreement, no order of convergence is required.
 /// Below this limit, runs at three steps differ so little that rounding or the last iterations determine the order.
-/// The bound is reliable nevertheless: without an order, its discretisation part is six to ten times the larger
-/// difference between two of the three runs.
+/// The bound is reliable nevertheless: if the runs show no order, the discretisation part of the bound is six to
+/// ten times the larger of the two differences between successive runs.
 const NEGLIGIBLE: f64 = 0.1;
 /// A number disagrees with a bound that is too wide to prove agreement only if the number exceeds this multiple of the
-/// bound. The factor equals the larger safety factor of the estimate, which is applied a second time.
+/// bound. The factor equals the larger safety factor of the estimate, and applies in addition to the safety factor that
+/// the bound contains.
 const DISPROVEN: f64 = 3.0;
 
 /// Text that names the largest part of an engine's error, for the end of a reason, and advice on how to reduce this
@@ -408,7 +409,7 @@ mod tests {
         assert_eq!(check(1e-4, 2.0, 5e-2).word(), "inconclusive");
     }
 
-    /// A number with the printed value 5 and the correct value 7, each known to half a unit.
+    /// Verdict on the number `found`, if 5 is printed, 7 is correct, and both are known to half a unit.
     fn known_wrong(found: f64) -> Verdict {
         let against = |number: f64| {
             Check::new("f", (found - number).abs(), Tolerance { bound: 0.5, basis: BoundBasis::Wanted("test") }, "N")

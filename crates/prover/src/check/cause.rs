@@ -19,7 +19,7 @@ use linkage::math::statistics::distinct;
 use scenario::{Claim, Formulas};
 
 /// The simplest explanation of a wrong formula.
-/// If the variant says nothing else, correcting this cause removes the whole difference.
+/// Unless the description of a variant says otherwise, the whole difference vanishes if this cause is corrected.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FormulaCause {
     /// One slip in writing.
@@ -28,9 +28,9 @@ pub enum FormulaCause {
     Offset(f64),
     /// Constant ratio of the formula's value to the mechanism's value.
     Factor(f64),
-    /// A term or factor of inputs, parameters and earlier formulas is missing.
+    /// A term or a factor is missing that consists of inputs, parameters and earlier formulas.
     Missing(Missing),
-    /// Terms of quantities of the mechanism are missing, such as the angular velocity of a link.
+    /// Terms are missing that contain quantities of the mechanism, such as the angular velocity of a link.
     Terms(Vec<Term>),
     /// The formula is right up to a value of the input. Beyond this value the formula follows a wrong branch.
     Leaves {
@@ -249,8 +249,8 @@ fn sought(trial: &mut Trial, claim: &Claim, course: &KnownTrajectory) -> Option<
     // match only one number. The match is then weak evidence.
     let is_weak = trial.is_constant() || trial.is_number;
     if let Some(first) = sound.first().copied() {
-        // A wrong sign, a wrong unit, or units that only the correction makes consistent are stronger evidence than a
-        // matching number.
+        // The evidence for a slip is stronger if it is a wrong sign or a wrong unit, or if only its correction makes
+        // the units consistent.
         let own = formulas.list[trial.index].tree.clone();
         let is_natural = match first.slip.kind {
             SlipKind::Sign | SlipKind::Branch | SlipKind::PerRadian | SlipKind::PerSecond => true,
@@ -307,8 +307,8 @@ fn sought(trial: &mut Trial, claim: &Claim, course: &KnownTrajectory) -> Option<
     if trial.gives_one_number() && !trial.is_constant() {
         return Some(FormulaCause::Constant);
     }
-    // An approximation crosses the exact curve at some instants and is right by chance at these instants.
-    // Approximations are therefore not examined for a change of branch.
+    // A formula that states an error is an approximation. It may cross the exact curve, and is right by chance where it
+    // does. Approximations are therefore not examined for a change of branch.
     let is_exact = trial.formula.error.is_none();
     if let Some(found) = leaves(&rows, course.trajectory.input()).filter(|_| is_exact) {
         return Some(found);

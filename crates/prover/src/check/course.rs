@@ -20,8 +20,8 @@ pub struct KnownTrajectory<'a> {
     crank_name: &'a str,
     /// Columns whose signed sums are the rate and the acceleration of the input. `None` if a column is missing.
     crank: [Option<InputColumns>; 2],
-    /// Columns of the input in a motion that forces determine. The input then has an integration error. `None` in a
-    /// prescribed motion, and if a column is missing.
+    /// If forces determine the motion: columns whose signed sum is the input, which then has an integration error.
+    /// `None` in a prescribed motion, and if a column is missing.
     angle: Option<InputColumns>,
     /// Figures of the whole mechanism, such as its mean reduced moment of inertia, in SI units.
     figures: &'a [(MechanismFigure, Rounded)],
@@ -92,8 +92,8 @@ fn across(channel: &PrintedChannel) -> Option<Channel> {
 }
 
 impl<'a> KnownTrajectory<'a> {
-    /// Creates the trajectory of a case with known errors. `error` returns the error of a value by column and row (SI
-    /// units).
+    /// The trajectory of a case, together with the errors of its values. `error` returns the error of a value by column
+    /// and row (SI units).
     pub fn new(case: &'a Case, trajectory: &'a Trajectory, error: &'a dyn Fn(usize, usize) -> f64) -> Self {
         let crank = &case.mechanism.links()[case.crank().link].name;
         let channels = trajectory.channels();
@@ -125,7 +125,8 @@ impl<'a> KnownTrajectory<'a> {
         (0..self.len()).filter(|&row| formula.holds_at(self.trajectory.inputs()[row])).collect()
     }
 
-    /// Links other than the crank with known angle (rad), angular velocity and angular acceleration, by name.
+    /// Names of the links other than the crank, each with the columns of the link's angle (rad), angular velocity and
+    /// angular acceleration. Links without these three columns are left out.
     pub(super) fn links(&self) -> impl Iterator<Item = (&str, [&[f64]; 3])> {
         let channels = self.trajectory.channels();
         let column = |channel: &Channel| {

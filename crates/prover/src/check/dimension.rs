@@ -130,7 +130,8 @@ fn claimed(claim: &Claim) -> Known {
     if !claim.unit().is_empty() {
         return of_unit(claim.unit());
     }
-    // The dimension is unknown if the claim is reduced to the crank, because its expression has masses as numbers.
+    // A claim on a quantity reduced to the crank uses channels that the text of the claim does not name. The dimension
+    // of such a claim is unknown, because the expression of the quantity contains masses as plain numbers.
     if claim.channels.iter().any(|(name, _)| !claim.text.contains(name.as_str())) {
         return None;
     }
@@ -140,7 +141,8 @@ fn claimed(claim: &Claim) -> Known {
 }
 
 /// Dimension of a unit as written in channels and keys.
-/// `N_m` is interpreted as newton metre, because formulas of linkages have more moments than spring rates.
+/// `N_m` counts as newton metre, not as newton per metre, because moments are more frequent in formulas of linkages
+/// than spring rates.
 fn of_unit(unit: &str) -> Known {
     Some(match unit {
         "rad" | "deg" => NONE,
