@@ -92,7 +92,7 @@ impl Observed {
     }
 
     /// Largest difference between the balancing moment of the trajectory and the balancing moment of the powers,
-    /// divided by the moments in the balance.
+    /// divided by the largest moment on the driving link.
     /// Where the balancing moment is zero, the moments in the balance cancel each other, and the difference is the
     /// rounding error of these moments.
     pub(super) fn two_ways(&self) -> f64 {
