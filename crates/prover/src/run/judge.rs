@@ -208,7 +208,8 @@ impl<'a> Judge<'a> {
             let case = late.filter(|_| stage >= Stage::Accelerations).unwrap_or(self.problem.case);
             let keep = self.kept(doubt, stage, case);
             let left_out = keep.iter().filter(|&&kept| !kept).count();
-            // Copies with many instants are made for a few channels at a time and then dropped.
+            // If there are many instants, only a few channels are copied at a time, and each copy is dropped before the
+            // next.
             for indices in indices.chunks((COPIED / keep.len().max(1)).clamp(1, AT_A_TIME)) {
                 let name = |channel: &'a Channel| (channel.of.as_str(), std::ptr::from_ref(channel.kind));
                 let asked: BTreeSet<_> = indices.iter().map(|&index| name(&channels[index])).collect();
@@ -266,7 +267,8 @@ impl<'a> Judge<'a> {
             stage >= Stage::Accelerations && self.asks.has(channel.kind) && noise > MOST_ROUNDING * wanted * scale
         });
         let late = || case.grid.times.iter().copied().filter(|&t| t > begin).collect();
-        // Impulses of the first steps are always computed from later steps, even if their rounding error is small.
+        // If impulses are judged, the beginning is always left out, however small the rounding error is: the impulses
+        // of the first steps are computed from later steps.
         let impulses = self.asks == Asks::OwnForces;
         (is_open || impulses).then(|| case.on(Grid::of_times(case.crank(), late()))).transpose()
     }
