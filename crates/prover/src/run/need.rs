@@ -161,11 +161,11 @@ const PATIENCE: usize = 3;
 /// Record of the rounds of a search that brought no progress.
 #[derive(Default)]
 pub(super) struct Stall {
-    /// Need of the previous round, with the same number of sweeps as the present round.
+    /// Need of the last round that had the same number of sweeps as the present round.
     before: Option<Need>,
     /// Number of consecutive rounds without an order of convergence.
     vague: usize,
-    /// Number of consecutive rounds in which half the step has at least doubled the bound.
+    /// Number of consecutive rounds in which halving the step has doubled the bound or more.
     wider: usize,
     /// Sweeps and need of the previous round, if more sweeps are being tried.
     tried: Option<(usize, Need)>,
@@ -185,8 +185,9 @@ pub(super) enum Next {
 impl Stall {
     /// Decides the next action after a round with `sweeps` sweeps. `need` is the need of the round, and `blame` is the
     /// part of the bound that is to blame.
-    /// Too few sweeps may hide the order of the step, and the error due to the sweeps is not always visible. If a
-    /// smaller step helps little and the number of sweeps is `free`, more sweeps are therefore tried.
+    /// Too few sweeps may hide the order with which the error falls with the step, and the iteration part of the bound
+    /// does not always show this. If a smaller step helps little and the number of sweeps is `free`, more sweeps are
+    /// therefore tried.
     /// If a smaller step and more sweeps both help little, the search returns to the previous number of sweeps.
     pub(super) fn look_closer(&mut self, need: Need, blame: BoundPart, sweeps: usize, free: bool) -> Next {
         self.vague = if need.is_vague { self.vague + 1 } else { 0 };
