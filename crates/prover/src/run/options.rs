@@ -122,7 +122,7 @@ impl Options {
         extrapolated: usize,
     }
 
-    /// Sets the work allowed for finding settings that are not given, in steps without sweeps.
+    /// Sets the work allowed to find the settings that are not given. The unit is a step without sweeps.
     pub fn budget(mut self, steps: f64) -> Self {
         self.budget = Some(steps);
         self

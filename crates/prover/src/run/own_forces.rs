@@ -1,7 +1,8 @@
 //! Judges the forces that an engine itself exerts: its own forces.
 //! These forces are judged in addition to the forces that follow from the engine's motion by Newton-Euler equations.
-//! The settings for the engine's own forces are searched after the settings for the motion. There is one search for
-//! each method by which the engine reports its forces (`Engine::own_routes`), until one result is conclusive.
+//! The search for the settings of the engine's own forces begins after the search for the settings of the motion. There
+//! is one search for each method by which the engine reports its forces (`Engine::own_routes`), until one result is
+//! conclusive.
 //! See docs/numerics/forces.md.
 
 use crate::sentences;
