@@ -77,8 +77,8 @@ pub(super) fn judged(
 }
 
 /// A result without comparison.
-/// `work` is the work that was needed so far, if too little allowed work is the only reason for the failure. The advice
-/// then names a sufficient amount of work.
+/// `work` is given only if the failure is due to too little allowed work. It is the work done, or the work that the
+/// first runs need. The advice then names a sufficient amount of work.
 fn failed(engine: &dyn Engine, failure: Error, work: Option<f64>) -> EngineProof {
     // The advised work is rounded up to a power of ten, so that it is enough for the next attempt.
     let advice = work.map(|work| Advice::MoreWork { to: 10f64.powf((work / SHARE).log10().ceil()) });
