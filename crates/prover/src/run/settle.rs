@@ -19,7 +19,7 @@ use super::runs::{Bank, FEWER, other_sweeps, room, rungs};
 use crate::tolerance::BoundPart;
 use scenario::EngineSettings;
 
-/// Work allowed by default, in steps without sweeps.
+/// Work allowed by default. The unit is a step without sweeps.
 pub const BUDGET: f64 = 2e7;
 /// A conclusive result is refined further, to the target accuracy, as long as the search has done less than this
 /// fraction of the allowed work.
@@ -27,7 +27,7 @@ const THRIFT: f64 = 0.0015;
 /// Target of the search: bounds at this fraction of the widest conclusive bound. With extrapolation, such bounds cost
 /// little more work than conclusive bounds.
 const AIM: f64 = 0.01;
-/// Limit of extrapolations. Further extrapolations would add more rounding error than they would cancel truncation
+/// Limit of extrapolations. In further extrapolations, the added rounding error would exceed the cancelled truncation
 /// error.
 const MOST_TIMES: usize = 4;
 /// The coarsest step is at most this multiple of the first step.
@@ -36,7 +36,7 @@ const COARSEST: f64 = 16.0;
 /// Work that the first runs may always do, because there is no result without the first runs. This work takes some
 /// hundredths of a second.
 pub(super) const FIRST: f64 = 1e4;
-/// After every sequence of this number of failed runs, more sweeps are tried instead of a smaller step.
+/// Whenever this number of runs have failed in a row, more sweeps are tried instead of a smaller step.
 const FAILURES: usize = 6;
 /// A run of a prescribed motion begins and ends a few steps outside the grid. The additional steps may take this
 /// fraction of the angle to a dead centre.
