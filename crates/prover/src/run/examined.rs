@@ -76,7 +76,7 @@ fn disagrees(verdict: &Verdict) -> bool {
     matches!(verdict, Verdict::Disagree { .. })
 }
 
-/// The channels of an engine whose bounds are reliable. A channel is left out if it exceeds its bound but the verdict
+/// Those channels of an engine that have reliable bounds. A channel is left out if it exceeds its bound but the verdict
 /// is inconclusive.
 fn judged(engine: &EngineProof) -> Vec<SuspectChannel> {
     let channels = engine.channels.iter().filter(|own| own.convergence.is_trusted());
@@ -121,7 +121,8 @@ mod tests {
         side
     }
 
-    /// The engine decides which of the two sides is wrong, and the cause is named for this side.
+    /// The engine's results decide which of the two sides is wrong, and the diagnosis names the cause of this side's
+    /// error.
     #[test]
     fn a_side_contradicted_by_side_and_engine_is_the_odd_one_out() {
         let scenario = of_repository("scenarios/crank_rocker.toml");

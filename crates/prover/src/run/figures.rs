@@ -16,8 +16,8 @@ use scenario::{Formulas, MechanismFigure};
 /// stays below this error.
 const KNOWN: f64 = 1e-11;
 
-/// The figures that formulas claim, from both sides, in SI units. The error of a figure covers the difference of the
-/// sides and rounding.
+/// The figures that formulas claim, from both sides, in SI units. The error of a figure covers rounding, and the
+/// difference between the two sides.
 ///
 /// # Errors
 /// The errors of [`Measured::value`].

@@ -20,7 +20,8 @@ use linkage::math::statistics::half_range;
 use linkage::math::{KeepNan, largest_size};
 use linkage::trajectory::{Channel, ChannelKind, ChannelSubject, Stage, Trajectory, Unit};
 
-/// Number of steps at the beginning of a free motion in which second differences are taken from later steps.
+/// Length of the beginning of a free motion, in steps of the coarsest run. In the beginning, second differences are
+/// taken from later steps.
 const BEGINNING: f64 = 5.0;
 /// The beginning of a free motion is left out if rounding exceeds this fraction of the widest conclusive bound.
 const MOST_ROUNDING: f64 = 0.1;
@@ -34,8 +35,8 @@ const AT_A_TIME: usize = 256;
 /// conclusive bound.
 const COUNTS: f64 = 0.01;
 
-/// A step is too long for a motion if, at the largest acceleration, a link would gain more than this multiple of its
-/// range of speed in one step.
+/// A step is too long for a motion if the largest acceleration of a link, multiplied by the step, is more than this
+/// multiple of the range of the link's speed.
 const OUTRUN: f64 = 10.0;
 
 /// What is judged.
@@ -44,7 +45,7 @@ pub(super) enum Asks {
     /// All channels, and the additional checks.
     All,
     /// Reactions and balancing moment as the engine itself exerts them.
-    /// Shaking force and shaking moment are sums of these reactions and moments.
+    /// Shaking force and shaking moment are left out, because they are sums of the judged forces and moments.
     OwnForces,
 }
 
@@ -150,9 +151,10 @@ impl<'a> Judge<'a> {
         Ok(Judged { proof, run, too_coarse })
     }
 
-    /// Whether a link of a free motion would gain many times more speed in one step than the range of its speed.
-    /// Such a gain occurs with a motor that is much too strong for its load.
-    /// Runs at several steps of this size agree, because no run resolves the motion.
+    /// Whether, in a free motion, the largest acceleration of a link, multiplied by the step, is many times the range
+    /// of the link's speed.
+    /// This occurs with a motor that is much too strong for its load.
+    /// Runs with such long steps agree with each other although they are wrong, because no run resolves the motion.
     fn outruns(&self, step: f64) -> bool {
         let reference = &self.reference.trajectory;
         let times = reference.times();
@@ -168,7 +170,7 @@ impl<'a> Judge<'a> {
         })
     }
 
-    /// Largest growth of the differences between runs with increasing numbers of sweeps.
+    /// Largest growth, with the number of sweeps, of the differences between runs.
     /// The growth is the maximum over all position channels with differences that are not negligible.
     /// For the engine's own forces, the growth is the maximum over these forces, because separate simulations compute
     /// them.
@@ -206,7 +208,8 @@ impl<'a> Judge<'a> {
             let case = late.filter(|_| stage >= Stage::Accelerations).unwrap_or(self.problem.case);
             let keep = self.kept(doubt, stage, case);
             let left_out = keep.iter().filter(|&&kept| !kept).count();
-            // Copies with many instants are made for a few channels at a time and then dropped.
+            // If there are many instants, only a few channels are copied at a time, and each copy is dropped before the
+            // next.
             for indices in indices.chunks((COPIED / keep.len().max(1)).clamp(1, AT_A_TIME)) {
                 let name = |channel: &'a Channel| (channel.of.as_str(), std::ptr::from_ref(channel.kind));
                 let asked: BTreeSet<_> = indices.iter().map(|&index| name(&channels[index])).collect();
@@ -264,7 +267,8 @@ impl<'a> Judge<'a> {
             stage >= Stage::Accelerations && self.asks.has(channel.kind) && noise > MOST_ROUNDING * wanted * scale
         });
         let late = || case.grid.times.iter().copied().filter(|&t| t > begin).collect();
-        // Impulses of the first steps are always computed from later steps, even if their rounding error is small.
+        // If impulses are judged, the beginning is always left out, however small the rounding error is: the impulses
+        // of the first steps are computed from later steps.
         let impulses = self.asks == Asks::OwnForces;
         (is_open || impulses).then(|| case.on(Grid::of_times(case.crank(), late()))).transpose()
     }

@@ -43,7 +43,7 @@ const ULPS: f64 = 16.0;
 
 /// Factor on the difference between a side's run and its run with a tighter tolerance: the product is the assumed
 /// integration error. A factor is needed because the tighter run also has an error. Errors of 3.2 times the difference
-/// were measured with steps that crossed knots of a load's table; now the integrator's steps end at knots.
+/// were measured when the integrator's steps still crossed the knots of a load's table; now the steps end at the knots.
 const SAFETY: f64 = 4.0;
 
 /// Relative rounding error of a stage in a pose of this condition number.
@@ -71,15 +71,16 @@ fn lever(case: &Case, groups: &[GroupId]) -> f64 {
 /// Rounding error of the positions from which a group is assembled. The unit is one unit in the last place of the
 /// positions' distance from the origin.
 /// On each analytic side, four positions contribute: two outer joints, the inner joint and an origin.
-/// Each coordinate has a root mean square rounding error of 0.3 units. The sixteen independent coordinates of both
-/// sides give 1.2 units.
+/// Each coordinate has a root mean square rounding error of 0.3 units. The errors of the sixteen coordinates of both
+/// sides are independent, so the root mean square of their sum is 1.2 units.
 /// The constant is more than three times this value.
 const PLACES: f64 = 4.0;
 
-/// Rounding error of the positions of groups (m, in units of [`ULPS`]), and the length of the shortest link (m). The
-/// length of a link is the largest distance between its pins. The position of a group is known only to the last digit
-/// of the group's distance from the origin. For angles, the error is divided by the shortest length. The errors of
-/// successive groups are independent, so their sum grows with the square root of the number of groups.
+/// Rounding error of the positions of groups, divided by [`ULPS`] and by the machine epsilon (m), and the length of the
+/// shortest link (m). The length of a link is the largest distance between its pins. The position of a group is known
+/// only to the last digit of the group's distance from the origin. For angles, the error is divided by the shortest
+/// length. The errors of successive groups are independent, so their sum grows with the square root of the number of
+/// groups.
 fn placed(case: &Case, groups: &[GroupId]) -> [f64; 2] {
     let (mut far, mut arm) = (0.0f64, f64::INFINITY);
     for group in groups.iter().map(|&group| &case.structure.groups[group]) {
@@ -252,7 +253,7 @@ impl Known {
         self.rounding(stage, channel, row) + share(integration, self.magnitudes[channel])
     }
 
-    /// Known error of a number of a side, in the channel's unit.
+    /// Known error of a side's value in a channel at an instant, in the channel's unit.
     pub(super) fn at(&self, side: Reference, stage: Stage, channel: usize, row: usize) -> f64 {
         self.rounding(stage, channel, row) * self.magnitudes[channel] + self.integration[side][channel]
     }
@@ -316,8 +317,8 @@ mod tests {
         assert!(seen > 10, "{seen} channels have an error of their integration");
     }
 
-    /// Each derivative multiplies the rounding error by the condition number once more. Forces have the power of
-    /// accelerations.
+    /// Each derivative multiplies the rounding error by the condition number once more. For forces, the power is the
+    /// same as for accelerations.
     #[test]
     fn rounding_grows_with_a_power_of_the_condition() {
         let grown = Stage::ALL.map(|stage| of_condition(stage, 2e3) / of_condition(stage, 1e3));
@@ -414,8 +415,8 @@ mod tests {
                 let relative = share((values[0] - values[1]).abs(), known.magnitudes[index]);
                 assert!(relative <= apart, "{count} from {from} m, {channel}: {relative:e} {apart:e}");
                 beyond += usize::from(relative > usual(stage));
-                // A relative error of 1e-7 is detected at any distance from the origin. The last digit of a position
-                // is 1.5e-11 m.
+                // A relative error of 1e-7 is detected at any distance from the origin. At 1e5 m, the last digit of a
+                // position is 1.5e-11 m.
                 assert!(apart < 1e-7, "{count} from {from} m, {channel}: {apart:e}");
                 // A coordinate already contains the distance from the origin, so the distance does not enlarge the
                 // relative bound of the coordinate.

@@ -1,7 +1,8 @@
 //! Memory that a run needs, estimated before the run begins.
 //!
 //! A run stores whole trajectories: 8 bytes for every value.
-//! The number of an engine's runs is not known in advance, so the estimate covers most searches.
+//! The number of an engine's runs is not known in advance, so the estimate assumes a number that suffices for most
+//! searches.
 //! Measured peaks lie between half and twice the estimate.
 //! See docs/numerics/settings.md.
 
@@ -60,7 +61,7 @@ pub fn of_oracles(oracles: &[Oracle]) -> f64 {
     rows as f64 * (solved + OF_ROW) + numbers as f64 * OF_NUMBER
 }
 
-/// Checks that an input may use its memory (bytes), before the memory is allocated. `what` names the input.
+/// Checks, before any allocation, that an input may use the memory `needed` (bytes). `what` names the input.
 ///
 /// # Errors
 /// [`ErrorKind::Unsupported`] with advice.

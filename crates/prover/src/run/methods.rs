@@ -15,8 +15,8 @@ use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
 
 /// A difference of at most this fraction of the quantity's largest value counts as rounding.
-/// The bound on the difference between the forces of the two analytic sides is also this fraction, because the linear
-/// systems of the sides and of the methods are equally large.
+/// The same fraction bounds the difference between the forces of the two analytic sides: the linear systems of the
+/// methods are as large as the linear systems of the sides.
 const BOUND: f64 = 1e-10;
 
 /// The compared quantities: directions, angular velocities, angular accelerations, forces.

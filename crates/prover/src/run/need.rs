@@ -11,8 +11,8 @@ use crate::tolerance::BoundPart;
 
 /// Largest fraction of the instants that may be left out because, with this step, they are too close to a reversal.
 pub(super) const MOST_LEFT_OUT: f64 = 0.03;
-/// If a step leaves out too many instants, the need is this ratio, as if a bound were this multiple of the requested
-/// bound.
+/// If a step leaves out too many instants, the need is at least this number, as if a bound were this many times as
+/// large as the requested bound.
 const LEFT_OUT: f64 = 2.0;
 
 /// The item that is farthest from being conclusive.
@@ -58,7 +58,8 @@ impl Need {
     }
 }
 
-/// If the sweeps cause the largest part of a bound, but at most this fraction of the bound, the step is to blame too.
+/// If the iteration part is the largest part of a bound but does not exceed this fraction of the bound, the step is to
+/// blame too.
 const SHARED: f64 = 0.8;
 
 /// Cause of the largest bound.
@@ -73,7 +74,7 @@ pub(super) struct Blame {
 }
 
 /// The largest ratio of a bound of a channel or check to the requested bound (`wanted` times its scale), and its cause.
-/// Channels and checks whose runs show no order of convergence come first.
+/// A channel or check whose runs show no order of convergence takes precedence over those with an order.
 pub(super) fn need(judged: &Judged, wanted: f64) -> (Need, Blame) {
     let channels =
         judged.proof.channels.iter().map(|own| (own.parts, own.residual.scale, &own.convergence, &own.verdict));
@@ -123,9 +124,10 @@ pub(super) struct Pace {
 }
 
 impl Pace {
-    /// Records a round that ends with the work `effort` done. Returns whether `budget` is far too small.
-    /// The need falls with a power of the work. The budget is too small if the need predicted for the moment when the
-    /// budget is used up exceeds 1.
+    /// Records a round; `effort` is the work of the search up to the end of this round. Returns whether `budget` is far
+    /// too small.
+    /// The need falls with a power of the work. The need at the end of the budget is predicted. If the predicted need
+    /// exceeds 1, the budget is too small.
     /// The prediction uses [`OPTIMISM`] times the exponent that the last rounds show.
     pub(super) fn is_too_slow(&mut self, effort: f64, need: Need, budget: f64) -> bool {
         let least = self.rounds.last().map_or(f64::INFINITY, |[_, least]| *least).smaller(need.share);
@@ -150,20 +152,20 @@ const MOST_VAGUE: usize = 2;
 const BRINGS: f64 = 0.7;
 /// If more sweeps reduce the bound to at most this fraction, the additional sweeps are worth their work.
 const HELPS: f64 = 0.5;
-/// Rounding is to blame if half the step at least doubles the bound in this number of consecutive rounds, even if the
-/// rounding part of the bound is small.
+/// If halving the step doubles the bound, or more, in this number of consecutive rounds, rounding is to blame, even if
+/// the rounding part of the bound is small.
 const MOST_WIDER: usize = 2;
 /// Number of rounds that must pass before more sweeps are tried again after more sweeps have helped little.
 const PATIENCE: usize = 3;
 
-/// Record of steps without progress in a search.
+/// Record of the rounds of a search that brought no progress.
 #[derive(Default)]
 pub(super) struct Stall {
-    /// Need of the previous round, with the same number of sweeps as the present round.
+    /// Need of the last round that had the same number of sweeps as the present round.
     before: Option<Need>,
     /// Number of consecutive rounds without an order of convergence.
     vague: usize,
-    /// Number of consecutive rounds in which half the step has at least doubled the bound.
+    /// Number of consecutive rounds in which halving the step has doubled the bound or more.
     wider: usize,
     /// Sweeps and need of the previous round, if more sweeps are being tried.
     tried: Option<(usize, Need)>,
@@ -183,8 +185,9 @@ pub(super) enum Next {
 impl Stall {
     /// Decides the next action after a round with `sweeps` sweeps. `need` is the need of the round, and `blame` is the
     /// part of the bound that is to blame.
-    /// Too few sweeps may hide the order of the step, and the error due to the sweeps is not always visible. If a
-    /// smaller step helps little and the number of sweeps is `free`, more sweeps are therefore tried.
+    /// Too few sweeps may hide the order with which the error falls with the step, and the iteration part of the bound
+    /// does not always show this. If a smaller step helps little and the number of sweeps is `free`, more sweeps are
+    /// therefore tried.
     /// If a smaller step and more sweeps both help little, the search returns to the previous number of sweeps.
     pub(super) fn look_closer(&mut self, need: Need, blame: BoundPart, sweeps: usize, free: bool) -> Next {
         self.vague = if need.is_vague { self.vague + 1 } else { 0 };

@@ -52,8 +52,7 @@ pub(super) struct Observed {
     pub(super) moment: f64,
     /// Largest condition number of a passage of a side through a change point; 1 if no side passes a change point.
     pub(super) passing: f64,
-    /// For every row, whether the side passes a change point in a singular pose; empty if the crank may not pass change
-    /// points.
+    /// For every row, whether its pose is a singular change point; empty if the crank may not pass change points.
     pub(super) singular: Vec<bool>,
     /// For every row, the time (s) to the nearest end of a piece of a cam's law; empty if there is no transmission.
     pub(super) to_knot: Vec<f64>,
@@ -91,10 +90,10 @@ impl Observed {
         largest_size(&self.opening)
     }
 
-    /// Largest difference between the balancing moment of the trajectory and the balancing moment of the powers,
-    /// divided by the largest moment on the driving link.
-    /// Where the balancing moment is zero, the moments in the balance cancel each other, and the difference is the
-    /// rounding error of these moments.
+    /// Largest difference between the balancing moment of the trajectory and the balancing moment from the balance of
+    /// powers, divided by the largest moment on the driving link.
+    /// The balancing moment itself is no divisor: where it is zero, the moments on the driving link cancel each other,
+    /// and the difference is their rounding error.
     pub(super) fn two_ways(&self) -> f64 {
         share(largest_size(&self.moment_gap().collect::<Vec<f64>>()), self.moment)
     }
@@ -109,8 +108,8 @@ impl Observed {
 pub(super) struct Stopped {
     pub(super) error: Error,
     pub(super) kept: Option<Box<Trajectory>>,
-    /// `None` if enough work was allowed. If too little work was allowed: the work that the first runs need, or, if
-    /// the first runs were made, the allowed work.
+    /// `None` if enough work was allowed. If the allowed work was too little even for the first runs, the work that the
+    /// first runs need. If it was too little after the first runs, the allowed work.
     pub(super) spent: Option<f64>,
 }
 

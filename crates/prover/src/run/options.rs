@@ -49,7 +49,8 @@ pub struct Options {
     /// Engines and their settings. Settings that are not given in the options are taken from the scenario or found by
     /// the proof.
     pub settings: EngineSettings,
-    /// Work allowed to find settings that are not given, in steps without sweeps. The default is enough for most cases.
+    /// Work allowed to find the settings that are not given. The unit is a step without sweeps. The default is enough
+    /// for most cases.
     pub budget: Option<f64>,
     /// Memory allowed (bytes); by default 4e9. A run does not begin if its estimated memory exceeds this limit.
     pub memory: Option<f64>,
@@ -121,7 +122,7 @@ impl Options {
         extrapolated: usize,
     }
 
-    /// Sets the work allowed for finding settings that are not given, in steps without sweeps.
+    /// Sets the work allowed to find the settings that are not given. The unit is a step without sweeps.
     pub fn budget(mut self, steps: f64) -> Self {
         self.budget = Some(steps);
         self

@@ -20,8 +20,8 @@ use scenario::{ExpectedCell, FigureValue, Oracle, OracleBasis, OraclePoint, Orac
 
 /// The checks of all series and figures of all oracles (sources of numbers), for each analytic side.
 /// Series refer to channels of the problem's case; figures refer to the `whole` mechanism.
-/// `integration` is the integration error of a side in a channel, in the channel's unit. `integration` applies to
-/// numbers of a motion under forces.
+/// `integration` is the integration error of a side in a channel, in the channel's unit. The bounds of numbers at a
+/// time contain this error, which is zero in a prescribed motion.
 pub(super) fn checks(
     problem: Problem,
     whole: &Case,
@@ -155,8 +155,8 @@ impl Found {
         if used.is_nan() { f64::INFINITY } else { used }
     }
 
-    /// Whether the deviation is within the bound, but both the deviation and the part of the bound from the rounded
-    /// instant are significant. Such a number proves nothing.
+    /// Whether the deviation is within the bound, but the deviation and the part of the bound due to the rounded
+    /// instant both exceed the fraction [`TELLING`] of the scale. Such a number proves nothing.
     fn is_open(&self) -> bool {
         self.used() <= 1.0 && self.deviation.smaller(self.instant) > TELLING * self.scale
     }
@@ -204,7 +204,7 @@ fn of_series(
 }
 
 /// The checks of one series.
-/// One check covers all values that are correct. Each value that is known to be wrong has its own check.
+/// One check covers all values that are not known to be wrong. Each value that is known to be wrong has its own check.
 /// If all values are known to be wrong, a single check covers all values.
 fn of_one(oracle: &Oracle, series: &OracleSeries, answers: &Answers, side: Reference) -> Result<Vec<Check>> {
     let [nominal, timed] = answers.of_series(oracle, series, side)?;

@@ -1,9 +1,9 @@
 //! Finds an engine that converges with a lower order than its method has.
 //!
 //! Typical causes are a value computed half a step late, or a wrong weight.
-//! A bound from the engine's runs covers an error of lower order at every step, so the size of the error never reveals
-//! the fault. Five runs give three estimates of the order. The order is reliable only if all three estimates are near
-//! the same whole number.
+//! The bound comes from the engine's runs and covers the error at every size of the step, even if the order is too low.
+//! The size of the error therefore never reveals the fault. Five runs give three estimates of the order. The order is
+//! reliable only if all three estimates are near the same whole number.
 //! See docs/numerics/bounds.md.
 
 use crate::sentences;
@@ -25,7 +25,7 @@ const LOW: f64 = 0.75;
 /// Orders are steady if they differ from the same whole number by at most this amount.
 const STEADY: f64 = 0.1;
 /// The observed order counts as the order of the step error only if the step error of the finest run exceeds this
-/// multiple of the rounding, iteration and reference errors.
+/// multiple of each other error: rounding, iteration and reference.
 const CLEAR: f64 = 5.0;
 /// A low order does not matter if the bound is below this fraction of the widest conclusive bound.
 const NEGLIGIBLE: f64 = 0.01;
@@ -68,7 +68,7 @@ pub(super) fn look(judge: &Judge, bank: &mut Bank, proof: &mut EngineProof) -> R
         let Some(own) = rung(times, false)? else { return Ok(false) };
         rungs.push(own);
     }
-    // The iteration error needs one more run, which takes half as long as the longest run.
+    // An estimate of the iteration error requires one more run, which takes half as long as the longest run.
     // This run is made only if a channel converges steadily with too low an order, which is rare.
     let may_be = |index: usize| {
         is_low(&proof.channels[index]) && is_steady([0, 1, 2].map(|k| rungs[k].channels[index].convergence))
@@ -123,7 +123,7 @@ mod tests {
 
     /// The error begins at 8 and is halved with each halving of the step. The observed order is therefore 1, but the
     /// method has order 2.
-    /// If sweeps, rounding or the reference contribute a fourth of the finest error, these errors may have caused the
+    /// If an error from sweeps, rounding or the reference is a fourth of the finest run's error, it may have caused the
     /// observed order.
     #[test]
     fn an_order_counts_only_if_other_errors_are_much_smaller() {

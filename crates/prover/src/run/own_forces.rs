@@ -1,7 +1,8 @@
 //! Judges the forces that an engine itself exerts: its own forces.
 //! These forces are judged in addition to the forces that follow from the engine's motion by Newton-Euler equations.
-//! The settings for the engine's own forces are searched after the settings for the motion. There is one search for
-//! each method by which the engine reports its forces (`Engine::own_routes`), until one result is conclusive.
+//! The search for the settings of the engine's own forces begins after the search for the settings of the motion. There
+//! is one search for each method by which the engine reports its forces (`Engine::own_routes`), until one result is
+//! conclusive.
 //! See docs/numerics/forces.md.
 
 use crate::sentences;
@@ -76,8 +77,8 @@ pub(super) fn judged(
 }
 
 /// A result without comparison.
-/// `work` is the work that was needed so far, if too little allowed work is the only reason for the failure. The advice
-/// then names a sufficient amount of work.
+/// `work` is given only if the failure is due to too little allowed work. It is the work done, or the work that the
+/// first runs need. The advice then names a sufficient amount of work.
 fn failed(engine: &dyn Engine, failure: Error, work: Option<f64>) -> EngineProof {
     // The advised work is rounded up to a power of ten, so that it is enough for the next attempt.
     let advice = work.map(|work| Advice::MoreWork { to: 10f64.powf((work / SHARE).log10().ceil()) });

@@ -1,5 +1,5 @@
-//! Faults planted in solvers. Every check must find a small fault that exceeds its bound, and must accept a fault below
-//! the bound.
+//! Faults planted in solvers. Every check must find a fault that is a little larger than the check's bound, and must
+//! accept a fault below this bound.
 
 use crate::sentences;
 use std::path::Path;
@@ -289,7 +289,7 @@ fn engine_checks_find_errors_that_do_not_vanish_with_the_step() {
         [sentences::CLOSURE_OF_ALL_JOINTS_2, "driving moment"].map(|name| named(&true_one.checks, name).clone());
     // The bound from the engine's own runs is at most 30 % larger than the opening.
     assert!(closure.bound <= 1.3 * closure.value && closure.bound < 2e-5, "{closure:?}");
-    // The opening of a joint has the rounding error of the positions of its two sides.
+    // The rounding error of a joint's opening is the rounding error of the joint's position on its links.
     let place = true_one.channels.iter().find(|own| own.residual.channel.to_string() == "point.A.x_m").unwrap();
     let rounding = closure.estimate.unwrap().0.rounding * scenario.case.mechanism.size();
     assert!((rounding / place.parts.rounding - 1.0).abs() < 1e-12, "{rounding:e} {:?}", place.parts);
@@ -323,7 +323,7 @@ fn regress_late_readings_converge_with_order_one_and_disagree() {
         }
     };
     let accelerations: Fault = |state, late| {
-        // The planted fault is the delay times omega^3, which has the order of magnitude of the jerk.
+        // The planted fault is the delay times omega^3: the jerk has the order of magnitude of omega^3.
         state.motions.iter_mut().for_each(|motion| motion.alpha -= late * motion.omega.powi(3));
     };
     // Five runs with steps up to 8e-3 s show the order for the crank-rocker, but not for the faster machine `ov7_base`.
@@ -427,7 +427,8 @@ fn errors_of_an_engine_have_the_sign_of_its_fault() {
     assert!(errors.column(&torque).unwrap().iter().all(|error| (error - 100.0).abs() < 1.0));
 }
 
-/// Every figure is changed by one unit of its last digit. The checks on both sides must then disagree.
+/// One published number after another is changed by one unit of its last digit. The checks on both sides must then
+/// disagree.
 #[test]
 fn an_oracle_detects_one_unit_of_its_last_digit() {
     let name = "crank_rocker";
@@ -476,7 +477,7 @@ fn integration_error_widens_the_bound_of_numbers_at_a_time() {
 /// For the acceleration of a crank at constant speed, a fault of a millionth of the natural size is detected. For a
 /// rocker that rotates with the crank through change points, a fault is detected only if it is at least a hundredth of
 /// the natural size.
-/// In the rocker's channels, an agreement within a smaller difference proves nothing.
+/// In the rocker's channels, agreement does not exclude a smaller fault.
 #[test]
 fn a_fault_of_fixed_size_is_found_where_the_reference_is_zero() {
     let cranks = include_str!("../../../../tests/suite/exact_zeros/parallel_cranks.toml");
@@ -498,7 +499,8 @@ fn a_fault_of_fixed_size_is_found_where_the_reference_is_zero() {
     }
 }
 
-/// If all forces of the mechanism are only rounding, the scale is the force that its mass and speed could exert.
+/// If all forces of the mechanism are only rounding errors, their scale is the inertia force that follows from the
+/// mechanism's mass, size and speed.
 /// In a balanced rotor, a fault of a millionth of a newton is detected.
 #[test]
 fn a_fault_of_fixed_size_is_found_without_any_scale() {

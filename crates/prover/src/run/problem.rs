@@ -27,8 +27,8 @@ impl<'a> Problem<'a> {
 
 /// Length, speed and force from the data of the case. These values do not depend on which links move.
 /// These three values give the scales of quantities that are zero in the whole mechanism. The force is the larger of
-/// two forces: the weight of all links, and the force that accelerates the links at this speed and size. The force is
-/// zero if the links have no masses.
+/// two forces: the weight of all links, and the force that keeps the mass of all links on a circle with this length as
+/// radius, at this angular speed. The force is zero if the links have no masses.
 pub(super) fn built(case: &Case) -> Built {
     let (length, speed) = (case.mechanism.size(), case.drives.top_speed(case.mechanism.size()));
     let mass: f64 = case.mechanism.links().iter().map(|link| link.mass).sum();

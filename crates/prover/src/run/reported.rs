@@ -99,8 +99,8 @@ impl Proof {
         Some(ReportedFigure { label, figure, value, unit, rows: found.rows })
     }
 
-    /// Swing or stroke, and largest speed, of the output links: the links on the ground that no drive moves. If there
-    /// is no such link, the driven links count as outputs.
+    /// Swing or stroke, and largest speed, of the output links: the links on the ground that have no drive of their
+    /// own. If there is no such link, the driven links count as outputs.
     fn of_outputs(&self) -> Vec<ReportedFigure> {
         let case = &self.scene.case;
         let driven = |link: LinkId| {

@@ -57,8 +57,8 @@ pub(super) const FEWER: usize = 2;
 /// Not all trajectories of a search are kept if a trajectory has more values than this number.
 pub(super) const FEW: usize = 1_000_000;
 
-/// All runs of one engine on one case. Each run is made and observed once. Large runs are dropped and made again when
-/// needed.
+/// All runs of one engine on one case. Each run is made and observed only once, unless it is large. Large runs are
+/// dropped and made again when needed.
 pub(super) struct Bank<'a> {
     pub(super) case: &'a Case,
     kept: CachedEngine,
@@ -66,7 +66,7 @@ pub(super) struct Bank<'a> {
     watch: Watch,
     /// Number of plain runs (runs without extrapolation) made so far.
     pub(super) count: usize,
-    /// Work of the plain runs made so far, in steps without sweeps.
+    /// Work of the plain runs made so far. The unit is a step without sweeps.
     pub(super) effort: f64,
 }
 
@@ -199,7 +199,8 @@ pub(super) fn room(case: &Case, engine: &dyn Engine) -> f64 {
     let drive = case.crank();
     let at = |t: f64| {
         let own = drive.at(t);
-        // The nearer limit is used, because the run extends beyond the instants in both directions of time.
+        // The additional steps lie before the first instant or after the last, so they may lead towards either limit.
+        // The nearer limit is therefore used.
         let distance = (own.value - from).abs().smaller((to - own.value).abs());
         distance / own.rate.abs() / steps
     };

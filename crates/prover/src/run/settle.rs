@@ -19,7 +19,7 @@ use super::runs::{Bank, FEWER, other_sweeps, room, rungs};
 use crate::tolerance::BoundPart;
 use scenario::EngineSettings;
 
-/// Work allowed by default, in steps without sweeps.
+/// Work allowed by default. The unit is a step without sweeps.
 pub const BUDGET: f64 = 2e7;
 /// A conclusive result is refined further, to the target accuracy, as long as the search has done less than this
 /// fraction of the allowed work.
@@ -27,7 +27,7 @@ const THRIFT: f64 = 0.0015;
 /// Target of the search: bounds at this fraction of the widest conclusive bound. With extrapolation, such bounds cost
 /// little more work than conclusive bounds.
 const AIM: f64 = 0.01;
-/// Limit of extrapolations. Further extrapolations would add more rounding error than they would cancel truncation
+/// Limit of extrapolations. In further extrapolations, the added rounding error would exceed the cancelled truncation
 /// error.
 const MOST_TIMES: usize = 4;
 /// The coarsest step is at most this multiple of the first step.
@@ -36,7 +36,7 @@ const COARSEST: f64 = 16.0;
 /// Work that the first runs may always do, because there is no result without the first runs. This work takes some
 /// hundredths of a second.
 pub(super) const FIRST: f64 = 1e4;
-/// After every sequence of this number of failed runs, more sweeps are tried instead of a smaller step.
+/// Whenever this number of runs have failed in a row, more sweeps are tried instead of a smaller step.
 const FAILURES: usize = 6;
 /// A run of a prescribed motion begins and ends a few steps outside the grid. The additional steps may take this
 /// fraction of the angle to a dead centre.
@@ -303,8 +303,8 @@ impl<'a, 'b> Settling<'a, 'b> {
         is_cramped
     }
 
-    /// Changes the settings on which the part `blame` of the bound depends. Returns the reason if no setting can be
-    /// changed.
+    /// Changes the settings on which the part `blame` of the bound depends. If no setting can be changed, the search
+    /// ends, and this function returns the kind of end.
     fn refine(&mut self, blame: BoundPart) -> Option<SearchEnd> {
         let mut next = self.now;
         let factor = MORE_SWEEPS[usize::from(self.conclusive || self.near)];
@@ -326,8 +326,8 @@ impl<'a, 'b> Settling<'a, 'b> {
                 self.coarsest = COARSEST * self.judge.asked.resolution;
                 return None;
             }
-            // A free step needs no further change: coarser steps have been tried already, or they would not reduce the
-            // error of the reference.
+            // If rounding is to blame, coarser steps have already been tried. If the reference is to blame, no step
+            // reduces its error.
             BoundPart::Rounding | BoundPart::Reference if self.given.step.is_free() => {
                 return Some(SearchEnd::Rounding);
             }
@@ -347,8 +347,8 @@ impl<'a, 'b> Settling<'a, 'b> {
         None
     }
 
-    /// Settings of all combinations of runs that include the finest run. The combination with the most extrapolations
-    /// comes first.
+    /// Settings at which this round can judge the engine, those with the most extrapolations first. Each judgement
+    /// combines several runs, and the finest run is one of them.
     fn candidates(&self) -> Vec<Settings> {
         let asked = self.judge.asked;
         let times =
@@ -408,22 +408,22 @@ impl<'a, 'b> Settling<'a, 'b> {
             return Ok(best);
         }
         let found = match self.trial(settings, &others[..1], &mut |part| progress(0.7 + 0.2 * part)) {
-            // If a run with fewer sweeps fails, the judged run has hardly enough sweeps.
+            // If a run with fewer sweeps fails, the judged run may have too few sweeps as well.
             Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => {
                 return Ok(Trial { need: Need { is_vague: true, ..best.need }, blame: SWEEPS, ..best });
             }
             found => found?,
         };
-        // A third run shows how fast the sweeps converge, before the number of sweeps is multiplied. The third run also
-        // shows whether the sweeps converge at all, before a channel is reported as disagreeing: if the sweeps have
-        // hardly begun to converge, two runs with different numbers of sweeps differ little.
+        // A third run shows how fast the sweeps converge, before the number of sweeps is multiplied. Before a channel
+        // is reported as disagreeing, the third run also shows whether the sweeps converge at all. Two runs cannot show
+        // this: while the sweeps have hardly begun to converge, runs with different numbers of sweeps differ little.
         let is_asked =
             found.blame.part == BoundPart::Iteration && !found.need.is_within(self.aim) && self.given.sweeps.is_free();
         if others.len() < 2 || (!is_asked && found.judged.proof.against().is_empty()) {
             return Ok(found);
         }
         match self.trial(settings, &others, &mut |part| progress(0.9 + 0.1 * part)) {
-            // If a run with fewer sweeps fails, the judged run has hardly enough sweeps.
+            // If a run with fewer sweeps fails, the judged run may have too few sweeps as well.
             Err(stopped) if stopped.error.kind() == ErrorKind::Numeric && !found.judged.proof.against().is_empty() => {
                 Ok(Trial { need: Need { is_vague: true, ..found.need }, blame: SWEEPS, ..found })
             }

@@ -122,8 +122,7 @@ pub(super) struct RoundedInstants {
 
 impl RoundedInstants {
     /// Rounded instants of the given points of a case.
-    /// If the case cannot be solved at both ends of an instant's rounding interval, changes are estimated from
-    /// neighbouring rows.
+    /// If the case cannot be solved at one of the shifted instants, all changes are estimated from neighbouring rows.
     ///
     /// # Errors
     /// The errors of the solver at the unshifted instants.

@@ -51,7 +51,7 @@ pub fn asked(claim: &Claim, case: &Case) -> Vec<Channel> {
     asked
 }
 
-/// Solves with both sides the part of a case on which the requested channels depend, and judges the formulas.
+/// Solves the part of a case on which the requested channels depend, with both sides, and judges the formulas.
 fn of_asked(
     scenario: &Scenario,
     whole: &Case,
