@@ -61,8 +61,8 @@ pub enum BoundBasis {
         noise: BoundOrigin,
     },
     /// Bound of a printed number.
-    /// For a number of a series, the bound is a sum of four parts: half a unit of the number's last digit, the known error
-    /// of the number, the known error of the side, and the effect of the rounding of the number's instant.
+    /// For a number of a series, the bound is a sum of four parts: half a unit of the number's last digit, the known
+    /// error of the number, the known error of the side, and the effect of the rounding of the number's instant.
     /// For a figure, the bound is the larger of half a unit of the last digit and the known error of the side.
     Digits {
         /// How the number is known: published, recomputed or derived.
