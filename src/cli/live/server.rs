@@ -47,7 +47,7 @@ impl Live {
     }
 
     /// Shows the reference alone, before the proof is finished.
-    /// An error of this step is ignored, because the proof reports the reason of the error.
+    /// An error is ignored here: the proof meets the same error and reports it.
     pub(in crate::cli) fn show_reference(&self, record: &RecordArgs, scenario: &Scenario, reference: Reference) {
         let reel = || {
             let case = scenario.case.scene()?.case;
