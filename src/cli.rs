@@ -1,5 +1,4 @@
-//! The command line. All code that prints, or reads arguments, clock or environment, is in this module and in
-//! `testing::folder`.
+//! The command line. Only this module and `testing::folder` print, or read the arguments, the clock or the environment.
 
 mod accept;
 mod advice;
@@ -172,7 +171,7 @@ commands! {
         Stress(stress::Args) = stress::run,
         /// Plant faults in one party of a proof, or in code that all parties share, and say which faults are found
         Mutate(mutate::Args) = mutate::run,
-        /// Measure run time against error of every solver, engine and setting, and of other programs: diagrams and
+        /// Measure run time and error of every solver, engine and setting, and of other programs: diagrams and
         /// numbers
         Bench(bench::Args) = bench::run,
         /// Write a set of truths for simulators: mechanisms as models, their motion and reactions with bounds, and a
@@ -339,14 +338,15 @@ mod tests {
         std::iter::once(command.clone()).chain(inner).collect()
     }
 
-    /// Example commands of a help text, with continuation lines joined; an explanation follows after two blanks.
+    /// Example commands of a help text, with continuation lines joined. In the help text, two blanks separate a command
+    /// from its explanation; the explanation is left out.
     fn examples(help: &str) -> Vec<Vec<String>> {
         let joined: String = help.split("\\\n").map(str::trim_start).collect();
         let lines = joined.lines().filter_map(|line| line.strip_prefix("  linkproof "));
         lines.map(|line| command(&format!("linkproof {}", line.split("  ").next().unwrap())).unwrap()).collect()
     }
 
-    /// The first example creates the files that the other examples name; the program contains these files.
+    /// The other examples name files that the first example writes. The program has a copy of each of these files.
     #[test]
     fn every_help_example_parses_and_its_files_are_shipped() {
         let shipped = crate::shipped::files();

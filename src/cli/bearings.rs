@@ -17,7 +17,7 @@ pub(super) struct Args {
     /// Scenario file; `-` for standard input
     #[arg(value_name = "FILE")]
     file: PathBuf,
-    /// Lever of the reaction on its journal, in mm
+    /// Lever arm of the reaction, in mm
     #[arg(long, value_name = "MM", default_value = "10", allow_hyphen_values = true, value_parser = number::finite)]
     lever_mm: f64,
     /// Bending stress that the journals may carry, in MPa

@@ -29,11 +29,11 @@ pub(super) struct Args {
     /// Scenario, recording or table
     #[arg(value_name = "B")]
     second: PathBuf,
-    /// Columns of B, or of A if B is a scenario or a recording: EXPR=CHANNEL, or a mapping file (.toml); may be given
+    /// Channels in the columns of B, or of A if B is no table: EXPR=CHANNEL, or a mapping file (.toml); may be given
     /// several times
     #[arg(long, value_name = "EXPR=CHANNEL|FILE", allow_hyphen_values = true)]
     map: Vec<String>,
-    /// Columns of A, if A and B are both tables
+    /// As --map, for A, if both are tables
     #[arg(long, value_name = "EXPR=CHANNEL|FILE", allow_hyphen_values = true)]
     map_a: Vec<String>,
     /// Write the settings of --map, --rel, --rel-value and --abs to a mapping file
@@ -43,8 +43,7 @@ pub(super) struct Args {
     /// channels or for one channel, subject or stage
     #[arg(long, value_name = "[CHANNEL=]SHARE", value_parser = share(Size::Relative))]
     rel: Vec<Allowed>,
-    /// Allow differences of this fraction of each value: 0.05 for 5 %. For values near zero, only --abs allows a
-    /// difference
+    /// Allow differences of this fraction of each value: 0.05 for 5 %. Values near zero need --abs or --rel
     #[arg(long, value_name = "[CHANNEL=]SHARE", value_parser = share(Size::OfValue))]
     rel_value: Vec<Allowed>,
     /// Allow differences of this size, in the unit of the channel
@@ -214,7 +213,8 @@ fn party(args: &Args, path: &Path, other: &Path, mapping: &Mapping) -> Result<Co
             let may = |bytes: f64, rows: usize| {
                 let most = Some(args.memory.bytes());
                 memory::check_input(&sentences::the_table(&path.display()), bytes, most)?;
-                // The estimate is a lower limit, because columns named like channels may need additional memory.
+                // The estimate is a lower limit: it does not count the columns that need no mapping because their names
+                // are names of channels.
                 let compared = if is_solved && rows > 0 { memory::of_comparison(rows, claims, claims) } else { 0.0 };
                 memory::check_input(&sentences::comparing_rows(&rows), compared, most)
             };

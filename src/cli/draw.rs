@@ -33,10 +33,10 @@ pub(super) struct Args {
     /// several times
     #[arg(long, value_name = "KEY=NUMBER", value_parser = load::setting)]
     set: Vec<(String, f64)>,
-    /// Draw all configurations at this crank angle, each with the modes of its groups
+    /// Draw all configurations at one crank angle, each with the modes of its groups
     #[arg(long)]
     each_mode: bool,
-    /// Draw gravity, and forces and moments as arrows with their sizes
+    /// Draw gravity, forces and moments as arrows with their sizes
     #[arg(long)]
     loads: bool,
     /// Draw the paths of all moving points, except joints that move on a circle about a pivot

@@ -46,7 +46,7 @@ pub(super) struct Args {
     /// Duration of the run-up in seconds
     #[arg(long, value_name = "S", default_value = "0.5", allow_hyphen_values = true, requires = "run_up", value_parser = number::positive)]
     seconds: f64,
-    /// Number of equal time intervals of the run-up; the table has a row at both ends of each interval
+    /// Number of equal time intervals of the run-up; the CSV has N + 1 rows of values
     #[arg(long, value_name = "N", default_value = "500", requires = "run_up", allow_hyphen_values = true, value_parser = number::count)]
     points: usize,
     /// Speed of the crank at the start of the run-up, in turns per minute, counter-clockwise positive
@@ -66,7 +66,7 @@ results! { DriveResults {
 /// A motor for the mechanism.
 #[derive(Debug, clap::Args)]
 struct Choosing {
-    /// Only choose a motor from this catalogue, by the peak of the resistance and the scenario's speed
+    /// Choose a motor from this catalogue by peak resistance and scenario speed; compute nothing else
     #[arg(long, value_name = "FILE", conflicts_with_all = ["non_uniformity", "run_up", "table"])]
     catalogue: Option<PathBuf>,
     /// Efficiency between motor and crank, for the choice [default: the efficiency of the scenario's motor, else 1]
@@ -77,7 +77,7 @@ struct Choosing {
     synchronous_rpm: Option<f64>,
 }
 
-/// Number of equal intervals of a graph over the period; over one revolution each interval is half a degree.
+/// Number of equal intervals of a graph over one period. If the period is one revolution, an interval is half a degree.
 const PARTS: u32 = 720;
 
 /// Largest number of rows of a table or a run-up.

@@ -80,7 +80,7 @@ impl MemoryArgs {
 
 /// The settings of an engine: one argument for each row of [`ROWS`].
 /// If a setting is not given, the scenario's setting applies.
-/// If the scenario lacks the setting too, the proof finds a setting, or the engine uses its default.
+/// If the scenario lacks the setting too, a proof searches for it; a run without a proof takes the engine's default.
 #[derive(Clone, Debug)]
 pub(super) struct SettingArgs {
     settings: EngineSettings,
@@ -180,7 +180,7 @@ impl SettingArgs {
     }
 }
 
-/// Names of all engines. An engine that this build lacks reports the feature it needs.
+/// Names of all engines. If the user chooses an engine that this build lacks, the error names the feature needed.
 pub(super) fn engine_names() -> impl Iterator<Item = &'static str> {
     EngineName::ALL.into_iter().map(EngineName::name)
 }

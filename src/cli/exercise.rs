@@ -37,9 +37,9 @@ pub(super) struct Args {
     /// Largest change of a number, in per cent
     #[arg(long, value_name = "PERCENT", default_value = "20", value_parser = per_cent)]
     spread: f64,
-    /// Smallest transmission angle over the whole range and at the requested positions. Its sine is reduced, if it is
-    /// larger, to three quarters of a group's smallest sine in the original mechanism (range), or of its largest sine
-    /// in the sheet's mechanism (positions)
+    /// Lower limit of the transmission angle over the whole range and at the requested positions. The sine of the limit
+    /// is at most three quarters of each group's smallest sine in the original mechanism (range) or largest sine in the
+    /// sheet's mechanism (positions)
     #[arg(long, value_name = "DEG", default_value = "20", value_parser = angle)]
     transmission_deg: f64,
     /// Requested quantities: a channel, a magnitude (point.B.v_m_s, point.B.a_m_s2, joint.B.f_N), or a stage
@@ -54,8 +54,8 @@ pub(super) struct Args {
     /// Number of significant digits in the largest answer of each quantity
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u8).range(1..=9))]
     digits: u8,
-    /// Largest difference of a right answer: a fraction of the value, such as 5%, or `digits` for half a unit of the
-    /// last requested decimal
+    /// Allowed error of an answer: a fraction of the value, such as 5%, or `digits` for half a unit of the last
+    /// requested decimal
     #[arg(long, value_name = "SHARE", default_value = "5%", value_parser = within)]
     within: Within,
     /// Language of the sheets: en or uk

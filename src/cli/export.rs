@@ -24,8 +24,8 @@ pub(super) struct Args {
     file: PathBuf,
     #[command(flatten)]
     outputs: Outputs<Exports>,
-    /// Time step stated in the file, in seconds [default: the scenario's time step, else a quarter of a degree of the
-    /// fastest driving link]
+    /// Time step stated in the file, in seconds [default: the scenario's time step, else the fastest driving link's
+    /// time for 0.25 deg]
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = number::positive)]
     dt: Option<f64>,
     #[command(flatten)]

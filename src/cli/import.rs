@@ -11,7 +11,7 @@ use scenario::header::is_name;
 #[derive(Debug, clap::Args)]
 #[command(after_help = include_str!("help/import.txt").trim_ascii_end())]
 pub(super) struct Args {
-    /// Share link of PMKS+ in quotes, or a file with such a link, a model for MuJoCo or a file of Linkage; `-` for
+    /// Share link of PMKS+ in quotes, or a file: such a link, a model for MuJoCo or a file of Linkage; `-` for
     /// standard input
     #[arg(value_name = "SOURCE")]
     source: PathBuf,
@@ -49,7 +49,7 @@ pub(super) fn import(args: &Args) -> Result<u8> {
     Ok(exit_code::AGREE)
 }
 
-/// Whether the source is an address, or its query alone, and not a file.
+/// Whether the source is a link and not a file. The query of a link, without the address before it, also counts.
 fn is_address(source: &str) -> bool {
     source.contains("://") || (source.contains('?') && !Path::new(source).exists())
 }

@@ -1,7 +1,7 @@
 //! `--live`: serves the result of a proof, as an animation, to viewers that connect by Foxglove's WebSocket.
 //!
 //! - Source: a `recording::Reel` in memory. The same function, `recording::pour`, fills a reel and a recording file.
-//! - Protocol: the former name (`foxglove.websocket.v1`) and the present one (`foxglove.sdk.v1`).
+//! - Protocol: supported under its former name (`foxglove.websocket.v1`) and its present name (`foxglove.sdk.v1`).
 //!   The server of Foxglove's library supports only the present name.
 //!   Lichtblick and the open Foxglove Studio offer only the former name.
 //!   Therefore `tungstenite` does handshake and frames, and `report::live` has the messages.

@@ -21,7 +21,8 @@ pub(super) struct Args {
 
 /// Writes one page to standard output, or all pages to a directory.
 pub(super) fn run(args: &Args, command: Command) -> Result<()> {
-    // The help subcommand is left out, so the page of linkproof is the same alone and among the pages of all commands.
+    // Without the help subcommand, the page of linkproof has the same text when it is written alone and when it is
+    // written with the pages of all commands.
     let mut command = command.disable_help_subcommand(true);
     command.build();
     let Some(directory) = &args.output else {

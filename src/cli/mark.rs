@@ -22,16 +22,16 @@ pub(super) struct Args {
     /// Directory of an exercise, or tables of answers in its directory `answers`
     #[arg(required = true, value_name = "DIR|FILE")]
     paths: Vec<PathBuf>,
-    /// Largest difference of a right answer: a fraction of the value, such as 5%, or `digits` for half a unit of the
-    /// last requested decimal [default: as the sheets say]
+    /// Allowed error of an answer: a fraction of the value, such as 5%, or `digits` for half a unit of the last
+    /// requested decimal [default: as the sheets say]
     #[arg(long, value_name = "SHARE", value_parser = within)]
     within: Option<Within>,
-    /// Largest difference of a right answer: half a unit of the last decimal. The decimals of a quantity follow from
-    /// this number of significant digits in its largest answer
+    /// Allowed error of an answer: half a unit of the last decimal. A quantity has as many decimals as give its largest
+    /// answer N significant digits
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=9), conflicts_with = "within")]
     digits: Option<u8>,
-    /// Largest difference of a right answer: half a unit of the last digit that the student wrote, and at most half a
-    /// unit of the last requested decimal
+    /// Allowed error of an answer: half a unit of the last digit that the student wrote, and at most half a unit of the
+    /// last requested decimal
     #[arg(long, conflicts_with_all = ["within", "digits"])]
     written: bool,
     /// Leave the right values out of the pages of the students

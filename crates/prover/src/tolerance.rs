@@ -4,7 +4,7 @@
 use crate::sentences;
 use std::fmt;
 
-/// Origin of a bound, or of the reference number.
+/// Origin of a bound. If the checked number is compared with a printed number: origin of the printed number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BoundOrigin {
     /// Claimed by the formula that is judged.
@@ -61,8 +61,8 @@ pub enum BoundBasis {
         noise: BoundOrigin,
     },
     /// Bound of a printed number.
-    /// For a number of a series, the bound is a sum: half a unit of the number's last digit, the known errors of the
-    /// number and of the side, and the change of the number within the rounding of its instant.
+    /// For a number of a series, the bound is a sum of four parts: half a unit of the number's last digit, the known
+    /// error of the number, the known error of the side, and the effect of the rounding of the number's instant.
     /// For a figure, the bound is the larger of half a unit of the last digit and the known error of the side.
     Digits {
         /// How the number is known: published, recomputed or derived.
@@ -74,7 +74,7 @@ pub enum BoundBasis {
         /// The part of the bound due to the rounding of the instant, in the unit of the number.
         instant: f64,
     },
-    /// Rounding error of a formula, propagated through its operations, plus the error of the mechanism's values.
+    /// Rounding error of a formula, propagated through its operations, plus the error of the side's values.
     Formula {
         /// Whether the formula also states an error of its values.
         claimed: bool,
@@ -84,7 +84,7 @@ pub enum BoundBasis {
 }
 
 impl BoundBasis {
-    /// Origin of the bound, or of the reference number.
+    /// Origin of the bound; for [`BoundBasis::Digits`], origin of the printed number.
     #[must_use]
     pub fn origin(&self) -> BoundOrigin {
         match self {

@@ -47,7 +47,7 @@ impl Live {
     }
 
     /// Shows the reference alone, before the proof is finished.
-    /// An error of this step is ignored, because the proof reports the reason of the error.
+    /// An error is ignored here: the proof meets the same error and reports it.
     pub(in crate::cli) fn show_reference(&self, record: &RecordArgs, scenario: &Scenario, reference: Reference) {
         let reel = || {
             let case = scenario.case.scene()?.case;
@@ -116,8 +116,8 @@ fn let_in(listener: &TcpListener, stage: &Arc<Stage>) {
         let is_full = Arc::strong_count(stage) >= MOST + 2;
         match stream {
             Ok(stream) if !is_full => serve_one(stream, Arc::clone(stage)),
-            // If there are too many viewers or too many open files, the server waits, because both conditions end after
-            // some time.
+            // If there are too many viewers, the new viewer is refused. If too many files are open, none is accepted.
+            // In both cases the server waits before it tries again.
             Ok(_) | Err(_) => thread::sleep(REST),
         }
     }

@@ -32,7 +32,7 @@ const MOST: Duration = Duration::from_millis(100);
 const LARGEST: usize = 1 << 20;
 /// Largest number of requests between two readings of the clock.
 const REQUESTS: usize = 64;
-/// The channel numbers of new content begin at this constant, multiplied by the number of content changes so far.
+/// The channel numbers of new content begin at the product of this constant and the number of content changes so far.
 /// Each channel number is therefore unique.
 const CHANNELS: u64 = 1 << 16;
 

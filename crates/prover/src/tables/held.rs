@@ -54,7 +54,7 @@ impl RowKey {
 
     /// The first row (counted from 0) at which the instants turn back, against the direction of the table's first step.
     /// Returns the index of the reversing row, the instant of the row before it, and the instant of the reversing row.
-    /// If a time jumps back, a new run has begun.
+    /// A time that jumps back marks the start of a new run.
     #[must_use]
     pub fn turns_back(&self) -> Option<(usize, [f64; 2])> {
         let step = |row: usize| self.values[row].value - self.values[row - 1].value;
@@ -72,7 +72,8 @@ pub struct PartyColumn {
     /// Values by row, in the unit of the claim. [`MISSING`] means that nothing was measured.
     /// Any NaN other than `MISSING` means that the calculation gave no number.
     pub values: Vec<Rounded>,
-    /// Scale of the channel in the unit of the claim, from a complete trajectory; `None` if only this column is known.
+    /// Scale of the channel over a complete trajectory, in the unit of the claim.
+    /// `None` if only the values of this column are known.
     pub scale: Option<f64>,
     /// The line of the mapping for this column; `None` if the table's own header names the channel.
     pub mapped: Option<Mapped>,
@@ -85,7 +86,7 @@ pub struct Held {
     pub at: Instants,
     /// The party's values at these instants, one column for each channel or expression.
     pub columns: Vec<PartyColumn>,
-    /// Whether the data comes from an analytic side, so that its errors are known.
+    /// Whether the data comes from an analytic side. The error bounds of such data are known.
     pub is_analytic: bool,
     /// Columns of a table that are used neither for instants nor for channels.
     pub unused: Vec<String>,
@@ -115,7 +116,7 @@ impl Places {
     }
 }
 
-/// Names of the time in seconds that need no mapping, besides the names in [`INSTANTS`].
+/// Further column names that mean the time in seconds. Like the names in [`INSTANTS`], they need no mapping.
 const TIMES: [&str; 2] = ["t_s", "t"];
 
 impl Held {
@@ -148,8 +149,8 @@ impl Held {
             let printed = reader.column(mapped)?;
             let chosen = if mapped.name.ends_with("_deg") { columns::degrees_chosen } else { columns::chosen };
             let is_chosen = chosen(&printed);
-            // An instant may be exact as printed, not rounded. The only error of such an instant is the rounding error
-            // of the conversion to SI units.
+            // Printed instants may be chosen values, such as 0, 0.1 and 0.2. Such instants are exact as printed: their
+            // only error is the rounding error of the conversion to SI units.
             let exact = |own: Rounded| if is_chosen { Rounded::nearly(own.value) } else { own };
             let values: Vec<Rounded> = printed.into_iter().map(|own| exact(scaled(own, factor))).collect();
             if let Some(row) = values.iter().position(|own| !(own.value + own.error).is_finite()) {
@@ -247,7 +248,7 @@ impl Held {
         }
     }
 
-    /// The scale of a claim, in its unit, if it comes from a complete trajectory.
+    /// The scale of a claim, in the claim's unit. `None` if no complete trajectory gives the scale.
     #[must_use]
     pub fn scale_of(&self, claim: &Claim) -> Option<f64> {
         let (column, factor) = self.column_of(claim)?;

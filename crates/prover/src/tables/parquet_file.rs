@@ -42,8 +42,7 @@ pub(super) fn read(path: &Path, size: u64, may: May) -> Result<TextTable> {
 /// Reads the columns of numbers. Columns without numbers, such as names, are skipped.
 fn of_file(path: &Path, size: u64, may: May) -> std::result::Result<Result<TextTable>, ParquetError> {
     let file = File::open(path)?;
-    // This function converts errors itself, because the usual conversion would label an error of the file system as
-    // external.
+    // The usual conversion would begin the message of a file-system error with "External".
     let wrong = |error: std::io::Error| ParquetError::General(error.to_string());
     announced::check_description(&file).map_err(wrong)?;
     let reader = SerializedFileReader::new(file.try_clone()?)?;
@@ -100,8 +99,8 @@ fn unread(compression: Compression) -> Option<&'static str> {
     }
 }
 
-/// Whether a column contains one number in each row: integers that are not dates, times or decimals, or floating-point
-/// numbers.
+/// Whether a column contains one number in each row. Floating-point numbers count, and integers that do not stand for
+/// dates, times or decimals.
 fn is_number(column: &ColumnDescriptor) -> bool {
     use ConvertedType as Kind;
     let is_plain = column.path().parts().len() == 1 && column.max_rep_level() == 0;
@@ -149,7 +148,7 @@ fn values_of(
     }
 }
 
-/// Appends the values of a part of a column that has one type of value. `full` is the definition level of a row with a
+/// Like [`values_of`], but for a part whose values have the type `T`. `full` is the definition level of a row with a
 /// value. A row with another level has no value.
 fn taken<T: DataType>(
     mut part: ColumnReaderImpl<T>,

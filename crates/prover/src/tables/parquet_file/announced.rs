@@ -19,7 +19,7 @@ const DEEPEST: usize = 32;
 /// Largest number of bytes per value in a page. Eight bytes are for the value. Eight more are for its definition and
 /// repetition levels and for the overhead of delta encoding.
 const WIDEST: u64 = 16;
-/// Bytes allowed for a page in addition to its values, because a block of delta encoding is always complete.
+/// Bytes allowed for a page in addition to its values: delta encoding always fills its last block completely.
 const BESIDE: u64 = 1 << 12;
 /// Limit of a dictionary's size (bytes). Programs that write Parquet stop using a dictionary at 1 MiB.
 const DICTIONARY: u64 = 1 << 26;
@@ -81,7 +81,8 @@ pub(super) fn check_description(file: &File) -> io::Result<()> {
     Walk::new(BufReader::new(from).take(length)).structure(0, 0, &mut tell)
 }
 
-/// Sizes announced in the header of a page: unpacked bytes, bytes in the file, values, and values of a dictionary.
+/// Sizes announced in the header of a page: its bytes unpacked, its bytes in the file, and its number of values (in
+/// `data` for a page of data, in `dictionary` for a page with a dictionary).
 #[derive(Default)]
 struct Page {
     held: Option<u64>,
@@ -149,8 +150,8 @@ pub(super) fn check_pages(file: &File, rows: u64, column: &ColumnChunkMetaData) 
         }
         let mut body = from.by_ref().take(stored);
         let unpacked = match column.compression() {
-            // Only gzip data is unpacked to measure its size, because only the unpacking of gzip does not stop at the
-            // size that the header states.
+            // The unpacking of gzip data does not stop at the size that the header states. The data is therefore
+            // unpacked here to measure its size. For all other compressions, the unpacking stops at the stated size.
             Compression::GZIP(_) => io::copy(&mut MultiGzDecoder::new(&mut body).take(held + 1), &mut io::sink())?,
             Compression::UNCOMPRESSED | Compression::SNAPPY | Compression::ZSTD(_) => 0,
             Compression::BROTLI(_) | Compression::LZ4 | Compression::LZ4_RAW | Compression::LZO => 0,

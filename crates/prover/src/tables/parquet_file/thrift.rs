@@ -39,7 +39,7 @@ impl<R: Read> Walk<R> {
         Walk { from, read: 0, elements: 0 }
     }
 
-    /// Walks over a structure, the outermost one at depth 0.
+    /// Walks over a structure. `depth` is 0 for the outermost structure.
     pub fn structure(&mut self, depth: usize, outer: i64, tell: Tell) -> io::Result<()> {
         let mut field: i64 = 0;
         loop {
@@ -92,7 +92,8 @@ impl<R: Read> Walk<R> {
         }
     }
 
-    /// Walks over `count` elements of a list, or of a map with two kinds of elements.
+    /// Walks over the `count` elements of a list, or the `count` pairs of a map. `kinds` states the type of an element,
+    /// or the types of the key and the value of a pair.
     fn each(&mut self, count: u64, kinds: &[u8], depth: usize, at: [i64; 2], tell: Tell) -> io::Result<()> {
         self.elements = self.elements.saturating_add(count);
         if self.elements > MOST {
