@@ -188,7 +188,7 @@ impl<'a> PoseSolver<'a> {
         if deepest < Stage::Reactions {
             return Ok(());
         }
-        // All neighbouring poses use the senses of this pose.
+        // The loads at all neighbouring poses are computed with the links' senses of rotation at this pose.
         let own: Vec<f64> = match senses {
             Some(senses) => senses.to_vec(),
             None => self.load_rates(),
