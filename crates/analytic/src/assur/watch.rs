@@ -1,4 +1,4 @@
-//! Watches the dyads for which [`super::gauges`] has no proof.
+//! Watches the dyads for which [`super::gauges`] cannot prove that a step contains no change point.
 //!
 //! The closed form keeps the sign of a dyad's sine. At a change point, the computed motion therefore has a corner: the
 //! dyad's clearance falls to zero and rises again.
@@ -16,8 +16,8 @@ use linkage::mechanism::{PerGroup, PerLink};
 /// While the clearance goes from 0.8 to 0 and back, the links of the dyad turn by 106 deg relative to each other.
 /// If this relative rotation is [`FAST`] times as fast as the crank's rotation, the crank turns by 7 deg in the same
 /// time.
-/// These 7 deg are more than one step for dyads behind a higher group (2 deg), but less than one step for dyads alone
-/// (15 deg).
+/// These 7 deg are more than one step for dyads behind a higher group (2 deg), but less than one step (15 deg) if the
+/// mechanism has only dyads.
 const NARROW: f64 = 0.8;
 /// A clearance is assumed to stay above zero if it exceeds this multiple of its expected change over the rest of the
 /// step.
