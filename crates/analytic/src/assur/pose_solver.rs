@@ -325,7 +325,8 @@ impl<'a> PoseSolver<'a> {
         self.solve(input, drive.rate, drive.acceleration, deepest)
     }
 
-    /// The state for [`crate::modes`], which lists the configurations, at the time `t` (s) of this input of the first drive.
+    /// The state for the configurations that [`crate::modes`] lists, at the time `t` (s).
+    /// The first drive has this input at `t`.
     /// If the speed of the first drive varies, the state is computed for the top speed of this drive.
     /// Further drives keep their speed ratios to the first drive.
     /// If the drives have separate laws, every drive has the rates of its own law at `t`.

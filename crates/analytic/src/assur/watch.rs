@@ -82,7 +82,7 @@ impl Watch {
         Watch { is_needed: false, motions: PerLink::default(), groups: PerGroup::default(), step: 0.0 }
     }
 
-    /// Watches the groups for which the gauges prove nothing.
+    /// Watches the groups that have a clearance and are not among the gauges' proven groups.
     pub(super) fn leave_to(&mut self, gauges: &Gauges, plan: &SolutionPlan) {
         for (seen, step) in self.groups.iter_mut().zip(plan.steps()) {
             seen.is_watched = step.has_clearance();
@@ -127,8 +127,8 @@ impl Watch {
     }
 
     /// Whether the positions alone show that no group passes a change point on this step of the crank.
-    /// A step through a change point changes the angle between the dyad's links by at least the sum of the sines at its
-    /// two ends.
+    /// A step through a change point changes the angle between the dyad's links by at least the sum of the sines before
+    /// and after the step.
     /// A group is therefore safe if this sum exceeds both of the following limits.
     /// The first limit is the largest expected rotation in this step.
     /// The second limit is `CLEAR` times the change of the clearance over the last step, scaled to this step.

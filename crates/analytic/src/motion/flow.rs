@@ -1,4 +1,4 @@
-//! The pieces of a free motion, with the quantities that are constant in each piece and the bounds at which it ends.
+//! The pieces of a free motion. In each piece some quantities are constant; the piece ends at a bound.
 //! See docs/numerics/forces.md.
 
 use crate::sentences;
