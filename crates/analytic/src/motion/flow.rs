@@ -520,7 +520,7 @@ impl<const N: usize> Flow<N> for Pieces<'_, N> {
 
     fn begin(&self, t: f64, y: &[f64; N]) {
         self.origin.set(*y);
-        // At the beginning of a piece, the senses are kept: where the speed is zero, they were chosen by the accelerations.
+        // At the beginning of a piece, the senses are kept: those at zero speed were chosen from the accelerations.
         if t == self.entered.get() {
             return;
         }
