@@ -42,7 +42,7 @@ impl Solver for AssurSolver {
     }
 }
 
-/// Side 1 with a chosen integration error per step for motions under forces.
+/// Side 1, with a chosen bound of the error in each step in which a motion under forces is integrated.
 /// The chosen error has no effect on a prescribed motion, because such a motion is not integrated.
 #[derive(Clone, Copy, Debug)]
 pub struct AssurAt(pub f64);
@@ -85,7 +85,8 @@ fn free_motion(case: &Case, accuracy: f64, visit: Visit, progress: Progress) -> 
     times.dedup();
     let model = match ReducedModel::of(case) {
         // Use the equations with transfer functions if the reduced equation does not apply.
-        // The reduced equation does not apply if the loads are not functions of the crank angle over whole turns.
+        // The reduced equation does not apply if a load is not a periodic function of the crank angle: for example, a
+        // spring that every turn winds up further.
         // The reduced equation also does not apply if the branch is not known over a full turn.
         Err(error) if matches!(error.kind(), ErrorKind::Unsupported | ErrorKind::Numeric) => {
             return free::sweep(case, &mut TransferSide::new(case, share)?, accuracy, visit, progress);
@@ -93,7 +94,7 @@ fn free_motion(case: &Case, accuracy: f64, visit: Visit, progress: Progress) -> 
         model => model?,
     };
     if model.kinks().meets {
-        // The reduced equation ends at a change point, so the motion is solved with transfer functions.
+        // The reduced equation is valid only up to a change point, so the motion is solved with transfer functions.
         // The equations with transfer functions follow the motion beyond the change point, where the momentum selects
         // the branch.
         return free::sweep(case, &mut TransferSide::new(case, share)?, accuracy, visit, progress);

@@ -58,7 +58,7 @@ pub enum Extent {
 /// Smallest determinant and largest condition number of one group over the range.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GroupRange {
-    /// Smallest magnitude of the normalised determinant, with the determinant's sign.
+    /// The normalised determinant where its magnitude is smallest. The value keeps its sign.
     pub determinant: ValueAtCrank,
     /// Largest condition number. `None` if the group is singular at a limit, where its condition number grows without
     /// bound.
@@ -136,13 +136,14 @@ pub fn reachable(case: &Case) -> Result<Extent> {
     Ok(both_ways(&tracker, &start)?.1)
 }
 
-/// Explains an error of a solver on this case. This function is for code that combines solvers and range analysis.
-/// If the error [reports a pose out of reach](Error::is_out_of_reach) and the crank cannot turn fully, the reachable
-/// crank angles are added to its message.
+/// Adds the reachable crank angles of a case to an error that a solver returned for this case.
+/// This function is for code that combines solvers and range analysis.
+/// The angles are added to the message if the error [reports a pose out of reach](Error::is_out_of_reach) and the crank
+/// cannot turn fully.
 /// If the crank angles are unknown because the start pose is singular or the allowed work is used up, this reason is
 /// added instead.
 /// An error that does not report a pose out of reach stays unchanged.
-/// The solvers must not share the range analysis, so they do not call this function themselves.
+/// The solvers do not call this function themselves, because then both sides would depend on the same range analysis.
 pub fn explained(case: &Case, error: Error) -> Error {
     if !error.is_out_of_reach() {
         return error;

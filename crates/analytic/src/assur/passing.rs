@@ -1,4 +1,4 @@
-//! Side 1 through change points: where two branches of a group cross, the mechanism continues on the branch with
+//! How side 1 passes change points: where two branches of a group cross, the mechanism continues on the branch with
 //! continuous velocities.
 //!
 //! Along this branch all positions and transfer functions are smooth functions of the driving link's angle.
@@ -27,7 +27,7 @@ use window::Window;
 const LOOK: f64 = 1.0;
 /// No search is made if a known change point lies nearer than this multiple of the estimated distance.
 /// The known change point is then the estimated change point or lies before it.
-/// The window of the known change point is the start of the search for later change points.
+/// Later change points are searched for from the window of the known change point.
 const NEXT: f64 = 1.3;
 /// Two change points closer together than this (rad) count as one change point, at which several groups are singular.
 const SAME: f64 = 1e-6;
@@ -78,7 +78,7 @@ impl Passing {
     }
 
     /// Places the mechanism with its driving link at the angle `to`.
-    /// The last pose, at the angle `from`, must be at most one step away from `to`.
+    /// The last pose is at the angle `from`, which may differ from `to` by at most the largest step of `turns.rs`.
     /// In a window the pose comes from the window, and the plan is not used.
     pub(super) fn place(
         &mut self,

@@ -188,7 +188,7 @@ impl<'a> PoseSolver<'a> {
         if deepest < Stage::Reactions {
             return Ok(());
         }
-        // All neighbouring poses use the senses of this pose.
+        // The loads at all neighbouring poses are computed with the links' senses of rotation at this pose.
         let own: Vec<f64> = match senses {
             Some(senses) => senses.to_vec(),
             None => self.load_rates(),
@@ -259,7 +259,7 @@ impl<'a> PoseSolver<'a> {
         self.step_to(target, HALVINGS)
     }
 
-    /// Writes the coordinates of all drives at a crank angle to the inputs.
+    /// Sets the inputs to the coordinates of all drives at a crank angle.
     #[inline(always)]
     pub(super) fn turn(&mut self, crank: f64) {
         self.inputs[0] = self.zero + crank;
@@ -325,10 +325,11 @@ impl<'a> PoseSolver<'a> {
         self.solve(input, drive.rate, drive.acceleration, deepest)
     }
 
-    /// The state for the list of [`crate::modes`], at the time `t` (s) at which the first drive has this input.
+    /// The state for the configurations that [`crate::modes`] lists, at the time `t` (s).
+    /// The first drive has this input at `t`.
     /// If the speed of the first drive varies, the state is computed for the top speed of this drive.
     /// Further drives keep their speed ratios to the first drive.
-    /// Drives with separate laws have the rates of their own laws instead.
+    /// If the drives have separate laws, every drive has the rates of its own law at `t`.
     pub(crate) fn solve_place(&mut self, t: f64, input: f64, deepest: Stage) -> Result<&State> {
         let drive = self.case.crank();
         if self.by_time {

@@ -23,7 +23,8 @@ impl Turns {
     pub(super) fn from(pose: &Pose, motions: &[Motion]) -> Self {
         // The whole turns of a link follow from the difference between its angle in the pose and the principal angle of
         // its direction.
-        // The difference is rounded: on the axis -x, rounding decides whether the principal angle is -pi or pi.
+        // This difference is not an exact multiple of a turn because of rounding errors, hence `round`.
+        // On the axis -x, rounding errors also decide whether the principal angle is -pi or pi.
         let whole = |angle: f64, direction: Vec2| ((angle - principal(direction)) / TAU).round();
         let directions: Vec<Vec2> = motions.iter().map(|motion| motion.direction).collect();
         let whole = pose.0.iter().zip(&directions).map(|(pose, direction)| whole(pose.angle, *direction)).collect();
@@ -58,8 +59,8 @@ impl Turns {
     }
 }
 
-/// +1 if a direction has passed -x counter-clockwise, -1 if clockwise, otherwise 0. The direction has turned by less
-/// than half a turn.
+/// +1 if a direction has passed -x counter-clockwise, -1 if clockwise, otherwise 0. From `last` to `now`, the direction
+/// must turn by less than half a turn.
 #[inline]
 pub(super) fn crossing(last: Vec2, now: Vec2) -> f64 {
     let (was_up, is_up) = (last.y >= 0.0, now.y >= 0.0);

@@ -1,4 +1,4 @@
-//! Watches the dyads for which [`super::gauges`] has no proof.
+//! Watches the dyads for which [`super::gauges`] cannot prove that a step contains no change point.
 //!
 //! The closed form keeps the sign of a dyad's sine. At a change point, the computed motion therefore has a corner: the
 //! dyad's clearance falls to zero and rises again.
@@ -16,8 +16,8 @@ use linkage::mechanism::{PerGroup, PerLink};
 /// While the clearance goes from 0.8 to 0 and back, the links of the dyad turn by 106 deg relative to each other.
 /// If this relative rotation is [`FAST`] times as fast as the crank's rotation, the crank turns by 7 deg in the same
 /// time.
-/// These 7 deg are more than one step for dyads behind a higher group (2 deg), but less than one step for dyads alone
-/// (15 deg).
+/// These 7 deg are more than one step for dyads behind a higher group (2 deg), but less than one step (15 deg) if the
+/// mechanism has only dyads.
 const NARROW: f64 = 0.8;
 /// A clearance is assumed to stay above zero if it exceeds this multiple of its expected change over the rest of the
 /// step.
@@ -82,7 +82,7 @@ impl Watch {
         Watch { is_needed: false, motions: PerLink::default(), groups: PerGroup::default(), step: 0.0 }
     }
 
-    /// Watches the groups for which the gauges prove nothing.
+    /// Watches the groups that have a clearance and are not among the gauges' proven groups.
     pub(super) fn leave_to(&mut self, gauges: &Gauges, plan: &SolutionPlan) {
         for (seen, step) in self.groups.iter_mut().zip(plan.steps()) {
             seen.is_watched = step.has_clearance();
@@ -127,8 +127,8 @@ impl Watch {
     }
 
     /// Whether the positions alone show that no group passes a change point on this step of the crank.
-    /// A step through a change point changes the angle between the dyad's links by at least the sum of the sines at its
-    /// two ends.
+    /// A step through a change point changes the angle between the dyad's links by at least the sum of the sines before
+    /// and after the step.
     /// A group is therefore safe if this sum exceeds both of the following limits.
     /// The first limit is the largest expected rotation in this step.
     /// The second limit is `CLEAR` times the change of the clearance over the last step, scaled to this step.

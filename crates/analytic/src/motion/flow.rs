@@ -1,4 +1,4 @@
-//! The pieces of a free motion, with the quantities that are constant in each piece and the bounds at which it ends.
+//! The pieces of a free motion. In each piece some quantities are constant; the piece ends at a bound.
 //! See docs/numerics/forces.md.
 
 use crate::sentences;
@@ -175,7 +175,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
         }
     }
 
-    /// Writes the driving links' angles and rates at time `t` in the state `y` to the inputs.
+    /// Sets the inputs to the angles and rates of the driving links for the time `t` and the state `y`.
     fn put(&self, inputs: &mut Inputs, t: f64, y: &[f64; N]) {
         let mut free = 0;
         for (index, drive) in self.case.drives.iter().enumerate() {
@@ -376,7 +376,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
         }
     }
 
-    /// A short time (s), and the velocities after this time of the links, points and joints that are now at rest.
+    /// A short time (s), and the velocities that the links, points and joints now at rest have after this time.
     /// The driving links keep their present accelerations.
     /// `None` if nothing moves, or if the mechanism cannot reach the pose after this time.
     fn ahead(&self, work: &mut Work, place: &Place<N>, stood: &[Sensed]) -> Option<(f64, Vec<Vec2>)> {
@@ -520,7 +520,7 @@ impl<const N: usize> Flow<N> for Pieces<'_, N> {
 
     fn begin(&self, t: f64, y: &[f64; N]) {
         self.origin.set(*y);
-        // At the beginning of a piece, the senses are kept: they come from the accelerations.
+        // At the beginning of a piece, the senses are kept: those at zero speed were chosen from the accelerations.
         if t == self.entered.get() {
             return;
         }

@@ -139,7 +139,8 @@ mod tests {
     use linkage::error::Error;
     use linkage::math::KeepNan;
 
-    /// An oscillation in a potential that is not a parabola. The solution therefore has terms of every order.
+    /// An oscillation in a potential that is not a parabola. The Taylor series of the solution therefore has terms of
+    /// every order.
     struct Swing;
 
     impl ODE<f64, [f64; 2]> for Swing {
@@ -187,7 +188,7 @@ mod tests {
     #[test]
     fn dense_output_converges_with_order_seven() {
         let ratio = error(0.8) / error(0.4);
-        // The error of one step falls with the eighth power of its length.
+        // The error inside one step is proportional to the eighth power of the step's length.
         assert!(ratio > 150.0, "{ratio}");
         // If the interpolation had the library's order 4, `error(0.4)` would be 1e-5.
         assert!(error(0.4) < 1e-8, "{}", error(0.4));

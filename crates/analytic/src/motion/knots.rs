@@ -32,7 +32,7 @@ impl Knots {
                 ends = [ends[0].larger(last), ends[1].smaller(last + period)];
             }
         }
-        // At a knot with a jump, the table has the value after the jump.
+        // At a jump, a table has the value after the jump. A crank angle on a knot is therefore the lower end.
         ends
     }
 }

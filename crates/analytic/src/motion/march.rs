@@ -53,8 +53,8 @@ const PREDICTED: usize = 50_000;
 /// The reference length is the integration interval or the independent variable at the step's beginning, whichever is
 /// larger.
 /// A long sequence of short steps ends the march.
-/// Short steps would never pass a singular pose: near such a pose, accelerations are rounding errors or cannot be
-/// computed.
+/// Short steps would never pass a singular pose: near such a pose, accelerations cannot be computed, or their rounding
+/// errors exceed their values.
 const SHORTEST: f64 = 1e-9;
 const MOST_SHORT: usize = 400;
 /// A step may be longer than planned by this factor if the longer step reaches the last target. The factor avoids a
@@ -149,7 +149,7 @@ pub(crate) fn march<const N: usize, F: Flow<N>>(
         if let Some(beyond) = beyond(flow, &mut method)? {
             return end_on_bound(flow, place, &course, &mut method, beyond, &mut targets, visit);
         }
-        // If the end of the interval has shortened this step, its length does not limit the next step.
+        // If this step was shortened to end at the last target, the next step may be longer than this step.
         place.h = if cut { wished.larger(method.h()) } else { method.h() };
         method.set_h(place.h);
         (place.x, place.y) = (if cut { last } else { method.t() }, *method.y());
@@ -185,7 +185,7 @@ fn roughly<const N: usize>(method: &mut Method<N>, x: f64) -> Result<[f64; N]> {
 }
 
 /// Repeats the last step of the integration so that it ends on a bound.
-/// The bound is the first that the step passed before the position `beyond`.
+/// At the position `beyond` the step has passed one or more bounds; the step is repeated for the bound passed first.
 fn end_on_bound<const N: usize, F: Flow<N>>(
     flow: &F,
     place: &mut Place<N>,
@@ -236,7 +236,7 @@ fn crossing<const N: usize, F: Flow<N>>(
 
 /// Takes a step of about the length `h` that ends on the bound.
 /// The step is repeated, and the secant method gives the length of each repetition.
-/// `known` contains the length of a longer step and the margin at its end.
+/// `known` contains the length of a longer step, and the margin to the bound at the end of the longer step.
 fn shortened<const N: usize, F: Flow<N>>(
     flow: &F,
     (x, y): (f64, [f64; N]),

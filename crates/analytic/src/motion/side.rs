@@ -1,5 +1,5 @@
-//! The interface of an analytic side to the integrator: accelerations of the free driving links at their angles and
-//! speeds.
+//! The interface of an analytic side to the integrator: for given angles and speeds of the free driving links, the side
+//! computes their accelerations.
 
 use crate::sentences;
 use linkage::case::Case;

@@ -2,10 +2,10 @@
 //!
 //! Ordered by driving links and groups, the Jacobian is block-triangular.
 //! A driving link does not depend on the groups, and a group does not depend on later groups.
-//! Elimination within the diagonal blocks alone keeps this structure.
+//! This structure is kept if every elimination stays within one diagonal block.
 //! Results that do not depend on a group then stay accurate even if this group is near a singular pose.
 //! Elimination over all rows together would carry the rounding error of the group's large accelerations into the
-//! accelerations of the crank's pin.
+//! accelerations of other links, even of the crank.
 //! Every block also has its own determinant.
 //! The determinant of the whole matrix does not show a change of sign in two blocks at the same time.
 

@@ -7,7 +7,8 @@
 //! As n' = -omega1 e, dC1/dtheta1 = -e . (d + r1) with r1 from the mass centre to p1.
 //! C1'' = 0 gives n . d'' = 2 omega1 e . d' + alpha1 e . d. gamma consists of the first term on the right and the
 //! centripetal terms of d''.
-//! The multiplier of C1 is therefore a force along n that acts at p2 on both links. The multiplier of C2 is a moment.
+//! By the derivatives of C1, its multiplier is a force along n that acts at p2 on both links.
+//! The multiplier of C2 is a moment.
 //! The formulas of the derivatives are derived here. The constraints are equations 3.3.10 and 3.3.13 of E. J. Haug,
 //! Computer Aided Kinematics and Dynamics of Mechanical Systems, vol. 1, Allyn and Bacon 1989.
 
@@ -61,7 +62,7 @@ impl System<'_> {
         axis.dot(&(place - self.centre(joint.first.link) - self.arm(joint.first.link, joint.first.local)))
     }
 
-    /// Right-hand side of a drive's equation for the accelerations, if the input has the acceleration `of_input`.
+    /// Right-hand side of a drive's acceleration equation. `of_input` is the acceleration of the input.
     /// For a slide s = e . d, with d = p2 - p1 and n = z x e:
     /// s'' = e . d'' + 2 omega1 n . d' + alpha1 n . d - omega1^2 s.
     /// The terms linear in the accelerations belong to the Jacobian. All other terms form the right-hand side.
@@ -141,7 +142,7 @@ impl System<'_> {
         self.residual[row] = self.angle(second) - self.angle(first) - twist;
     }
 
-    /// Writes the right-hand side of the equations of the joint with this number for the accelerations.
+    /// Writes the right-hand side of the acceleration equations of the joint with this number.
     #[inline]
     pub(super) fn put_gamma(&mut self, index: JointId, joint: &Joint) {
         let centripetal = |side: JointSide| {

@@ -1,4 +1,4 @@
-//! Side 2 through change points, where the determinant of a block passes through zero but the mechanism moves on.
+//! How side 2 passes change points, where the determinant of a block passes through zero but the mechanism moves on.
 //! At a change point, side 2 follows the branch with continuous velocities.
 //!
 //! The path is followed as a function of the crank angle, with the first and second derivatives of all coordinates with
@@ -25,11 +25,11 @@ use window::Window;
 
 /// If the estimated distance to a change point is below this value (rad), the change point is searched for.
 const LOOK: f64 = 0.8;
-/// Rotation of the crank (rad) from which the slopes of the determinants at the start are computed.
+/// At the start, the slopes of the determinants are computed over this rotation of the crank (rad).
 const PROBE: f64 = 1e-4;
 /// No search is made if a known change point lies nearer than this multiple of the estimated distance.
 /// The known change point is then the estimated change point or lies before it.
-/// The window of the known change point is the start of the search for later change points.
+/// Later change points are searched for from the window of the known change point.
 const NEXT: f64 = 1.3;
 /// Two change points closer together than this (rad) count as one change point, at which several groups are singular.
 const SAME: f64 = 1e-6;
@@ -106,7 +106,7 @@ impl Passing {
         place(system, &self.spot)
     }
 
-    /// Places the mechanism by the window at this angle. Returns `false` if no window contains the angle.
+    /// If a window contains this angle, takes the pose from that window. Otherwise returns `false`.
     fn enter(&mut self, angle: f64) -> bool {
         self.inside = self.windows.iter().position(|window| (angle - window.at).abs() < window.reach);
         if let Some(index) = self.inside {

@@ -68,7 +68,7 @@ impl Solver for NewtonSolver {
     }
 }
 
-/// Side 2 with a chosen integration error per step for motions under forces: see
+/// Side 2, with a chosen bound of the error in each step in which a motion under forces is integrated: see
 /// [`AssurAt`](crate::AssurAt).
 #[derive(Clone, Copy, Debug)]
 pub struct NewtonAt(pub f64);

@@ -233,8 +233,8 @@ impl System<'_> {
     /// prediction.
     pub(super) fn check_branch(&self, dt: f64) -> Result<()> {
         self.check_signs()?;
-        // Positions are checked too: if axes become parallel, a slider moves to infinity and returns from the opposite
-        // side.
+        // Positions are checked too: if the axes of two prismatic joints become parallel, a slider moves to infinity
+        // and returns from the opposite side.
         let size = self.case.mechanism.size();
         for (index, rate) in self.rate.iter().enumerate() {
             let allowed = (dt * rate).abs() + if index % 3 == 2 { TRACKING_STEP } else { size };

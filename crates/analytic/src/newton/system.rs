@@ -141,7 +141,7 @@ impl<'a> System<'a> {
         rotated(unit(self.q[3 * (link.index() - 1) + 2]), local - self.case.mechanism.links()[link].mass_centre)
     }
 
-    /// World vector of a vector in a link's frame.
+    /// Converts a vector from a link's frame to the world.
     pub(super) fn along(&self, link: LinkId, local: Vec2) -> Vec2 {
         if link == GROUND { local } else { rotated(unit(self.angle(link)), local) }
     }

@@ -2,9 +2,10 @@
 //! same speed along this line.
 //!
 //! C' = w . (v2 - v1) with the line's direction w at the feet.
-//! The residual is c (q2 - f(q1)), minus its value in the start pose, plus the gaps of axles and guide along the line.
+//! The residual is c (q2 - f(q1)), minus its value in the start pose, plus the gaps along the line.
+//! A gap is the distance of an axle or a guide from its place on the carrier.
 //! Here c is `Contact::factor`.
-//! The gaps are zero in the solution. The residual includes these gaps so that the row C' is its exact derivative.
+//! The gaps are zero in the solution. With these gaps, the row C' is the exact derivative of the residual.
 //! For cams, the feet move relative to the carrier with the velocity q1' p, and the line turns relative to the carrier
 //! with the rate k q1'.
 //! With the angular velocities omega_i of the members and omega_0 of the carrier, and the velocity v of the point of
@@ -88,7 +89,7 @@ impl System<'_> {
         of_second - direction.dot(&axle(first))
     }
 
-    /// Right-hand side of a transmission's row for the accelerations.
+    /// Right-hand side of a transmission's acceleration equation.
     pub(super) fn transmission_gamma(&self, transmission: &Transmission) -> f64 {
         let (carrier, contact) = (transmission.design.carrier, self.contact(transmission));
         let line = &contact.lines[0];
@@ -108,15 +109,15 @@ impl System<'_> {
         gamma
     }
 
-    /// Moves the forces of transmissions from their first lines of action to the lines that carry them, and adds the
-    /// tension of slack strands.
+    /// Corrects the multipliers, which were computed as if the first line of action carried each transmission's force.
+    /// The force acts in the line that really carries it, and the tension of a belt's slack strand acts in both lines.
     pub(super) fn change_lines(&mut self) {
         self.find_lines();
         let rows = self.case.mechanism.equations();
         self.lambda[..rows].iter_mut().zip(&self.beside).for_each(|(lambda, beside)| *lambda += beside);
     }
 
-    /// Finds the changes of the multipliers by [`System::change_lines`].
+    /// Finds the changes of the multipliers that [`System::change_lines`] adds.
     pub(super) fn find_lines(&mut self) {
         let case = self.case;
         if case.mechanism.transmissions().is_empty() {

@@ -17,7 +17,8 @@ use linkage::mechanism::{
 pub(super) struct Gearing {
     /// Indices of the coordinates and their factors.
     pub(super) terms: Vec<(usize, f64)>,
-    /// Constant value of the equation: the sum of the factors times coordinates, minus the law of the transmission.
+    /// Constant value of the equation. Each coordinate is multiplied by its factor; the law of the transmission is
+    /// subtracted from the sum of these products.
     pub(super) sum: f64,
     /// The law of a transmission.
     pub(super) law: Option<FirstMember>,
@@ -33,8 +34,8 @@ pub(super) struct FirstMember {
 }
 
 impl Gearing {
-    /// Returns the sum of the factors times coordinates, minus the law.
-    /// Also returns the derivatives of minus the law: index and value for each coordinate of the first member.
+    /// Returns the value of the equation at `q`: the sum of all products of factor and coordinate, minus the law.
+    /// Also returns the derivatives of the negated law: index and value for each coordinate of the first member.
     fn at(&self, mechanism: &Mechanism, q: &ColumnVector) -> (f64, Vec<(usize, f64)>) {
         let sum = |terms: &[(usize, f64)]| terms.iter().map(|&(index, factor)| factor * q[index]).sum::<f64>();
         let Some(FirstMember { transmission, first, unit }) = &self.law else { return (sum(&self.terms), Vec::new()) };

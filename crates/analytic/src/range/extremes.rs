@@ -11,8 +11,8 @@ use super::constraints::Constraints;
 use super::singularity::{Singularity, SingularityKind, ValueAtCrank};
 use super::tracking::{Point, Tracker};
 
-/// A link counts as at rest if its tangent component, times the square of the smallest singular value, is at most this
-/// value. The component is then rounding error.
+/// A link counts as at rest if its tangent component, times the square of the Jacobian's smallest singular value, is at
+/// most this value. The component is then rounding error.
 /// The error of a pose is the rounding error divided by the singular value.
 /// The error of the tangent is the error of the pose, divided by the singular value a second time.
 const STILL: f64 = 50.0 * f64::EPSILON;

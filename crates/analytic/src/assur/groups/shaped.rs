@@ -96,8 +96,8 @@ impl Shape {
         }
     }
 
-    /// Moves all links of the body except the root, in the frame of the root. `frame` contains the motions of the
-    /// body's links in this frame.
+    /// Computes the positions of the body's links in the frame of the root.
+    /// `frame` receives these positions.
     #[inline]
     fn form(&mut self, coordinates: &[f64], frame: &mut [Motion]) {
         frame[self.root] = Motion::REST;

@@ -15,8 +15,8 @@ use linkage::math::{KeepNan, Motion, Vec2, angle, cross};
 use linkage::solver::State;
 
 /// If the residue of a reaction is below a threshold, it counts as zero. The threshold is the sum of two terms.
-/// The first term is this multiple of the residue's change when the innermost nodes are left out.
-/// The second term is a fraction of the largest product of a reaction and its distance.
+/// If the innermost nodes are left out, the residue changes. The first term is `NOISE` times this change.
+/// The second term is `LEAST` times the largest product of a reaction and the distance from the change point.
 const NOISE: f64 = 16.0;
 const LEAST: f64 = 1e-12;
 
@@ -25,7 +25,7 @@ const LEAST: f64 = 1e-12;
 /// The relative error of these reactions is the error of the position, divided by the distance.
 const NEAREST: f64 = 1e-7;
 
-/// Writes the loads on all links at their motions and angles (rad).
+/// Writes the loads that act on the links, for given motions and angles (rad) of the links.
 pub(in crate::assur) type Loads<'a> = &'a mut dyn FnMut(&[Motion], &[f64], &mut [Wrench]);
 
 /// Reactions grow without bound, because the pose is the change point itself or next to a change point.

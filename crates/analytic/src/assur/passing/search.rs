@@ -22,7 +22,7 @@ const MET: f64 = 1e-6;
 const LINEAR: f64 = 1e-3;
 /// For a higher group, these limits replace `MET` and `LINEAR`.
 /// These limits apply to the determinant divided by its value at the start of the search.
-/// The start may already be near the change point.
+/// They are larger because the start may already be near the change point.
 const HIGHER: [f64; 2] = [1e-4, 3e-2];
 const MOST_STEPS: usize = 200;
 

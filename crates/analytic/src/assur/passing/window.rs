@@ -10,7 +10,8 @@
 //! Second transfer functions then have errors of about 5e-13 for r = 2 rad, 1e-12 for 1 rad, 4e-12 for 0.6 rad and
 //! 3e-11 for 0.3 rad.
 //! The half widths in these cases are from 0.5 to 0.15 rad.
-//! Several half widths are tried; the half width is chosen for which the result changes least when nodes are left out.
+//! For each of several half widths, nodes are left out and the change of the result is measured.
+//! The half width with the smallest change is used.
 
 use std::f64::consts::PI;
 
@@ -74,7 +75,8 @@ pub(super) fn weights(offsets: &[f64], x: f64) -> Vec<f64> {
 }
 
 impl Window {
-    /// The surroundings of the change point of `group` at the angle `at` (rad), seen from the pose `start` near it.
+    /// The surroundings of the change point of `group` at the angle `at` (rad).
+    /// The nodes are reached from the nearby pose `start`.
     pub(super) fn around(at: f64, group: GroupId, start: &Start, share: f64) -> Result<Self, OutOfReach> {
         let mut best: Option<(f64, Window)> = None;
         let (mut failed, mut allowed) = (None, f64::INFINITY);
@@ -154,7 +156,7 @@ impl Window {
             let (node, sine) = put(offset, &mut plan, &motions);
             // The sine of a dyad is never negative.
             // Beyond the change point, the sine is stored with a minus sign, so that `polish` finds a zero.
-            // The determinant of a higher group changes its sign without this correction.
+            // The determinant of a higher group changes its sign itself and is stored as it is.
             sines.push(if node.plan.determinant(group).is_some() { sine } else { -sine });
             nodes.push(node);
         }
@@ -291,8 +293,8 @@ impl Window {
     }
 }
 
-/// Converts the motion of a link from unit speed of the driving link, without acceleration, to the given speed and
-/// acceleration.
+/// Computes the motion of a link for the given speed and acceleration of the driving link.
+/// `unit` is the link's motion if the driving link has unit speed and no acceleration.
 pub(super) fn at_speed(unit: &Motion, [omega, alpha]: [f64; 2]) -> Motion {
     Motion {
         velocity: unit.velocity * omega,

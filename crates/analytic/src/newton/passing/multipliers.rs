@@ -14,7 +14,7 @@ use linkage::drive::Wrench;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{KeepNan, Motion};
 
-/// At the change point, products of multiplier and distance below a threshold count as zero.
+/// The product of multiplier and distance is extrapolated to the change point; below a threshold it counts as zero.
 /// The threshold is the sum of two terms.
 /// The first term is `NOISE` times the change of the product if the innermost poses are left out.
 /// The second term is `LEAST` times the largest product.
@@ -26,7 +26,7 @@ const LEAST: f64 = 1e-12;
 /// The relative error of these multipliers is the error of the position, divided by the distance.
 const NEAREST: f64 = 1e-7;
 
-/// Writes the loads on all links at their motions and angles (rad).
+/// Writes the loads that act on the links, for given motions and angles (rad) of the links.
 type Loads<'a> = &'a mut dyn FnMut(&[Motion], &[f64], &mut [Wrench]);
 
 impl Window {

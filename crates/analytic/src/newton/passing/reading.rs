@@ -10,7 +10,7 @@ use linkage::error::Result;
 use linkage::math::{Motion, rotated, turned, unit};
 use linkage::trajectory::Stage;
 
-/// Writes the loads on all links of a case at their motions and angles (rad).
+/// Writes the loads that act on the links of a case, for given motions and angles (rad) of the links.
 type Loads<'a> = &'a mut dyn FnMut(&Case, &[Motion], &[f64], &mut [Wrench]);
 
 impl Passing {

@@ -68,7 +68,8 @@ pub(in crate::newton) struct Window {
 }
 
 impl Window {
-    /// The surroundings of a change point of a block at the angle `at` (rad), seen from the spot `from` near it.
+    /// The surroundings of a change point of a block at the angle `at` (rad).
+    /// The poses are reached from the nearby spot `from`.
     pub(super) fn around(system: &mut System, from: &Spot, [at, share]: [f64; 2], block: usize) -> Result<Self> {
         let mut best: Option<(f64, Window)> = None;
         let (mut failed, mut allowed) = (None, f64::INFINITY);
@@ -182,7 +183,7 @@ impl Window {
         Ok(Window { at, reach, spots, places, turns: Vec::new(), coordinates, condition: f64::INFINITY })
     }
 
-    /// Writes the pose at an angle to a spot. Signs and determinants come from the window's outermost pose on the same
+    /// Sets a spot to the pose at an angle. Signs and determinants come from the window's outermost pose on the same
     /// side of the change point.
     pub(super) fn put(&self, angle: f64, spot: &mut Spot) {
         spot.angle = angle;
@@ -263,7 +264,7 @@ fn crossing(spots: &[Spot], block: usize) -> Option<f64> {
         return None;
     }
     // The first estimate comes from inverse interpolation.
-    // The secant method improves this estimate, for the polynomial through all poses.
+    // From this estimate, the secant method finds the zero of the polynomial through the determinants at all poses.
     let first = neville(&shares[inner.clone()], |k| spots[inner.start + k].angle, 0.0);
     let places: Vec<f64> = spots.iter().map(|spot| spot.angle - first).collect();
     let share = |x: f64| neville(&places, |k| shares[k], x);
@@ -278,7 +279,7 @@ fn crossing(spots: &[Spot], block: usize) -> Option<f64> {
     Some(first + x)
 }
 
-/// Value at `x` of the polynomial through `value` at the positions `places` (Neville's scheme).
+/// The value at `x` of a polynomial (Neville's scheme). At the position `places[k]` it has the value `value(k)`.
 pub(super) fn neville(places: &[f64], value: impl Fn(usize) -> f64, x: f64) -> f64 {
     let mut row: Vec<f64> = (0..places.len()).map(value).collect();
     for level in 1..places.len() {
