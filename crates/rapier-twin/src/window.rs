@@ -247,7 +247,7 @@ impl Window {
     /// Positions and rates are interpolated between steps.
     /// Accelerations are centred second differences of the positions.
     /// If drive speeds change, rates are centred first differences of the positions.
-    /// The reason is that the engine then drives with the step's mean speed, but from the pose at the step's start.
+    /// The reason is that the engine's velocities then combine the pose at the step's start with the step's mean speed.
     pub(super) fn sample(&mut self, case: &Case, t: f64, state: &mut State) {
         let place = self.place(t);
         let weights = place.weights(0.0);
