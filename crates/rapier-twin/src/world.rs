@@ -35,7 +35,7 @@ impl LinkFrame {
     pub const GROUND: LinkFrame =
         LinkFrame { origin: Vec2::new(0.0, 0.0), direction: Vec2::new(1.0, 0.0), angle: LinkAngle::Whole(0.0) };
 
-    /// If the chord between two directions is shorter than this constant, the chord is used as the rotation angle (rad).
+    /// If the chord between two directions is shorter than this constant, its length is used as the rotation (rad).
     /// The relative error of the chord is the square of the rotation divided by 24.
     const SMALL: f64 = 0.1;
 

@@ -37,8 +37,9 @@ pub struct Probing {
     /// Rotation of the fastest body in the tiny step (rad). The tiny step is at most the step of the window.
     pub turn: f64,
     /// The sweeps are doubled until no force changes by more than this fraction of the largest force.
-    /// A moment counts as a force at the longest arm of a joint.
-    /// A change within the rounding error of the sweeps is allowed in addition.
+    /// The change of a moment is divided by the largest moment, or by the moment of the largest force at the longest arm
+    /// of a joint if this moment is larger.
+    /// The bound of the sweeps' rounding error is added to the fraction.
     pub tolerance: f64,
     /// The first number of sweeps.
     pub sweeps: usize,
