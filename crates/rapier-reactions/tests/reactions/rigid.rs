@@ -106,8 +106,8 @@ fn errors(link: Link, steps: usize) -> [f64; 3] {
     ]
 }
 
-/// In a slide between separate bodies, the motor acts along the axis that the slide has at the start of the step, and it
-/// corrects no drift. Rapier's motion therefore has an error of first order.
+/// In a slide between separate bodies, the motor acts along the axis that the slide has at the start of the step.
+/// The motor corrects no drift. Rapier's motion therefore has an error of first order.
 #[test]
 fn joints_between_separate_bodies_have_the_orders_of_their_routes() {
     for (link, orders, bound) in [
