@@ -26,7 +26,7 @@ const ROUNDING: f64 = 1.0 + 1e-9;
 pub struct Peak {
     /// Largest magnitude (N; N m for a moment).
     pub value: f64,
-    /// Crank angle (rad) or slide (m) of the largest magnitude, as the scenario defines it.
+    /// Crank angle (rad) or slide (m) at which the magnitude is largest, as the scenario defines this input.
     pub crank: f64,
 }
 

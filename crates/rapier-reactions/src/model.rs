@@ -99,7 +99,8 @@ impl Stance {
         Stance { rows: self.rows.towards(end.rows, share), point, ..end }
     }
 
-    /// Violation of the locked coordinates (m). A violated rotation counts as a gap at the distance `size` (m).
+    /// Violation of the locked coordinates (m): the gap, or the sine of the violated rotation times `size` (m) if this
+    /// product is larger.
     pub(crate) fn violation(&self, size: f64) -> f64 {
         larger(self.gap, self.twist * size)
     }

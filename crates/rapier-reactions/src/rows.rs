@@ -32,12 +32,12 @@ impl JointType {
 }
 
 /// Place and direction of a joint's constraint rows.
-/// Rapier lays the rows at the START of a substep and keeps them until its end.
+/// Rapier computes the rows at the START of a substep and keeps them until its end.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct JointRows {
     /// Unit vector of the x axis of joint frame 1, in world axes.
     pub axis: Vec2,
-    /// Vectors from the mass centres of both bodies to the rows (m, world axes).
+    /// For each body, the vector from its mass centre to the point where the rows act on it (m, world axes).
     /// The row acts on body 2 at the origin of joint frame 2.
     /// The row acts on body 1 at the same point, moved along the locked axes by the gap of the joint.
     pub arms: [Vec2; 2],
@@ -54,7 +54,7 @@ impl JointRows {
         JointRows { axis: mix(self.axis, end.axis).normalize(), arms: [0, 1].map(|k| mix(self.arms[k], end.arms[k])) }
     }
 
-    /// Impulse (N s, world axes) and angular impulse (N m s) of all rows together, with the sign of `rows`.
+    /// Impulse (N s, world axes) and angular impulse (N m s) that all rows together exert on body 1.
     /// The angular impulse is about the point where the rows act.
     ///
     /// `rows` are the numbers of `ImpulseJoint::impulses`.
@@ -81,7 +81,7 @@ impl JointRows {
         [lever(self.axis), lever(turned(self.axis)), [1.0; 2]]
     }
 
-    /// The impulses of the rows as they were before Rapier made them orthogonal.
+    /// The impulses of the original rows, from the impulses of the rows that Rapier made orthogonal.
     ///
     /// Rapier's modified Gram-Schmidt method (`JointConstraintHelper::finalize_constraints` in version 0.36.1) replaces
     /// the row c_i by c_i - sum over j of k_ij c_j, in the metric of the inverse masses.

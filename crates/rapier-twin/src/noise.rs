@@ -14,16 +14,16 @@ use linkage::trajectory::{ChannelKind, ChannelSubject, Stage, Unit};
 const SPEED_ULPS: f64 = 20.0;
 /// Rounding error of a second difference, in units of epsilon times the largest angle.
 /// The rounding error is later divided by the square of the step.
-/// A second difference of the crank angle has two such units: 12.6 epsilon for a full turn (measured: 11.7).
+/// For the crank angle, the error is two such units: 12.6 epsilon for a full turn (measured: 11.7).
 /// The constant is twice as large, to cover the links that the crank moves.
 const DIFFERENCE_ULPS: f64 = 4.0;
 /// Smallest angle (rad) that is multiplied by [`DIFFERENCE_ULPS`].
 /// A smaller angle has no smaller error, because unit vectors and positions are rounded at any angle.
-/// For a quarter turn and for half a turn, 12.6 epsilon were measured on the crank-rocker and on `quick_return`.
+/// On the crank-rocker and on `quick_return`, 12.6 epsilon were measured, both for a quarter turn and for half a turn.
 /// On `ov7_base`, 26 epsilon were measured; 37 epsilon are allowed.
 const LEAST_TURN: f64 = 3.0 * std::f64::consts::PI;
 /// Mean rounding error per step of an angle that grows from zero, in units of epsilon times its final value.
-/// Unit vectors are rounded by up to one epsilon, so `bound` uses at least one epsilon.
+/// Unit vectors are rounded by up to one epsilon, so `bound` assumes at least one epsilon per step.
 const MEAN_HALF_ULP: f64 = 0.25;
 /// Rounding error of the speed change due to an impulse, in units in the last place.
 /// The error is the product of the rounding error of a speed and the condition number of the loop that determines the

@@ -48,7 +48,8 @@ pub struct Rapier {
 impl Rapier {
     /// Solver sweeps per step.
     /// With 256 sweeps, velocities of random chains of three dyads keep a first-order error.
-    /// Differences between runs do not reveal this error, because it cancels in them (docs/findings.md).
+    /// The error estimate does not contain this error: it is the same in all runs and cancels in their differences
+    /// (docs/findings.md).
     /// With 512 sweeps, one channel in a hundred keeps this error; with 1024 sweeps, no tested channel keeps it.
     pub const SWEEPS: usize = 1024;
     /// Sweeps per step of the impulse build, where errors propagate along the chain joint by joint.

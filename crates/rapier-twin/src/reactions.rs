@@ -91,7 +91,7 @@ impl<'a> Reactions<'a> {
         }
     }
 
-    /// Fills in the reactions and moments of a state with the window's motion at `t` (s).
+    /// Fills in the reactions and moments of a state. They belong to the window's motion at the time `t` (s).
     ///
     /// # Errors
     /// [`ErrorKind::Numeric`] where the equations do not determine the reactions, or if a probe fails.

@@ -16,7 +16,8 @@ use linkage::solver::{Progress, State, Visit, check_instants};
 /// Number of steps after which the transient of a start or of a reversal is below rounding error.
 /// One step is enough; the additional steps are a margin.
 const SETTLING_STEPS: i64 = 3;
-/// Upper limit of the number of steps of a run. More steps would take minutes, and most likely a unit is wrong.
+/// Upper limit of the number of steps of a run.
+/// A case with more steps would run for minutes; most likely, one of its numbers has the wrong unit.
 const MAX_STEPS: f64 = 2e7;
 
 /// Solves a case: see [`Solver::sweep`](linkage::solver::Solver::sweep).
@@ -185,7 +186,7 @@ impl<'a> Run<'a> {
     }
 }
 
-/// Adds to an error the time or input up to which the run has come. The rows visited up to this point are valid.
+/// Adds the time or input of the last visited row to an error. The rows visited up to this point are valid.
 fn reached(error: Error, case: &Case, visited: Option<usize>) -> Error {
     let (Some(row), ErrorKind::Numeric) = (visited, error.kind()) else { return error };
     let until = match case.is_free() {

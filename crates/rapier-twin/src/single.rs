@@ -17,7 +17,7 @@ fn wide(value: Real) -> f64 {
     f64::from(value)
 }
 
-// Two crates, one for each precision, contain the engine under the same names.
+// Rapier has one crate for each precision. Both crates define the same names.
 // Code that compiles against one crate therefore also compiles against the other crate.
 #[expect(clippy::duplicate_mod, reason = "the same sources against another crate and another number")]
 #[path = "twins/worlds.rs"]

@@ -16,7 +16,8 @@ use linkage::math::Vec2;
 use linkage::mechanism::{GROUND, Joint, Mechanism};
 use linkage::mechanism::{LinkId, spanning_tree::SpanningTree};
 
-/// The links of a cut pin, the link that moves more easily first, and the direction of the first row in its frame.
+/// The two links of a cut pin, and the direction of the first row.
+/// The link that moves more easily is the first link, and the direction is given in the frame of this link.
 /// `masses` are mass (kg) and moment of inertia (kg m^2) of every link. `None` if there is no choice of directions.
 pub(super) fn steered(
     tree: &SpanningTree,

@@ -49,8 +49,8 @@ pub(super) struct Window {
     /// The interpolation uses steps up to two (positions) or three (second differences) before its centre.
     lowest: i64,
     settled: i64,
-    /// Mass centre and angle of every link at the instant of the engine's velocities, and directions of the tree's
-    /// links.
+    /// Mass centre and angle of every link at the instant to which the engine's velocities belong, and the directions
+    /// of the tree's links at this instant.
     poses: Vec<[f64; WIDTH]>,
     directions: Vec<Vec2>,
     /// Positions, rates and accelerations of a sample, one row for each link.
@@ -58,9 +58,9 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// Number of steps that a sample needs before the step that lies at or before the sample's instant.
+    /// A sample at an instant needs this number of steps before the last step that is not later than the instant.
     pub(super) const BEHIND: i64 = 3;
-    /// Number of steps that a sample needs after the step that lies at or before the sample's instant.
+    /// A sample at an instant needs this number of steps after the last step that is not later than the instant.
     pub(super) const AHEAD: i64 = 4;
 
     /// An empty window of a run. The first state that is pushed belongs to step `start`.
@@ -104,7 +104,8 @@ impl Window {
         window
     }
 
-    /// Number of additional steps before the start. With several substeps, every step needs poses between steps.
+    /// Number of additional steps before the start. With several substeps, the velocities of every step belong to an
+    /// instant between two steps; the poses at this instant are interpolated from earlier steps.
     pub(super) fn extra(substeps: usize) -> i64 {
         if substeps > 1 { POINTS as i64 - 2 } else { 0 }
     }
@@ -246,7 +247,7 @@ impl Window {
     /// Positions and rates are interpolated between steps.
     /// Accelerations are centred second differences of the positions.
     /// If drive speeds change, rates are centred first differences of the positions.
-    /// The reason is that the engine then drives with the step's mean speed, but from the pose at the step's start.
+    /// The reason is that the engine's velocities then combine the pose at the step's start with the step's mean speed.
     pub(super) fn sample(&mut self, case: &Case, t: f64, state: &mut State) {
         let place = self.place(t);
         let weights = place.weights(0.0);

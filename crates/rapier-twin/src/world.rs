@@ -14,7 +14,7 @@ pub enum LinkAngle {
     /// The angle itself, including full turns.
     /// For a link of the tree, the angle is the sum of the joint coordinates from the ground to the link.
     Whole(f64),
-    /// Full turns (rad), to be added to the angle of the link's direction. This angle is between -pi and pi.
+    /// Full turns (rad), to be added to the angle of the link's direction, which is between -pi and pi.
     /// A separate body has a direction only; the arc tangent is computed on demand.
     Turns(f64),
 }
@@ -35,7 +35,7 @@ impl LinkFrame {
     pub const GROUND: LinkFrame =
         LinkFrame { origin: Vec2::new(0.0, 0.0), direction: Vec2::new(1.0, 0.0), angle: LinkAngle::Whole(0.0) };
 
-    /// A chord between two directions that is shorter than this constant (rad) replaces the rotation angle.
+    /// If the chord between two directions is shorter than this constant, its length is used as the rotation (rad).
     /// The relative error of the chord is the square of the rotation divided by 24.
     const SMALL: f64 = 0.1;
 
@@ -124,8 +124,8 @@ pub trait World {
     /// Sets whether the velocities after a step exclude the correction of loop gaps.
     ///
     /// If the correction is excluded, Rapier solves all constraints a second time after the step.
-    /// Rapier continues with velocities along the constraints at the START of the step.
-    /// The velocities along the constraints are not the velocities that moved the bodies.
+    /// The next step then begins with velocities that satisfy the constraints of the pose at the START of this step.
+    /// These velocities are not the velocities that moved the bodies.
     /// In a free motion, each step therefore loses momentum across the constraints of the pose at its start.
     /// The following step regains the lost momentum across the constraints of the following pose.
     fn set_stabilised(&mut self, stabilised: bool);
@@ -183,7 +183,7 @@ pub trait World {
     fn torque(&self, drive: usize) -> f64;
 }
 
-/// Gap of a joint (m), which is its closure error, if the links have the given frames.
+/// Gap of a joint (m) whose links have the given frames. The gap is the closure error.
 /// An angle between the axes of a prismatic joint is multiplied by the mechanism's size `size` (m).
 #[inline]
 pub(super) fn opening(frames: &[LinkFrame], joint: &Joint, size: f64) -> f64 {
@@ -203,7 +203,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// Rotations start at any angle, in steps of any size below half a turn, in both senses.
+        /// Rotations begin at any angle. They consist of steps of any size below half a turn, in both senses.
         #[test]
         fn turns_are_counted(start in -20.0f64..20.0, steps in prop::collection::vec(-3.1f64..3.1, 1..40)) {
             let mut frame = LinkFrame { angle: LinkAngle::Turns(0.0), ..LinkFrame::GROUND };

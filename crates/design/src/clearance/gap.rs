@@ -4,7 +4,8 @@
 //! The bound depends only on the direction between the nearest points.
 //! The distance of two convex parts along a fixed direction is the distance of their extreme corners along this
 //! direction.
-//! Every corner moves uniformly, up to a proven error, so the bound is valid for any direction.
+//! Along any direction, this distance is a valid bound. The bound holds over the whole part of the range, because every
+//! corner moves uniformly, up to a proven error.
 //! A wrong pair of nearest points therefore makes the bound weaker, but never wrong.
 
 use linkage::math::{KeepNan, Vec2, turned};

@@ -1,7 +1,7 @@
 //! Smallest distances and first meetings of pairs over the range.
 //!
-//! The search halves a part of the range until it proves that no distance in the part is below the smallest distance
-//! found, minus the tolerance.
+//! The search halves a part of the range until a lower bound is proven for all distances in the part. This bound is the
+//! smallest distance found minus the tolerance.
 //! The search ends when every part is proven, so no instant is skipped.
 //! Parts that remain unproven at the smallest size, or when the budget is used up, are reported.
 
@@ -195,8 +195,8 @@ impl DistanceSearch<'_, '_> {
                 clear = Some(to);
                 continue;
             }
-            // A part with proven bounds is halved further, until the motion within the part is smaller than the contact
-            // distance.
+            // A part with proven bounds is halved `FURTHER` more times. The motion within the part is then smaller than
+            // the contact distance.
             let narrow = part.halvings >= MOST_HALVINGS + if slice.sound { FURTHER } else { 0 };
             if narrow {
                 for crank in [slice.crank, to] {

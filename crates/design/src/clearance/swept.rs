@@ -25,7 +25,7 @@ const SPREAD: f64 = 0.5;
 /// Width of a window divided by the width of a part of the range. The window is a wider part of the range around this
 /// part.
 /// `ANCESTORS` is the largest number of windows that are tried: around the part itself, then around the wider parts
-/// from which the part was halved.
+/// that were halved to obtain this part.
 const WINDOW: f64 = 4.0;
 const ANCESTORS: usize = 4;
 /// If the outline's border moves less than this fraction of a square's half diagonal, no window is tried for the
@@ -340,8 +340,8 @@ fn passes([from, to]: &[Track; 2], half: f64, centre: Vec2, about: f64) -> bool 
         cross(b - a, centre - a) / (b - a).norm()
     };
     let [before, after] = [signed(-half), signed(half)];
-    // The limit of the distance contains twice the position errors of the side's ends.
-    // If the ends of a side are hardly farther apart than their errors, the direction of the side is not proven.
+    // The limit of the distance contains twice the sum of the position errors of the side's two ends.
+    // If these ends are hardly farther apart than their errors, the direction of the side is not proven.
     let sure = about + 2.0 * error;
     if !(before.abs() > sure && after.abs() > sure && before * after < 0.0) {
         return false;

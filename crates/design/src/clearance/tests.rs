@@ -185,7 +185,7 @@ fn the_first_collision_is_the_first_in_motion_order() {
         assert!(found.pairs.iter().all(|pair| pair.collision.is_some()));
         assert_eq!(first.bodies, [0, 4]);
         assert!((meeting.cranks[1].abs() - 0.5 * PI).abs() < 0.1, "{meeting:?}");
-        // The swept areas need fewer additional poses than the search for distances needed.
+        // The search for swept areas computes fewer additional poses than the search for distances.
         assert!(found.work.positions < found.work.poses, "{:?}", found.work);
     }
     // If change points are passed, the next turn may follow another branch than the first turn.
@@ -243,7 +243,7 @@ fn the_orientation_of_a_polygon_does_not_matter() {
     }
 }
 
-/// The rounding error of a position grows with the distance from the origin, for a body and for a link.
+/// The rounding error of a position grows with the distance from the origin, for the housing and for a link.
 /// At a distance of 1000 m, the rounding error is above 1000 m times the epsilon of a double.
 #[test]
 fn rounding_grows_with_the_farthest_position() {

@@ -9,9 +9,9 @@ use crate::plane::turned;
 use crate::rows::{JointRows, JointType, ROTATION};
 use crate::sentences;
 
-/// With at least this many joints of one colour (no two of which move the same body), Rapier 0.36.1 solves joints in
-/// groups, and lays the rows of a group in another order (`min_color_joints` and
-/// `JointConstraint<SimdReal, SIMD_WIDTH>::update`).
+/// Rapier gives joints one colour if no two of them move the same body.
+/// If a colour has at least this many joints, Rapier 0.36.1 solves them in groups. In a group, the rows of a joint have
+/// another order (`min_color_joints` and `JointConstraint<SimdReal, SIMD_WIDTH>::update`).
 /// For a prismatic or fixed joint between separate bodies, the order of the rows is then unknown.
 const GROUPED: usize = 64;
 

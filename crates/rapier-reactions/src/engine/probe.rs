@@ -37,8 +37,9 @@ pub struct Probing {
     /// Rotation of the fastest body in the tiny step (rad). The tiny step is at most the step of the window.
     pub turn: f64,
     /// The sweeps are doubled until no force changes by more than this fraction of the largest force.
-    /// A moment counts as a force at the longest arm of a joint.
-    /// A change within the rounding error of the sweeps is allowed in addition.
+    /// The change of a moment is divided by the largest moment, or by the product of the largest force and the longest
+    /// arm of a joint if this product is larger.
+    /// The bound of the sweeps' rounding error is added to the fraction.
     pub tolerance: f64,
     /// The first number of sweeps.
     pub sweeps: usize,
@@ -84,8 +85,10 @@ fn arm(middle: &Middle) -> f64 {
     arms.fold(0.0, larger)
 }
 
-/// Largest change of a force, or of a moment at the arm `arm` (m), relative to the largest force.
-/// Without an arm, moments are compared with the largest moment.
+/// Largest relative change of a force or of a moment.
+/// The change of a force is divided by the largest force.
+/// The change of a moment is divided by the largest moment, or by the product of the largest force and `arm` (m) if
+/// this product is larger.
 fn change(coarse: &[JointReaction], fine: &[JointReaction], arm: f64) -> f64 {
     let largest = |of: &dyn Fn(&JointReaction, &JointReaction) -> f64| {
         coarse.iter().zip(fine).fold(0.0, |most, (coarse, fine)| larger(most, of(coarse, fine).abs()))
@@ -167,8 +170,8 @@ impl Sandbox {
         let before = placements(middle, -tiny.step);
         self.drive(middle, &middle.snapshot.model.stances(&before), -tiny.step);
         // The velocities at t - h are computed from the poses of the window by differences. They satisfy the joints up
-        // to the small error of these differences, so one step is enough to make them consistent. This step also adds
-        // the acceleration of each free coordinate times h to the velocity at t - h, for both tiny steps of the probe.
+        // to the small error of these differences, so one step is enough to make them consistent. In both tiny
+        // steps of the probe, this step also increases the speed of each free coordinate by its acceleration times h.
         self.place(&before);
         self.world.step();
         let now = placements(middle, 0.0);

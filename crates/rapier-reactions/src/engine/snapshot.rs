@@ -60,7 +60,7 @@ impl JointHandle {
     }
 }
 
-/// Reaction of a joint: everything that it transmits, with its motor.
+/// Reaction of a joint: everything that it transmits, including the effort of its motor, damper or spring.
 /// All vectors are in world axes. On body 1, force and moment act in the opposite direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointReaction {

@@ -90,11 +90,11 @@ impl PoseWindow {
     /// A separate world with the same bodies is set to the pose shortly before the middle pose, and one step makes
     /// its velocities consistent with the joints.
     /// The separate world is then set to the middle pose and makes a tiny step, whose impulses are read.
-    /// A second tiny step, half as long, extrapolates the result.
+    /// A second tiny step is half as long. The result is extrapolated from both tiny steps.
     /// In the separate world every joint is an impulse joint, so joints of a multibody are read as well.
     /// Along a coordinate with a motor, a damper or a spring, the bodies move as they do in the window.
     ///
-    /// The error has the same order as the error of [`PoseWindow::by_differences`], and a smaller constant.
+    /// The error has the same order in the step as the error of [`PoseWindow::by_differences`], but it is smaller.
     ///
     /// # Errors
     /// [`ReactionError::TooFewPoses`], [`ReactionError::NotConverged`], [`ReactionError::NotFinite`], and

@@ -76,7 +76,7 @@ fn extrapolated_error(build: Build, steps: usize) -> f64 {
     worst(errors(&four_bar, &found))
 }
 
-/// Steps per turn of the table.
+/// The numbers of steps per turn in the table.
 const STEPS: [usize; 3] = [400, 800, 1600];
 
 /// The table of the README: for each construction and route, the errors at the three steps.
@@ -152,7 +152,7 @@ fn planted_faults_are_noticed() {
         let (four_bar, found) = run(Build::Multibody, way, steps, [0.0, 0.0]);
         let light = worst(errors(&four_bar, &found));
         assert!(light > 100.0 * good, "{way:?} without gravity: {light:.1e}, with gravity {good:.1e}");
-        // The reactions read without gravity agree with the closed form without gravity.
+        // Without gravity in the window, the reactions agree with the closed form without gravity.
         let rows = found.iter().map(|(time, own)| (four_bar.channels(own), exact_with(*time, [0.0, 0.0], LOAD)));
         for (read, exact) in rows {
             let wrong = (0..CHANNELS).map(|k| (read[k] - exact[k]).abs() / ranges()[k]).fold(0.0, most);

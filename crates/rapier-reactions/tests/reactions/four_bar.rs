@@ -91,8 +91,8 @@ pub fn exact_with(time: f64, gravity: Pair, load: (Pair, f64)) -> [f64; CHANNELS
         [(0, none), (1, load), (2, none)].map(|(link, load)| needed(link, &links[link], gravity, load));
     let arm = |link: usize| turned([LINKS[link].0, 0.0], links[link].angle[0]);
     let (oa, ab, cb) = (arm(0), arm(1), arm(2));
-    // Moments of the coupler about A and of the rocker about C. On the coupler, the force in B acts in the opposite
-    // direction.
+    // The force in B follows from the moments of the coupler about A and of the rocker about C. On the coupler, this
+    // force acts in the opposite direction.
     let b = solved([ab[1], -cb[1]], [-ab[0], cb[0]], [coupler.1, rocker.1]);
     let a = add(coupler.0, b);
     let c = less(rocker.0, b);

@@ -129,7 +129,7 @@ fn a_driven_pendulum_has_the_force_of_its_closed_form() {
     }
 }
 
-/// The force of a free pendulum at the engine's angle, with the speed by conservation of energy.
+/// Pin force of a free pendulum at the engine's angle. The speed follows from the conservation of energy.
 fn free_force(phi: f64) -> Pair {
     let about_pin = INERTIA + MASS * LENGTH * LENGTH;
     let omega = (2.0 * MASS * G * LENGTH * (phi.cos() - START.cos()) / about_pin).sqrt();
@@ -137,7 +137,7 @@ fn free_force(phi: f64) -> Pair {
 }
 
 /// The energy of a separate body drifts in proportion to the step, so the errors of both routes have order 1.
-/// Rapier moves a single joint of a multibody by the leapfrog method, whose energy has an error of order 2.
+/// Rapier moves a multibody with a single joint by the leapfrog method, whose energy has an error of order 2.
 #[test]
 fn a_free_pendulum_converges_to_its_closed_form() {
     for (build, stated) in [(Build::Free, 1.0), (Build::FreeMultibody, 2.0)] {

@@ -75,7 +75,7 @@ fn exact(link: Link, time: f64) -> (Pair, f64, f64) {
     (force, cross(arm, force), thrust)
 }
 
-/// For each route, the largest error of force, moment and thrust, relative to weight and centrifugal force.
+/// For each route, the largest error of force, moment and thrust, relative to the sum of weight and centrifugal force.
 fn errors(link: Link, steps: usize) -> [f64; 3] {
     let (step, time) = (0.4 / steps as f64, 0.4);
     let (mut world, handle) = world(link, step);
@@ -106,8 +106,8 @@ fn errors(link: Link, steps: usize) -> [f64; 3] {
     ]
 }
 
-/// The motor of a slide between separate bodies acts along the axis at the start of the step and corrects no drift, so
-/// Rapier's motion has an error of first order.
+/// In a slide between separate bodies, the motor acts along the axis that the slide has at the start of the step.
+/// The motor corrects no drift. Rapier's motion therefore has an error of first order.
 #[test]
 fn joints_between_separate_bodies_have_the_orders_of_their_routes() {
     for (link, orders, bound) in [

@@ -69,8 +69,8 @@ impl Row {
 }
 
 /// Order in which the components are computed.
-/// Cut joints whose two components are the only unknowns of two equations come first; for dyads, these pairs give all
-/// components.
+/// Wherever two equations have only the two components of one cut joint as unknowns, this pair of components comes
+/// first. In chains of dyads, all components are computed in such pairs.
 /// After these pairs, all remaining components are computed together.
 pub(super) fn stages(limbs: &[Limb], cut: &[Range<usize>]) -> Vec<Stage> {
     let mut left: Vec<usize> = (0..limbs.len()).rev().filter(|&number| limbs[number].drive.is_none()).collect();

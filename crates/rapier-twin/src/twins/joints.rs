@@ -45,7 +45,7 @@ pub(super) fn floating(link: &Link) -> GenericJoint {
     free().local_anchor2(vector(link.mass_centre)).build()
 }
 
-/// A Rapier joint that connects the joint's points on `links` and locks the given axes.
+/// A Rapier joint that locks the given axes. Its anchors are the points of the mechanism's `joint` on `links`.
 fn holding(axes: JointAxesMask, joint: &Joint, links: [LinkId; 2]) -> GenericJointBuilder {
     let [first, second] = links.map(|link| vector(joint.on(link).expect("the joint is on the link")));
     locking(axes).local_anchor1(first).local_anchor2(second)

@@ -4,8 +4,7 @@
 //! A joint between the two members locks the translation along the first line of action, at the point where the force
 //! acts.
 //! Line and point turn with the carrier, so they are set before every step.
-//! The gap of the row is the residual of the transmission: q2 - f(q1) minus its value at the start, times the factor of
-//! the contact.
+//! The gap of the row is the change of q2 - f(q1) since the start, multiplied by the factor of the contact.
 
 use super::{Mesh, Twin, joints, wide};
 use crate::world::World;

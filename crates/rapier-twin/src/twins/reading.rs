@@ -10,8 +10,8 @@ impl Twin {
     /// Stores points of action and axes of the joints to be read.
     /// Points and axes are interpolated between the stored frames and the present frames.
     /// `share` is the weight of the present frames.
-    /// Rapier gives impulses in the axes at the start of the last substep. This instant lies between two poses that can
-    /// be read.
+    /// Rapier gives the components of impulses along the axes that the joints had at the start of the last substep.
+    /// This instant lies between two poses that can be read.
     /// Between these poses, frames are assumed to move along a straight line, with errors of second order.
     /// The errors of the impulses themselves are of first order.
     pub(super) fn keep_frames(&mut self, share: f64) {

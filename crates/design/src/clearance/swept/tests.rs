@@ -1,4 +1,4 @@
-//! Tests of outline sides that pass over discs, against samples of sides and discs.
+//! Tests of covered and free squares, and of outline sides that pass over discs, at sample squares, sides and discs.
 
 use std::f64::consts::TAU;
 
