@@ -120,8 +120,8 @@ impl<'a> Batch<'a> {
     /// Higher groups are followed from the start pose in steps of two degrees.
     /// In a case with higher groups, poses near a dead point are solved one by one, and so are poses more than 50 000
     /// steps from the start pose.
-    /// In a vectorised case without higher groups, intermediate poses are checked too if successive crank angles are more
-    /// than 15 degrees apart.
+    /// In a vectorised case without higher groups, intermediate poses are checked too if successive crank angles are
+    /// more than 15 degrees apart.
     ///
     /// # Errors
     /// The errors of [`PoseSolver::solve`] at the first crank angle that cannot be reached. `out` then contains the
