@@ -15,7 +15,8 @@ use linkage::mechanism::LinkId;
 /// Number of columns for the starting values of a link: its direction at the anchor (2), the fraction of the interval
 /// to the next anchor (1), and coefficients of the rotation from the anchor (5, rad).
 pub(super) const OF_START: usize = 8;
-/// A link of the group, and the joint to its parent link in the group's tree. Moments on the link are about this joint, the link's pole.
+/// A link of the group, and the joint to its parent link in the group's tree.
+/// Moments on the link are about this joint, the link's pole.
 #[derive(Clone, Debug)]
 struct Node {
     body: Body,
