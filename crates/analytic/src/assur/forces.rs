@@ -97,8 +97,7 @@ impl Kinetostatics {
 
     /// Writes to `state` the reaction in every joint (first link on second; N, N m), the forces of the transmissions
     /// (N), and the balancing moments and driving forces (N m, N).
-    /// The pose must be the last one that `plan` has solved. Loads that depend on link
-    /// angles read them from `state`.
+    /// The pose must be the last one that `plan` has solved. Loads that depend on link angles read them from `state`.
     ///
     /// # Errors
     /// The errors of [`Dry::settle`].
