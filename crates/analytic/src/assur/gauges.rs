@@ -26,7 +26,7 @@ use linkage::math::{KeepNan, Motion};
 use linkage::mechanism::GroupId;
 
 /// During the present step, a gauge stays in a band within its range.
-/// The stored band is wider: between the band and each end of the range, only this fraction of the original gap remains.
+/// The stored band is wider: between it and each end of the range, only this fraction of the original gap remains.
 const SPARE: f64 = 0.25;
 /// Bounds are computed for a step that is longer than the present step by this factor, because the steps of a grid are
 /// equal only within rounding error.
@@ -44,8 +44,8 @@ struct Watched {
     is_direct: bool,
     /// Whether the proof for this step is missing.
     is_open: bool,
-    /// Limits of the gauge at the two ends of a step. If the gauge lies between `low` and `high` at both ends, a step of
-    /// at most the stored length is proven.
+    /// Limits of the gauge at the two ends of a step.
+    /// If the gauge lies between `low` and `high` at both ends, a step of at most the stored length is proven.
     low: f64,
     high: f64,
     /// Gauges at the pose before the last and at the last pose; NaN before the first pose.
