@@ -299,8 +299,8 @@ impl Chain {
         followed
     }
 
-    /// Computes the positions at these driving angles (rad) near the expected poses `like`, on either side of a
-    /// singular pose.
+    /// Computes the positions at these driving angles (rad) near the expected poses `like`. The result may lie on the
+    /// other side of a singular pose.
     /// Returns `false` if no pose is near enough.
     pub(super) fn positions_like(&mut self, like: &[Motion], angles: &[f64], motions: &mut [Motion]) -> bool {
         for node in &self.contours.nodes {
@@ -450,8 +450,8 @@ impl Chain {
                 return false;
             }
             self.memory.correct(&self.unknown);
-            // Newton's method converges quadratically, so this iteration is the last: the remaining error is of the
-            // order of the square of its change.
+            // After a small change this iteration is the last: Newton's method converges quadratically, so the remaining
+            // error is of the order of the square of the change.
             let is_last = within(&self.unknown, LAST_CHANGE);
             for (index, (node, &change)) in self.contours.nodes.iter().zip(&self.unknown).enumerate() {
                 if is_last && !(SLIDING && node.is_guided()) {
