@@ -450,8 +450,8 @@ impl Chain {
                 return false;
             }
             self.memory.correct(&self.unknown);
-            // After a small change this iteration is the last: Newton's method converges quadratically, so the remaining
-            // error is of the order of the square of the change.
+            // After a small change this iteration is the last: Newton's method converges quadratically, so the
+            // remaining error is of the order of the square of the change.
             let is_last = within(&self.unknown, LAST_CHANGE);
             for (index, (node, &change)) in self.contours.nodes.iter().zip(&self.unknown).enumerate() {
                 if is_last && !(SLIDING && node.is_guided()) {

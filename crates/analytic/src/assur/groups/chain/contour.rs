@@ -89,8 +89,8 @@ impl Node {
     }
 }
 
-/// A vector of the tree. It begins at the joint to the node's parent and ends at another joint on the node's link, or it
-/// is the node's slide.
+/// A vector of the tree. It begins at the joint to the node's parent and ends at another joint on the node's link, or
+/// it is the node's slide.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::assur) struct Arrow {
     pub(in crate::assur) node: usize,
