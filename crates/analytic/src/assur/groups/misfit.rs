@@ -10,7 +10,7 @@ pub enum Misfit {
         /// Shortest and longest distance that the two links can span (m).
         reach: [f64; 2],
     },
-    /// RRP: the distance of the outer pin from the line along which the inner joint moves exceeds the length of the rod.
+    /// RRP: the distance of the outer pin from the line on which the inner joint moves exceeds the length of the rod.
     Guide {
         /// Distance of the pin from the line (m).
         distance: f64,
