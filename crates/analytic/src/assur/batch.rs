@@ -37,7 +37,7 @@ use linkage::solver::State;
 use linkage::trajectory::Stage;
 
 /// If the crank angles of two rows differ by more than this value (rad), intermediate poses are checked too.
-/// The value is at most the step of [`PoseSolver`] for poses in closed form.
+/// The value must not exceed the step of [`PoseSolver`] in a case without higher groups.
 const STEP: f64 = PI / 12.0;
 
 /// For angles larger than this (rad), the sine and cosine of the standard library are used instead of the vector
@@ -70,8 +70,8 @@ impl<'a> Batch<'a> {
     pub fn of(case: &'a Case) -> Result<Self> {
         let poses = PoseSolver::new(case)?;
         // A case that passes change points is not vectorised.
-        // Vectorised poses keep the sign of every group's determinant constant, but this sign changes at a change
-        // point.
+        // The vectorised solution assumes that the determinant of each group keeps its sign, but the sign changes at a
+        // change point.
         let groups = match case.crank().through {
             true => None,
             false => Groups::of(case, &poses.plan, Layout::of(case, false)),
@@ -112,15 +112,16 @@ impl<'a> Batch<'a> {
 
     /// Solves the poses at the crank angles `cranks` (rad, as the scenario states them), up to the stage `deepest`.
     /// In all poses the crank has the angular velocity `omega` (rad/s) and the angular acceleration `alpha` (rad/s^2).
-    /// Within rounding error, the poses equal the results of [`PoseSolver::solve`] for the crank angles in this
-    /// sequence.
+    /// Within rounding error, the poses equal the results of [`PoseSolver::solve`] called for the same crank angles in
+    /// the same order.
     /// The first call starts from the start pose, later calls from the last crank angle reached.
     /// If poses are [vectorised](Batch::is_vectorised), the bits of a pose do not depend on the position of its crank
     /// angle in `cranks`.
     /// Higher groups are followed from the start pose in steps of two degrees.
     /// In a case with higher groups, poses near a dead point are solved one by one, and so are poses more than 50 000
     /// steps from the start pose.
-    /// Between rows more than 15 degrees apart, intermediate poses are solved too.
+    /// In a vectorised case without higher groups, intermediate poses are checked too if successive crank angles are
+    /// more than 15 degrees apart.
     ///
     /// # Errors
     /// The errors of [`PoseSolver::solve`] at the first crank angle that cannot be reached. `out` then contains the

@@ -52,7 +52,7 @@ pub(super) struct Kinetostatics {
     resistances: Option<Vec<(LinkId, Load)>>,
     /// Whether any drive moves a slide or a joint between moving links.
     drives_joints: bool,
-    /// Solver for the friction of joints and the losses of transmissions, and the loads without friction.
+    /// Two items: the solver for friction in joints and losses in transmissions, and the loads without friction.
     /// `None` if no joint has friction and no transmission has losses.
     dry: Option<Box<(Dry, Vec<Wrench>)>>,
     tally: WorkTally,
@@ -97,7 +97,7 @@ impl Kinetostatics {
 
     /// Writes to `state` the reaction in every joint (first link on second; N, N m), the forces of the transmissions
     /// (N), and the balancing moments and driving forces (N m, N).
-    /// The pose must be the last one that `plan` has solved. Loads may use the state's angles.
+    /// The pose must be the last one that `plan` has solved. Loads that depend on link angles read them from `state`.
     ///
     /// # Errors
     /// The errors of [`Dry::settle`].

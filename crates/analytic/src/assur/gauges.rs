@@ -26,8 +26,7 @@ use linkage::math::{KeepNan, Motion};
 use linkage::mechanism::GroupId;
 
 /// During the present step, a gauge stays in a band within its range.
-/// The stored band is wider: its distance from each end of the range is this fraction of the distance of the narrower
-/// band.
+/// The stored band is wider: between it and each end of the range, only this fraction of the original gap remains.
 const SPARE: f64 = 0.25;
 /// Bounds are computed for a step that is longer than the present step by this factor, because the steps of a grid are
 /// equal only within rounding error.
@@ -45,8 +44,8 @@ struct Watched {
     is_direct: bool,
     /// Whether the proof for this step is missing.
     is_open: bool,
-    /// Range of the gauge, from `low` to `high`. If the gauge stays in this range, a step of the stored length is
-    /// proven.
+    /// Limits of the gauge at the two ends of a step.
+    /// If the gauge lies between `low` and `high` at both ends, a step of at most the stored length is proven.
     low: f64,
     high: f64,
     /// Gauges at the pose before the last and at the last pose; NaN before the first pose.
@@ -182,11 +181,11 @@ impl Gauges {
         self.watched.iter().any(|watched| watched.is_open)
     }
 
-    /// Whether the gauges of all direct groups stay within their ranges between two poses, for steps of length `step`
-    /// (rad).
+    /// Whether the gauges of all direct groups stay within their ranges between the two poses `ends`, if the step from
+    /// pose to pose is at most `step` (rad).
     /// Stores the bounds of this proof, with a band for each gauge.
-    /// The distance of the stored band from each end of the gauge's range is the fraction `share` of the distance in
-    /// this step.
+    /// The stored band is wider than the band of this step: of the gap between this step's band and each end of the
+    /// gauge's range, only the fraction `share` remains.
     /// A group that is not direct and has no proof is marked open.
     fn prove(&mut self, ends: &[End; 2], plan: &SolutionPlan, step: f64, share: f64) -> bool {
         let motions = &ends[1].motions;

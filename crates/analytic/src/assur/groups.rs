@@ -116,7 +116,7 @@ impl Step {
         }
     }
 
-    /// Sine of the [clearance](SolutionPlan::clearances), from positions alone.
+    /// The field `sine` of the [clearance](SolutionPlan::clearances), computed from positions alone.
     #[inline]
     pub(crate) fn sine(&self, motions: &[Motion]) -> Option<f64> {
         match self {

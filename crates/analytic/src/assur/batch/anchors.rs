@@ -19,7 +19,7 @@ use linkage::mechanism::LinkId;
 use linkage::trajectory::Stage;
 
 /// Number of values stored per link and interval: one fewer than `OF_START`.
-/// The fraction of the interval is not stored, because it depends on the pose.
+/// The missing value is the fraction of the interval at which a pose lies; it differs from pose to pose.
 const KEPT: usize = OF_START - 1;
 /// Distance between two anchors (rad). The distance is slightly smaller than the longest step of [`PoseSolver`], so
 /// that a rounded distance never exceeds this step.

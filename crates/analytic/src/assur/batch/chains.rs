@@ -15,7 +15,8 @@ use linkage::mechanism::LinkId;
 /// Number of columns for the starting values of a link: its direction at the anchor (2), the fraction of the interval
 /// to the next anchor (1), and coefficients of the rotation from the anchor (5, rad).
 pub(super) const OF_START: usize = 8;
-/// A link, and the joint to its parent. Moments on the link are about this joint, the link's pole.
+/// A link of the group, and the joint to its parent link in the group's tree.
+/// Moments on the link are about this joint, the link's pole.
 #[derive(Clone, Debug)]
 struct Node {
     body: Body,
@@ -93,10 +94,10 @@ impl Chain {
     }
 
     /// Number of columns in the working memory.
-    /// The columns contain the starting values of the links, the joints of the tree, the arrows, and the factors of the
-    /// Jacobian.
-    /// For each joint, the columns also contain the vector from its link's origin and the quantity needed at the
-    /// present stage.
+    /// The columns contain the starting values of the links, the roots and joints of the group's tree, the arrows, and
+    /// the factors of the Jacobian.
+    /// For each root and joint, four columns contain two vectors: the vector from the origin of its link, and the
+    /// position, velocity or acceleration, depending on the present stage.
     pub(super) fn columns(&self) -> usize {
         self.first_factor(0) + elimination::columns(self.nodes.len())
     }

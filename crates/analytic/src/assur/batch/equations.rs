@@ -3,7 +3,7 @@
 //! The motion is computed with the equations of [`crate::assur::groups::Rrr`], the forces with the equations of the
 //! module `assur::forces`.
 //! The sources of the equations are named in these two modules.
-//! With the same bits of the driving links' motion, the results have the same bits as the results of these modules.
+//! If the motion of the driving links is the same bit for bit, the results equal those of the two modules bit for bit.
 
 use super::bodies::Body;
 use super::groups::{Arm, Driver, Dyad, Groups, Part};
@@ -101,7 +101,7 @@ impl Driver {
         }
     }
 
-    /// World position of the joint.
+    /// World position of the joint on the ground.
     #[inline(always)]
     fn pole<R: Registers>(&self, tile: &Window<R>) -> Plane<R> {
         match self.pivot == Vec2::zeros() {

@@ -1,4 +1,4 @@
-//! Constants of a case of driving links, RRR dyads and higher groups on pins, computed once.
+//! Constants, computed once, of a case that consists of driving links, RRR dyads and higher groups on pins.
 
 use super::bodies::{Action, Body, Reader};
 use super::chains::Chain;
@@ -26,7 +26,8 @@ pub(super) struct Driver {
 /// One link of a dyad.
 #[derive(Clone, Debug)]
 pub(super) struct Arm {
-    /// First column of the base link, `None` for the ground, and the position of the joint on that link.
+    /// First column of the link at the other side of the outer joint (`None` for the ground), and the position of this
+    /// joint on that link.
     pub(super) base: (Option<usize>, Vec2),
     /// The outer joint in the link's frame.
     pub(super) outer: Vec2,
@@ -41,7 +42,7 @@ pub(super) struct Arm {
 #[derive(Clone, Debug)]
 pub(super) struct Dyad {
     pub(super) arms: [Arm; 2],
-    /// Limits of d^2: (l1 - l2)^2 and (l1 + l2)^2 (m^2).
+    /// Limits of d^2, where d is the distance between the outer joints: (l1 - l2)^2 and (l1 + l2)^2 (m^2).
     pub(super) range: [f64; 2],
     /// l1 l2 (m^2).
     pub(super) product: f64,

@@ -220,7 +220,7 @@ impl<R: Registers> Window<'_, R> {
         lanes.put(&mut self.columns[column].0, self.part);
     }
 
-    /// Adds `lanes` to the same part of a column outside the tile.
+    /// Adds `lanes` to the part `self.part` of a column that does not belong to the tile.
     #[inline(always)]
     pub(super) fn add_to(&self, column: &mut [f64; TILE], lanes: Lanes<R>) {
         (Lanes::of(self.on, column, self.part) + lanes).put(column, self.part);

@@ -1,4 +1,4 @@
-//! Many cases on one grid that differ only in points, masses and moments of inertia of links.
+//! Many cases with the same grid. The cases differ only in points, masses and moments of inertia of links.
 
 use linkage::case::Case;
 use linkage::input::Input;
@@ -18,12 +18,14 @@ use crate::assur::groups::SolutionPlan;
 /// Lower limit of the magnitude of the sine of every transmission angle.
 const CLEAR_SINE: f64 = 0.01;
 /// Largest allowed change of the sine of a transmission angle between two instants, as a fraction of the sine.
-/// Near a dead point the square of the sine s is linear in time, so that s is zero after the time t = s / (2 s').
+/// Near a dead point the square of the sine s is linear in time. With the rate s', s is zero after the time
+/// t = s / (2 s').
 /// The change s' t is then half of s; the limit is half of this change.
 const CLEAR_CHANGE: f64 = 0.25;
 
-/// Solver for cases of one structure and grid: a crank on the ground at constant speed, and RRR dyads, without loads
-/// other than moments of resistance.
+/// Solver for cases with the same structure and the same grid.
+/// The structure consists of a crank on the ground at constant speed, and RRR dyads. All loads are moments of
+/// resistance.
 /// The results equal those of [`PoseSolver`](crate::PoseSolver), bit by bit.
 /// Cases that may pass a dead point are not solved.
 #[derive(Debug)]
@@ -38,7 +40,7 @@ pub struct CaseBatch {
     /// Whether the rows are in the order of time.
     is_ascending: bool,
     omega: f64,
-    /// Largest time between two instants (s).
+    /// Largest time between two successive instants (s).
     pace: f64,
     /// The tiles of a block, one after the other.
     tiles: Vec<Eight>,
@@ -116,8 +118,8 @@ impl CaseBatch {
         &self.case
     }
 
-    /// Changes numbers of links, and positions of joints on links. The names, kinds and order of links and joints must
-    /// stay unchanged.
+    /// Changes coordinates, masses and moments of inertia of links, and positions of joints on links.
+    /// The names, kinds and order of links and joints must stay unchanged.
     pub fn renumber(&mut self, change: impl FnOnce(&mut [Link], &mut [Joint])) {
         self.case.renumber(change);
         self.groups = Groups::of(&self.case, &self.plan, self.layout).expect("the structure is that of the first case");
@@ -127,8 +129,8 @@ impl CaseBatch {
     /// Returns `false` in the cases below. [`PoseSolver`](crate::PoseSolver) then solves the case or gives the error.
     /// - A pose cannot be assembled, or a number is not finite.
     /// - A dyad is near a dead point, or may pass one between two instants.
-    /// - An angle with whole turns is requested, and the rows are not in the order of time or the link's direction at
-    ///   the start is nearly -x.
+    /// - An angle with whole turns is requested, and the rows are not in the order of time.
+    /// - An angle with whole turns is requested, and the link's direction at the start is nearly -x.
     pub fn solve(&mut self, deepest: Stage, tallies: &mut [PoseTally]) -> bool {
         tallies.iter_mut().for_each(|own| own.start(&self.case, self.layout));
         let arch = self.arch;

@@ -98,7 +98,8 @@ macro_rules! change {
     };
 }
 
-/// Sums, lane by lane, an expression of the values of a block and of the numbers of their tiles.
+/// Sums an expression over a block, lane by lane. The variables of the expression are a value and the number of its
+/// tile.
 macro_rules! sum {
     ($on:expr, $sums:expr, $block:expr, |$value:ident, $tile:ident, $part:ident| $summand:expr) => {
         for $part in 0..Window::<R>::PARTS {
@@ -112,7 +113,7 @@ macro_rules! sum {
     };
 }
 
-/// Where a quantity is read in a case.
+/// How a quantity is read from the columns of a tile.
 #[derive(Clone, Copy, Debug)]
 enum Reading {
     Column(usize),
@@ -120,7 +121,7 @@ enum Reading {
     Square(usize),
     /// Angle of the crank, which is given.
     Given,
-    /// Angle of a link: first column of the link, direction of the link in the last row, and whole turns.
+    /// Angle of a link: first column of the link, its direction in the last row read so far, and its whole turns.
     Angle(usize, Vec2, f64),
     /// A point: first column of its link, and position of the point on the link.
     Point(usize, Vec2, OfPoint),

@@ -87,7 +87,7 @@ impl Action {
         reactions.forces[self.joint] = force * self.sign;
     }
 
-    /// Stores the driving moment on the link (N m) of a driven revolute joint between moving links.
+    /// Stores the driving moment of a driven revolute joint between moving links, given the moment on the link (N m).
     #[inline]
     pub(super) fn put_moment(&self, moment: f64, reactions: &mut Reactions) {
         reactions.moments[self.joint] = moment * self.sign;

@@ -36,7 +36,7 @@ const QUICK: f64 = 0.3;
 const POWERS: usize = 8;
 /// Two solutions are different if a normal force differs by more than this fraction of the sum of its two values.
 const DIFFERENT: f64 = 1e-6;
-/// Start values of the normal forces for Newton's method, divided by the largest normal force.
+/// Start values of the normal forces for Newton's method, as multiples of the largest normal force found so far.
 const STARTS: [f64; 7] = [0.0, 0.1, 1.0, 3.0, 10.0, 100.0, 1e4];
 
 /// Reason why there is no unique solution.

@@ -16,7 +16,7 @@ pub(super) struct Higher {
     /// Index of the group's [`Chain`] in the plan.
     step: GroupId,
     bodies: Vec<Body>,
-    /// For each node: the action of the joint to the parent on the node's link.
+    /// For each node: the action on the node's link, exerted by the joint between this link and its parent.
     hung: Vec<Action>,
     /// For each node: the known force on its link and on all links attached to it (N), and the moment of this force
     /// about the joint to the node's parent (N m).

@@ -1,4 +1,5 @@
-//! Joint reactions of an RRR dyad of bodies of changing shape, such as cylinder and rod.
+//! Joint reactions of an RRR dyad whose two bodies change their shape. Such a body consists, for example, of cylinder
+//! and rod.
 //! The links of a body are connected by given joints, whose coordinates are functions of time.
 //!
 //! The two bodies are in equilibrium like the links of an RRR dyad: see [`super::rrr`].
@@ -24,7 +25,7 @@ struct Member {
     carried: (Vec2, f64),
 }
 
-/// Force analysis of an RRR dyad of bodies of changing shape.
+/// Force analysis of an RRR dyad whose bodies change their shape.
 #[derive(Clone, Debug)]
 pub(super) struct Formed {
     /// Index of the group in the plan.
@@ -32,7 +33,7 @@ pub(super) struct Formed {
     /// The links of each body, parents before children, and the number of the link with the inner joint.
     bodies: [(Vec<Member>, usize); 2],
     outer: [Action; 2],
-    /// The inner joint on the link of the first body.
+    /// Action of the inner joint on its link of the first body.
     inner: Action,
 }
 

@@ -2,12 +2,13 @@
 //!
 //! A revolute joint transmits a force. A prismatic joint transmits a moment, and a force across its axis.
 //! F_a and M_a are the known force and moment on link a, F_b and M_b on link b; F = F_a + F_b and M = M_a + M_b.
-//! The vectors u and d go from the pole to the outer joints of links a and b.
+//! The vector u goes from the inner joint to the outer joint of link a, the vector d from the outer joint of link a to
+//! the outer joint of link b.
 //! The axes of the prismatic joints are e and b (b is unrelated to link b).
-//! R is the force on link a at its outer joint.
+//! R is the force on link a at its outer joint, except for RPR.
 //! RRP: u x R = -M_a about the inner joint, e . (R + F) = 0 for the whole dyad.
-//! RPR, with R on the second link of the prismatic joint: e . (R + F_b) = 0 for the second link, and d x R = -M about
-//! the first pin for the whole dyad.
+//! RPR, with R on link b (the second link of the prismatic joint) at its outer joint: e . (R + F_b) = 0 for link b, and
+//! d x R = -M about the outer joint of link a for the whole dyad.
 //! RPP: b . (R + F_a) = 0 for the pinned link, e . (R + F) = 0 for the whole dyad.
 //! PRP: the inner force I on link a satisfies e . (I + F_a) = 0 and b . (I - F_b) = 0.
 //! The moments of the guides follow from the moments on their links.
@@ -27,7 +28,7 @@ pub(super) struct Sliding {
     outer: [Action; 2],
     inner: [Action; 2],
     /// Axis of a prismatic joint: the guide for RRP and RPP, the inner joint for RPR, the first guide for PRP.
-    /// The axis is given in the frame of the link with this index.
+    /// The pair contains a link, and the axis in the frame of this link.
     axis: (LinkId, Vec2),
     /// Axis of PRP's second guide, or of RPP's inner pair.
     other: (LinkId, Vec2),

@@ -3,7 +3,7 @@
 //! Every dyad that can be singular has a gauge g, a smooth function of the positions of its outer joints.
 //! Inside the gauge's range the dyad can be assembled; at an end of the range the dyad is singular.
 //! RRR: the squared distance of its outer joints, from (l1 - l2)^2 to (l1 + l2)^2.
-//! RRP: the distance h of its outer pin from the line of its inner joint, from -l to l.
+//! RRP: the signed distance h of its outer pin from the line along which its inner joint moves, from -l to l.
 //! RPR: the squared distance of its outer pins, from the square of the axes' offset upwards.
 //! PRP: the sine of the angle between its axes, with the sign of its branch, from 0 upwards.
 //! Between two crank angles g differs from linear interpolation by at most M h^2 / 8.
@@ -54,10 +54,10 @@ impl Bound {
     }
 }
 
-/// Bounds of the links known so far; `None` for links without bounds, for example links of higher groups.
+/// The bounds known so far, one per link; `None` for links without bounds, for example links of higher groups.
 pub(in crate::assur) type Bounds = [Option<Bound>];
 
-/// Range and second derivative of a dyad's gauge over a step.
+/// Range of a dyad's gauge over a step, and a bound of the gauge's second derivative.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::assur) struct Limit {
     /// Ends of the gauge's range.

@@ -1,7 +1,7 @@
 //! Any higher group, by Newton's method on its vector contours.
 //!
-//! A tree of joints connects the group's links to the known links. The tree contains all prismatic joints, because
-//! prismatic joints cannot form a loop.
+//! A tree of joints connects the group's links to the known links.
+//! No loop consists of prismatic joints only, so the tree can contain all prismatic joints.
 //! The tree also contains all joints with a given coordinate. Every remaining revolute joint closes a contour.
 //! The unknown of a link is its angle if the joint to its parent is revolute, and its slide if this joint is prismatic.
 //! Each contour gives two equations.
@@ -56,8 +56,8 @@ const SAME_POSE: f64 = 4e-14;
 /// Largest correction of a predicted pose (rad). Near a dead point predictions are poor, and the corrected pose may be
 /// on another branch.
 const MAX_CORRECTION: f64 = 0.01;
-/// A step is refused if the squared determinant, extrapolated from the last steps, falls below this fraction of its
-/// present value.
+/// A step is refused if the squared determinant, extrapolated from the last steps to the requested pose, falls below
+/// this fraction of its present value.
 const LEAST_LEFT: f64 = 0.25;
 /// If the driving angles change by no more than this (rad), a jump to another branch is impossible, and the determinant
 /// does not limit the step.
@@ -66,7 +66,8 @@ const SMALLEST_STEP: f64 = 1e-6;
 /// At a change point the determinant is linear in the driving angles.
 /// Within [`SMALLEST_STEP`] of the change point, Newton's method cannot distinguish the branches.
 /// Newton's method may then change to the branch on which the determinant keeps its sign.
-/// At a dead point the determinant falls with the square root of the distance, and its sign distinguishes the branches.
+/// Near a dead point the determinant is proportional to the square root of the driving angle's distance from the dead
+/// point, and the sign of the determinant distinguishes the branches.
 const SINGULAR: f64 = 1e-6;
 
 /// Returns `direction` rotated by a small angle (rad).
@@ -116,7 +117,8 @@ pub struct Chain {
     determinant: f64,
     square: f64,
     slopes: Vec<f64>,
-    /// Driven coordinates at the last pose (rad, m), and their changes to the requested pose, times `scales`.
+    /// Driven coordinates at the last pose (rad, m), and `scales` times their changes from the last pose to the
+    /// requested pose.
     at: Vec<f64>,
     step: Vec<f64>,
     /// Directions of the links at the last pose, restored if a step fails.
@@ -297,8 +299,8 @@ impl Chain {
         followed
     }
 
-    /// Computes the positions at these driving angles (rad) near the expected poses `like`, on either side of a
-    /// singular pose.
+    /// Computes the positions at these driving angles (rad) near the expected poses `like`. The result may lie on the
+    /// other side of a singular pose.
     /// Returns `false` if no pose is near enough.
     pub(super) fn positions_like(&mut self, like: &[Motion], angles: &[f64], motions: &mut [Motion]) -> bool {
         for node in &self.contours.nodes {
@@ -448,8 +450,8 @@ impl Chain {
                 return false;
             }
             self.memory.correct(&self.unknown);
-            // Newton's method converges quadratically, so this iteration is the last: the remaining error is of the
-            // order of the square of its change.
+            // After a small change this iteration is the last: Newton's method converges quadratically, so the
+            // remaining error is of the order of the square of the change.
             let is_last = within(&self.unknown, LAST_CHANGE);
             for (index, (node, &change)) in self.contours.nodes.iter().zip(&self.unknown).enumerate() {
                 if is_last && !(SLIDING && node.is_guided()) {

@@ -128,7 +128,7 @@ impl Driver {
     #[inline(never)]
     fn place_carried(&self, [coordinate, rate, second]: [f64; 3], motions: &mut [Motion]) {
         if let Way::Slide { axis, turn, sign } = self.way {
-            // The link turns with its base: its origin is a point of the base that moves along the axis.
+            // The link turns with its base, and its origin moves along the axis relative to the base.
             let base = &motions[self.base];
             let (axis, direction) = (base.arm(axis), rotated(base.direction, turn));
             let arm = base.arm(self.place) + axis * (sign * coordinate) - rotated(direction, self.pivot);

@@ -10,7 +10,7 @@ pub enum Misfit {
         /// Shortest and longest distance that the two links can span (m).
         reach: [f64; 2],
     },
-    /// RRP: the distance of the outer pin from the line of the inner joint exceeds the length of the rod.
+    /// RRP: the distance of the outer pin from the line on which the inner joint moves exceeds the length of the rod.
     Guide {
         /// Distance of the pin from the line (m).
         distance: f64,
@@ -46,7 +46,7 @@ pub struct SingularityDistance {
     pub rate: f64,
 }
 
-/// A pose is singular if its sine is below this value.
+/// A pose is singular if [`SingularityDistance::sine`] of a dyad is below this value.
 /// The error of a dyad's angles is the rounding error divided by this sine. Below the limit the sine itself is mostly
 /// rounding error.
 pub const SINGULAR: f64 = 1e-7;

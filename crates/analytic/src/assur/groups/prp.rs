@@ -23,7 +23,7 @@ pub struct Prp {
     inner: [Vec2; 2],
     /// Sign of the sine of the angle between the axes on the followed branch; 0 before the first pose.
     side: f64,
-    /// Sine of the angle between the axes at the last pose, with the sign of the branch.
+    /// Sine of the angle between the axes at the last pose, times the sign of this sine on the followed branch.
     gauge: f64,
 }
 
@@ -42,7 +42,7 @@ impl Prp {
         }
     }
 
-    /// Gauge at the last pose: the sine of the angle between the dyad's axes, with the sign of its branch.
+    /// Gauge at the last pose: the sine of the angle between the dyad's axes, times its sign on the followed branch.
     #[inline]
     pub(super) fn gauge(&self) -> f64 {
         self.gauge

@@ -2,7 +2,8 @@
 //!
 //! The outer pins are P1 (on the prismatic joint's first link) and P2. The axis is e, with the normal n.
 //! The vector between the pins is d = P2 - P1 = e s + n h.
-//! The distance h is a constant of the two links, and s = +-sqrt(d^2 - h^2) gives the common direction.
+//! The distance h is a constant of the two links, and s = +-sqrt(d^2 - h^2) gives the direction of e.
+//! Both links turn with e.
 //! The derivative d' = s' e + omega x d gives omega = n . d' / s and s' = e . d' + omega h.
 //! The second derivative of d gives alpha = (n . d'' - 2 s' omega + omega^2 h) / s.
 //! These equations are derived here from the closure of the vector contour.

@@ -78,7 +78,7 @@ impl Rrp {
         Self { sense: -self.sense, ..self }
     }
 
-    /// Gauge at the last pose: the distance of the outer pin from the line of the inner joint (m).
+    /// Gauge at the last pose: the signed distance of the outer pin from the line on which the inner joint moves (m).
     #[inline]
     pub(super) fn gauge(&self) -> f64 {
         self.gauge
@@ -86,7 +86,7 @@ impl Rrp {
 
     /// Returns bounds of the speed and acceleration of the outer pin and of the point Q, and the bounds of the guide's
     /// link.
-    /// Q is the inner joint on the guide's link at slide zero.
+    /// Q is the point of the guide's link at which the inner joint lies at slide zero.
     /// The last value is an upper bound of the distance between pin and Q while the crank turns by at most `way` from
     /// the present pose.
     fn outer_rates(&self, links: &Bounds, motions: &[Motion], way: f64) -> Option<([f64; 2], [f64; 2], Bound, f64)> {

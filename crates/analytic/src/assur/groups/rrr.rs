@@ -105,7 +105,7 @@ impl Rrr {
         self.arms[k].inverse_span = span / self.squared[k];
     }
 
-    /// Computes the limits of the dyad from the lengths of its arms.
+    /// From the lengths of the arms, computes the limits of d^2, 1 / (l1 l2), and the limit of 4 D^2.
     #[inline]
     pub(super) fn measure(&mut self) {
         let squared = self.squared;
@@ -287,8 +287,8 @@ impl Rrr {
         self.clearance_with(0.0, motions)
     }
 
-    /// [`Rrr::clearance`] of bodies of changing shape: the vectors between outer and inner joint turn in the frames of
-    /// their links. `shape` (rad/s) is the rate of the second vector minus the rate of the first vector.
+    /// [`Rrr::clearance`] of a dyad whose bodies change their shape: the vectors between outer and inner joint turn in
+    /// the frames of their links. `shape` (rad/s) is the rate of the second vector minus the rate of the first vector.
     #[inline]
     pub(super) fn clearance_with(&self, shape: f64, motions: &[Motion]) -> SingularityDistance {
         let [r1, r2] = self.spans;

@@ -3,12 +3,14 @@
 //!
 //! The root of a body is the link with its outer joint.
 //! Given joints, whose coordinates are functions of time, connect the other links of the body with the root.
-//! In the frame of the root, the inner joint has the position p(t) from the outer joint, with the rates p' and p''.
+//! The vector p(t) goes from the outer to the inner joint, in the frame of the root; its rates are p' and p''.
 //! The dyad is solved with the present vectors p in closed form.
-//! With w = p' in world axes, the velocity of the inner joint is v + omega x r + w. The acceleration of the inner
-//! joint has the additional terms p'' in world axes and 2 omega x w (relative motion, Coriolis).
-//! The dyad therefore moves with the velocities of a dyad of rigid links whose outer joints have the velocities v1 + w1
-//! and v2 + w2.
+//! Let v be the velocity of the outer joint, and omega the angular velocity of the root.
+//! In world axes, r = p and w = p'. The velocity of the inner joint is v + omega x r + w.
+//! The acceleration of the inner joint has the additional terms p'' in world axes and 2 omega x w (relative motion,
+//! Coriolis).
+//! The roots therefore have the angular velocities of rigid links in a dyad whose outer joints have the velocities
+//! v1 + w1 and v2 + w2.
 
 use super::driver::Driver;
 use super::misfit::{Misfit, SingularityDistance};
@@ -22,7 +24,7 @@ pub(in crate::assur) struct Shape {
     pub(in crate::assur) root: LinkId,
     pub(in crate::assur) hung: Vec<Driver>,
     outer: Vec2,
-    /// The inner joint on a link of the body.
+    /// The link of the body with the inner joint, and the position of the joint on this link.
     inner: (LinkId, Vec2),
     /// p and its rates in the frame of the root (m, m/s, m/s^2).
     span: [Vec2; 3],

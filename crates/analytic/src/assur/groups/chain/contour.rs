@@ -25,7 +25,7 @@ pub struct Node {
     pub(super) at_origin: bool,
     /// The parent, and the position of the joint on it.
     pub parent: JointSide,
-    /// Index of the parent among the nodes; `None` for a link outside the group.
+    /// Index of the parent among the nodes; `None` if the parent is outside the group.
     pub parent_node: Option<usize>,
     /// Index of the node whose unknown angle determines this link's angle.
     /// If the joint to the parent is revolute, the index belongs to this link's node.
@@ -37,7 +37,7 @@ pub struct Node {
     pub(super) guided: Option<Guided>,
 }
 
-/// Position of a joint on that one of its two links which is placed first.
+/// Position of a joint on the parent: of the joint's two links, the parent is placed first.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::assur) enum Hangs {
     /// A joint on a link outside the group: index in [`Contours::roots`].
@@ -89,8 +89,8 @@ impl Node {
     }
 }
 
-/// A vector of the tree: from the joint between a node's link and its parent to another joint on the node's link, or
-/// along the slide of the node.
+/// A vector of the tree. It begins at the joint to the node's parent and ends at another joint on the node's link, or
+/// it is the node's slide.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::assur) struct Arrow {
     pub(in crate::assur) node: usize,

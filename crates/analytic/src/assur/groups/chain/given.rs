@@ -4,7 +4,7 @@ use super::contour::Node;
 use linkage::input::Input;
 use linkage::mechanism::{DrivingLink, Mechanism};
 
-/// A joint between a node and its parent whose coordinate is given.
+/// A joint with a given coordinate, between a node and its parent.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::assur) struct Given {
     pub(in crate::assur) node: usize,

@@ -17,7 +17,8 @@ pub(super) fn copy(from: &[f64], to: &mut [f64]) {
 pub(super) struct Memory {
     /// For each unknown: its change in the last step, and the first to fourth backward differences of this change.
     /// The differences are zero if too few steps are known.
-    /// `equal_steps` is the number of equal steps, and `last_step` the last step (rad of the driving angles).
+    /// `equal_steps` is the number of successive equal steps up to the last step.
+    /// `last_step` is the last step (rad of the driving angles).
     differences: Vec<[f64; MEMORY]>,
     equal_steps: usize,
     last_step: Vec<f64>,
@@ -51,7 +52,7 @@ impl Memory {
     /// Begins a step of the driving angles. Returns whether this step equals the last step.
     /// If the steps are equal, the changes of the unknowns are extrapolated from the last steps; otherwise they are
     /// zero.
-    /// The extrapolation assumes that the next backward difference is zero.
+    /// The extrapolation assumes that the backward difference of the next higher order is zero.
     /// The next change is then the sum of the last change and all its differences.
     pub(super) fn predict(&mut self, step: &[f64]) -> bool {
         let same = |(step, last): (&f64, &f64)| (step - last).abs() <= 1e-6 * step.abs();
@@ -72,7 +73,7 @@ impl Memory {
         self.present[unknown]
     }
 
-    /// Subtracts a correction of the unknowns.
+    /// Subtracts corrections of the unknowns from their changes in the present step.
     #[inline]
     pub(super) fn correct(&mut self, corrections: &[f64]) {
         self.present.iter_mut().zip(corrections).for_each(|(present, correction)| *present -= correction);

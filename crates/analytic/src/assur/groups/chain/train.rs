@@ -1,6 +1,5 @@
 //! The equation of a transmission in a group: q2 - f(q1) keeps the value that it has in the start pose.
-//! The coordinates q1 and q2 are sums of angles of links and slides, inside or outside the group. Angles count whole
-//! turns.
+//! The coordinates q1 and q2 are sums of link angles and slides, inside or outside the group. Angles count whole turns.
 
 use std::f64::consts::TAU;
 
@@ -13,7 +12,7 @@ use linkage::mechanism::{Coordinate, Joint, LinkId, Mechanism, Transmission, Tra
 #[derive(Clone, Debug)]
 enum Of {
     Angle(LinkId),
-    /// The slide of a node, with the sign of the joint's slide.
+    /// The slide of a node, and the sign with which it gives the slide of the joint.
     Node(usize, f64),
     /// The slide of a joint outside the group.
     Slide(Box<Joint>),
@@ -52,8 +51,8 @@ impl Term {
         Term { of, sign, column, last: 0.0, now: 0.0 }
     }
 
-    /// The coordinate at the present pose, with the whole turns that bring its angle nearest to the angle at the last
-    /// pose.
+    /// Reads the coordinate at the present pose, with the whole turns that bring its angle nearest to the angle at the
+    /// last pose. Returns the coordinate times the sign of the term.
     fn read(&mut self, slides: &[f64], motions: &[Motion]) -> f64 {
         self.now = match &self.of {
             Of::Angle(link) => {
@@ -143,8 +142,9 @@ impl Train {
         residual
     }
 
-    /// Right-hand side of the equation for the rates of the unknowns (`order` 1) or their derivatives (`order` 2):
-    /// `of_link` returns the derivative of this order of a link's angle. For order 2, the velocities must be known.
+    /// Right-hand side of the equation, differentiated once (`order` 1) or twice (`order` 2) with respect to time.
+    /// `of_link` returns the time derivative of this order of a link's angle.
+    /// For order 2, the velocities must be known.
     pub(super) fn known(&self, order: usize, of_link: impl Fn(&Motion) -> f64, motions: &[Motion]) -> f64 {
         let [first, second] = self
             .terms
