@@ -165,8 +165,8 @@ pub struct Tubes<'a> {
     /// Both ends of the range (rad), in the direction of motion.
     pub range: [f64; 2],
     first: u64,
-    /// Upper bound of the lengths from which positions are computed (m): the mechanism's size, plus the largest distance
-    /// of a ground point from the origin, plus `extent`.
+    /// Upper bound of the lengths from which a position is computed (m): the mechanism's size, plus the largest
+    /// distance of a ground point from the origin, plus `extent`.
     pub scale: f64,
     kept: BTreeMap<RangePart, Rc<Slice>>,
     /// Number of poses computed by the analytic solver (side 1).
@@ -461,8 +461,8 @@ impl Term<'_> {
     /// The term as a linear function of the crank angle, for a uniform motion of the group's links.
     /// Returns the term's value at the middle, its rate, and its largest deviation from the linear function.
     /// Links outside the group may be anywhere in their tubes.
-    /// Calls `put` with the number of each column that the term affects, and with the derivative at the middle in this
-    /// column.
+    /// Calls `put` for each coordinate that the term depends on, with the coordinate's column and the term's derivative
+    /// with respect to the coordinate at the middle.
     fn linear(
         self,
         tubes: &[Tube],
