@@ -27,9 +27,8 @@ pub struct VariationWish {
     pub share: f64,
     /// The numbers that are changed.
     pub sorts: Vec<NumberSort>,
-    /// Smallest transmission angle (rad). The sine of this angle is the lower limit of each group's determinant.
-    /// If three quarters of the group's smallest determinant in the original are less than the sine, this smaller
-    /// value is the limit.
+    /// Smallest transmission angle (rad). The lower limit of each group's determinant is the sine of this angle.
+    /// The limit is lower for a group whose determinant is small in the original: three quarters of its smallest value.
     pub transmission: f64,
 }
 
