@@ -17,7 +17,7 @@ pub(super) enum Target {
     Hinge(usize),
     /// A fixed tendon: the sum of the coordinates of these branches, each times its coefficient.
     Sum(Vec<(usize, f64)>),
-    /// A point of a link with a force (N).
+    /// A force (N) at a point of a link.
     Place {
         /// The point, in the frame of the link.
         at: JointSide,
