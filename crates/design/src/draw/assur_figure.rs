@@ -16,7 +16,7 @@ use linkage::math::{KeepNan, Vec2};
 const ROOM: f64 = 110.0;
 /// Points closer to each other on paper than this (mm) share one label.
 const ONE: f64 = 0.7;
-/// Line styles of the accelerations of the outer joints, and of normal accelerations along a lead or an arm.
+/// Line styles of the accelerations of ends of leads and outer joints, and of the normal accelerations added to them.
 const ENDS: Style = Style { colour: GREY, width: 0.3, dash: "2 0.9" };
 const NORMAL: Style = Style { colour: COLOURS[0], width: 0.35, dash: "1.8 1.1" };
 /// Line styles of two lines of the construction by two false positions, which meet in the true acceleration.
