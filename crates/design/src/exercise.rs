@@ -27,9 +27,8 @@ pub struct VariationWish {
     pub share: f64,
     /// The numbers that are changed.
     pub sorts: Vec<NumberSort>,
-    /// Smallest transmission angle (rad). The sine of this angle is the lower limit of each group's determinant.
-    /// If three quarters of the group's smallest determinant in the original are less than the sine, this smaller
-    /// value is the limit.
+    /// Smallest transmission angle (rad). The lower limit of each group's determinant is the sine of this angle.
+    /// The limit is lower for a group whose determinant is small in the original: three quarters of its smallest value.
     pub transmission: f64,
 }
 
@@ -161,8 +160,8 @@ fn ends(values: &[f64]) -> [f64; 2] {
 }
 
 /// The positions of the crank (rad) at which answers are required: the start, then angles evenly spread over the grid.
-/// Each position is rounded to the nearest whole degree, counted from the start, at which all determinants reach their
-/// limits.
+/// Each position is a whole number of degrees from the start, and all determinants are at least their limits there.
+/// Of such positions, the one nearest to the evenly spread angle is chosen.
 /// The limit of a group's determinant is the sine of `transmission` (rad), but at most three quarters of the group's
 /// largest determinant.
 ///

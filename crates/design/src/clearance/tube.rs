@@ -15,7 +15,7 @@
 //!   |A| |F(x0)| + (|1 - A F'(middle)| + |A| |F' - F'(middle)|) r < r.
 //!
 //! The box then contains exactly one pose for every crank angle, and this pose continues the pose at the middle.
-//! The branch is thus proven without sampling.
+//! This proves, without sampling, that the motion stays on its branch.
 //! F is linear except for the sines and cosines of the links' angles.
 //! So F(x0) and the change of F' have closed-form bounds: |exp(i a) - 1 - i a| <= a^2 / 2 and |exp(i a) - 1| <= |a|.
 
@@ -165,8 +165,8 @@ pub struct Tubes<'a> {
     /// Both ends of the range (rad), in the direction of motion.
     pub range: [f64; 2],
     first: u64,
-    /// Largest length in the computation of a position (m): the mechanism's size, plus the largest distance of a ground
-    /// point from the origin, plus `extent`.
+    /// Upper bound of the lengths from which a position is computed (m): the mechanism's size, plus the largest
+    /// distance of a ground point from the origin, plus `extent`.
     pub scale: f64,
     kept: BTreeMap<RangePart, Rc<Slice>>,
     /// Number of poses computed by the analytic solver (side 1).
@@ -201,7 +201,7 @@ impl<'a> Tubes<'a> {
         })
     }
 
-    /// Parts into which the range is divided first.
+    /// Parts of the initial division of the range.
     pub fn parts(&self) -> impl DoubleEndedIterator<Item = RangePart> + use<> {
         (0..self.first).map(|index| RangePart { halvings: 0, index })
     }
@@ -306,7 +306,7 @@ fn units(case: &Case) -> Vec<(&[LinkId], Vec<Row<'_>>)> {
 /// An equation: the sum of its terms is zero, or changes at a known rate.
 struct Row<'a> {
     terms: Vec<(Term<'a>, f64)>,
-    /// Number of the drive that changes the sum; `None` if no drive changes it.
+    /// Index of the drive that changes the sum; `None` if no drive changes it.
     drive: Option<usize>,
     /// Rate of the sum per unit of the variable, and the largest deviation of the sum from a change at this rate.
     rate: f64,
@@ -461,8 +461,8 @@ impl Term<'_> {
     /// The term as a linear function of the crank angle, for a uniform motion of the group's links.
     /// Returns the term's value at the middle, its rate, and its largest deviation from the linear function.
     /// Links outside the group may be anywhere in their tubes.
-    /// Calls `put` with the number of each column that the term affects, and with the derivative at the middle in this
-    /// column.
+    /// Calls `put` for each coordinate that the term depends on, with the coordinate's column and the term's derivative
+    /// with respect to the coordinate at the middle.
     fn linear(
         self,
         tubes: &[Tube],

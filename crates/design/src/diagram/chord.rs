@@ -4,7 +4,7 @@
 //! As an approximation of the derivative at the middle of the interval, the slope has the error h^2 f'''/24 and terms
 //! of higher order.
 //! For a sine of angular frequency k, the slope is exactly sin(k h/2) / (k h/2) times the derivative.
-//! In graphical integration, the increment is the value at the middle times the length of the interval.
+//! In graphical integration, the integral grows over an interval by the derivative at the middle times the length.
 
 /// Returns the midpoints of the intervals between `places`.
 pub fn middles(places: &[f64]) -> Vec<f64> {

@@ -1,7 +1,7 @@
 //! Constructions of the graphical methods on paper: pole distances, scale factors and ordinates.
 //!
-//! The pole P lies at the distance H left of the ordinate axis. A ray from P is parallel to a chord or a tangent of the
-//! diagram above, whose slope angle is psi. The ray cuts off the ordinate H tan(psi) on the axis.
+//! The pole P lies at the distance H left of the ordinate axis. A ray from P is parallel to a chord or a tangent with
+//! the slope angle psi in the diagram above. The ray cuts off the ordinate H tan(psi) on the axis.
 //! On paper, y = s / mu_s and x = t / mu_t. The ordinate is therefore the derivative at the scale
 //! mu_v = mu_s / (mu_t H). For the next diagram, mu_a = mu_v / (mu_t H).
 //!

@@ -24,9 +24,9 @@ pub struct CrankGraph {
     pub points: Vec<[f64; 2]>,
     /// Mean.
     pub mean: f64,
-    /// Kind of the mean in words, such as "mean".
+    /// Name of the mean: "mean" or "mean over time".
     pub mean_word: &'static str,
-    /// Lowest and highest point of the graph on paper.
+    /// Points with the lowest and the highest value.
     pub marks: [GraphPoint; 2],
     /// Reference value (SI) for the range of the graph.
     /// If the range is below a billionth of this value, the range is rounding error, and the quantity counts as

@@ -17,10 +17,11 @@ pub const DIVISIONS: std::ops::RangeInclusive<usize> = 4..=1000;
 /// Lower limit of the number of points of the exact curves.
 const CURVE: usize = 720;
 /// Lower limit of a derivative's scale, divided by the natural scale; see [`MethodResult::share`].
-/// The range of a nearly constant derivative is too small a scale: its errors come from the displacement.
+/// The range of a nearly constant derivative is too small a scale, because the errors of the derivative arise in the
+/// displacement.
 const SMALLEST: f64 = 1e-3;
-/// A motion counts as repeating if no rate differs between start and end by more than this fraction of half the rate's
-/// range.
+/// A motion counts as repeating if velocity and acceleration at the end equal those at the start.
+/// The difference may be at most this fraction of half the range of the velocity or of the acceleration.
 const REPEATS: f64 = 1e-6;
 /// An error below this fraction of its scale counts as rounding error: no order of convergence is computed from it.
 const ROUNDING: f64 = 1e-11;
@@ -117,7 +118,7 @@ pub struct MotionDiagram {
     pub stride: usize,
     /// What the input measures.
     pub input: Input,
-    /// Input of every row (SI unit, as the scenario defines it).
+    /// Input in every row (SI unit), with the zero and the direction of the scenario's input.
     pub cranks: Vec<f64>,
     /// Time of every row (s).
     pub times: Vec<f64>,

@@ -15,8 +15,8 @@ pub struct Stretch {
     pub sign: f64,
     /// Achieved motion, in a few characters.
     pub figure: String,
-    /// Smallest required travel, drawn as a line.
-    /// The line begins at the achieved fraction of the stroke and ends at the required fraction.
+    /// Line that shows the required travel, as fractions of the stroke at its two ends.
+    /// The line goes from the achieved position at the phase's start to the position required at the phase's end.
     pub least: [f64; 2],
 }
 
@@ -63,7 +63,8 @@ impl TimingDiagram {
     }
 }
 
-/// The curve of one turn, moved by `offset` (rad, below a turn), with a point at both ends of the turn.
+/// The curve of one turn, moved by `offset` (rad, below a turn).
+/// The moved curve has a point at the start of the turn and a point at the end.
 fn turned(mut curve: Vec<[f64; 2]>, offset: f64) -> Vec<[f64; 2]> {
     let Some(last) = curve.pop() else { return curve };
     let split = curve.partition_point(|point| point[0] + offset < TAU);

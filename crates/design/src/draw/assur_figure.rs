@@ -16,10 +16,12 @@ use linkage::math::{KeepNan, Vec2};
 const ROOM: f64 = 110.0;
 /// Points closer to each other on paper than this (mm) share one label.
 const ONE: f64 = 0.7;
-/// Line styles of accelerations of the leads' ends, and of normal parts.
+/// Line styles of the accelerations of ends of leads and outer joints, and of the normal accelerations added to them.
 const ENDS: Style = Style { colour: GREY, width: 0.3, dash: "2 0.9" };
 const NORMAL: Style = Style { colour: COLOURS[0], width: 0.35, dash: "1.8 1.1" };
-/// Line styles of the line of false positions, and of the line of true positions.
+/// Line styles of two lines of the construction by two false positions, which meet in the true acceleration.
+/// `FALSE` is the line through the two false positions.
+/// `TRUE` is perpendicular to the arm from the outer joint to the point.
 const FALSE: Style = solid(COLOURS[1], 0.35);
 const TRUE: Style = solid(COLOURS[0], 0.35);
 

@@ -110,8 +110,8 @@ impl Paper {
     }
 
     /// The drawn part of a construction line of `centre`.
-    /// The line contains `centre` and the points that determine the line: two other centres, or a point of a line of
-    /// action.
+    /// A line through two other centres is drawn as far as it connects `centre` and these centres.
+    /// The line of action of a transmission is drawn from `centre` to the point at which the force acts.
     /// The line is cut off at the edge of the window.
     fn line(&self, sheet: &CentreSheet, centre: &InstantCentre, line: &CentreLine) -> Option<[Vec2; 2]> {
         let places = match line {

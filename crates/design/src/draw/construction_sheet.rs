@@ -77,7 +77,7 @@ impl Sheet<'_> {
         (figure, axis)
     }
 
-    /// Draws the chords or tangents of a diagram with the points `points` (mm).
+    /// Draws the points `points` of a diagram (mm), with the chords or tangents.
     /// The numbers of the chords or tangents stand at the positions `at` (mm).
     fn slopes(&self, figure: &mut DrawnFigure, points: &[Vec2], step: &ConstructionStep, at: &[Vec2]) {
         let is_tangent = self.construction.sort == ConstructionSort::Tangents;
@@ -96,7 +96,7 @@ impl Sheet<'_> {
     }
 
     /// Draws the pole and the rays left of a diagram. Each ray ends on the ordinate axis.
-    /// From there, a horizontal line carries the ordinate to an abscissa in `to` (mm).
+    /// From there, a horizontal line carries the ordinate to the ray's abscissa in `to` (mm).
     fn rays(&self, figure: &mut DrawnFigure, axis: &ValueAxis, step: &ConstructionStep, to: &[f64], name: &str) {
         let (zero, pole) = (axis.y(0.0), Vec2::new(-step.pole, axis.y(0.0)));
         let mut numbered: Vec<f64> = Vec::new();

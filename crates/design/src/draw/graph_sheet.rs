@@ -73,7 +73,7 @@ fn panel(graph: &CrankGraph, [start, end]: [f64; 2]) -> DrawnFigure {
 fn angles(figure: &mut DrawnFigure, [start, end]: [f64; 2], height: f64) {
     let (from, to) = (start.to_degrees(), end.to_degrees());
     let every = 30.0 * ((to - from).abs() / 360.0).ceil().larger(1.0);
-    // A round angle beyond an end of the axis counts as the end if the difference is a rounding error.
+    // A round angle that only a rounding error puts beyond an end of the axis still has a grid line.
     let [first, last] = [(from.smaller(to) / every - 1e-9).ceil(), (from.larger(to) / every + 1e-9).floor()];
     for k in 0..=(last - first).larger(0.0) as u32 {
         let degrees = (first + f64::from(k)) * every + 0.0;

@@ -106,7 +106,7 @@ fn of_plan(plan: &VectorPlan, title: &str) -> SheetPart {
     heading(title, plan.quantity.symbol(), plan.scale, &unit(plan.quantity), plan.turn).with(figure(plan), table(plan))
 }
 
-/// Unit of a scale factor: `(m/s)/mm`.
+/// Unit of a scale factor, such as `(m/s)/mm`.
 fn unit(quantity: Quantity) -> String {
     format!("({})/mm", quantity.unit()).replace("s^2", "s²")
 }
@@ -206,8 +206,8 @@ fn marks(plan: &VectorPlan) -> Vec<(Vec2, String)> {
     for tip in &plan.tips {
         let at = plan.on_paper(tip.at);
         match marks.iter_mut().find(|(place, _)| (place - at).norm() < ONE) {
-            // The end of a normal or Coriolis part needs no letter if it visibly coincides with another point of the
-            // plan.
+            // The end of a normal or Coriolis acceleration needs no letter if it coincides on paper with another point
+            // of the plan.
             Some(_) if matches!(tip.kind, TipKind::Normal | TipKind::Coriolis) => {}
             Some((_, text)) => *text += &format!(", {}", letters(tip)),
             None => marks.push((at, letters(tip))),

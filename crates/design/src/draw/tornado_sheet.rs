@@ -1,4 +1,4 @@
-//! Tornado diagrams: bars for the keys with the largest effects on a figure, which is a number of the result.
+//! Tornado diagrams: for each figure (a number in the result), bars for the scenario keys that change it most.
 
 use super::axes::{GRID, Room, stacked};
 use crate::sensitivity::{KeyTolerance, Sensitivity};

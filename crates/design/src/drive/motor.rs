@@ -89,7 +89,7 @@ pub enum MotorLimit {
 impl MotorLimit {
     /// The limits of a motor that are exceeded in a motion between two speeds of the crank (rad/s, positive in the
     /// motor's sense).
-    /// A linear law without a rated torque has no breakdown, because it may describe a direct-current motor.
+    /// A linear law without a rated torque may describe a direct-current motor, so no breakdown is assumed for it.
     /// In a start from rest (`is_start`), a Kloss law is valid below the breakdown speed too.
     pub fn of(motor: &Motor, [slowest, fastest]: [f64; 2], is_start: bool) -> Vec<MotorLimit> {
         let [slowest, fastest] = [slowest, fastest].map(|speed| speed * motor.ratio);
@@ -150,8 +150,8 @@ pub struct MotorChoice {
 }
 
 impl MotorChoice {
-    /// Chooses the weakest motor of the catalogue that has enough power for the peak at the crank's speed in the
-    /// scenario.
+    /// Chooses the weakest motor of the catalogue that has enough power for the peak of the resistance.
+    /// The power is computed with the crank's speed in the scenario.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for an efficiency of 0 or less or above 1, or if every motor is too weak.
@@ -205,7 +205,7 @@ impl MotorChoice {
         limits
     }
 
-    /// Torque (N m) on the motor's shaft at the peak of the resistance, without inertia.
+    /// Torque (N m) on the motor's shaft at the peak of the resistance, without the torque that accelerates masses.
     pub fn peak_torque(&self) -> f64 {
         self.peak.1 / (self.geared.ratio * self.geared.efficiency)
     }
@@ -234,7 +234,7 @@ mod tests {
     }
 
     /// At rest, a linear law through the rated point gives 11.8 times the rated torque.
-    /// A linear law without rated torque has no breakdown.
+    /// No breakdown is assumed for a linear law without rated torque.
     /// A Kloss law is valid below the breakdown speed in a start, but not in steady motion.
     #[test]
     fn a_motion_beyond_the_stable_branch_is_told() {

@@ -89,15 +89,16 @@ pub(super) struct Follower {
     pub joint: JointId,
     /// The other joint.
     pub leader: JointId,
-    /// Ratio of the two coordinates (rad and m).
+    /// The joint's coordinate divided by the other joint's coordinate (each in rad or m).
     pub multiplier: f64,
 }
 
 /// The transmissions, each as a joint that follows another joint.
 ///
 /// # Errors
-/// [`ErrorKind::Unsupported`] for cams, for losses, and for a transmission that couples more than two joints of the
-/// spanning tree, or two joints that are driven or follow other joints already.
+/// [`ErrorKind::Unsupported`] for cams, and for losses.
+/// [`ErrorKind::Unsupported`] for a transmission that does not couple exactly two joints of the spanning tree.
+/// [`ErrorKind::Unsupported`] if each of the two joints is already driven, or already follows another joint.
 pub(super) fn followers(model: &RigidModel, format: &str) -> Result<Vec<Follower>> {
     let mut found: Vec<Follower> = Vec::new();
     for transmission in model.case.mechanism.transmissions() {

@@ -10,7 +10,7 @@
 //!   The third row of a `connect`, along z, is zero in a planar mechanism: the row costs a little time and has no
 //!   effect.
 //! - A transmission is a fixed tendon of constant length; the length is a sum of joint coordinates times factors.
-//!   The tendon's force acts as moments.
+//!   The tendon's force acts on each hinge as a moment.
 //!   Reactions of axles therefore lack the radial part of tooth forces and the tension of strands.
 //! - A prescribed drive is a rotor ([`MjcfModel::rotor`]) on the driven joint. On a slide, a heavy mass takes the place
 //!   of the rotor.

@@ -6,7 +6,7 @@ use crate::sentences;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::mechanism::Mechanism;
 
-/// Checks that SDF accepts all names: the links and joints of a model share one list of names.
+/// Checks that SDF accepts all names. In SDF, a link and a joint of one model must not have the same name.
 ///
 /// # Errors
 /// [`ErrorKind::Unsupported`] for a name that is given twice, and for a name that SDF reserves.

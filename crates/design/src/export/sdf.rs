@@ -132,8 +132,8 @@ fn placed(shape: Shape) -> ([f64; 6], Geometry) {
     }
 }
 
-/// A joint with its dry friction (N m). `shift` is the origin of the child's frame in the file, in the frame of the
-/// mechanism's link (m).
+/// A joint with its dry friction (N m). The origin of the child's frame in the file can differ from the origin of the
+/// frame that the mechanism gives to the link. `shift` is the vector from the latter to the former, in the link (m).
 pub(super) fn joint(
     xml: &mut Xml,
     model: &RigidModel,

@@ -21,7 +21,7 @@ const COLOURS: [[f64; 4]; 6] = [
 pub(super) enum Shape {
     /// Cylinder between two points (m), with its radius (m).
     Rod { ends: [Vec2; 2], radius: f64 },
-    /// Box with its centre (m), the angle of its first edge (rad) and half its edges (m).
+    /// Box with its centre (m), the angle of its first edge (rad) and half the length of each edge (m).
     Block { at: Vec2, angle: f64, half: [f64; 3] },
     /// Sphere with its centre and its radius (m).
     Ball { at: Vec2, radius: f64 },

@@ -1,9 +1,10 @@
 //! URDF: the spanning tree as links and joints; the joints that close loops as an extension for Gazebo.
 //!
 //! - The plane of motion is XOY. A joint's coordinate is zero in the start pose.
-//! - The frame of a URDF link lies at the joint that carries the link, with the directions of the link's frame.
+//! - The frame of a URDF link has the directions of the frame of the mechanism's link.
+//!   Its origin lies at the hinge that carries the link. If a prismatic joint carries the link, the frames are equal.
 //! - URDF permits no loops. A joint that closes a loop is an SDF joint within an element `gazebo`.
-//!   Parsers of URDF skip the element `gazebo`. The converter of SDFormat copies its contents into the model.
+//!   Parsers of URDF skip the element `gazebo`. The converter of SDFormat copies the contents of the element.
 //! - URDF has no place for gravity, drives and speeds.
 //! - With [`Mimics`], every joint whose relation to the driven joint is linear follows the driven joint (`mimic`).
 //!   A comment states all relations.

@@ -71,7 +71,7 @@ pub fn usd(case: &Case, solver: &dyn Solver, name: &str) -> Result<String> {
     Ok(usd.text)
 }
 
-/// The metadata that shows the scenario's name of a part, if the identifier differs from this name.
+/// The metadata with the name that the scenario gives to a part, if the part's identifier differs from this name.
 fn shown(name: &str, identifier: &str) -> Option<String> {
     (name != identifier).then(|| format!("displayName = {}", quoted(name)))
 }

@@ -19,8 +19,8 @@ use std::path::Path;
 pub struct ImportedScenario {
     /// Text of the scenario file.
     pub text: String,
-    /// Parts of the source that were not understood, by name, and assumptions. The scenario's text has these lines as
-    /// comments.
+    /// Lines that name the parts of the source that were not understood, and lines that state assumptions.
+    /// The scenario's text has these lines as comments.
     pub told: Vec<String>,
     /// The reason why the scenario does not run, if there is one.
     pub problem: Option<Error>,
@@ -28,8 +28,8 @@ pub struct ImportedScenario {
 
 /// Number of steps of a grid that is not a whole turn.
 const STEPS: f64 = 60.0;
-/// Fraction of the way from the start to a dead point that the grid covers. Towards a dead point, accelerations grow
-/// without bound.
+/// The grid covers this fraction of the way from the start to a dead point.
+/// Towards a dead point, accelerations grow without bound.
 const SHARE: f64 = 0.9;
 
 /// The scenario of a mechanism, with the reason why it cannot run, if there is one.

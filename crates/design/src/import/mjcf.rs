@@ -52,7 +52,7 @@ struct ModelJoint<'a> {
     is_slide: bool,
     /// Rate of the coordinate at the start.
     rate: f64,
-    /// The joint's number in the scenario.
+    /// Index of the joint in the scenario.
     number: usize,
 }
 

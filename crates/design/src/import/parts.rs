@@ -14,7 +14,7 @@ pub(super) const FRAME: usize = 0;
 /// Largest number of links, of joints and of loads. No mechanism that was drawn by hand has more.
 const MOST_PARTS: usize = 300;
 
-/// The units of a source, as key endings in scenarios. `metres` is the source's unit of length in m.
+/// The units of a source, as the endings of scenario keys. `metres` is the source's unit of length in m.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SourceUnits {
     pub(super) length: &'static str,
@@ -182,7 +182,8 @@ impl Parts {
         own.pose.point(own.place_of(point).unwrap_or_else(Vec2::zeros))
     }
 
-    /// The value of a drive's input in the start pose: an angle (rad), or a slide in the source's unit of length.
+    /// The value of a drive's input in the start pose.
+    /// The value is an angle (rad), or the position of a slide in the source's unit of length.
     pub(super) fn start(&self, drive: &DrivePart) -> f64 {
         let joint = &self.joints[drive.joint];
         let [first, second] = joint.links;

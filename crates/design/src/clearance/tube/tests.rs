@@ -109,10 +109,10 @@ impl Sample {
         Sample { joint, tubes, own, half, rate: random.some(1.0) }
     }
 
-    /// Residuals of the joint's equations at the distance `by` from the middle.
+    /// Residuals of the joint's equations at the crank angle `by` from the middle (rad).
     /// For a revolute joint, the equations state that the two links' points coincide.
     /// For a prismatic joint, the equations state that the second link's point lies on the first link's line, and that
-    /// the axes of both links are parallel. The third equation states that the coordinate changes at its rate.
+    /// the axes of both links are parallel. The third equation states that the joint's coordinate changes at `rate`.
     fn open(&self, places: [Place; 2], by: f64) -> [f64; 3] {
         let (now, middle) = (self.coordinate(places), self.coordinate(self.middle()));
         let [first, second] = self.gaps(places);

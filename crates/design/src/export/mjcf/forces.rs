@@ -17,7 +17,7 @@ pub(super) enum Target {
     Hinge(usize),
     /// A fixed tendon: the sum of the coordinates of these branches, each times its coefficient.
     Sum(Vec<(usize, f64)>),
-    /// A point of a link with a force (N).
+    /// A force (N) at a point of a link.
     Place {
         /// The point, in the frame of the link.
         at: JointSide,
@@ -101,7 +101,7 @@ pub(super) fn forces(model: &MjcfModel) -> Result<Forces> {
             found.tendons.push(Tendon { name, ends, stiffness: 0.0, free_length: 0.0, damping });
         } else if let &Load::TorsionSpring { links: [first, second], stiffness, free_angle, .. } = load {
             // The tendon's length is the difference of the two link angles, including whole turns.
-            // The spring's twist is the same difference at t = 0, reduced to (-pi, pi].
+            // The spring's twist is this difference without whole turns: at t = 0 the twist is in (-pi, pi].
             let begun = model.case.start.0[second].angle - model.case.start.0[first].angle;
             let free = free_angle + begun - angle::wrapped(begun);
             put(Target::Sum(turning(&[(second, 1.0), (first, -1.0)])), [stiffness * free, -stiffness, 0.0]);

@@ -197,7 +197,7 @@ impl<'a> Builder<'a> {
     }
 }
 
-/// Names of the connectors that scenario files allow.
+/// Names of the connectors in the scenario, changed where scenario files do not allow the names of the source.
 fn names(connectors: &[Connector], parts: &mut Parts) -> Vec<String> {
     let mut points = Vec::new();
     for own in connectors {

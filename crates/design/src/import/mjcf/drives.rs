@@ -48,7 +48,8 @@ impl Model<'_> {
         let missing = usize::try_from(mobility - self.parts.drives.len() as i64).unwrap_or_default();
         let is_coupled = self.section("equality").any(|node| node.has_tag_name("tendon"));
         if missing > 0 && missing <= others.len() && !is_coupled {
-            // Joints with a motor come first, then other joints on the ground, because a free crank is on the ground.
+            // Joints with a motor are tried first.
+            // Other joints on the ground are tried next, because a crank is a link that a ground joint carries.
             others.sort_by_key(|&at| {
                 (!self.has_motor(at), !self.parts.joints[self.joints[at].number].links.contains(&FRAME))
             });

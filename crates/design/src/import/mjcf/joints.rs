@@ -105,8 +105,8 @@ impl<'a> Model<'a> {
     }
 
     /// Names the points of the joints and adds the joints.
-    /// If one link of a pin has a named point at the pin, the other link gets a point with the same name. A pass can
-    /// thus name the points of further pins.
+    /// If one link of a pin has a named point at the pin, the other link gets a point with the same name.
+    /// Another pin of that link can be at the same point, so passes over all pins are repeated until nothing changes.
     fn put(&mut self, placed: Vec<Placed>) {
         let mut points: Vec<Option<String>> = placed.iter().map(|_| None).collect();
         let nearest = 1e-12

@@ -133,8 +133,8 @@ impl<'a> Model<'a> {
         }
         let links = ("links", format!("[{}, {}]", self.link(first), self.link(second)));
         if stiffness != 0.0 {
-            // The model's angle includes whole turns of the start pose. The twist in a scenario begins between -pi and
-            // pi.
+            // In the model, the angle between the links includes the whole turns that it has in the start pose.
+            // In a scenario, the spring's twist in the start pose lies between -pi and pi.
             let begun = self.parts.links[second].pose.angle - self.parts.links[first].pose.angle;
             let free = constant / -stiffness - begun + angle::wrapped(begun);
             let own = vec![links.clone(), ("stiffness_N_m_rad", number(-stiffness)), ("free_angle_rad", number(free))];

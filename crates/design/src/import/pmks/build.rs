@@ -8,9 +8,9 @@ use crate::sentences;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{Vec2, rotated, unit};
 
-/// Speed of an input whose speed is zero: the speed in a new document of PMKS+ (turns per minute).
+/// Speed that an input gets if its speed is zero: the speed in a new document of PMKS+ (turns per minute).
 const USUAL_SPEED: f64 = 20.0;
-/// Speed of a driven slide (lengths of the document per second). A share link does not contain this speed.
+/// Speed of a driven slide (in the document's unit of length, per second). A share link does not contain this speed.
 const SLIDE_SPEED: f64 = 5.0;
 /// Acceleration of gravity along y in the force analysis of PMKS+ (m/s^2).
 const GRAVITY: f64 = -9.81;

@@ -2,8 +2,8 @@
 //!
 //! Sections and records end with a dot, and fields with a comma.
 //! The first four sections are flags, decimal numbers, whole numbers and units.
-//! Then follow the lists of joints, links and forces; an empty record ends each list. The last section is the selected
-//! part.
+//! Then follow the lists of joints, links and forces; an empty record ends each list.
+//! The next section names the selected part. The import leaves out any sections after it.
 
 use super::token::{Fields, checked, flags};
 use crate::import::parts::Parts;
