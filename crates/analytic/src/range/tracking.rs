@@ -38,7 +38,8 @@ const SAFE: f64 = 0.5;
 /// 0.25 rad.
 const STRAIGHT: f64 = 0.969;
 /// Two branches count as meeting if their distance is below this value (in units of the mechanism's size and rad).
-/// Lengths rounded to 16 digits separate crossing branches by the square root of the rounding error, 1e-8.
+/// Lengths are rounded to 16 digits. The rounding separates crossing branches by about 1e-8, the square root of the
+/// rounding error.
 const MEET: f64 = 1e-6;
 /// Shortest step. If even this step is too long, two branches count as meeting.
 const SHORTEST: f64 = 1e-9;
