@@ -30,7 +30,7 @@ pub struct TriadLead {
     pub outer: JointId,
     /// Joint of the lead with the base link.
     pub inner: JointId,
-    /// The outer joint on the link that is known before the group.
+    /// The outer joint on the supporting link, whose motion is known before the motion of the group is computed.
     pub support: JointSide,
     /// The outer joint in the lead's frame (m).
     pub foot: Vec2,
