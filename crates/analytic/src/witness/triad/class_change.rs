@@ -157,7 +157,8 @@ impl ClassChange {
     }
 
     /// Transfer functions at the crank angle `crank` (rad, as the scenario states it).
-    /// The crank moves in small steps from the angle of the previous call to `crank`.
+    /// The branch is followed in small steps of the crank angle, from the crank angle of the previous call as far as
+    /// `crank`.
     ///
     /// # Errors
     /// [`ErrorKind::Geometry`] if the branch has a dead point between the previous crank angle and `crank`.
