@@ -182,8 +182,9 @@ impl Acting {
         }
     }
 
-    /// Whether a trial step is needed. There are two cases: a link is at rest at the start and has a load or reducer
-    /// losses that depend on its sense of rotation; or a joint with friction is at rest at the start.
+    /// Whether a trial step is needed. There are three cases: a link that is at rest at the start has a load that
+    /// depends on its sense of rotation; the crank is at rest at the start and its motor has a reducer with losses; or
+    /// a joint with friction is at rest at the start.
     fn must_try(&self, case: &Case) -> bool {
         let losses = case.crank().moving_motor().is_some_and(|motor| motor.efficiency < 1.0);
         let mut sensed = case
