@@ -331,7 +331,7 @@ fn undo(case: &Case, worlds: &mut [Guard], step: f64) -> Result<()> {
 /// Places worlds at the start pose and gives the driving links their start velocities.
 /// A tiny step with rigid drives then makes all other velocities consistent.
 /// The velocities after the tiny step exclude the correction of gaps.
-/// The reason is that even a gap of rounding size would give a speed in a tiny step.
+/// The reason is that the correction of even a rounding error in a tiny step would give a large speed.
 /// Later velocities include the correction of gaps.
 fn settle(case: &Case, worlds: &mut [Guard], step: f64) -> Result<()> {
     let fastest = case.drives.iter().fold(0.0f64, |most, drive| most.larger(drive.initial_speed().abs()));

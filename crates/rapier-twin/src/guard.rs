@@ -30,10 +30,11 @@ use linkage::work::{Count, WorkTally};
 const LARGEST_GAP: f64 = 0.05;
 /// If a link turns by more than this angle (rad) in one step, the run is stopped: its trajectory is meaningless.
 const LARGEST_TURN: f64 = std::f64::consts::FRAC_PI_2;
-/// If the kinetic energy grows by more than this factor in one step, the run has diverged and is stopped.
+/// If the kinetic energy after a step is more than this factor times the largest kinetic energy before the step, the
+/// run has diverged and is stopped.
 /// The factor corresponds to a factor of ten in the speeds.
 /// In a prescribed motion, the drives enforce their speeds and energy is not conserved. But the kinetic energy of a
-/// prescribed motion changes little in a step, because it depends only on the pose.
+/// prescribed motion changes little in a step, because it depends only on the pose and the speeds of the drives.
 const LARGEST_GROWTH: f64 = 100.0;
 
 /// A world and the quantities that are supervised.
