@@ -179,7 +179,7 @@ impl<'a> Guard<'a> {
         self.tally.many(Count::Sweeps, self.sweeps);
         let Guard { case, world, frames: before, centres, masses, size, .. } = self;
         let (links, joints) = (case.mechanism.links(), case.mechanism.joints());
-        // The error states the crank angle from the frames before the step.
+        // For a free crank, the error states the crank angle before the step.
         let place = |before: &[LinkFrame]| {
             Moment::of(case.crank(), case.crank().from_coordinate(before[case.crank().link].angle()), t)
         };
@@ -224,7 +224,7 @@ impl<'a> Guard<'a> {
     /// Checks that the world is back in the case's start pose after it has run backwards and forwards.
     ///
     /// # Errors
-    /// [`ErrorKind::Numeric`] if a link deviates from the start pose by more than the largest loop opening.
+    /// [`ErrorKind::Numeric`] if a link deviates from the start pose by more than the allowed loop opening.
     /// A larger deviation means that the engine has passed a dead point into an assembly mode other than that of the
     /// start.
     pub(super) fn check_start(&self) -> Result<()> {

@@ -14,9 +14,10 @@ use linkage::mechanism::{JointId, PerJoint, TransmissionId};
 use linkage::solver::State;
 
 /// Delay of the engine's reports, in substeps.
-/// The delay is the time from the instant that a report describes best to the end of the reported step.
+/// Each report describes one instant best. The delay is the time from this instant to the end of the reported step.
 /// The impulses of step n belong to the pose of step n - 1.
-/// The impulses of step n change the velocities of step n - 2 into the velocities of step n - 1.
+/// The impulses of step n change velocities along the constraints of the pose of step n - 2 into velocities along the
+/// constraints of the pose of step n - 1.
 /// The error is of first order whichever instant the impulses are assigned to.
 /// At a crank rotation of 0.32 deg per step, the instants t_n, t_(n-1) and t_(n-2) gave these errors:
 /// 3.8e-2, 2.0e-2 and 2.1e-2 on `ov7_base`; 1.7e-2, 5.8e-3 and 6.6e-3 on `crank_rocker`.
