@@ -51,8 +51,9 @@ impl Native {
         let width = 3 * case.mechanism.joints().len() + case.mechanism.transmissions().len() + case.drives.len();
         let reporters = reporters(case, &cuts);
         // In a free motion, the first reported step is step 1.
-        // The impulses of the first steps are incomplete, so these steps are left out: they begin with velocities along
-        // the constraints of the present pose, later steps with velocities along the constraints of the previous pose.
+        // The first steps begin with velocities along the constraints of the present pose. Later steps begin with
+        // velocities along the constraints of the previous pose. The impulses of the first steps are therefore
+        // incomplete, and these steps are left out.
         let lowest = if case.is_free() { 3 + first_steps(case, plain) } else { i64::MIN / 2 };
         let (step, late) = (settings.resolution, LATE / settings.substeps as f64);
         let (ring, ghost, row) = (Ring::new(width, start), Ghost::of(case, !case.is_free()), vec![0.0; width]);
