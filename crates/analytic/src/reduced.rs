@@ -1,4 +1,4 @@
-//! Motion under forces of a mechanism of one degree of freedom: the equation of motion is reduced to the crank.
+//! Motion of a mechanism of one degree of freedom under forces: the equation of motion is reduced to the crank.
 //!
 //! `omega^2 / 2 dI*/dphi + I* domega/dt = M`. The first and second transfer functions give I* and dI*/dphi.
 //! M is the power of motor, gravity and loads per unit speed of the crank.

@@ -85,7 +85,7 @@ fn val_a_boom_lifted_by_a_cylinder() {
     agrees(&case);
 }
 
-/// The boom with the joint's links in the opposite order: the signs of slide and force are opposite.
+/// The boom with the links of the driven joint in the opposite order: the signs of slide and force are opposite.
 #[test]
 fn the_order_of_the_links_changes_the_sign_alone() {
     let one = boom().start(0.3).driven("S", ramp(0.25)).mode(&["boom", "cylinder", "rod"], Left).build().unwrap();

@@ -2,9 +2,10 @@
 //!
 //! Rapier divides by the mass and by the moment of inertia of a separate body, so a point mass cannot be a separate
 //! body.
-//! In a multibody, Rapier accepts a point mass that does not lie in a joint: the mass matrix of the chain is regular.
+//! In a multibody, Rapier accepts a point mass that does not lie at a joint, because the mass matrix of the chain is
+//! then regular.
 //! A link that lacks mass or inertia gets an added mass or inertia.
-//! The link also gets the load m a + J alpha - m g of the added part.
+//! The link also gets, as loads, the force m (a - g) and the moment J alpha of the added part.
 //! If the accelerations in this load are the true ones, the motion is that of the case: (M + M') a = f + M' a reduces
 //! to M a = f.
 //! The load in a step uses the accelerations of the step before.
@@ -48,7 +49,7 @@ impl Added {
 
     /// Stores the accelerations of a trial step from the start.
     /// Returns the largest change of a compensating load, divided by the largest compensating load.
-    /// A moment is converted to a force at an arm of the mechanism's size.
+    /// For the comparison with forces, a moment is divided by the mechanism's size.
     pub(super) fn guess(&mut self, case: &Case, mut of: impl FnMut(usize) -> [f64; 3]) -> f64 {
         let size = case.mechanism.size();
         let (mut change, mut all) = (0.0f64, 0.0f64);

@@ -86,7 +86,8 @@ impl Engine for Rapier {
 
     fn formal_order(&self, case: &Case, channel: &ChannelKind) -> f64 {
         let native = self.settings.route == Route::Native && channel.stage >= Stage::Reactions;
-        // The motor of a slide between separate moving bodies acts along the axis at the start of the step.
+        // During a whole step, the motor of a slide between separate moving bodies acts in the direction that the axis
+        // has at the start of the step. The order is then 1.
         let is_moving = |drive: &Drive| case.mechanism.joints()[drive.joint].on(GROUND).is_none();
         let turns_axis =
             self.build == Build::Impulse && case.drives.iter().any(|own| own.input == Input::Slide && is_moving(own));

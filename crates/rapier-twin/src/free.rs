@@ -182,8 +182,9 @@ impl Acting {
         }
     }
 
-    /// Whether a trial step is needed. There are two cases: a link is at rest at the start and has a load or reducer
-    /// losses that depend on its sense of rotation; or a joint with friction is at rest at the start.
+    /// Whether a trial step is needed. There are three cases: a link that is at rest at the start has a load that
+    /// depends on its sense of rotation; the crank is at rest at the start and its motor has a reducer with losses; or
+    /// a joint with friction is at rest at the start.
     fn must_try(&self, case: &Case) -> bool {
         let losses = case.crank().moving_motor().is_some_and(|motor| motor.efficiency < 1.0);
         let mut sensed = case
@@ -330,7 +331,7 @@ fn undo(case: &Case, worlds: &mut [Guard], step: f64) -> Result<()> {
 /// Places worlds at the start pose and gives the driving links their start velocities.
 /// A tiny step with rigid drives then makes all other velocities consistent.
 /// The velocities after the tiny step exclude the correction of gaps.
-/// The reason is that even a gap of rounding size would give a speed in a tiny step.
+/// The reason is that the correction of even a rounding error in a tiny step would give a large speed.
 /// Later velocities include the correction of gaps.
 fn settle(case: &Case, worlds: &mut [Guard], step: f64) -> Result<()> {
     let fastest = case.drives.iter().fold(0.0f64, |most, drive| most.larger(drive.initial_speed().abs()));

@@ -4,7 +4,8 @@
 //! In a free motion, friction acts as a load in every step. The friction is computed from the accelerations of the
 //! previous step. The resulting error is of first order, as is the error of the engine's step.
 //! Reactions and friction are found together by Newton's method for the normal forces, with numerical derivatives.
-//! If the method does not converge, the friction is increased in steps.
+//! If the method does not converge for the full friction, the friction is increased in steps from zero to its full
+//! value.
 
 use super::lines::Lines;
 use super::newton_euler::NewtonEuler;
@@ -26,20 +27,20 @@ const SETTLED: f64 = 1e-14;
 const ROUNDING: f64 = 1e-11;
 /// Change of a normal force for the numerical derivatives, as a fraction of the largest normal force.
 const PROBE: f64 = 1e-4;
-/// Smallest step in which the friction is increased, as a fraction of the friction.
+/// Smallest step in which the friction is increased, as a fraction of the full friction.
 const LEAST: f64 = 1e-3;
 
-/// Computes the reactions of a known motion, with friction. The force of a transmission acts in the line of action that
-/// belongs to the sign of the force.
+/// Computes the reactions of a known motion, with friction. The force of a transmission acts along the first or
+/// the second line of action, depending on the sign of the force.
 #[derive(Debug)]
 pub(super) struct InverseDynamics {
     equations: NewtonEuler,
     lines: Option<Lines>,
     /// Assumed normal forces, from which the friction is computed.
     normals: Vec<f64>,
-    /// Normal forces of the reactions under this friction.
+    /// Normal forces of the reactions that follow from the friction of `normals`.
     now: Vec<f64>,
-    /// Normal forces of the reactions if one entry of `normals` is changed.
+    /// The same as `now`, but with one entry of `normals` changed, for the numerical derivatives.
     beside: Vec<f64>,
     /// The entries of `normals` before the friction was last increased.
     before: Vec<f64>,

@@ -30,10 +30,11 @@ use linkage::work::{Count, WorkTally};
 const LARGEST_GAP: f64 = 0.05;
 /// If a link turns by more than this angle (rad) in one step, the run is stopped: its trajectory is meaningless.
 const LARGEST_TURN: f64 = std::f64::consts::FRAC_PI_2;
-/// If the kinetic energy grows by more than this factor in one step, the run has diverged and is stopped.
+/// If the kinetic energy after a step is more than this factor times the largest kinetic energy before the step, the
+/// run has diverged and is stopped.
 /// The factor corresponds to a factor of ten in the speeds.
 /// In a prescribed motion, the drives enforce their speeds and energy is not conserved. But the kinetic energy of a
-/// prescribed motion changes little in a step, because it depends only on the pose.
+/// prescribed motion changes little in a step, because it depends only on the pose and the speeds of the drives.
 const LARGEST_GROWTH: f64 = 100.0;
 
 /// A world and the quantities that are supervised.
@@ -178,7 +179,7 @@ impl<'a> Guard<'a> {
         self.tally.many(Count::Sweeps, self.sweeps);
         let Guard { case, world, frames: before, centres, masses, size, .. } = self;
         let (links, joints) = (case.mechanism.links(), case.mechanism.joints());
-        // The error states the crank angle from the frames before the step.
+        // For a free crank, the error states the crank angle before the step.
         let place = |before: &[LinkFrame]| {
             Moment::of(case.crank(), case.crank().from_coordinate(before[case.crank().link].angle()), t)
         };
@@ -223,7 +224,7 @@ impl<'a> Guard<'a> {
     /// Checks that the world is back in the case's start pose after it has run backwards and forwards.
     ///
     /// # Errors
-    /// [`ErrorKind::Numeric`] if a link deviates from the start pose by more than the largest loop opening.
+    /// [`ErrorKind::Numeric`] if a link deviates from the start pose by more than the allowed loop opening.
     /// A larger deviation means that the engine has passed a dead point into an assembly mode other than that of the
     /// start.
     pub(super) fn check_start(&self) -> Result<()> {

@@ -20,7 +20,8 @@ const ROD: f64 = 1.0 / 12.0;
 const OFF_JOINTS: f64 = 1e-2;
 
 /// Additional moment of inertia of driving links, divided by the total mass times the square of the mechanism's size.
-/// A link with prescribed speed may have any moment of inertia, because it affects neither motion nor reactions.
+/// A link with prescribed speed may have any additional moment of inertia, because the addition affects neither the
+/// motion nor the reactions.
 /// The additional moment of inertia affects the driving moment only where the speed changes.
 /// This contribution to the driving moment is subtracted ([`Ghost`](super::ghost::Ghost)).
 /// With a large moment of inertia, the constraint rows of the drives hardly depend on the rows of the loops, and the

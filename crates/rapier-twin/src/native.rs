@@ -14,9 +14,10 @@ use linkage::mechanism::{JointId, PerJoint, TransmissionId};
 use linkage::solver::State;
 
 /// Delay of the engine's reports, in substeps.
-/// The delay is the time from the instant that a report describes best to the end of the reported step.
+/// Each report describes one instant best. The delay is the time from this instant to the end of the reported step.
 /// The impulses of step n belong to the pose of step n - 1.
-/// The impulses of step n change the velocities of step n - 2 into the velocities of step n - 1.
+/// The impulses of step n change velocities along the constraints of the pose of step n - 2 into velocities along the
+/// constraints of the pose of step n - 1.
 /// The error is of first order whichever instant the impulses are assigned to.
 /// At a crank rotation of 0.32 deg per step, the instants t_n, t_(n-1) and t_(n-2) gave these errors:
 /// 3.8e-2, 2.0e-2 and 2.1e-2 on `ov7_base`; 1.7e-2, 5.8e-3 and 6.6e-3 on `crank_rocker`.
@@ -50,8 +51,9 @@ impl Native {
         let width = 3 * case.mechanism.joints().len() + case.mechanism.transmissions().len() + case.drives.len();
         let reporters = reporters(case, &cuts);
         // In a free motion, the first reported step is step 1.
-        // The impulses of the first steps are incomplete, so these steps are left out: they begin with velocities along
-        // the constraints of the present pose, later steps with velocities along the constraints of the previous pose.
+        // The first steps begin with velocities along the constraints of the present pose. Later steps begin with
+        // velocities along the constraints of the previous pose. The impulses of the first steps are therefore
+        // incomplete, and these steps are left out.
         let lowest = if case.is_free() { 3 + first_steps(case, plain) } else { i64::MIN / 2 };
         let (step, late) = (settings.resolution, LATE / settings.substeps as f64);
         let (ring, ghost, row) = (Ring::new(width, start), Ghost::of(case, !case.is_free()), vec![0.0; width]);

@@ -53,7 +53,7 @@ pub struct NewtonEuler {
     members: Vec<[Option<usize>; 2]>,
     /// The joints of the tree, then the cut joints, in the present pose.
     stands: Vec<Stand>,
-    /// Force and moment that the joint carrying a link must transmit to the link, for every link of the tree.
+    /// For every link of the tree: the force and moment that the link must receive through the joint that carries it.
     /// The force and moment are a sum of terms: one term for each component of the cut joints, and one constant term.
     needs: Vec<Term>,
     stages: Vec<Stage>,
@@ -215,7 +215,8 @@ impl NewtonEuler {
         true
     }
 
-    /// Adds the force and moment of every link in `needs` to the force and moment of the link that carries this link.
+    /// `needs` has a force and moment for every link. For every link, the part that the link's joint transmits is added
+    /// to the force and moment of the link that carries this link.
     /// The order is from the leaves of the tree to the ground.
     fn pass_on(&mut self) {
         let width = self.components.len() + 1;

@@ -20,7 +20,7 @@ const STILL: f64 = 50.0 * f64::EPSILON;
 /// Extreme position of a link: its angular velocity changes sign.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExtremePosition {
-    /// Crank angle (rad, as the scenario states it), to 1e-9 rad.
+    /// Crank angle (rad, in the scenario's convention), accurate to 1e-9 rad.
     pub crank: f64,
     /// Angle of the link (rad).
     pub angle: f64,
@@ -33,7 +33,8 @@ pub struct ExtremePosition {
 pub struct LinkRange {
     /// The link.
     pub link: LinkId,
-    /// Smallest and greatest angle with their crank angles (rad); the angles continue the angle of the start pose.
+    /// Smallest and greatest angle of the link, each with its crank angle (rad).
+    /// The angles of the link are continuous from the start pose: whole turns are not removed.
     pub angles: [ValueAtCrank; 2],
     /// Whole turns of the link until the mechanism is back at its first pose.
     /// For a crank that turns counter-clockwise, the number is positive if the link also turns counter-clockwise.

@@ -7,11 +7,12 @@ use linkage::drive::Drive;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::input::Input;
 
-/// Index of the coordinate of the first drive, and one linear equation of coordinates for each further drive.
-/// At constant speeds, the ratios to the speed of the first drive are constant.
+/// Index of the coordinate of the first drive, and a linear equation between this coordinate and the coordinate of each
+/// further drive.
+/// If all drives have constant speeds, the ratio of each further drive's speed to the first drive's speed is constant.
 ///
 /// # Errors
-/// [`ErrorKind::Unsupported`] if one of several speeds changes.
+/// [`ErrorKind::Unsupported`] if there are several drives and the speed of one of them changes.
 pub(super) fn gearings(case: &Case, constraints: &Constraints) -> Result<(usize, Vec<Gearing>)> {
     let size = case.mechanism.size();
     let unit = |drive: &Drive| drive.input.span(size);

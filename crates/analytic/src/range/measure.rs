@@ -1,7 +1,7 @@
 //! Distance of a group from a singular pose: its determinant and its condition number.
 //!
-//! The coordinates x and y of the group's links are eliminated, by projection on the complement of their columns. There
-//! are then as many equations as angles.
+//! The coordinates x and y of the group's links are eliminated: the columns of the angles are projected onto the
+//! orthogonal complement of the columns of x and y. There are then as many equations as angles.
 //! The remaining columns are vectors of constant length, one per link. With the columns divided by these lengths, the
 //! determinant is a dimensionless number from -1 to 1.
 //! For a dyad the columns are the vectors from the outer joints to the inner joint.

@@ -16,7 +16,7 @@ linkage::words! {
         /// The two axes of an RPP or PRP dyad are parallel. As this pose is approached, the slides of the dyad grow
         /// without bound.
         ParallelAxes = "parallel axes",
-        /// Another branch is so near the followed branch that the determinant is below 1e-3.
+        /// Another branch is so near the followed branch that the magnitude of the determinant is below 1e-3.
         /// The determinant keeps its sign.
         BranchContact = "branch contact",
     }
@@ -27,7 +27,8 @@ linkage::words! {
 pub struct Singularity {
     /// Kind.
     pub kind: SingularityKind,
-    /// Crank angle (rad, as the scenario states it), to 1e-9 rad. For a contact, the angle of the smallest determinant.
+    /// Crank angle (rad, in the scenario's convention), accurate to 1e-9 rad.
+    /// For a contact, the crank angle at which the magnitude of the determinant is smallest.
     pub crank: f64,
     /// The group with the zero determinant: index in [`Structure::groups`](linkage::mechanism::Structure::groups).
     pub group: GroupId,

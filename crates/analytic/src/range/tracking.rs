@@ -38,7 +38,8 @@ const SAFE: f64 = 0.5;
 /// 0.25 rad.
 const STRAIGHT: f64 = 0.969;
 /// Two branches count as meeting if their distance is below this value (in units of the mechanism's size and rad).
-/// Lengths rounded to 16 digits separate crossing branches by the square root of the rounding error, 1e-8.
+/// Lengths are rounded to 16 digits. The rounding separates crossing branches by about 1e-8, the square root of the
+/// rounding error.
 const MEET: f64 = 1e-6;
 /// Shortest step. If even this step is too long, two branches count as meeting.
 const SHORTEST: f64 = 1e-9;
@@ -105,11 +106,11 @@ pub(super) struct Tracker<'a> {
     crank: usize,
     unit: f64,
     /// Factors +1 or -1 of the groups' determinants.
-    /// With its factor, a dyad's determinant has the sign of the transmission sine; other determinants are positive at
-    /// the start.
+    /// Multiplied by its factor, the determinant of a dyad has the sign of the transmission sine, and the determinant
+    /// of any other group is positive at the start pose.
     signs: Vec<f64>,
-    /// Direction of the smallest singular value at the last pose. The inverse iteration at the next pose starts from
-    /// this direction.
+    /// Right singular vector of the smallest singular value at the last pose. The inverse iteration at the next pose
+    /// starts from this direction.
     weakest: RefCell<ColumnVector>,
     /// The error that reports that the allowed work is used up. After this error, no further pose is placed.
     over: OnceCell<Error>,
@@ -260,7 +261,8 @@ impl<'a> Tracker<'a> {
         (point.tangent.dot(&from.tangent) >= STRAIGHT).then_some(point)
     }
 
-    /// The pose near `near` at which the coordinate of the first drive is `angle`, in units of this coordinate.
+    /// The pose near `near` at which the coordinate of the first drive has the value `angle` (rad; for a slide, in
+    /// units of the mechanism's size).
     fn at_crank(&self, near: &Point, angle: f64) -> Option<Point> {
         let mut across = ColumnVector::zeros(near.q.len());
         across[self.crank] = 1.0;
@@ -276,8 +278,8 @@ impl<'a> Tracker<'a> {
         let nearer = usize::from(!(ends[0].1.abs() < ends[1].1.abs()));
         let mut best = ([a, b][nearer].clone(), ends[nearer].1.abs());
         let close = Close { value: 0.0, width: 1e-14 * width.abs() };
-        // A pose that cannot be corrected ends the search. The best result so far is as accurate as the equations
-        // allow.
+        // The search ends if Newton's method fails to find a pose. The best result so far is as accurate as the
+        // equations allow.
         let _ = root::regula_falsi(ends, close, STEPS_TO_ZERO, |at| {
             let point = self.advance(a, at).ok_or(())?;
             let value = f(&point);
@@ -372,8 +374,8 @@ impl<'a> Tracker<'a> {
     /// The smallest singular value is small if links are far away, even without a branch nearby, because the axes that
     /// guide these links are almost parallel.
     /// The singular value is therefore multiplied by the extent.
-    /// The factor is not valid for groups without a far link. For groups without a far link, the determinants bound the
-    /// distance to another branch.
+    /// Multiplication by the extent is not valid for groups without a far link. For groups without a far link, the
+    /// determinants bound the distance to another branch.
     fn clearance(&self, here: &Point) -> f64 {
         let extent = self.extent(&here.q);
         let all = here.sigma * extent;
@@ -427,9 +429,11 @@ impl<'a> Tracker<'a> {
         Ok(Track { points, end: End::Limit(singularity) })
     }
 
-    /// Whether the pose with links at infinity is known to rounding accuracy. If so, no singular pose lies before the
-    /// pose with links at infinity.
-    /// The test covers the angles of all links, and the determinants, which must keep their signs.
+    /// Whether the extrapolated pose with links at infinity is accurate enough (see [`AGREED`]) and is the next
+    /// singular pose of the curve.
+    /// The accuracy of the angles of all links and of all determinants is tested.
+    /// The pose is the next singular pose if the determinants of the other groups have the same signs there as at the
+    /// last pose.
     fn is_settled(&self, points: &[Point]) -> bool {
         let last = &points[points.len() - 1];
         let Some(group) = weakest(&last.measures) else { return false };
@@ -483,7 +487,7 @@ impl<'a> Tracker<'a> {
     }
 
     /// Whether all links have the same pose at `a` and `b`, apart from whole turns.
-    /// Slides between links are given by the poses of the links.
+    /// The coordinates of slides are not compared, because they follow from the poses of the links.
     fn is_same(&self, a: &Point, b: &Point) -> bool {
         (0..self.constraints.of_links()).all(|k| match k % 3 {
             2 => (unit(a.q[k]) - unit(b.q[k])).norm() < 1e-6,
@@ -536,7 +540,7 @@ fn factored(matrix: &Matrix) -> Option<Lu> {
     lu.factor().then_some(lu)
 }
 
-/// A start direction for the iteration, which is not orthogonal to any direction that occurs.
+/// A start direction for the inverse iteration. No singular vector that occurs in practice is orthogonal to it.
 fn any_direction(n: usize) -> ColumnVector {
     ColumnVector::from_fn(n, |row, _| 1.0 + (row as f64).sin()).normalize()
 }
@@ -549,8 +553,7 @@ fn solved(matrix: &Matrix, mut right: ColumnVector) -> Option<ColumnVector> {
 
 /// Smallest singular value, by inverse iteration, and the number of iterations.
 /// The value is 0 for a matrix that is singular to working precision.
-/// The iteration starts from the direction `x`. At the end of the iteration, `x` is the direction of the singular
-/// value.
+/// The iteration starts from the direction `x`. At the end of the iteration, `x` is the right singular vector.
 fn smallest_singular_value(matrix: &Matrix, x: &mut ColumnVector) -> (f64, usize) {
     let Some(lu) = factored(matrix) else { return (0.0, 0) };
     // Adds a small component in every direction, so that the iteration can reach every direction.

@@ -55,7 +55,7 @@ impl<'m, 'a> Forces<'m, 'a> {
         self.tally.borrow_mut().one(Count::Evaluations);
     }
 
-    /// Begins a step at this crank angle, at any distance from the last step.
+    /// Begins a step at this crank angle, which may be at any distance from the previous step.
     pub(crate) fn begin_at(&self, crank: f64) {
         self.origin.set(crank);
     }

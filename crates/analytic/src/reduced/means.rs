@@ -46,7 +46,8 @@ pub fn moment_of_resistance(case: &Case, state: &State) -> f64 {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Kinks {
     /// Crank angle (rad) after which the mechanism is back at its first pose, under the same loads.
-    /// The period is one turn, or several turns if there are higher groups or tables that cover several turns.
+    /// The period is usually one turn. The period can be several turns if the mechanism has higher groups, or if the
+    /// table of a load covers several turns.
     /// `None` if the crank cannot turn fully.
     pub period: Option<f64>,
     /// Crank angles (rad) of the kinks. At a kink, a loaded link reverses and its load changes sense, or a load table
@@ -62,7 +63,7 @@ pub struct Kinks {
 
 /// Largest number of turns in one period of the reduced quantities.
 const MOST_TURNS: u32 = 1000;
-/// Number of Newton steps that improve a crank angle from 1e-9 rad to rounding accuracy.
+/// Number of Newton steps that improve the accuracy of a crank angle from 1e-9 rad to the rounding error.
 const POLISHING: usize = 3;
 
 /// Extent of a crank's rotation. `reversals` contains the crank angles (rad) at which loads change their sense because
@@ -87,7 +88,8 @@ impl Reach {
         let mut reversals = Vec::new();
         for link in range.links.iter().filter(|link| sensed.contains(&link.link)) {
             for extreme in &link.extremes {
-                // At a flat extreme, the first estimate is kept.
+                // At a flat extreme, where `alpha` is zero too, Newton's steps are NaN or too long. The crank angle of
+                // `range` is then kept.
                 reversals.push(root::polished(extreme.crank, POLISHING, 1e-6, |crank| -> Result<(f64, f64)> {
                     let motion = &poses.solve(crank, 1.0, 0.0, Stage::Accelerations)?.motions[link.link];
                     Ok((motion.omega, motion.alpha))
@@ -180,8 +182,8 @@ pub struct Means {
 /// The quadrature error is 1e-16 for a quantity whose nearest singularity is a tenth of a radian off the real axis.
 const PANEL: f64 = PI / 90.0;
 
-/// Means over one period at the drive's top speed, with the motion of the given solver. Gauss's rule is applied between
-/// kinks.
+/// Means over one period at the drive's top speed. The given solver computes the motion. Gauss's rule is applied
+/// between kinks.
 ///
 /// # Errors
 /// The errors of [`kinks`] and of the solver. [`ErrorKind::Geometry`] for mechanisms whose crank cannot turn fully.

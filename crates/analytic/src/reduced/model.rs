@@ -65,7 +65,7 @@ pub struct ReducedModel<'a> {
     kinks: Kinks,
     /// Crank angles of the boundaries between pieces. The boundaries are the kinks of one period.
     /// If there are no kinks, the start of the period is the only boundary.
-    /// If the motion has limits, the crank angles [`LIMIT_MARGIN`] inside the limits are included.
+    /// If the motion has limits, there are two more boundaries, each at the distance [`LIMIT_MARGIN`] inside a limit.
     boundaries: Vec<f64>,
     /// Sense of the transfer function of each link in `sensed`, on each piece of one period: +1 or -1.
     /// The values are ordered by piece: all links on the first piece, then all links on each following piece.
@@ -73,7 +73,8 @@ pub struct ReducedModel<'a> {
     pub(crate) motor: Option<Motor>,
     /// Sense in which the motor drives the crank: the sense of the prescribed speed in the scenario.
     pub(crate) sense: f64,
-    /// Moment of inertia that turns with the crank: motor and reducer reduced to it, and a flywheel (kg m^2).
+    /// Moment of inertia that turns with the crank (kg m^2): motor and reducer, both reduced to the crank, and a
+    /// flywheel.
     pub(crate) added: f64,
 }
 

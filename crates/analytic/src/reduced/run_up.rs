@@ -162,7 +162,7 @@ impl<'m, 'a> Runner<'m, 'a> {
     fn enter(&mut self) -> Result<Option<RunUpEnd>> {
         let (t, [crank, omega]) = (self.place.x, self.place.y);
         // From standstill, the crank starts in a direction if its acceleration points in this direction.
-        // The resistance against this direction is included in the acceleration.
+        // The acceleration includes the loads that resist a motion in this direction.
         let ways: &[f64] = if omega == 0.0 { &[1.0, -1.0] } else { &[omega.signum()] };
         for &way in ways {
             let Some(piece) = self.flow.0.model.piece_at(crank, way) else {
@@ -222,7 +222,8 @@ impl<'m, 'a> Runner<'m, 'a> {
     }
 }
 
-/// The crank at a state. The angle `gone` (rad) of the completed periods is added to the crank angle.
+/// The [`CrankState`] for crank angle and speed at the time `t`. The angle `gone` (rad) of the completed periods is
+/// added to the crank angle.
 fn instant(flow: &InTime, t: f64, [crank, omega]: [f64; 2], gone: f64, is_accelerated: bool) -> CrankState {
     if !is_accelerated {
         return CrankState { t, crank: crank + gone, within: crank, omega, alpha: 0.0, motor: 0.0, shaft: 0.0 };
@@ -256,7 +257,8 @@ pub struct RunUp {
     /// The crank at every instant.
     pub motion: Vec<CrankState>,
     /// All requested channels at these instants.
-    /// `drive.torque_N_m` is the moment on the crank from its equilibrium with the reactions.
+    /// `drive.torque_N_m` is the moment of the shaft on the crank. It follows from the equilibrium of the crank under
+    /// the reactions in its joints.
     pub trajectory: Trajectory,
     /// How the motion ended.
     pub end: RunUpEnd,
@@ -290,7 +292,8 @@ impl RunUp {
         Ok(RunUp { motion, trajectory, end, natural })
     }
 
-    /// Largest difference between the shaft's moment and the moment from the crank's equilibrium.
+    /// Largest difference between the shaft's moment of the equation of motion ([`CrankState::shaft`]) and
+    /// `drive.torque_N_m`.
     /// The difference is divided by the largest moment or by the largest reaction times the mechanism's size, whichever
     /// is larger.
     /// The difference compares the equation of motion with the reactions, which are computed without reduced

@@ -1,6 +1,7 @@
 //! A crank that turns fully, and the crank angles at which links reverse.
 //!
-//! The poses of one whole turn are enough, because the pose solver itself refuses dead points and change points.
+//! To find that the crank turns fully, it is enough to place the mechanism during one period. The pose solver itself
+//! refuses dead points and change points.
 //! The limits of cranks that do not turn fully come from the [range of motion](crate::range).
 //! The analysis of the range of motion costs many times as much as one whole turn of poses.
 
@@ -24,7 +25,8 @@ const MOST_TURNS: u32 = 12;
 const STILL: f64 = 1e-11;
 /// Newton's method ends if its step (rad) is at most this value. The method converges quadratically.
 const SETTLED: f64 = 1e-9;
-/// An interval between two poses in which a link slows down and speeds up again is halved at most this number of times.
+/// Largest number of times that an interval between two poses is halved. An interval is halved if a link slows down and
+/// speeds up again in it.
 const HALVINGS: u32 = 20;
 
 /// A crank that turns fully.
@@ -123,10 +125,11 @@ fn between(
         reversals.extend(found);
         return Ok(());
     }
-    // The link may have reversed twice only if two tangents of its angular velocity intersect beyond zero.
-    // The tangents touch the curve of the angular velocity at the two ends of the interval.
-    // Beyond zero, the angular velocity has the opposite sign.
-    // If the tangents intersect elsewhere, the interval is not halved.
+    // The tangents touch the curve of the angular velocity at the two ends of the interval. The angular velocity has
+    // the same sign at both ends.
+    // The link can have reversed twice only if the tangents intersect at zero or at an angular velocity of opposite
+    // sign.
+    // Otherwise the interval is not halved.
     let at = (b.omega - a.omega + a.slope * a.crank - b.slope * b.crank) / (a.slope - b.slope);
     let is_dip = a.omega * a.slope < 0.0 && b.omega * b.slope > 0.0;
     if halvings > 0 && is_dip && (a.omega + a.slope * (at - a.crank)) * a.omega <= 0.0 {

@@ -13,7 +13,8 @@ const SAME: f64 = 1e-12;
 /// M0 - B omega is the straight line of the motor's moment on the crank.
 /// Then omega = omega_s (1 - exp(-t / T)) with T = I / B and omega_s = (M0 - R) / B.
 ///
-/// If the motor's law is linear, B is minus the law's slope times ratio^2 times efficiency while the motor drives.
+/// For a linear law of the motor and power flow to the crank, B = -k ratio^2 efficiency, where k is the slope of the
+/// law.
 /// Speeds and angles are positive in the motor's sense.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Averaged {

@@ -33,7 +33,8 @@ pub struct SpeedAtCrank {
 pub struct Regime {
     /// Time of one period (s).
     pub period: f64,
-    /// Turns of the crank in a period: 1, except with some higher groups and with load tables that cover several turns.
+    /// Turns of the crank in a period. There are several turns for some higher groups and for load tables that cover
+    /// several turns, otherwise one.
     pub turns: f64,
     /// Mean angular velocity over time (rad/s): the angle of all turns, divided by the duration of the period.
     pub mean_speed: f64,
@@ -43,9 +44,8 @@ pub struct Regime {
     pub fastest: SpeedAtCrank,
     /// The smallest speed of the crank and its crank angle.
     pub slowest: SpeedAtCrank,
-    /// A small deviation of the energy at the end of a period, divided by the deviation at the beginning of the
-    /// period.
-    /// The quotient of a stable motion is below 1.
+    /// Factor by which a period multiplies a small deviation from the energy of the steady motion.
+    /// The factor is below 1 for a stable motion.
     pub multiplier: f64,
     /// Speeds of the crank at the requested crank angles.
     pub samples: Vec<SpeedAtCrank>,
@@ -89,8 +89,9 @@ impl ReducedModel<'_> {
         let resistance = self.sense * means.resistance;
         let guess = motor.steady_speed(resistance).filter(|&speed| speed > 0.0);
         let Some(speed) = guess else { return Err(means::no_steady_speed(resistance)) };
-        // The search starts at the mean energy, not at the mean speed, because the mechanism is fast where its reduced
-        // inertia is small.
+        // The first energy of the search is computed from the mean inertia, not from the inertia at the start. The
+        // energy varies less over a period than the speed, because the crank is fast where the reduced inertia is
+        // small.
         let mut energy = (means.inertia + self.added) * speed * speed / 2.0;
         let mut share = 0.0;
         for _ in 0..MOST_SHOTS {

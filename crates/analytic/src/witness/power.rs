@@ -19,8 +19,8 @@ pub fn of_known_forces(case: &Case, state: &State) -> f64 {
 
 /// Balancing moment on the crank (N m), or driving force of the first drive (N), for which the powers of all forces sum
 /// to zero.
-/// The balancing moments of further drives are reduced to the first drive: the result is the sum of all moments times
-/// their speed ratios.
+/// The balancing moments of further drives are reduced to the first drive: the result is the sum of all moments, each
+/// multiplied by the speed ratio of its drive to the first drive.
 /// Ideal joints do no work, so the calculation does not need reactions. The first drive must move.
 #[must_use]
 pub fn balancing_moment(case: &Case, state: &State) -> f64 {

@@ -30,7 +30,7 @@ pub struct TriadLead {
     pub outer: JointId,
     /// Joint of the lead with the base link.
     pub inner: JointId,
-    /// The outer joint on the link that is known before the group.
+    /// The outer joint on the supporting link, whose motion is known before the motion of the group is computed.
     pub support: JointSide,
     /// The outer joint in the lead's frame (m).
     pub foot: Vec2,
@@ -128,7 +128,8 @@ impl Triad {
         })
     }
 
-    /// Reactions as forces of each joint's first link on its second link (N): joint and force, feet first.
+    /// Each joint of the group with its reaction (N): the force of the joint's first link on its second link. The feet
+    /// come before the heads.
     #[must_use]
     pub fn joint_forces(&self, mechanism: &Mechanism, reactions: &Reactions) -> [(JointId, Vec2); 6] {
         let of = |joint: JointId, loaded: LinkId, force: Vec2| {

@@ -13,8 +13,8 @@ pub(super) struct Limb {
     pub(super) drive: Option<usize>,
     /// Whether the drive acts on both links of the joint. Joint and drive together then transmit any force and moment.
     pub(super) is_rigid: bool,
-    /// Components of cut joints on this link and on the links beyond it. No component of any other cut joint acts on
-    /// these links.
+    /// Indices of the components that occur in the equation of the link's joint: the components in the cut joints of
+    /// this link and of the links beyond it.
     pub(super) terms: Vec<usize>,
 }
 

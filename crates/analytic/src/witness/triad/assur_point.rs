@@ -59,7 +59,7 @@ pub fn reactions(places: &Places, known: &[KnownResultant; 4]) -> Result<Reactio
     let point = best(places);
     let ([i, j, k], pole) = (point.leads, point.place);
     // The base link and the leads i and j are treated as one body: the moments of all actions on this body are summed.
-    // Lead k acts on the base link at its head with the force `third`.
+    // `third` is the force of lead k on the base link, without the unknown component along the lead.
     let third = across[k] + known[k].force;
     let with_two = |pole: Vec2| {
         let at_feet: f64 = [i, j].map(|lead| cross(places.feet[lead] - pole, across[lead])).iter().sum();

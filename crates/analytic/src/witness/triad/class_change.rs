@@ -1,7 +1,8 @@
 //! The class III group by exchange of the driving link.
 //!
 //! Two leads of the group are attached to the ground (the ground leads), and lead 3 to the crank.
-//! If one ground lead is taken as conditional driver, the mechanism is a chain of class II dyads.
+//! If one ground lead is treated as the driver in place of the crank (the conditional driver), the mechanism is a chain
+//! of class II dyads.
 //! The first dyad consists of the base link and the ground lead that does not drive.
 //! The second dyad consists of lead 3 and the crank.
 //! The first dyad is placed in closed form.
@@ -26,8 +27,8 @@
 //! Both ground leads then stand still, and both are equally unsuitable as the driver.
 //! The second dyad then changes from one of its two configurations to the other.
 //! The closing condition of the second dyad holds for both configurations and is smooth in theta.
-//! The closing condition is solved instead of the second dyad's angle, so limit positions of the second kind are passed
-//! without difficulty.
+//! The method solves only this condition, for theta, and need not choose a configuration of the second dyad. Limit
+//! positions of the second kind are therefore passed without difficulty.
 //! A dead point of the group itself, q . F' = 0, cannot be passed.
 
 mod chain;
@@ -82,7 +83,7 @@ impl Transfer {
 #[derive(Clone, Debug)]
 pub struct ClassChange {
     input: Input,
-    /// World angle of the crank at crank angle zero (rad).
+    /// World angle of the x axis of the crank's frame when the drive's crank angle is zero (rad).
     zero: f64,
     names: String,
     /// World position of the crank's pivot, and the vector from the pivot to the crank pin in the crank's frame (m).
@@ -156,7 +157,8 @@ impl ClassChange {
     }
 
     /// Transfer functions at the crank angle `crank` (rad, as the scenario states it).
-    /// The crank moves in small steps from the angle of the previous call to `crank`.
+    /// The branch is followed in small steps of the crank angle, from the crank angle of the previous call as far as
+    /// `crank`.
     ///
     /// # Errors
     /// [`ErrorKind::Geometry`] if the branch has a dead point between the previous crank angle and `crank`.

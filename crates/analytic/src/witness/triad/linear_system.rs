@@ -54,7 +54,8 @@ impl System {
     }
 
     /// Adds `sign` times the force number `unknown` to the equations of a link.
-    /// The force acts at `arm` from the link's pole, in units of the link's length.
+    /// `arm` is the vector from the link's pole to the point of application of the force, divided by the length by
+    /// which the moments of the link are divided.
     fn force(&mut self, link: usize, unknown: usize, sign: f64, arm: Vec2) {
         for (column, axis) in [(2 * unknown, Vec2::new(sign, 0.0)), (2 * unknown + 1, Vec2::new(0.0, sign))] {
             for (row, value) in [axis.x, axis.y, cross(arm, axis)].into_iter().enumerate() {

@@ -75,7 +75,7 @@ impl Chain {
 
 impl Place {
     /// Signed sine of the angle between the base link and the ground lead that does not drive.
-    /// The sine is zero if the conditional driver has a dead point in the first dyad.
+    /// The sine is zero if the first dyad is at its limit. The driving lead is then in a limit position.
     pub(super) fn sine(&self) -> f64 {
         cross(self.base, self.other) / (self.base.norm() * self.other.norm())
     }
