@@ -5,8 +5,8 @@ use crate::sentences;
 use linkage::math::{KeepNan, Vec2};
 use std::fmt::Write;
 
-/// The text of the scenario called `name`. `groups` is the text of the tables `[[start.groups]]`, and `grid` is the text
-/// of the grid.
+/// The text of the scenario called `name`. `groups` is the text of the tables `[[start.groups]]`, and `grid` is the
+/// text of the grid.
 pub(super) fn text(parts: &Parts, name: &str, groups: &str, grid: &str) -> String {
     let mut text = format!("# {}\n", sentences::imported_from(&parts.source));
     for told in &parts.told {

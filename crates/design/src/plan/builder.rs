@@ -209,8 +209,8 @@ impl<'a> Builder<'a> {
 
     /// Pairs of points of a link.
     /// First come the pairs of the link's ground pivot with every other point, then the pairs of two moving points.
-    /// If the link is a moving guide, the last pairs contain its points that coincide with sliding points. Each coincident
-    /// point is paired with the link's pivot or, without a pivot, with the link's moving points.
+    /// If the link is a moving guide, the last pairs contain its points that coincide with sliding points.
+    /// Each coincident point is paired with the link's pivot or, without a pivot, with the link's moving points.
     /// A link that never turns has no pairs: all its points have the same motion.
     fn pairs(&self, link: LinkId) -> Vec<(On<'a>, On<'a>)> {
         if !self.mechanism.can_turn(link) {
