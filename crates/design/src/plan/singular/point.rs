@@ -36,11 +36,11 @@ impl AssurLead {
         cross(self.along, far - near) / self.length()
     }
 
-    /// Adds two normal accelerations to `far`, the acceleration of the lead's second end: the first step of the
-    /// construction of the acceleration of the singular point `at`.
-    /// The first normal acceleration is omega^2 l of the lead's first end relative to the second end, with the lead's
-    /// angular velocity `lead` (rad/s).
-    /// The second normal acceleration is omega^2 l of the singular point relative to the lead's first end, with the
+    /// Adds two normal accelerations to `far`, the acceleration of the lead's second end.
+    /// This is the first step in constructing the acceleration of the singular point, whose position is `at`.
+    /// The first is the normal acceleration of the lead's first end relative to the second end. It is omega^2 l, where
+    /// omega is the lead's angular velocity `lead` (rad/s).
+    /// The second is the normal acceleration of the singular point relative to the lead's first end. Here omega is the
     /// angular velocity `base` of the base link (rad/s).
     /// Both normal accelerations are parallel to the lead; the tangential accelerations are perpendicular to the lead.
     pub(super) fn foot(&self, at: Vec2, far: Vec2, lead: f64, base: f64) -> Vec2 {
