@@ -117,7 +117,7 @@ impl SingularPoint {
     }
 }
 
-/// The vector that has the components `parts` along the directions of two leads.
+/// The vector whose projections onto the directions of two leads are `parts`.
 pub(super) fn oblique(leads: [&AssurLead; 2], parts: [f64; 2]) -> Vec2 {
     let [first, second] = leads.map(|lead| lead.along);
     (turned(first) * parts[1] - turned(second) * parts[0]) / cross(first, second)
@@ -130,7 +130,8 @@ pub(super) fn meeting(leads: [&AssurLead; 2]) -> Vec2 {
     first.ends[0] + first.along * (cross(second.ends[0] - first.ends[0], second.along) / slant)
 }
 
-/// Construction of an acceleration: lines across the leads through `feet` meet at the end of the acceleration.
+/// Construction of an acceleration. For each lead, a line across the lead goes through its point of `feet`.
+/// The two lines meet at the end of the acceleration.
 pub(super) fn trial(leads: [&AssurLead; 2], far: [Vec2; 2], feet: [Vec2; 2]) -> AssurTrial {
     let parts = [0, 1].map(|side| feet[side].dot(&leads[side].along));
     AssurTrial { far, feet, at: oblique(leads, parts) }
