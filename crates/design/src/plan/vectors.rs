@@ -181,9 +181,10 @@ pub(super) fn longest(vectors: &[Vector]) -> f64 {
 
 impl VectorPlan {
     /// Keeps only the vectors whose two ends stay. The plan gets a new scale.
-    /// The pole and the points with these letters stay. Coincident points and the ends of normal or Coriolis parts are
-    /// intermediate points. An intermediate point stays if each of its vectors joins it to the pole, to a point with one
-    /// of these letters, or to another intermediate point.
+    /// The pole and the points with these letters stay.
+    /// Coincident points and the ends of normal or Coriolis parts are intermediate points. An intermediate point stays
+    /// if each of its vectors joins it to the pole, to a point with one of these letters, or to another intermediate
+    /// point.
     pub(super) fn keep(&mut self, letters: &[String]) {
         let pole = self.quantity.pole();
         let kind = |letter: &str| self.tips.iter().find(|tip| tip.letter == letter).map(|tip| tip.kind);
