@@ -143,7 +143,7 @@ impl<'a> RigidModel<'a> {
     }
 
     /// Branches of the tree whose coordinates a transmission couples, each with a factor.
-    /// The transmission keeps the sum of all products of coordinate and factor constant.
+    /// The transmission keeps one sum constant: that of all coordinates, each multiplied by its factor.
     pub(crate) fn coupled(&self, transmission: &Transmission) -> Vec<(usize, f64)> {
         let mut sum: Vec<(usize, f64)> = Vec::new();
         let mut add = |branch: usize, factor: f64| match sum.iter_mut().find(|(own, _)| *own == branch) {

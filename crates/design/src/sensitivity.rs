@@ -1,7 +1,7 @@
 //! Exact first derivatives of a run's figures, such as the largest reaction, with respect to the numbers in its file,
 //! and tolerance stacks from these derivatives.
 //!
-//! Side 1 computes each figure.
+//! Side 1, the analytic solver, computes each figure.
 //! At the instants that determine the figure, the equations of the whole mechanism are solved again in dual numbers
 //! ([`precise::Dual`]).
 //! Unlike difference quotients, dual numbers have no error of a step width.
