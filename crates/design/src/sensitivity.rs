@@ -36,7 +36,8 @@ pub use self::tolerance::{APART, KeyTolerance, LinearLimit, ToleranceStack, stac
 /// [`ErrorKind::Input`] for an unknown key or quantity, or a figure without a value.
 /// [`ErrorKind::Unsupported`] for a mechanism with friction or transmissions, for a free motion, for a motion through
 /// change points, and for a key whose derivative is not known.
-/// [`ErrorKind::Numeric`] if side 1 and the solution in dual numbers give different values. [`ErrorKind::Geometry`] if the pose at an instant is singular. The errors of the solver.
+/// [`ErrorKind::Numeric`] if side 1 and the solution in dual numbers give different values.
+/// [`ErrorKind::Geometry`] if the pose at an instant is singular. The errors of the solver.
 pub fn sensitivity(scenario: &Scenario, question: &SensitivityQuestion) -> Result<Sensitivity> {
     sensitivity_by(scenario, &CaseSlopes::of(scenario, &question.asked)?, question)
 }

@@ -39,7 +39,7 @@ fn precise_figures(scenario: &Scenario, found: &Sensitivity, key: &CaseKey, valu
 fn small_change(key: &CaseKey, all: &[CaseKey]) -> f64 {
     let alike = all.iter().filter(|own| own.unit == key.unit && own.value != 0.0).map(|own| own.value.abs());
     match key.sort {
-        // All angles of the file may be zero. The reference value is then 10.
+        // All angles of the file may be zero. The change is then 0.4 % of 10.
         KeySort::Dimension | KeySort::Parameter => 4e-3 * alike.fold(10.0, f64::smaller),
         KeySort::Mass | KeySort::Law | KeySort::Load | KeySort::Other => 4e-3 * size_of(key, all),
     }
