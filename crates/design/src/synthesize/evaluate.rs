@@ -218,7 +218,7 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// Removes jumps by a full turn from angles.
+    /// If the output is an angle, removes its jumps of a full turn.
     /// Returns an error if the task has phases, and the output is not periodic over the turn.
     fn unwind(&mut self) -> Result<(), f64> {
         if let OutputQuantity::Angle { .. } = self.task.output {
