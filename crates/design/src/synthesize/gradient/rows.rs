@@ -56,7 +56,8 @@ pub(super) struct Row {
 pub(super) struct PoseRow {
     /// Position of the working point (m), and angle of the link (rad). Values that the task does not need are zero.
     pub(super) values: [Sloped; 3],
-    /// Derivatives with respect to the crank angle, which counts in the sense of rotation (m/rad and rad/rad).
+    /// Derivatives with respect to the crank angle (m/rad and rad/rad). The crank angle is positive in the sense of
+    /// rotation.
     pub(super) rates: [f64; 3],
 }
 
@@ -77,7 +78,7 @@ type Terms = Vec<(Channel, f64)>;
 /// Computes the rows of one candidate after another.
 pub(super) struct Rows<'a> {
     task: &'a Task,
-    /// The drawing over one turn, at a constant speed of the crank.
+    /// The mechanism with the task's starting dimensions, over one turn at a constant speed of the crank.
     case: Case,
     evaluator: Evaluator<'a>,
     output: Terms,

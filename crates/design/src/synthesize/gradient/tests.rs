@@ -32,7 +32,8 @@ fn case() -> Case {
         .unwrap()
 }
 
-/// The coupler's point P, the crank's length, the rocker's length and pivot, and the crank's zero vary.
+/// Variables: the coupler's point P, the crank's length, the rocker's length and pivot, and the crank's direction at
+/// crank angle zero.
 fn task(points: Vec<PrecisionPoint>, phases: Vec<Phase>) -> Task {
     let case = case();
     let mechanism = &case.mechanism;
