@@ -161,7 +161,7 @@ fn derivatives_equal_differences() {
 
 #[test]
 fn a_known_path_is_found() {
-    // The points lie on the path of the drawing, whose dimensions lie within the bounds.
+    // The precision points lie on the path of P in the unchanged mechanism, whose dimensions are within the bounds.
     let mut task = task(Vec::new(), Vec::new());
     task.keep.clear();
     task.bar = None;
