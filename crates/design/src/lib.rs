@@ -1,4 +1,4 @@
-//! Design of a mechanism from the results of the analytic solvers. This crate is not part of the proof.
+//! Design of a mechanism from the results of the analytic solvers. The proof does not use this crate.
 //! The crate covers bearings, clearance, diagrams, exercises, export, flywheel, import, motor choice, plans,
 //! relations of joints, sensitivities and synthesis.
 

@@ -57,7 +57,7 @@ impl Mimics {
         Ok(own)
     }
 
-    /// The points of joints whose positions depend on relations.
+    /// Returns those points of joints that the relations move, each with an error of zero.
     /// These points lie on links whose path to the ground in the tree contains a joint other than the driven joint.
     fn placed(&self, model: &RigidModel) -> Vec<PinError> {
         let mut moved = vec![false; model.case.mechanism.links().len()];
@@ -78,7 +78,7 @@ impl Mimics {
 /// Fits polynomials to the coordinates of all joints of the tree, except the driven joint.
 fn fits(model: &RigidModel, case: &Case, range: InputRange, own: &Mimics) -> Result<Vec<JointRelation>> {
     let mut nodes = chebyshev::nodes(own.domain, LEAST.max(NODES * (own.degree + 1)));
-    // The solver follows the motion, so the nodes must be in the direction of motion.
+    // The solver follows the motion, so the nodes must be in the order in which the motion reaches them.
     if range.sense * (range.ends[1] - range.ends[0]) < 0.0 {
         nodes.reverse();
     }

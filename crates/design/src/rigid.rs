@@ -8,8 +8,8 @@ use linkage::mechanism::{
 use linkage::solver::State;
 
 /// Mass of a massless link, divided by the mass of the whole mechanism. Physics engines refuse a mass of zero.
-/// A smaller mass would change the reactions less, but MuJoCo would keep loops closed less exactly: it softens a loop
-/// in inverse proportion to the masses that the loop connects.
+/// A smaller mass would change the reactions less, but MuJoCo would keep loops closed less exactly: the compliance of
+/// its loop constraint is inversely proportional to the masses that the constraint connects.
 /// docs/mjcf.md states the resulting errors.
 const LIGHT: f64 = 1e-5;
 /// Radius of gyration of a link for which the case gives no moment of inertia, divided by the link's size.
@@ -28,8 +28,8 @@ pub struct RigidModel<'a> {
     pub(crate) tree: SpanningTree,
     /// One body for each branch of the tree.
     pub(crate) bodies: Vec<Body>,
-    /// The joints that close loops. Each is stored as if its second link were a body on its first link; if the second
-    /// link is the ground, the ground is the parent.
+    /// The joints that close loops. Each is stored as a body: the joint's second link is the child, and its first link
+    /// the parent. If the second link is the ground, the ground is the parent.
     pub(crate) closing: Vec<Body>,
 }
 
@@ -143,7 +143,7 @@ impl<'a> RigidModel<'a> {
     }
 
     /// Branches of the tree whose coordinates a transmission couples, each with a factor.
-    /// The transmission keeps the sum of all products of coordinate and factor constant.
+    /// The transmission keeps one sum constant: that of all coordinates, each multiplied by its factor.
     pub(crate) fn coupled(&self, transmission: &Transmission) -> Vec<(usize, f64)> {
         let mut sum: Vec<(usize, f64)> = Vec::new();
         let mut add = |branch: usize, factor: f64| match sum.iter_mut().find(|(own, _)| *own == branch) {

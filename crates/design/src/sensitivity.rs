@@ -1,7 +1,7 @@
 //! Exact first derivatives of a run's figures, such as the largest reaction, with respect to the numbers in its file,
 //! and tolerance stacks from these derivatives.
 //!
-//! Side 1 computes each figure.
+//! Side 1, the analytic solver, computes each figure.
 //! At the instants that determine the figure, the equations of the whole mechanism are solved again in dual numbers
 //! ([`precise::Dual`]).
 //! Unlike difference quotients, dual numbers have no error of a step width.
@@ -35,7 +35,8 @@ pub use self::tolerance::{APART, KeyTolerance, LinearLimit, ToleranceStack, stac
 /// # Errors
 /// [`ErrorKind::Input`] for an unknown key or quantity, or a figure without a value.
 /// [`ErrorKind::Unsupported`] for a mechanism with friction or transmissions, for a free motion, for a motion through
-/// change points, and for a key whose derivative is not known. [`ErrorKind::Numeric`] if the two solutions differ.
+/// change points, and for a key whose derivative is not known.
+/// [`ErrorKind::Numeric`] if side 1 and the solution in dual numbers give different values.
 /// [`ErrorKind::Geometry`] if the pose at an instant is singular. The errors of the solver.
 pub fn sensitivity(scenario: &Scenario, question: &SensitivityQuestion) -> Result<Sensitivity> {
     sensitivity_by(scenario, &CaseSlopes::of(scenario, &question.asked)?, question)

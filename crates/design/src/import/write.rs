@@ -5,7 +5,8 @@ use crate::sentences;
 use linkage::math::{KeepNan, Vec2};
 use std::fmt::Write;
 
-/// The text of the scenario called `name`. `groups` and `grid` are the texts of the groups' start and of the grid.
+/// The text of the scenario called `name`. `groups` is the text of the tables `[[start.groups]]`, and `grid` is the
+/// text of the grid.
 pub(super) fn text(parts: &Parts, name: &str, groups: &str, grid: &str) -> String {
     let mut text = format!("# {}\n", sentences::imported_from(&parts.source));
     for told in &parts.told {
@@ -146,7 +147,7 @@ impl<'a> Writer<'a> {
         matches!(joint.pair, PartPair::Pin(_)) && joint.links.contains(&FRAME)
     }
 
-    /// The start of a drive: the text that follows `start_`, with unit and value.
+    /// Start value of a drive: the text that follows `start_` or `crank_` in the scenario, from the unit on.
     fn start(&self, drive: &DrivePart) -> String {
         let value = self.parts.start(drive);
         match self.parts.joints[drive.joint].pair {

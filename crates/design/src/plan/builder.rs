@@ -177,8 +177,8 @@ impl<'a> Builder<'a> {
         self.tips.iter().find(|tip| tip.letter == letter).map_or_else(Vec2::zeros, |tip| tip.at)
     }
 
-    /// Adds the normal and tangential parts of accelerations: of every relative acceleration, and of accelerations of
-    /// points that turn about a ground pivot.
+    /// Adds the normal and tangential parts of every relative acceleration, and of the acceleration of every point that
+    /// turns about a ground pivot.
     fn split(&mut self, scale: f64) {
         let mut number = 0;
         for link in self.mechanism.links().ids().skip(1) {
@@ -209,8 +209,8 @@ impl<'a> Builder<'a> {
 
     /// Pairs of points of a link.
     /// First come the pairs of the link's ground pivot with every other point, then the pairs of two moving points.
-    /// Last come pairs with a coincident point of a sliding point. The coincident point is paired with the link's pivot
-    /// or, without a pivot, with the link's moving points.
+    /// If the link is a moving guide, the last pairs contain its points that coincide with sliding points.
+    /// Each coincident point is paired with the link's pivot or, without a pivot, with the link's moving points.
     /// A link that never turns has no pairs: all its points have the same motion.
     fn pairs(&self, link: LinkId) -> Vec<(On<'a>, On<'a>)> {
         if !self.mechanism.can_turn(link) {

@@ -46,7 +46,7 @@ pub enum CentreOrigin {
         /// Sliding point of the block (world, m).
         block: Vec2,
     },
-    /// The centre is the point in which the two centres with this third link coincide.
+    /// The centres of the first and of the second link with this third link coincide. The centre is at the same point.
     Common(LinkId),
     /// Intersection of two lines.
     Lines([CentreLine; 2]),
@@ -67,8 +67,8 @@ pub struct InstantCentre {
     /// For a centre at infinity, the value is the sum of two magnitudes: the component of the velocity difference
     /// towards the centre, and the difference of the angular velocities times the size of the mechanism.
     pub slip: f64,
-    /// Velocity to which `slip` is compared (m/s): an upper bound of the relative velocity of the links within the
-    /// mechanism.
+    /// Velocity to which `slip` is compared (m/s): an upper bound of the relative velocity of the two links, over all
+    /// points within the mechanism's size.
     pub speed: f64,
 }
 
@@ -185,7 +185,8 @@ impl<'a> Finder<'a> {
         }
     }
 
-    /// Constructs a centre from the centres found so far, as the intersection of the two lines at the largest angle.
+    /// Constructs a centre from the centres found so far and the lines of action, as the intersection of two lines.
+    /// Of all pairs of lines, it takes the pair that is closest to perpendicular.
     fn constructed(&self, pair: [LinkId; 2]) -> Option<(Projective, CentreOrigin)> {
         let [one, other] = pair;
         let mut lines: Vec<(Projective, CentreLine)> = Vec::new();

@@ -13,7 +13,8 @@
 //! Differentiation in fixed axes gives v_A = v_A3 + s' e and a_A = a_A3 + 2 omega x (s' e) + s'' e.
 //! Here e is the guide's unit vector and omega the guide's angular velocity (Coriolis 1835).
 //!
-//! Every vector is computed from the motion of a link. A vector along a guide is computed from the slide.
+//! Every vector is computed from the motion of a link, except those along a guide: s' e and s'' e are computed from the
+//! solved s' and s''.
 //! The program never computes a vector as the difference of two others. That the polygons close is therefore a result
 //! and not an assumption.
 
@@ -111,7 +112,7 @@ impl Plans {
 
     /// Turns the velocity plan by 90 deg against the rotation of the driving link.
     /// The sides of a link's velocity image are then parallel to the sides of the link.
-    /// The velocity of the crank pin is parallel to the crank.
+    /// In the turned plan, the velocity of the crank pin is parallel to the crank.
     /// If the driving link does not turn, the plan is turned clockwise.
     #[must_use]
     pub fn turned(mut self) -> Plans {

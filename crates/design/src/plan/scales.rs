@@ -74,8 +74,8 @@ impl Plans {
     /// Drawings for which no scale is chosen keep their present scale.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] for an unknown vector, for a vector of zero length, for two scales of one drawing, for the
-    /// scale of a crank that does not turn, and for a drawing that would be too small or too large.
+    /// [`ErrorKind::Input`] for an unknown vector, for a vector of zero length, for two scales of one drawing, for
+    /// [`PlanScale::Crank`] if the crank does not turn, and for a drawing that would be too small or too large.
     pub fn scaled(mut self, case: &Case, state: &State, wishes: &[PlanScale]) -> Result<Plans> {
         let mut drawing = None;
         let mut plans = [None; 2];

@@ -116,7 +116,7 @@ impl Scheme {
         let all = all.chain(guides.iter().flat_map(|guide| guide.ends)).chain(points.iter().map(|(_, at)| *at));
         let [low, high] = corners(all);
         let scale = factor(high.x - low.x, ROOM[0]).larger(factor(high.y - low.y, ROOM[1]));
-        // A singular point that cannot be computed is not drawn: parallel leads have no intersection.
+        // At a dead point of its group, a singular point cannot be computed and is not drawn.
         let singular = SingularPoint::all(case, &state.motions).into_iter().flatten().collect();
         let lengths = slides.iter().zip(travels);
         let travels = lengths.fold(Travels::none(mechanism), |all, (slide, travel)| all.with(slide.joint, *travel));

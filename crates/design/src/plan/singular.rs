@@ -17,7 +17,8 @@ use linkage::mechanism::Group;
 impl SingularPoint {
     /// Computes the singular point of `group`.
     /// `None` if the group is neither of class IV and order 2, nor of class III and order 3 with pins only.
-    /// Of `motions`, only the poses of the group's links and the motions of the links before the group are used.
+    /// Of `motions`, this function uses only the poses of the group's links, and the motions of links that are solved
+    /// before the group.
     ///
     /// # Errors
     /// [`ErrorKind::Geometry`](linkage::error::ErrorKind::Geometry) at a dead point: the leads are parallel, the point

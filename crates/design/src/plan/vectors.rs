@@ -7,9 +7,9 @@ use drawing::paper::scale::factor;
 use linkage::math::{KeepNan, Vec2, turned};
 use linkage::mechanism::LinkId;
 
-/// Upper limit of the length of a plan's longest vector (mm).
+/// At the automatic scale of a plan, its longest vector is at most this long on paper (mm).
 pub(super) const ROOM: f64 = 100.0;
-/// A plan with only selected vectors has at least this fraction of the full plan's scale factor.
+/// If a plan is reduced to selected vectors, its new scale factor is at least the old one times this fraction.
 const FINEST: f64 = 1e-3;
 
 linkage::words! {
@@ -181,8 +181,10 @@ pub(super) fn longest(vectors: &[Vector]) -> f64 {
 
 impl VectorPlan {
     /// Keeps only the vectors whose two ends stay. The plan gets a new scale.
-    /// The pole and the points with these letters stay. A coincident point, or the end of a normal or Coriolis part,
-    /// stays if its vectors lead only to points that stay and to other points of these three kinds.
+    /// The pole and the points with these letters stay.
+    /// Coincident points and the ends of normal or Coriolis parts are intermediate points. An intermediate point stays
+    /// if each of its vectors joins it to the pole, to a point with one of these letters, or to another intermediate
+    /// point.
     pub(super) fn keep(&mut self, letters: &[String]) {
         let pole = self.quantity.pole();
         let kind = |letter: &str| self.tips.iter().find(|tip| tip.letter == letter).map(|tip| tip.kind);

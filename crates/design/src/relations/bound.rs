@@ -1,7 +1,8 @@
 //! Proven bounds on the errors of joints and pins that follow polynomials.
 //!
 //! The range of the input is divided into parts.
-//! Over each part, [`Tubes`] enclose the true motion: a uniform motion with a proven bound on the deviation.
+//! Over each part, [`Tubes`] enclose the true motion. A tube is a uniform motion, with a proven bound on the deviation
+//! of the true motion from it.
 //! For the motion by the polynomials, three numbers are computed: value and first derivative at the middle of the part,
 //! and a bound on the second derivative over the part.
 //! The difference of the two motions is thus a linear function of the input, plus a remainder with a known bound.

@@ -54,7 +54,7 @@ pub struct Mimics {
     pub(crate) degree: usize,
     /// The relations of all joints of the tree, except the driven joint.
     pub relations: Vec<JointRelation>,
-    /// The errors of all points of joints whose positions depend on relations.
+    /// The position errors of those points of joints that the relations move.
     pub pins: Vec<PinError>,
 }
 

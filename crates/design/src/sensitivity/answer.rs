@@ -30,11 +30,10 @@ pub struct FigureSlopes {
     /// Values of the input at the rows of `sampled`, as messages write them.
     pub instants: Vec<String>,
     /// Derivatives by the keys, per unit of the key, in the order of [`Sensitivity::keys`].
-    /// NaN where the figure has a kink.
+    /// NaN if `has_kink` is true and the derivative does not exist.
     pub by: Vec<f64>,
     /// Value of the input at a second, equal extreme; `None` if there is only one extreme.
-    /// With two equal extremes, the figure has a kink: the derivatives are valid only for changes that leave the
-    /// extreme at the first instant.
+    /// With two equal extremes, the derivatives are valid only for changes that leave the extreme at the first instant.
     pub rival: Option<String>,
     /// Whether the figure has a kink, because it is the absolute value of zero or the magnitude of a zero vector.
     pub has_kink: bool,

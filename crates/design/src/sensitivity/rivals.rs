@@ -31,7 +31,7 @@ fn rival_of(values: &[f64], run: &Trajectory, case: &Case) -> Option<usize> {
     let best = (1..order.len()).fold(0, |best, place| if height(place) > height(best) { place } else { best });
     let scale = values.iter().fold(0.0, |most: f64, own| most.larger(own.abs()));
     let least = height(best) - EQUAL * scale;
-    // The instants around the first extreme at which the values stay above the limit all count as the first extreme.
+    // Around the first extreme, all consecutive instants whose values are at least `least` count as the first extreme.
     let mut hill = vec![false; order.len()];
     let mut up = (best..order.len()).take_while(|place| height(*place) >= least).collect::<Vec<_>>();
     up.extend((0..best).rev().take_while(|place| height(*place) >= least));

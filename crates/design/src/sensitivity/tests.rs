@@ -14,7 +14,7 @@ fn question(figures: &[&str]) -> SensitivityQuestion {
     SensitivityQuestion { figures, ..SensitivityQuestion::default() }
 }
 
-/// The figures of a file in which one number is changed, by the precise solver.
+/// Changes one number of a file, and computes the figures with the precise solver.
 /// A finite change may move an extreme to another instant of the grid. The value is therefore read at the instant of
 /// the extreme in the unchanged file.
 fn precise_figures(scenario: &Scenario, found: &Sensitivity, key: &CaseKey, value: f64) -> Vec<f64> {
@@ -34,12 +34,12 @@ fn precise_figures(scenario: &Scenario, found: &Sensitivity, key: &CaseKey, valu
     found.figures.iter().map(one).collect()
 }
 
-/// A small change of a key: 0.4 % of a reference value. For a dimension or parameter, the reference value is the
-/// smallest nonzero number of the same unit.
+/// A small change of a key. For a dimension or parameter, it is 0.4 % of the smallest nonzero number of the same unit,
+/// or of 10 if that is smaller. For any other key, it is 0.4 % of the key's reference value: see [`size_of`].
 fn small_change(key: &CaseKey, all: &[CaseKey]) -> f64 {
     let alike = all.iter().filter(|own| own.unit == key.unit && own.value != 0.0).map(|own| own.value.abs());
     match key.sort {
-        // All angles of the file may be zero. The reference value is then 10.
+        // All angles of the file may be zero. The change is then 0.4 % of 10.
         KeySort::Dimension | KeySort::Parameter => 4e-3 * alike.fold(10.0, f64::smaller),
         KeySort::Mass | KeySort::Law | KeySort::Load | KeySort::Other => 4e-3 * size_of(key, all),
     }

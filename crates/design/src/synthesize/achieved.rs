@@ -41,7 +41,8 @@ pub struct PhaseDone {
     /// If this phase or the next phase is a dwell, `end` is the crank angle at which the output leaves or enters the
     /// band.
     /// The band has the half width [`BAND`] about the mean of the dwell's largest and smallest output.
-    /// `end` is `None` between two phases of the same sense, or if there is no extreme position or dwell limit nearby.
+    /// `end` is `None` between two phases of the same sense, or if the extreme position or the edge of the band is not
+    /// found within a quarter of a turn.
     pub end: Option<f64>,
 }
 
@@ -103,7 +104,7 @@ impl Achieved {
 
     /// Achieved motion as in [`Achieved::of`].
     /// If the task leaves the forward sense open, both senses are tried.
-    /// The sense with the smaller total distance travelled in the wrong sense is chosen.
+    /// The result is the sense for which the output travels the smaller total distance in the wrong sense.
     ///
     /// # Errors
     /// The errors of [`Achieved::of`].

@@ -92,9 +92,9 @@ impl CrankRocker {
         }
         let lengths = [frame.norm(), crank, coupler, wish.rocker];
         let found = FourBar::of_lengths(lengths).of_type;
-        // In both extreme positions, O, B and C form a triangle. By the triangle inequalities, the crank is the
-        // shortest link and turns fully.
-        // Only rounding errors can put O, B and C on one line. Such requirements are refused.
+        // After the check above, O, B and C form a triangle in both extreme positions. By the triangle inequalities,
+        // the crank is the shortest link and turns fully.
+        // If the triangle is flat within rounding errors, this conclusion may fail. Such requirements are refused.
         if found != FourBarType::CrankRocker {
             let message = sentences::an_extreme_position_lies_on_the_line(&told, &found.name());
             return Err(Error::new(ErrorKind::Geometry, message).help(sentences::MOVE_A_PIVOT_OR_TURN_THE_EXTREME));

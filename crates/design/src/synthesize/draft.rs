@@ -64,7 +64,7 @@ impl DraftContents {
     }
 }
 
-/// Crank angles of a scenario (deg), from the start.
+/// Crank angles of a scenario's grid (deg). `from` is the crank angle of the start pose.
 struct Course {
     from: f64,
     to: f64,
@@ -75,7 +75,7 @@ impl Course {
     /// Largest step (deg).
     const STEP: f64 = 1.0;
 
-    /// A full turn from zero in the sense of a speed.
+    /// A full turn from crank angle zero. The sign of `speed` gives the sense.
     fn turn(speed: f64) -> Self {
         let sense = if speed < 0.0 { -1.0 } else { 1.0 };
         Course { from: 0.0, to: 360.0 * sense, step: Course::STEP * sense }

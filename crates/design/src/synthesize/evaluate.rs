@@ -20,14 +20,15 @@ pub(super) struct Evaluator<'a> {
     task: &'a Task,
     mechanism: Mechanism,
     motions: PerLink<Motion>,
-    /// Pose for the last computed motions. The transmission angles of dyads with prismatic joints are computed from it.
+    /// Poses of the links, copied from `motions`. The transmission angles of dyads with prismatic joints are computed
+    /// from them.
     pose: Pose,
     /// Output at the crank angles of the last run. An output angle has no jumps by a full turn.
     pub(super) curve: Vec<f64>,
     /// Smallest sine of the transmission angle of any dyad so far.
     pub(super) sine: f64,
-    /// Largest acceleration of the working point so far (m/s^2), at the drawing's crank speed; 0 if the task does not
-    /// limit the acceleration.
+    /// Largest acceleration of the working point so far (m/s^2), at the crank speed of `task.case`; 0 if the task does
+    /// not limit the acceleration.
     pub(super) acceleration: f64,
     /// Number of poses that all runs so far have solved.
     pub(super) poses: u64,
@@ -217,7 +218,7 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// Removes jumps by a full turn from angles.
+    /// If the output is an angle, removes its jumps of a full turn.
     /// Returns an error if the task has phases, and the output is not periodic over the turn.
     fn unwind(&mut self) -> Result<(), f64> {
         if let OutputQuantity::Angle { .. } = self.task.output {

@@ -35,7 +35,7 @@ pub struct FrontPoint {
     pub limit: f64,
     /// The task with this limit.
     pub task: Task,
-    /// The result; `None` if no candidate that can be assembled nearly keeps the limits.
+    /// The result; `None` if the search finds no candidate that both can be assembled and nearly keeps the limits.
     pub found: Option<SearchResult>,
 }
 

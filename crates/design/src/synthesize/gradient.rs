@@ -33,7 +33,8 @@ const VIOLATION: f64 = 10.0;
 /// Accuracy at which the optimiser ends. The accuracy applies to the deviation, to the constraints, and to the
 /// variables as fractions of their ranges.
 const ACCURACY: f64 = 1e-9;
-/// Upper limit of the deviation, and magnitude of the bounds of the levels (fraction of the stroke).
+/// Upper limit of the unknown deviation (fraction of the stroke). The unknown levels of the output in dwells are
+/// between minus this value and this value.
 const MOST_DEVIATION: f64 = 100.0;
 
 /// Checks that the derivatives of a task's mechanism are known.

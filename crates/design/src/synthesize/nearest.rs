@@ -31,8 +31,8 @@ pub(super) fn nearest(task: &Task, evaluator: &Evaluator, turns: &[f64]) -> Vec<
 fn ascend(costs: &[Vec<f64>], first: usize) -> (f64, Vec<usize>) {
     let Some((head, rest)) = costs.split_first() else { return (0.0, Vec::new()) };
     let count = head.len();
-    // For every point and row: the smallest total cost up to this point if the point's row is at most this row, and the
-    // row chosen for the point.
+    // For every point, and for every upper limit of the point's row: the smallest total cost of all points up to this
+    // point, and the row that this point then has.
     let mut best = vec![vec![(head[first], first); count]];
     for costs in rest {
         let before = &best[best.len() - 1];

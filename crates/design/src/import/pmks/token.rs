@@ -7,7 +7,7 @@ use linkage::error::{Error, ErrorKind, Result};
 const DIGITS: &[u8; 64] = b"0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_-";
 /// The last character of a query is a checksum: the digit for the length of the query modulo this number.
 const CHECKED: usize = 62;
-/// Largest number of digits of a number. PMKS+ cannot handle larger whole numbers.
+/// A whole number has at most this many digits. PMKS+ cannot handle larger whole numbers.
 const MOST_DIGITS: usize = 9;
 
 /// The query without its escapes `%..`.
@@ -73,7 +73,7 @@ impl<'a> Fields<'a> {
         number(text).ok_or_else(|| self.fault(sentences::is_no_number_of_a_link(&text, &what)))
     }
 
-    /// The next field as a number with three decimals.
+    /// The next field, a whole number of thousandths, divided by 1000.
     pub(super) fn decimal(&mut self, what: &str) -> Result<f64> {
         Ok(self.whole(what)? / 1000.0)
     }

@@ -1,8 +1,9 @@
 //! Groups of class IV and order 2: two base links on the outer joints A and K, and two leads BD and CE between them.
 //!
-//! S = BD x CE is treated as a point of either base link.
-//! Along a lead, S and the lead's end have the same velocity component: rotation adds no component along a line through
-//! S.
+//! S is the intersection of the lines BD and CE. S is regarded as a point of one base link, then of the other.
+//! On each base link, S and the end of a lead have the same velocity component along this lead: the line of the lead
+//! goes through S, and the rotation of the link changes only the component across this line.
+//! Both ends of a rigid lead also have the same velocity component along it.
 //! Two components determine a vector, so S has equal velocities on both base links:
 //! v_S = v_A + omega2 x AS = v_K + omega5 x KS.
 //! The directions of omega2 x AS and omega5 x KS are known, so v_S is the intersection of two lines.

@@ -36,11 +36,11 @@ impl AssurLead {
         cross(self.along, far - near) / self.length()
     }
 
-    /// Adds two normal accelerations to `far`, the acceleration of the lead's second end: the first step of the
-    /// construction of the acceleration of the singular point `at`.
-    /// The first normal acceleration is omega^2 l of the lead's first end relative to the second end, with the lead's
-    /// angular velocity `lead` (rad/s).
-    /// The second normal acceleration is omega^2 l of the singular point relative to the lead's first end, with the
+    /// Adds two normal accelerations to `far`, the acceleration of the lead's second end.
+    /// This is the first step in constructing the acceleration of the singular point, whose position is `at`.
+    /// The first is the normal acceleration of the lead's first end relative to the second end. It is omega^2 l, where
+    /// omega is the lead's angular velocity `lead` (rad/s).
+    /// The second is the normal acceleration of the singular point relative to the lead's first end. Here omega is the
     /// angular velocity `base` of the base link (rad/s).
     /// Both normal accelerations are parallel to the lead; the tangential accelerations are perpendicular to the lead.
     pub(super) fn foot(&self, at: Vec2, far: Vec2, lead: f64, base: f64) -> Vec2 {
@@ -117,7 +117,7 @@ impl SingularPoint {
     }
 }
 
-/// The vector that has the components `parts` along the directions of two leads.
+/// The vector whose projections onto the directions of two leads are `parts`.
 pub(super) fn oblique(leads: [&AssurLead; 2], parts: [f64; 2]) -> Vec2 {
     let [first, second] = leads.map(|lead| lead.along);
     (turned(first) * parts[1] - turned(second) * parts[0]) / cross(first, second)
@@ -130,7 +130,8 @@ pub(super) fn meeting(leads: [&AssurLead; 2]) -> Vec2 {
     first.ends[0] + first.along * (cross(second.ends[0] - first.ends[0], second.along) / slant)
 }
 
-/// Construction of an acceleration: lines across the leads through `feet` meet at the end of the acceleration.
+/// Construction of an acceleration. For each lead, a line across the lead goes through its point of `feet`.
+/// The two lines meet at the end of the acceleration.
 pub(super) fn trial(leads: [&AssurLead; 2], far: [Vec2; 2], feet: [Vec2; 2]) -> AssurTrial {
     let parts = [0, 1].map(|side| feet[side].dot(&leads[side].along));
     AssurTrial { far, feet, at: oblique(leads, parts) }

@@ -1,6 +1,7 @@
 //! The quantities of a candidate over a turn of the crank, with their exact derivatives by the variables.
 //!
-//! Side 1 computes the pose. From this pose, the crate `precise` solves all equations of the mechanism in dual numbers.
+//! Side 1, the analytic solver, computes the pose.
+//! From this pose, the crate `precise` solves all equations of the mechanism in dual numbers.
 
 use std::f64::consts::TAU;
 
@@ -37,8 +38,8 @@ pub(super) enum Order {
 pub(super) struct Row {
     /// The output (rad or m).
     pub(super) output: Sloped,
-    /// Derivative of the output with respect to the crank angle, which counts in the sense of rotation (rad/rad or
-    /// m/rad).
+    /// Derivative of the output with respect to the crank angle (rad/rad or m/rad). The crank angle is positive in the
+    /// sense of rotation.
     pub(super) rate: Sloped,
     /// Square of the working point's acceleration, divided by the square of its limit. `None` without a limit.
     pub(super) acceleration: Option<Sloped>,
@@ -55,7 +56,8 @@ pub(super) struct Row {
 pub(super) struct PoseRow {
     /// Position of the working point (m), and angle of the link (rad). Values that the task does not need are zero.
     pub(super) values: [Sloped; 3],
-    /// Derivatives with respect to the crank angle, which counts in the sense of rotation (m/rad and rad/rad).
+    /// Derivatives with respect to the crank angle (m/rad and rad/rad). The crank angle is positive in the sense of
+    /// rotation.
     pub(super) rates: [f64; 3],
 }
 
@@ -76,7 +78,7 @@ type Terms = Vec<(Channel, f64)>;
 /// Computes the rows of one candidate after another.
 pub(super) struct Rows<'a> {
     task: &'a Task,
-    /// The drawing over one turn, at a constant speed of the crank.
+    /// The mechanism with the task's starting dimensions, over one turn at a constant speed of the crank.
     case: Case,
     evaluator: Evaluator<'a>,
     output: Terms,

@@ -32,7 +32,8 @@ fn case() -> Case {
         .unwrap()
 }
 
-/// The coupler's point P, the crank's length, the rocker's length and pivot, and the crank's zero vary.
+/// Variables: the coupler's point P, the crank's length, the rocker's length and pivot, and the crank's direction at
+/// crank angle zero.
 fn task(points: Vec<PrecisionPoint>, phases: Vec<Phase>) -> Task {
     let case = case();
     let mechanism = &case.mechanism;
@@ -160,7 +161,7 @@ fn derivatives_equal_differences() {
 
 #[test]
 fn a_known_path_is_found() {
-    // The points lie on the path of the drawing, whose dimensions lie within the bounds.
+    // The precision points lie on the path of P in the unchanged mechanism, whose dimensions are within the bounds.
     let mut task = task(Vec::new(), Vec::new());
     task.keep.clear();
     task.bar = None;

@@ -123,7 +123,7 @@ impl<'a> Wishes<'a> {
         &point[..self.task.variables.len()]
     }
 
-    /// Index of the largest deviation among the unknowns.
+    /// The index that the unknown h, the largest deviation, has among the unknowns.
     pub(super) fn deviation(&self) -> usize {
         self.task.variables.len()
     }

@@ -1,6 +1,7 @@
 //! Dyads in standard form, for three, four or five positions.
 //!
-//! A dyad is a chain of two vectors from a fixed pivot to a point with given displacements d_j.
+//! A dyad is a chain of two vectors: X from a fixed pivot to a pin, and Y from the pin to a point.
+//! The displacements d_j of this point from position 1 to position j are given.
 //! The rotations of the two vectors are complex numbers of magnitude 1.
 //! The rotations k_j of Y are given, and the rotations u_j of X are unknown:
 //!
@@ -25,7 +26,8 @@
 //!   The two conditions are linear in (u_q, conj u_q), so
 //!   `u_q (A_r conj A_s - conj(A_r) A_s) = B_s conj A_r - B_r conj A_s`.
 //!   The magnitude of u_q is 1 where `F = |B_s A_r - B_r A_s|^2 - 4 Im(A_r conj A_s)^2` is zero.
-//!   A is of degree 1 and B of degree 2 in u_p, so F is a real trigonometric polynomial of degree 3: six roots.
+//!   Because u_p has the magnitude 1, u_p A is a polynomial of degree 1 in u_p, and u_p B one of degree 2.
+//!   F is therefore a real trigonometric polynomial of degree 3 in the angle of u_p, with up to six roots.
 //!   Two roots are trivial (all u_j = 1, and all u_j = k_j), with infinite X and Y. Up to four dyads remain.
 //!
 //! For five positions, Newton's method makes the dyads more exact.
@@ -40,7 +42,7 @@ use std::f64::consts::TAU;
 const STEPS_OF_ONE: usize = 180;
 /// Number of grid steps per turn for each rotation if two rotations are free.
 const STEPS_OF_TWO: usize = 24;
-/// Largest relative error of a dyad's length in any position.
+/// Largest change of |X| between position 1 and any other position, divided by |X| + |Y| + the largest displacement.
 const PASSED: f64 = 1e-10;
 /// Smallest and largest permitted magnitude of X, divided by the largest displacement.
 /// Vectors outside this range cannot be built, or come from the trivial roots.

@@ -50,7 +50,8 @@ pub enum CrankTravel {
         /// +1 counter-clockwise, -1 clockwise.
         sense: f64,
     },
-    /// The crank moves between the positions, from the first to the second of these angles.
+    /// The crank does not turn fully. It moves from the first of these two angles to the second. The range contains all
+    /// positions that the crank reaches from position 1.
     Between([f64; 2]),
 }
 
