@@ -1,4 +1,4 @@
-//! Path generation with prescribed timing: a point of the coupler at given points and crank angles.
+//! Path generation with prescribed timing: a point of the coupler passes given points at given crank angles.
 //!
 //! In the crank's dyad, the crank W has given rotations, and Z turns with the coupler by unknown angles.
 //! Each solution for this dyad gives the coupler's rotations. The rocker's dyad is then found as for motion generation.
