@@ -29,8 +29,8 @@ pub fn round_values(task: &Task, values: &[f64]) -> Vec<f64> {
     values.iter().zip(&task.variables).map(round).collect()
 }
 
-/// Sections that are valid only for the drawing's original dimensions: published numbers with their tables, formulas to be
-/// checked, and the source of the dimensions.
+/// Sections that are valid only for the drawing's original dimensions: published numbers with their tables, formulas to
+/// be checked, and the source of the dimensions.
 const OWN: [&str; 3] = ["oracle", "formula", "source"];
 
 /// The drawing `text` with new dimensions: the task's variables have the values `values` (SI).
