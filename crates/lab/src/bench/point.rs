@@ -25,7 +25,7 @@ pub struct Errors {
     pub max: f64,
     /// Largest root mean square of a channel's errors.
     pub rms: f64,
-    /// Whether the reference's error exceeds a hundredth of this error.
+    /// Whether the reference's error exceeds a hundredth of `max`.
     pub is_limited: bool,
 }
 
