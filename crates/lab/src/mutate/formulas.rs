@@ -34,7 +34,7 @@ impl Stage<'_> {
 
     /// Indices of the formulas that claim an exact value, and of the derivation steps behind these formulas.
     /// A claim with a stated error is left out: a claim with a mistake may still be correct within its stated error.
-    /// A formula that its source prints wrongly is left out too.
+    /// A formula that `docs/findings.md` calls wrong is left out too.
     pub(super) fn formulas(&self) -> Vec<usize> {
         let all = &self.scenario.formulas.list;
         let judged = self.judged_formulas();

@@ -224,8 +224,8 @@ pub struct PrecisionFourBar {
     pub point: Option<Complex>,
     /// Frames of crank, coupler and rocker in position 1.
     pub frames: [PositionFrame; 3],
-    /// Rotations of the crank from position 1 to every position (rad), along the travel: in the sense of a full turn, or
-    /// inside the travel's limits. For a position outside these limits, the rotation is between -pi and pi.
+    /// Rotations of the crank from position 1 to every position (rad), along the travel: in the sense of a full turn,
+    /// or inside the travel's limits. For a position outside these limits, the rotation is between -pi and pi.
     pub crank_turns: Vec<f64>,
     /// The checks.
     pub checks: FourBarChecks,
