@@ -24,7 +24,7 @@ use linkage::solver::Progress;
 use linkage::trajectory::Stage;
 use scenario::Scenario;
 
-/// All points of one scenario.
+/// All [`BenchPoint`]s of one scenario.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bench {
     /// Name and title of the scenario.

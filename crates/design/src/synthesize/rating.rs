@@ -2,7 +2,7 @@
 //!
 //! The output is measured from its smallest value and divided by its stroke, so that amplitude and offset do not
 //! matter.
-//! The cost is a sum of squares; each squared term is a fraction of the stroke.
+//! The cost is a weighted sum of squares. The terms that are squared are fractions of the stroke.
 //! The terms are: motion in dwells, distances in the wrong sense, deviations from required levels, too little motion
 //! in moving phases, and the output's rate between two opposite motions.
 //! If the output must follow a curve, the deviation from the curve is a further term.
@@ -14,7 +14,7 @@ use crate::synthesize::task::{Phase, Sense, Task, Timing};
 use linkage::math::KeepNan;
 use linkage::math::statistics::ends;
 
-/// Largest crank angle between two rows (rad) at which refined candidates are compared with the task: 3 degrees.
+/// Refined candidates are compared with the task at rows that are at most this crank angle apart (rad, 3 deg).
 pub(super) const STEP: f64 = TAU / 120.0;
 /// Weight of motion in the wrong sense, and of too little motion in a moving phase. Motion in a dwell has the weight 1.
 const WRONG: f64 = 4.0;
@@ -46,7 +46,7 @@ impl<'a> Rater<'a> {
     pub(super) fn even(timing: &'a Timing, count: usize) -> Self {
         let turns: Vec<f64> = (0..=count).map(|row| TAU * (row as f64 / count as f64)).collect();
         let phases = timing.phases();
-        // Even if phases are short, rows remain for the phases before and after this end.
+        // Every phase gets at least one row, even if it is short: the limits leave a row for each other phase.
         let end = |(index, phase): (usize, &Phase)| {
             let row = (phase.to / TAU * count as f64).round() as usize;
             row.clamp(index + 1, count + index + 1 - phases.len())

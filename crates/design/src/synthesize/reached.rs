@@ -19,7 +19,7 @@ const ROWS: usize = 720;
 pub struct ReachedPoint {
     /// Crank angle (rad, from crank angle zero in the sense of rotation).
     pub turn: f64,
-    /// World position of the working point (m); the origin if the output link has no working point.
+    /// World position of the working point (m); (0, 0) if the output link has no working point.
     pub place: Vec2,
     /// Angle of the output link (rad).
     pub angle: f64,

@@ -29,8 +29,8 @@ pub fn round_values(task: &Task, values: &[f64]) -> Vec<f64> {
     values.iter().zip(&task.variables).map(round).collect()
 }
 
-/// Sections that are valid only for the drawing's original dimensions: published numbers with their tables, claims of
-/// formulas, and the source of the dimensions.
+/// Sections that are valid only for the drawing's original dimensions: published numbers with their tables, formulas to
+/// be checked, and the source of the dimensions.
 const OWN: [&str; 3] = ["oracle", "formula", "source"];
 
 /// The drawing `text` with new dimensions: the task's variables have the values `values` (SI).
@@ -90,8 +90,8 @@ pub fn redrawn(task: &Task, text: &str, values: &[f64], comment: &str) -> Result
     Ok(format!("{comment}\n{document}"))
 }
 
-/// Replaces the approximate positions at the start by the positions of the mechanism found, with the crank's zero at
-/// `zero` (rad).
+/// Replaces the approximate positions at the start by the positions of the mechanism found.
+/// `zero` is the angle of the crank (rad) from which crank angles are counted.
 /// The drawing's approximate positions could select a wrong configuration of the mechanism found.
 fn approach(document: &mut DocumentMut, task: &Task, mechanism: &Mechanism, zero: f64) {
     let case = &task.case;
@@ -140,7 +140,8 @@ fn flat(place: Vec2) -> InlineTable {
     )
 }
 
-/// Writes the masses of slender bars of `bar` (kg/m) that join the first point of a link to each of its other points.
+/// Writes the mass data of a link of slender bars that join its first point to each of its other points.
+/// `bar` is the mass per length of a bar (kg/m).
 fn weigh(table: &mut dyn TableLike, body: &Link, bar: f64) {
     let points: Vec<_> =
         body.points.iter().map(|point| [point.local.x, point.local.y].map(Dual::<f64, 0>::of)).collect();

@@ -34,11 +34,11 @@ const COARSE: usize = 72;
 /// Number of candidates in a block. Each block has a separate random stream.
 const BLOCK: usize = 4096;
 /// Number of blocks between two calls of `progress`.
-/// The number is the same for any number of threads, and so are the candidates that are kept.
+/// This number does not depend on the number of threads, so the threads do not affect which candidates are kept.
 const ROUND: usize = 16;
 /// Largest number of threads.
 const MOST_THREADS: usize = 256;
-/// Fraction of the progress that the random candidates take.
+/// Value of the progress, from 0 to 1, when all random candidates are computed.
 const RANDOM_SHARE: f64 = 0.5;
 /// Shifts of the crank's zero are tried in steps of this many rows.
 /// Afterwards, the shifts around the best shift are tried row by row.
@@ -56,7 +56,7 @@ pub struct SearchResult {
     pub values: Vec<f64>,
     /// Sense of the output that counts as forward: +1 or -1.
     pub forward: f64,
-    /// Cost of the best candidate. With an evolution strategy: a sum of squared terms, each a fraction of the stroke.
+    /// Cost of the best candidate. With an evolution strategy: a weighted sum of squared fractions of the stroke.
     /// With exact derivatives: the largest deviation plus ten times the largest violation of a limit.
     pub cost: f64,
     /// Cost of the best random candidate before refinement, computed at fewer crank angles than `cost`. NaN if no
@@ -76,7 +76,7 @@ pub struct SearchResult {
 ///
 /// # Errors
 /// The errors of [`Task::check`]; [`ErrorKind::Unsupported`] for a mechanism whose derivatives are not known;
-/// [`ErrorKind::Numeric`] if no candidate that assembles over the whole turn nearly keeps the limits.
+/// [`ErrorKind::Numeric`] if no candidate both assembles over the whole turn and nearly keeps the limits.
 pub fn search(task: &Task, threads: usize, progress: Progress) -> Result<SearchResult> {
     search_from(task, &[], threads, progress)
 }

@@ -62,7 +62,7 @@ impl SliderCrank {
     /// # Errors
     /// [`ErrorKind::Input`] for a number outside its range.
     /// [`ErrorKind::Geometry`] if no crank turns fully, or if the time ratio does not determine the mechanism.
-    /// In the first case, the error states the limit.
+    /// If no crank turns fully, the error states the limit.
     pub fn of(stroke: f64, offset: f64, given: Given) -> Result<Self> {
         if !(stroke > 0.0 && stroke.is_finite()) {
             return Err(wrong("stroke", sentences::the_stroke_is(&stroke), sentences::GIVE_A_LENGTH_GREATER_THAN_ZERO));
@@ -77,7 +77,7 @@ impl SliderCrank {
             Given::TimeRatio(ratio) => of_time_ratio(stroke, e, ratio)?,
         };
         let place = |reach: f64| (reach * reach - e * e).sqrt();
-        // In the folded position, the rod points from A through O to the slider.
+        // In the folded position (`near`), the rod points from the crank's pin through the crank's pivot to the slider.
         let far = [(offset / (rod + crank)).asin().rem_euclid(TAU), place(rod + crank)];
         let near = [((offset / (rod - crank)).asin() + PI).rem_euclid(TAU), place(rod - crank)];
         let between = (e / (rod - crank)).asin() - (e / (rod + crank)).asin();

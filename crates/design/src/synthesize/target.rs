@@ -40,7 +40,10 @@ pub struct OutputNames {
 /// - the point with the name that the task uses, if the output link has the name that the task uses;
 /// - the point of the output link at which there is no joint, if there is just one such point.
 ///
-/// If the output is a coordinate, the output point is found by the rules of the working point, on all moving links.
+/// If the output is a coordinate, the output point is the first one found by these rules:
+/// - a point of a moving link with a name in `names.points`, in the order of this list;
+/// - the point of a moving link with the name that the task uses;
+/// - the point of a moving link at which there is no joint, if there is just one such point in the mechanism.
 ///
 /// # Errors
 /// [`ErrorKind::Input`] if these rules leave the output undecided.
@@ -161,7 +164,8 @@ pub struct OutputAccelerations {
 }
 
 impl OutputAccelerations {
-    /// The largest accelerations of the output of `task` at the speed of its case, refined between samples.
+    /// The largest accelerations of the output of `task`, at the crank speed of the task's case.
+    /// The maxima are also searched between the samples.
     ///
     /// # Errors
     /// The errors of [`PoseSolver::solve`].

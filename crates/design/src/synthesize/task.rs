@@ -24,8 +24,8 @@ pub enum OutputQuantity {
     Angle {
         /// The link.
         link: LinkId,
-        /// Working point of the link: the point whose acceleration is limited and compared. Index among the link's
-        /// points; `None` if the task names no working point.
+        /// Working point of the link: its acceleration is limited, and compared between mechanisms.
+        /// Index among the link's points; `None` if the task names no working point.
         point: Option<usize>,
     },
     /// The coordinate of a point along a direction of the world (m).
@@ -173,7 +173,7 @@ pub struct Task {
     pub starts: Vec<StartGroup>,
     /// The variable quantities.
     pub variables: Vec<Variable>,
-    /// Positions of points that depend on the variables, in the order in which they must be set.
+    /// The points whose positions depend on the variables, in the order in which the positions must be set.
     pub places: Vec<PointPosition>,
     /// World direction of the crank at crank angle zero (rad).
     pub zero: TaskNumber,
@@ -216,8 +216,8 @@ impl Task {
     /// # Errors
     /// [`ErrorKind::Unsupported`] for mechanisms with several degrees of freedom.
     /// [`ErrorKind::Unsupported`] if a transmission angle is limited and the mechanism has higher groups.
-    /// [`ErrorKind::Unsupported`] if the task has precision points or limits that only exact derivatives keep, but asks
-    /// for an evolution strategy.
+    /// [`ErrorKind::Unsupported`] if the task asks for an evolution strategy, but has precision points, or limits in
+    /// `keep`, `clearance` or `mass`.
     /// [`ErrorKind::Input`] if no dimension may vary, or if a count of the search is outside its limits.
     /// [`ErrorKind::Input`] if an acceleration is limited or a position is required, but the output has no point.
     pub fn check(&self) -> Result<()> {

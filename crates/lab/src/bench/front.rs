@@ -1,5 +1,5 @@
-//! Pareto fronts: points that no other point dominates. A point dominates another point if its cost and its error are
-//! not larger and one of them is smaller.
+//! Pareto fronts: points that no other point dominates. A point dominates another point if neither its cost nor its
+//! error is larger than that of the other point, and at least one of the two is smaller.
 
 use super::point::BenchPoint;
 use linkage::trajectory::Stage;

@@ -69,7 +69,7 @@ impl Planned {
     }
 }
 
-/// All analytic sides and engines to be measured.
+/// All methods of analytic sides and engines to be measured.
 pub(super) struct Plan {
     pub(super) points: Vec<Planned>,
     pub(super) left_out: usize,
@@ -168,7 +168,7 @@ fn resolutions(engine: &dyn Engine, usual: f64, options: &BenchOptions) -> Vec<f
     }
 }
 
-/// Work of a run including its probes. The unit is a step without sweeps.
+/// Work of a run including its probes. The unit is the work of an engine step without sweeps.
 fn work(case: &Case, engine: &dyn Engine, settings: &Settings) -> f64 {
     let probes = match settings.route {
         Route::Probe if !engine.controls_error() => case.grid.len() as f64 * settings.work() * settings.resolution,

@@ -15,7 +15,7 @@ pub struct BenchOptions {
     pub engines: Vec<EngineName>,
     /// A rough measurement: fewer settings and one round of timing.
     pub is_quick: bool,
-    /// Work allowed for one round of all engines together. The unit is a step without sweeps.
+    /// Work allowed for one round of all engines together. The unit is the work of an engine step without sweeps.
     pub budget: Option<f64>,
     /// Number of timing rounds; the shortest time counts.
     pub rounds: Option<usize>,

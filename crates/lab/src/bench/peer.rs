@@ -18,7 +18,7 @@ pub struct Way {
 pub struct Answer {
     /// Name and version of the software.
     pub version: String,
-    /// Columns by name, including `t_s`. All columns have the same length; values are not checked.
+    /// Columns by name, including `t_s`. All columns have the same length; their values are not yet checked.
     pub columns: Vec<(String, Vec<f64>)>,
     /// Times measured by the peer (s), at least one.
     pub seconds: Vec<f64>,

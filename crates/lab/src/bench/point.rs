@@ -25,7 +25,7 @@ pub struct Errors {
     pub max: f64,
     /// Largest root mean square of a channel's errors.
     pub rms: f64,
-    /// Whether the reference's error exceeds a hundredth of this error.
+    /// Whether the reference's error exceeds a hundredth of `max`.
     pub is_limited: bool,
 }
 
@@ -69,7 +69,7 @@ pub struct BenchPoint {
     pub resolution: String,
     /// Settings of an engine.
     pub settings: Option<Settings>,
-    /// Whether the settings are the program's defaults. The value is true only for analytic sides.
+    /// Whether an analytic side runs with its default settings. Always false for engines and peers.
     pub is_usual: bool,
     /// Outcome of the method.
     pub outcome: BenchOutcome,
@@ -90,7 +90,7 @@ impl BenchPoint {
         (least.is_finite() && least > 0.0).then_some(least)
     }
 
-    /// Largest error of a stage.
+    /// Errors of a stage; `None` if the run has none for the stage.
     pub fn error(&self, stage: Stage) -> Option<Errors> {
         self.run()?.errors[stage as usize]
     }
@@ -121,7 +121,7 @@ impl BenchPoint {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct RunEffort(pub Vec<(String, u64)>);
 
-/// Names of counts that give the number of solutions. A solution is that of the whole mechanism at one state.
+/// Names of counts that give the number of solutions. One solution solves the whole mechanism at one state.
 /// The first entry whose counts have a sum above zero is used.
 /// Evaluations come first, because a step of a multistage method has several evaluations.
 const SOLUTIONS: [&[&str]; 3] = [&["evaluations"], &["steps", "probes"], &["poses"]];

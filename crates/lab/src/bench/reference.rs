@@ -13,7 +13,8 @@ use linkage::trajectory::{Stage, Trajectory};
 use prover::bounds::residuals;
 
 /// In free motion, the reference is a run with tighter accuracy.
-/// Its estimated integration error is this fraction of its difference from a run at the usual accuracy.
+/// The reference's estimated integration error is this fraction of the difference between the reference and a run at
+/// the usual accuracy.
 /// In every step, the tighter accuracy allows a hundredth of the usual error.
 /// The constant is this hundredth times a factor of four, the margin `SAFETY` of `prover::run::known`.
 const LEFT: f64 = 0.04;

@@ -34,7 +34,7 @@ impl Stage<'_> {
 
     /// Indices of the formulas that claim an exact value, and of the derivation steps behind these formulas.
     /// A claim with a stated error is left out: a claim with a mistake may still be correct within its stated error.
-    /// A formula that is wrong as printed is left out too.
+    /// A formula that `docs/findings.md` calls wrong is left out too.
     pub(super) fn formulas(&self) -> Vec<usize> {
         let all = &self.scenario.formulas.list;
         let judged = self.judged_formulas();
@@ -80,7 +80,7 @@ impl Stage<'_> {
             Some(Planting { what, formulas })
         };
         match mistake {
-            // One of many possible positions is chosen.
+            // The mistake may suit many positions in the formula. One of them is chosen.
             // The choice depends on the formula and on the kind of fault, but not on the run.
             Mistake::Slip(slip) => {
                 let number = own.name.bytes().chain(kind.name.bytes()).map(usize::from).sum();
@@ -99,7 +99,7 @@ impl Stage<'_> {
         }
     }
 
-    /// A claim of another channel: the first channel for which `is_meant` returns true.
+    /// The claim, changed to another channel: the first one for which `is_meant` returns true.
     /// The search goes from the claimed channel to the end of the list, and then continues from the start of the list.
     fn other(&self, own: &Formula, is_meant: &dyn Fn(&Channel, &Channel) -> bool) -> Option<Claim> {
         let claim = own.claim.as_ref()?;

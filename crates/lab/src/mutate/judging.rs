@@ -131,7 +131,8 @@ static IN_THE_ENGINE: [InTheEngine; 8] = [
     ("crank_rocker", "an angle at the first instant", 1e-4, &["link.coupler.angle_rad"], &[]),
     ("crank_rocker", "an angle at the last instant", 1e-4, &["link.coupler.angle_rad"], &[]),
     ("crank_rocker", "an angular velocity", 1e-2, &["link.rocker.omega_rad_s"], &[OF_POWERS]),
-    // No check has to disagree, because forces and powers are computed from the wrong accelerations.
+    // Forces and powers are computed from the same wrong accelerations, so they may agree with one another.
+    // The test therefore names no check.
     ("crank_rocker", "an angular acceleration", 1.0, &["link.rocker.alpha_rad_s2"], &[]),
     ("crank_rocker", "a reaction", 1.0, &["joint.B.fy_N"], &[]),
     ("crank_rocker", "the driving moment", 0.1, &["drive.torque_N_m", "frame.moment_N_m"], &[OF_POWERS]),

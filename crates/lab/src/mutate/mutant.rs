@@ -63,7 +63,7 @@ pub struct Mutant {
 pub struct Mutated {
     /// Name of the scenario.
     pub scenario: String,
-    /// Quantity that the input of the scenario measures.
+    /// Kind of the scenario's input: a crank angle, a joint angle or a slide.
     pub input: Input,
     /// Verdict of the scenario's proof without a fault.
     pub verdict: &'static str,

@@ -211,9 +211,9 @@ fn of_kind(stage: &Stage, kind: &'static FaultKind, asked: &MutationPlan) -> Res
 /// Smallest size that is tried, divided by the first size. Effects of smaller faults are below rounding error.
 const LEAST: f64 = 1e-16;
 /// Largest factor between successive sizes of the search.
-/// If the margin is unknown, the first guess is the whole size divided by this factor.
+/// If the margin of the fault at its first size is unknown, the first guess is the first size divided by this factor.
 const STEP: f64 = 10.0;
-/// The search ends if the smallest detected size is at most this multiple of an undetected size.
+/// The search ends if the smallest detected size is at most this multiple of the largest undetected size.
 const FACTOR: f64 = 2.0;
 /// Upper limit of the number of proofs in one search.
 const MOST: usize = 24;

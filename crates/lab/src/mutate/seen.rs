@@ -12,8 +12,8 @@ use prover::run::{ChannelProof, EngineProof, Judgement, ObservedSides};
 pub struct Sight {
     /// Name of the channel or check, and of the comparison.
     pub what: String,
-    /// First instant at which the bound is exceeded (s), and the input (SI); `None` for a check of the whole
-    /// run.
+    /// First instant at which the bound is exceeded (s), and the input at this instant (SI).
+    /// `None` for a check of the whole run.
     pub since: Option<(f64, f64)>,
     /// Largest difference divided by its bound.
     pub margin: f64,

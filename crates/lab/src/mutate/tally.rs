@@ -65,7 +65,7 @@ pub enum FaultTally {
     AllFound,
     /// No proof with a fault agrees, but some proofs are inconclusive.
     NoneEscapes,
-    /// Some faults are not found.
+    /// Some proofs with a fault agree, so the fault escapes.
     SomeEscape,
     /// Only faults in the shared code have an effect, and some of these faults are not found.
     TrunkOpen,

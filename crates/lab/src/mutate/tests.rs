@@ -62,9 +62,9 @@ fn a_fault_without_effect_is_not_counted() {
     }
 }
 
-/// Symptom: the rods of a parallelogram only translate, so their moments of inertia have no effect.
-/// A fault in such a moment of inertia was counted as a fault that the proof misses, although it changed only the
-/// integration steps.
+/// The rods of a parallelogram only translate, so their moments of inertia have no effect.
+/// Symptom: a fault in such a moment of inertia was counted as a fault that the proof misses, although it changed only
+/// the integration steps.
 #[test]
 fn regress_a_change_of_integration_steps_only_is_no_effect() {
     let scenario = scenario("n_four_bar_1");
@@ -97,7 +97,7 @@ fn half_the_smallest_detected_size_is_not_detected() {
     }
 }
 
-/// Symptom: the shipped scenarios did not reveal these faults, because no shipped scenario had the affected features.
+/// Symptom: no shipped scenario revealed these faults of sliders and guides, because none had the affected features.
 /// The three scenarios of this test have the affected features: a slider on a moving guide, the moment of a guide in a
 /// higher group, and a slider of the spanning tree that carries another slider.
 #[test]
@@ -130,7 +130,8 @@ fn a_one_sided_moment_that_always_acts_is_found_in_every_party() {
     }
 }
 
-/// A proof cannot find a fault in code that all parties share. External reference numbers reveal such a fault.
+/// The comparison of the parties cannot find a fault in code that all parties share. External reference numbers reveal
+/// such a fault.
 #[test]
 fn a_shared_gravity_fault_is_found_only_by_external_numbers() {
     let asked =

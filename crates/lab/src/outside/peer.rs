@@ -43,7 +43,7 @@ pub struct Command<'a> {
 }
 
 impl<'a> Command<'a> {
-    /// The peer `name`, called as `command`. One call may take `limit` (s).
+    /// The peer `name`, called as `command`. One call may take at most `limit` (s).
     pub fn new(name: &str, command: &str, exports: &'a Exports, limit: f64, clock: Clock<'a>) -> Self {
         let (name, command) = (name.to_string(), command.to_string());
         Command { name, command, exports, limit, clock, place: RefCell::new(None) }

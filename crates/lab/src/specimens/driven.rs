@@ -11,7 +11,7 @@ use linkage::mechanism::JointId;
 
 use super::sketch::RandomSource;
 
-/// Largest rotation of the driven joint (rad), and largest slide divided by the mechanism's size.
+/// Largest motion of the driven joint: a rotation in rad, or a slide divided by the mechanism's size.
 const RISE: f64 = 0.4;
 
 /// The mechanism of `case` with the drive at a random joint, over a short motion from rest to rest.

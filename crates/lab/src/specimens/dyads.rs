@@ -13,7 +13,7 @@ use scenario::Scenario;
 pub const REACH: f64 = 4.0;
 /// Smallest allowed sine of a transmission angle: the sine of 10 degrees.
 pub const DEAD: f64 = 0.17364817766693033;
-/// Smallest distance between the outer pins of an RPR dyad (m): the length of the shortest link.
+/// Smallest distance between the outer pins of an RPR dyad (m): the shortest length that is drawn for a link.
 const CLOSE: f64 = 0.1;
 
 /// The five kinds of dyads.

@@ -31,8 +31,8 @@ pub fn geared(random: &mut RandomSource, case: &Case) -> Option<Case> {
     let away = random.angle();
     let local = joints[pin].on(carrier)? + unit(away) * distance;
     let kind = kind(random, distance);
-    // The arm of a follower is half the distance of the axles.
-    // The arm is perpendicular to the line from the cam's axle to the roller's centre.
+    // The arm of a follower is half as long as the distance between the axles.
+    // At the start, the arm is perpendicular to the line from the cam's axle to the roller's centre.
     let start = if let TransmissionKind::Cam { .. } = kind { away + PI + FRAC_PI_3 } else { start };
     let wheel = LinkId(case.mechanism.links().len());
     let mut links = case.mechanism.links().to_vec();

@@ -1,5 +1,6 @@
 //! Random mechanisms in their start pose.
-//! Links get random poses, and each joint is defined by the same world position on its two links.
+//! Links get random poses. The two links of a revolute joint have its pin at the same world position; those of a
+//! prismatic joint have points on one line along its axis.
 //! Every mechanism can therefore be assembled, and its start pose is known without solving.
 
 use chacha20::ChaCha20Rng;

@@ -68,8 +68,8 @@ pub struct FourBarChecks {
     pub travel: CrankTravel,
     /// Smallest transmission angle over the motion `travel` (rad), at most a right angle.
     pub transmission: f64,
-    /// Longest length divided by the shortest of the four `lengths`. The longest length may also be a distance from the
-    /// working point to a pin.
+    /// Ratio of the longest length to the shortest of the four `lengths`.
+    /// The longest length is the largest of the four `lengths` and of the working point's distances from the two pins.
     pub ratio: f64,
     /// Whether the driven crank reaches all positions in one assembly mode, without a dead point between them.
     pub keeps_branch: bool,
@@ -225,15 +225,15 @@ pub struct PrecisionFourBar {
     pub point: Option<Complex>,
     /// Frames of crank, coupler and rocker in position 1.
     pub frames: [PositionFrame; 3],
-    /// Rotations of the crank from position 1 to every position (rad), counted along the travel if the travel reaches
-    /// the position.
+    /// Rotations of the crank from position 1 to every position (rad), along the travel: in the sense of a full turn,
+    /// or inside the travel's limits. For a position outside these limits, the rotation is between -pi and pi.
     pub crank_turns: Vec<f64>,
     /// The checks.
     pub checks: FourBarChecks,
 }
 
-/// Data of link frames that the task gives. The x axis of any other link points from the link's first pin to its second
-/// pin.
+/// What the task gives about the frames of the links. The x axis of a link whose angle is not given points from its
+/// pivot to its pin. That of the coupler points from the crank's pin to the rocker's pin.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct GivenFrames {
     /// Working point of the coupler in position 1 (m).
@@ -309,7 +309,7 @@ mod tests {
             pin: pivot + arm * Complex::from_polar(1.0, angles[0]),
             turns: angles.iter().map(|angle| Complex::from_polar(1.0, angle - angles[0])).collect(),
         };
-        // Rocker angles of the four-bar (3, 2, 1.5, 2.5) at three crank angles, in the mode of each sign.
+        // Rocker angles of the four-bar (3, 2, 1.5, 2.5) at a crank angle. The sign of `side` selects the mode.
         let rocker = |crank: f64, side: f64| {
             let pin = 2.0 * Complex::from_polar(1.0, crank);
             let diagonal: Complex = Complex::from(3.0) - pin;

@@ -52,7 +52,7 @@ pub struct FunctionSpec {
 }
 
 impl FunctionSpec {
-    /// The four-bars that couple all pairs of angles; at most `wanted` of the best.
+    /// The best four-bars that couple all pairs of angles; at most `wanted` four-bars.
     /// In these four-bars, the angles of the links `crank` and `rocker` equal the given angles.
     ///
     /// # Errors

@@ -37,14 +37,14 @@ pub struct MotionSpec {
     pub poses: Vec<CouplerPose>,
     /// Given pivots on the ground (m); only for three poses.
     pub pivots: Vec<Complex>,
-    /// Given pins of the coupler (m), only for three poses. At most two pivots and pins together are given.
+    /// Given pins of the coupler (m), only for three poses. `pivots` and `pins` together have at most two points.
     /// The coordinates are in the coupler's frame: its origin is the working point, and its x axis has the angle of the
     /// pose.
     pub pins: Vec<Complex>,
 }
 
 impl MotionSpec {
-    /// The four-bars that guide the coupler through all poses; at most `wanted` of the best.
+    /// The best four-bars that guide the coupler through all poses; at most `wanted` four-bars.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for a wrong number of poses, pivots or pins, for numbers that are not finite, and for poses

@@ -1,4 +1,4 @@
-//! Path generation with prescribed timing: a point of the coupler at given points and crank angles.
+//! Path generation with prescribed timing: a point of the coupler passes given points at given crank angles.
 //!
 //! In the crank's dyad, the crank W has given rotations, and Z turns with the coupler by unknown angles.
 //! Each solution for this dyad gives the coupler's rotations. The rocker's dyad is then found as for motion generation.
@@ -31,8 +31,8 @@ pub struct PathSpec {
 }
 
 impl PathSpec {
-    /// The four-bars whose coupler point passes every given point at the given crank angle; at most `wanted` of the
-    /// best.
+    /// The best four-bars whose coupler point passes every given point at the given crank angle; at most `wanted`
+    /// four-bars.
     ///
     /// # Errors
     /// [`ErrorKind::Input`](linkage::error::ErrorKind::Input) for a wrong number of points, for numbers that are not
@@ -51,8 +51,8 @@ impl PathSpec {
         for own in dyads(&cranks, &ways).ok_or_else(none)? {
             let pin = first.point - own.free;
             let crank = GroundLink { pivot: pin - own.given, pin, turns: cranks.clone() };
-            // For five points, one of the solutions is the crank's dyad itself. The four-bar would then have a frame
-            // without length, and is refused.
+            // For five points, one of the solutions is the crank's dyad itself. As the rocker's dyad, it would
+            // give a frame without length; this four-bar is refused.
             let rockers = dyads(&own.turns, &ways).unwrap_or_default();
             let rockers = rockers.into_iter().map(|dyad| of_motion(dyad, first.point));
             rockers.for_each(|rocker| choice.offer([&crank, &rocker]));

@@ -9,8 +9,8 @@ use linkage::math::{Complex, KeepNan};
 
 /// Numbers of positions for which closed forms exist.
 const COUNTS: RangeInclusive<usize> = 3..=5;
-/// Two positions coincide if their distance is at most this fraction of the largest displacement, and their rotations
-/// differ by at most this number (rad).
+/// Two positions coincide if neither their distance nor their difference in rotation is above this limit.
+/// The distance is divided by the largest displacement; the difference in rotation is in rad.
 const APART: f64 = 1e-9;
 
 /// Checks the number of positions and that their numbers are finite.

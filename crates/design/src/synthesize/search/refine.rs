@@ -35,7 +35,7 @@ const SETTLED: f64 = 1e-7;
 
 /// Computes the cost of a candidate. The candidate is given by its variables, as fractions of the ranges between their
 /// bounds.
-/// The rows include the ends of all phases.
+/// The crank angles at which the output is computed include the ends of all phases.
 struct Bench<'a> {
     task: &'a Task,
     evaluator: Evaluator<'a>,

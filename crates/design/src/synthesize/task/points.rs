@@ -15,7 +15,7 @@ pub struct PrecisionPoint {
     pub angle: Option<f64>,
 }
 
-/// The precision points of a task. The output link reaches the points with free crank angles in their order.
+/// The precision points of a task. Points with free crank angles are reached in the order of the list.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PrecisionPoints {
     points: Vec<PrecisionPoint>,
@@ -24,8 +24,8 @@ pub struct PrecisionPoints {
 }
 
 impl PrecisionPoints {
-    /// Stores the points and the length by which deviations of positions are divided: the largest distance between two
-    /// required positions, or `size` (m) if fewer than two positions are required.
+    /// Stores the points and the extent: the length by which deviations of positions are divided.
+    /// The extent is the largest distance between two required positions, or `size` (m) if this distance is zero.
     /// Deviations of angles are in radians.
     pub fn of(points: Vec<PrecisionPoint>, size: f64) -> Self {
         let places: Vec<Vec2> = points.iter().filter_map(|point| point.place).collect();

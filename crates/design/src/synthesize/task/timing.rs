@@ -143,8 +143,8 @@ impl Timing {
 
     /// Required output at the crank angle `crank` (rad, 0 to a full turn), as a fraction of the stroke (0 rearmost, 1
     /// foremost).
-    /// The required output follows a cycloidal curve through all levels, u - sin(2 pi u) / (2 pi), without jumps of the
-    /// acceleration.
+    /// In each phase, the required output follows the cycloidal curve u - sin(2 pi u) / (2 pi) from level to level.
+    /// Here, u grows from 0 to 1 over the phase. The acceleration has no jumps.
     /// `None` if a level is unknown.
     pub fn wanted(&self, crank: f64) -> Option<f64> {
         let levels = self.levels.as_ref()?;
@@ -160,7 +160,8 @@ fn wrong(key: &str, message: String) -> Error {
     Error::new(ErrorKind::Input, message).key(key)
 }
 
-/// Levels at the ends of all phases. A level is given, or a dwell keeps the level of the phase before.
+/// Levels at the ends of all phases. If the level of a dwell is not given, the dwell keeps the level of the phase
+/// before.
 /// If there is only one forward motion and one backward motion, the forward motion ends at the level 1 and the backward
 /// motion at the level 0.
 fn levels(phases: &[Phase]) -> Option<Vec<f64>> {

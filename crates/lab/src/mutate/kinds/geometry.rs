@@ -70,7 +70,7 @@ fn stretched(case: &Case, link: LinkId, factor: f64) -> Option<Case> {
     placed(case, |links, joints| move_places(links, joints, link, |place| first + (place - first) * factor))
 }
 
-/// Moves the last pin position on the ground that does not belong to the crank.
+/// Moves the last pivot on the ground other than the crank's pivot.
 /// The arguments of `to` are the position and the size of the mechanism (m).
 fn pivot(case: &Case, to: impl Fn(Vec2, f64) -> Vec2) -> Option<Case> {
     let pins = case.mechanism.joints().entries().filter(|(_, joint)| joint.is_pin());

@@ -106,8 +106,8 @@ fn steiner(case: &Case, link: LinkId) -> f64 {
     place.map_or(0.0, |place| own.mass * (place - own.mass_centre).norm_squared())
 }
 
-/// A wrong mass centre: its offset from the link's first joint is measured from the last joint instead, in the opposite
-/// direction.
+/// A wrong mass centre: the position of the link's last joint, minus the vector from the first joint to the correct
+/// mass centre.
 /// `None` if the position does not change.
 fn measured(case: &Case, link: LinkId) -> Option<Vec2> {
     let [first, last] = ends(case, link)?;

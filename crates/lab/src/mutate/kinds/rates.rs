@@ -60,7 +60,8 @@ kinds! { Rate, Answer:
         };
 }
 
-/// Velocity of a mass centre due to rotation about the origin of the link's frame, for the last link whose frame moves.
+/// The part of a mass centre's velocity that comes from the link's rotation about the origin of its frame.
+/// The link is the one that `floating` selects.
 fn about_frame(case: &Case, state: &State) -> Vec2 {
     let link = floating(case);
     let motion = &state.motions[link];
