@@ -31,7 +31,7 @@ pub(in crate::cli) struct Args {
     /// and prints every residual beside its bound
     #[arg(long, hide = true, value_name = "FACTOR", allow_hyphen_values = true, value_parser = number::not_negative)]
     pub tolerance_scale: Option<f64>,
-    /// Store the settings found by the proof in the `[engine]` section of the scenario file. The settings are
+    /// Write the found settings to the `[engine]` section of the scenario file. The settings are
     /// valid only for the mechanism of the file, so options that change parameters, modes or the start are not allowed
     #[arg(long, conflicts_with_all = ["set", "mode", "start_crank_deg"])]
     pub write: bool,
