@@ -12,8 +12,8 @@ use scenario::Scenario;
 const PATIENCE: Duration = Duration::from_secs(20);
 /// Longest time for which solver and proof leave the processor to the browser, which draws the first picture.
 const DRAWING: Duration = Duration::from_millis(100);
-/// If the proof takes longer than this, the curves are shown first, without a verdict. Otherwise the page with the verdict
-/// shows them, and the time for a page without a verdict is saved.
+/// If the proof takes longer than this, the curves are shown first, without a verdict. Otherwise the page with the
+/// verdict shows them, and the time for a page without a verdict is saved.
 const SOON: Duration = Duration::from_millis(500);
 /// A new draft is sent together with its first results if these come within this time.
 const TOGETHER: Duration = Duration::from_millis(40);
@@ -141,14 +141,15 @@ impl Desk {
         }
     }
 
-    /// Waits, at most for the time `DRAWING`, until a browser has drawn the page of a draft. A newer draft ends the wait.
+    /// Waits, at most for the time `DRAWING`, until a browser has drawn the page of a draft. A newer draft ends the
+    /// wait.
     pub(super) fn wait_for_drawing(&self, draft: u64) {
         let is_open = |state: &mut State| state.draft == draft && state.drawn < state.page_since;
         drop(self.changed.wait_timeout_while(self.state(), DRAWING, is_open));
     }
 
-    /// Waits, at most for the time `SOON`, for the verdict of a draft. Returns whether the verdict is there. A newer draft
-    /// ends the wait.
+    /// Waits, at most for the time `SOON`, for the verdict of a draft. Returns whether the verdict is there. A newer
+    /// draft ends the wait.
     pub(super) fn is_judged_soon(&self, draft: u64) -> bool {
         let is_judged = |state: &State| state.outcome.draft == draft && state.outcome.stage == DraftStage::Judged;
         let is_open = |state: &mut State| state.draft == draft && !is_judged(state);
