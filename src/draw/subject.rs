@@ -84,7 +84,7 @@ impl Drawn {
     pub(crate) fn of_draft(draft: Draft, wish: &PictureOptions, medium: Medium, error: Error) -> Result<Drawn> {
         wish.check(medium)?;
         let when = wish.at.unwrap_or(When::Crank(draft.crank));
-        // Links that cannot move need no drive.
+        // If the links cannot move, they need no drive, so the error of the missing drive is dropped.
         let error = Some(error).filter(|_| !draft.is_fixed());
         if let (true, Some(_)) = (draft.is_fixed(), wish.course()) {
             let [_, enlarged, positions, _] = wish.keys();

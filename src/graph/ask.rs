@@ -75,7 +75,7 @@ const VECTORS: [(&str, &str, [&str; 2]); 6] = [
 ];
 
 impl Question {
-    /// Reads the user's words about a scenario.
+    /// Reads the charts that the user requests for a scenario.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] with the position of the mistake in the text.
