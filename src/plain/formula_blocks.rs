@@ -183,7 +183,8 @@ fn reason(line: &Line, marks: &[Range<usize>], tell: Tell, width: Option<usize>)
     }
 }
 
-/// A formula behind `head`, in lines of at most `width` columns, with carets below the parts `marks` (byte ranges).
+/// The text `head` and then a formula, in lines of at most `width` columns, with carets below the parts `marks` (byte
+/// ranges).
 /// Lines are broken at blanks only.
 fn marked(head: &str, formula: &str, marks: &[Range<usize>], width: Option<usize>) -> String {
     let indent = head.chars().count().min(DEEPEST);
