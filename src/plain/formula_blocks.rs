@@ -214,7 +214,7 @@ fn marked(head: &str, formula: &str, marks: &[Range<usize>], width: Option<usize
     both.filter(|line| !line.is_empty()).collect::<Vec<_>>().join("\n")
 }
 
-/// The words before a name that say which derivative is judged.
+/// Words for the judged derivative, to be put before the name of the formula.
 pub(crate) fn of(order: usize) -> String {
     match order {
         0 => String::new(),
