@@ -41,7 +41,7 @@ const BETWEEN: f64 = 0.2;
 ///
 /// # Errors
 /// [`ErrorKind::Input`](crate::parts::ErrorKind::Input) for an invalid instant or an unknown point.
-/// The error that prevents assembly at the instant is returned as well.
+/// The error of the assembly if the mechanism cannot be assembled at the instant.
 pub fn draw(scenario: Scenario, wish: &PictureOptions, medium: Medium) -> Result<Vec<u8>> {
     let drawn = Drawn::of(scenario, wish, medium)?;
     match &drawn.fault {

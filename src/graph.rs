@@ -37,7 +37,7 @@ pub(crate) struct Look {
     pub(crate) legend: Vec<String>,
     /// Size of each chart (mm); `None` for the usual size.
     pub(crate) size: Option<[f64; 2]>,
-    /// Whether the difference is drawn: results of the second party minus results of the first party.
+    /// Whether the difference is drawn: the second minus the first result, each of a solver or an engine.
     pub(crate) difference: bool,
 }
 
@@ -54,7 +54,8 @@ pub(crate) struct Graphs {
 /// Draws the requested charts of all sources, below each other.
 ///
 /// # Errors
-/// [`ErrorKind::Input`] if names do not match the curves, or if sources have horizontal axes of different kinds.
+/// [`ErrorKind::Input`] if the number of names differs from the number of curves, or if sources have horizontal axes of
+/// different kinds.
 /// The errors of the solvers.
 pub(crate) fn graphs(sources: &[Source], look: &Look) -> Result<Graphs> {
     let (mut panels, mut notes): (Vec<Panel>, Vec<String>) = (Vec::new(), Vec::new());

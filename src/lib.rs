@@ -64,14 +64,15 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! In a test, a disagreement panics with the report; [`testing`] has further functions for tests:
+//! In a test, `assert_proven!` proves a scenario, and panics with the report unless the proof agrees.
+//! [`testing`] has further functions for tests:
 //!
 //! ```
 //! linkproof::assert_proven!("scenarios/crank_rocker.toml", only = ["positions"]);
 //! ```
 //!
 //! All values are in SI units and world axes (x right, y up, angles counter-clockwise from +x).
-//! Other units are suffixes of names: keys of scenario files, and channels in formulas, such as `angle_deg`.
+//! In scenario files and formulas, the suffix of a key or of a channel states another unit, such as `angle_deg`.
 
 #[doc(hidden)]
 #[macro_use]

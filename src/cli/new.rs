@@ -15,7 +15,7 @@ pub(super) struct Args {
     /// Mechanism to start from; without this argument, the templates are listed
     #[arg(value_name = "TEMPLATE")]
     template: Option<String>,
-    /// File to write, or `-` for standard output [default: the template's name, in this directory]
+    /// File to write, or `-` for standard output [default: a file named like the template]
     #[arg(short, long, value_name = "FILE", requires = "template", value_parser = target)]
     output: Option<PathBuf>,
     /// Dimension, by its key in `[parameters]`; may be given several times

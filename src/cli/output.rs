@@ -166,7 +166,7 @@ fn printed(fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
     }
 }
 
-/// Smallest width of a table in columns; in a narrower terminal, the terminal itself wraps the lines.
+/// Smallest width to which text is wrapped, in columns. In a narrower terminal, the terminal itself wraps the lines.
 const LEAST: usize = 60;
 
 /// Columns of the terminal. If standard output is not a terminal: the environment variable `COLUMNS`, otherwise 80.

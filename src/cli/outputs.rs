@@ -54,7 +54,7 @@ impl Form {
         }
     }
 
-    /// Options of earlier versions that mean this form.
+    /// Options of earlier versions that requested a result of this form, such as `--csv`.
     fn aliases(self) -> &'static [&'static str] {
         match self {
             Form::Csv => &["csv"],
@@ -75,7 +75,7 @@ impl Form {
         self.endings().first().map_or("DIR".into(), |ending| format!(".{ending}"))
     }
 
-    /// The endings of the form in help: all endings of a drawing, the usual ending of any other form.
+    /// The endings that help shows for this form: all endings for a drawing, only the usual ending for any other form.
     fn told(self) -> String {
         match self {
             Form::Svg => sentences::SVG_PDF_OR_PNG.into(),
@@ -169,7 +169,7 @@ impl Made {
     }
 }
 
-/// Declares the results of a command: `Form = "contents"`.
+/// Declares the results of a command, one line `Form = "contents",` for each result.
 macro_rules! results {
     ($name:ident { $($form:ident = $contents:expr,)* }) => {
         /// Results of the command.
@@ -223,7 +223,7 @@ fn read<R: Results>(text: &str) -> std::result::Result<(R, PathBuf), String> {
             return Err(sentences::expected_found(&expected.join(", "), &found));
         }
     };
-    // On standard output too, the ending of the path selects the picture format of a drawing.
+    // A drawing for standard output keeps its path `-.ENDING`, because the ending selects the picture format.
     Ok((own, form.target(if standard.is_some() && form != Form::Svg { "-" } else { text })?))
 }
 

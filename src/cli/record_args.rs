@@ -26,7 +26,7 @@ const LARGE: u64 = 20_000_000;
 /// Size of the smaller recording that the message suggests (bytes).
 const HANDY: f64 = 5e6;
 
-/// Name of the side of a recording that has the reference.
+/// Name of the reference's side in a recording.
 const REFERENCE: &str = "reference";
 
 /// Destination and contents of a recording.
@@ -40,7 +40,7 @@ pub(super) struct RecordArgs {
     #[arg(long, conflicts_with = "record")]
     pub(super) no_record: bool,
     /// Time scale of recordings and of `--live`: viewers play recordings this many times slower than the mechanism
-    /// runs. Without this option, layouts and `--live` show a turn in about four seconds [default: 1]
+    /// runs [default: 1 in recordings; layouts and `--live` show a turn in about four seconds]
     #[arg(long, value_name = "FACTOR", allow_hyphen_values = true, value_parser = number::positive)]
     slow: Option<f64>,
     /// Record at most this many instants per second of the mechanism's time, besides the first and the last instant
@@ -136,7 +136,7 @@ impl RecordArgs {
         self.as_recorded(scenario, proof, &BTreeMap::new(), recording::reel)
     }
 
-    /// The contents of the reference alone, as a recording would have them, before the proof is finished.
+    /// The contents that a recording of the reference alone would have. Live viewers show them until the proof is done.
     #[cfg(feature = "live")]
     pub(super) fn first_reel(&self, scenario: &Scenario, case: &Case, reference: &Trajectory) -> Result<Reel> {
         let text = sentences::THE_ENGINE_IS_AT_WORK_ITS_SIDE;
@@ -190,7 +190,8 @@ fn sides(proof: &Proof) -> Vec<RecordedSide<'_>> {
     sides
 }
 
-/// Message about a large recording of these instants (s): the value of `--record-hz` that gives a handy size.
+/// Message if the recording is large: the value of `--record-hz` that gives a handy size. `times` are the recorded
+/// instants (s).
 fn large(bytes: u64, times: &[f64], hz: Option<f64>) -> String {
     if bytes < LARGE {
         return String::new();

@@ -37,8 +37,8 @@ impl With {
     /// Solves `case`, the scene of a scenario.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] if the options set an engine but the solver is an analytic side, or if the solution needs
-    /// more memory than allowed. The errors of the solver.
+    /// [`ErrorKind::Input`] if a setting of an engine is given but the solver is an analytic side, or if the solution
+    /// needs more memory than allowed. The errors of the solver.
     pub(super) fn solve(
         self,
         scenario: &Scenario,

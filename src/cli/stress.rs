@@ -93,7 +93,7 @@ pub(super) fn run(args: &Args) -> Result<u8> {
     Ok(if tally.silent == 0 && tally.panics == 0 { exit_code::AGREE } else { exit_code::DISAGREE })
 }
 
-/// The first line of a table, its header; no other program writes this header.
+/// The first line of a table: its header. A file with this header was written by this command and may be replaced.
 fn first_line(bytes: &[u8]) -> Option<&[u8]> {
     bytes.split(|&byte| byte == b'\n').next().map(<[u8]>::trim_ascii_end)
 }

@@ -49,8 +49,8 @@ pub(super) struct Args {
     /// Solve one of several equal shares of the cases, such as `2/8`; `linkproof merge` joins the shares
     #[arg(long, value_name = "I/N", value_parser = shard)]
     shard: Option<Shard>,
-    /// Number of cases that are stored together [default: about 1/64 of all cases, from 64 to 20000; beyond 2e8 cases,
-    /// 1/10000]
+    /// Cases stored together [default: about 1/64 of all cases, but 64 to 20000; 1/10000 of all cases if these exceed
+    /// 2e8]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=10_000_000))]
     part: Option<u64>,
     /// Number of threads [default: number of cores]
@@ -163,7 +163,7 @@ pub(super) fn sweep(args: &Args) -> Result<u8> {
     Ok(AGREE)
 }
 
-/// The `--set` options with which another command gets the numbers of a case.
+/// The `--set` options that give another command the numbers of a case.
 fn sets(plan: &SweepPlan, values: &[f64]) -> String {
     let set = plan.set.iter().cloned().chain(plan.setting(values));
     set.map(|(key, value)| format!(" --set {key}={value:?}")).collect()

@@ -31,11 +31,11 @@ enum Command {
     /// Lengths and pivots of any linkage whose output should follow a timing: random search, then refinement of the
     /// best candidates
     Search(search::Args),
-    /// Front of two wishes: the smallest deviation from the task as a function of a limit that is varied
+    /// Pareto front: the smallest deviation from the task as a function of a limit that is varied
     Front(front::Args),
     /// Show how well scenarios keep the timing of a synthesis file; compare several at one speed
     Check(check::CheckArgs),
-    /// Draw the phases of all organs of a machine over its main shaft, and their displacements
+    /// Draw phases and displacements of all organs of a machine over the main shaft's angle
     Cyclogram(check::CyclogramArgs),
 }
 

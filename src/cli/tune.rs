@@ -29,7 +29,7 @@ pub(super) struct Args {
     channel: Vec<String>,
     #[command(flatten)]
     engine: EngineArgs,
-    /// Write the settings found to the scenario's `[engine]` section
+    /// Write the found settings to the scenario's `[engine]` section
     #[arg(long)]
     write: bool,
     #[command(flatten)]

@@ -5,7 +5,7 @@
 //!   if it has no mistakes. Results of older drafts are dropped.
 //! - `server`: HTTP on 127.0.0.1. The address contains a random word, and requests of other pages are refused.
 //!
-//! The page is that of `run -o PAGE.html`, in a frame beside the text. Only `keep` writes to the file.
+//! Beside the text, a frame shows the page that `run -o PAGE.html` writes. Only `keep` writes to the file.
 
 #[cfg(feature = "watch")]
 mod desk;

@@ -27,7 +27,7 @@ pub struct PictureOptions {
     pub each_mode: bool,
     /// Whether to draw gravity, and forces and moments as arrows with their sizes.
     pub loads: bool,
-    /// Whether to write the lengths and angles that define the links and the ground into the picture.
+    /// Whether the picture states the lengths and angles that define the links and the ground.
     pub dimensions: bool,
     /// Whether to draw the paths of all moving points, except joints that move on a circle about a pivot.
     pub all_traces: bool,
@@ -82,8 +82,8 @@ impl PictureOptions {
         self.keys.unwrap_or(["traces", "enlarged", "positions", "groups"])
     }
 
-    /// Number of positions for which the motion is needed; `None` if neither several positions nor enlarged paths are
-    /// drawn.
+    /// Number of positions of the motion; `None` if the motion is not needed, because neither several positions nor
+    /// enlarged paths are drawn.
     pub(super) fn course(&self) -> Option<usize> {
         self.positions.or((!self.enlarged.is_empty()).then_some(USUAL))
     }

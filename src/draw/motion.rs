@@ -102,7 +102,7 @@ impl Course {
         }
     }
 
-    /// `count` positions, equally spaced in the input: the interval from `from` to `to` is divided into `intervals`.
+    /// The first `count` of the positions that divide the input from `from` to `to` into `intervals` equal intervals.
     fn over(case: &Case, solver: &dyn Solver, [from, to]: [f64; 2], [count, intervals]: [usize; 2]) -> Result<Course> {
         let (parts, inputs) = spaced([from, to], intervals);
         let grid = Grid::of_inputs(case.crank(), inputs);
@@ -125,8 +125,8 @@ impl Course {
     }
 }
 
-/// Equally spaced values between two ends, with both ends. There are about [`INSTANTS`] values, and they divide each of
-/// the `intervals` into the same number of parts. Returns this number and the values.
+/// Equally spaced values between two ends, with both ends. Each of the `intervals` has the same number of parts, so
+/// that there are about [`INSTANTS`] parts. Returns the number of parts of an interval, and the values.
 fn spaced([from, to]: [f64; 2], intervals: usize) -> (usize, Vec<f64>) {
     let parts = INSTANTS.div_ceil(intervals);
     let all = parts * intervals;

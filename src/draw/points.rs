@@ -5,7 +5,7 @@ use crate::sentences;
 use linkage::error::{Error, ErrorKind};
 use linkage::mechanism::{JointSide, LinkId, Mechanism};
 
-/// First part of the name of a mass centre: `link.coupler` is the mass centre of the coupler, in channels too.
+/// First part of the name of a mass centre: `link.coupler` is the mass centre of the coupler, as in channel names.
 const OF_LINK: &str = "link.";
 
 /// A point of a link, with its name in pictures.
@@ -29,8 +29,9 @@ pub(super) struct RequestedPoints {
 }
 
 impl RequestedPoints {
-    /// The points whose names are requested, and with `all_traces` all moving points. The points at joints are then in
-    /// `joints`. If several positions are requested and no paths, all moving points are in `traced`.
+    /// The points whose names are requested, and with `all_traces` also all moving points: in `joints` if they are at
+    /// joints, otherwise in `traced`. If several positions are requested, but neither `traces` nor `all_traces`, all
+    /// moving points are in `traced`.
     pub(super) fn of(mechanism: &Mechanism, wish: &PictureOptions) -> Self {
         let [traces, enlarged, ..] = wish.keys();
         let mut unknown = Vec::new();

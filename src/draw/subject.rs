@@ -43,7 +43,7 @@ pub(crate) enum Note {
 pub(crate) struct Drawn {
     pub(crate) name: String,
     pub(super) title: String,
-    /// The name, and the value of the input in the first frame in words. A structure without a drive has only its name.
+    /// The name, and in words the value of the input in the first frame. A structure without a drive has only its name.
     pub(super) headline: String,
     mechanism: Mechanism,
     drives: Vec<Drive>,
@@ -80,11 +80,11 @@ impl Drawn {
         Ok(drawn?.with_unknown_traces(wish))
     }
 
-    /// The readable part of a mechanism, with the `error` because of which its file is not a valid scenario.
+    /// The readable part of a mechanism. Its file is not a valid scenario; `error` is the reason.
     pub(crate) fn of_draft(draft: Draft, wish: &PictureOptions, medium: Medium, error: Error) -> Result<Drawn> {
         wish.check(medium)?;
         let when = wish.at.unwrap_or(When::Crank(draft.crank));
-        // Links that cannot move need no drive.
+        // If the links cannot move, they need no drive, so the error of the missing drive is dropped.
         let error = Some(error).filter(|_| !draft.is_fixed());
         if let (true, Some(_)) = (draft.is_fixed(), wish.course()) {
             let [_, enlarged, positions, _] = wish.keys();
@@ -199,8 +199,8 @@ impl Drawn {
         let free = scenario.case.clone();
         let scenario = scenario.nominal();
         let case = &scenario.case;
-        // A time within a free motion selects an instant of this motion. The position with full lines then belongs to
-        // the motion of the series.
+        // A time within a free motion selects an instant of this motion, so that the position with full lines belongs
+        // to the same motion as the positions with thin lines.
         let shown = match (&course, when) {
             (Some(Ok(course)), When::Time(_)) if course.is_timed => &free,
             _ => case,

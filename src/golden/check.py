@@ -70,7 +70,8 @@ def errors(truth, bounds, result):
     found, curves = {}, {}
     for name in sorted(set(result) & set(bounds)):
         sort, (unit, bound) = SORTS.get(name.rpartition(".")[2], "driving moments and forces"), bounds[name]
-        # The range counts as at least a tenth of the largest range with the same unit.
+        # The scale is half of the column's range. A range below a tenth of the largest range with the same unit is
+        # replaced by this tenth.
         scale = max(np.ptp(truth[name]) / 2, max(np.ptp(truth[own]) for own in bounds if bounds[own][0] == unit) / 20) or 1.0
         gap = np.abs(apart(name, result[name][inside], at(t[inside], truth, name)))
         if not len(gap):

@@ -9,7 +9,7 @@ use prover::run::solved::asked;
 use scenario::words::suggestion;
 use scenario::{Claim, Scenario};
 
-/// The user's words, with the names of their options for messages.
+/// The user's words, and the names that messages use for the options with these words.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Words {
     /// One text for each chart; empty for the usual charts.
@@ -75,7 +75,7 @@ const VECTORS: [(&str, &str, [&str; 2]); 6] = [
 ];
 
 impl Question {
-    /// Reads the user's words about a scenario.
+    /// Reads the charts that the user requests for a scenario.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] with the position of the mistake in the text.

@@ -83,7 +83,7 @@ pub(super) fn time_axis() -> (PlotAxis, String) {
     (PlotAxis { name: "time".into(), unit: "s".into(), ..PlotAxis::default() }, "t_s".into())
 }
 
-/// A curve without names of party and scenario.
+/// A curve without the names of its solver or engine and of its scenario.
 pub(super) fn curve(name: CurveName, [x_key, y_key]: [&str; 2], [x, y]: [Vec<f64>; 2], noise: f64) -> Curve {
     let (who, file, title, marks) = (String::new(), None, None, Vec::new());
     Curve { name, who, file, title, x_key: x_key.into(), y_key: y_key.into(), x, y, noise, turn: None, marks }

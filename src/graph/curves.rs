@@ -47,7 +47,7 @@ fn reading<T>(source: &Source, trajectory: &Trajectory, then: impl FnOnce(&Read)
     then(&Read { course: &course, order: ascending(trajectory.times()) })
 }
 
-/// The charts for the requested chart number `chart`, counted from 0. `notes` receives remarks.
+/// The panels of the requested chart with the index `chart`; a run-up has two panels. `notes` receives remarks.
 pub(super) fn panels(source: &Source, chart: usize, difference: bool, notes: &mut Vec<String>) -> Result<Vec<Panel>> {
     let mut panels = match &source.question.charts[chart] {
         Chart::RunUp => under_motor::run_up(source, notes)?,
@@ -100,7 +100,7 @@ fn joined(who: &str, party: &str) -> String {
     if who.is_empty() { party.into() } else { format!("{who}, {party}") }
 }
 
-/// The curves of all solvers and engines, or the difference: second party minus first party.
+/// The curves of all solvers and engines, or the difference: the second result minus the first result.
 fn together(source: &Source, all: Vec<Vec<Curve>>, difference: bool) -> Vec<Curve> {
     let count = all.first().map_or(0, Vec::len);
     let mut parties: Vec<_> = all.into_iter().map(Vec::into_iter).collect();
@@ -139,7 +139,8 @@ fn curves_of(source: &Source, read: &Read, shown: &Shown, x_key: &str, x: &[f64]
     let given: Vec<f64> =
         read.course.formula(formulas, formula).into_iter().map(|value| value.unwrap_or(f64::NAN)).collect();
     let mut y = read.sorted(&given);
-    // Angles that differ by whole turns are equal, so the formula is drawn in the turn of the claimed angle.
+    // Angles that differ by whole turns are equal, so whole turns are added to the formula's angle until it is nearest
+    // to the claimed angle.
     if let (Some(turn), Some(claimed)) = (formula.claim.as_ref().and_then(Claim::turn), &claimed) {
         y.iter_mut().zip(&claimed.y).for_each(|(own, right)| *own -= turn * ((*own - right) / turn).round());
     }

@@ -11,7 +11,7 @@ pub(crate) struct Source {
     pub(crate) scenario: Scenario,
     /// The requested charts.
     pub(crate) question: Question,
-    /// The solved case, with the part of the mechanism that the charts need.
+    /// The case as it was solved: only the part of the mechanism that the charts need.
     pub(crate) case: Case,
     /// Names of solvers and engines, and their results.
     pub(crate) parties: Vec<(&'static str, Trajectory)>,

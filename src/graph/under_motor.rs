@@ -23,7 +23,8 @@ const SECONDS: f64 = 0.5;
 const INTERVALS: u32 = 800;
 
 /// Speeds of the crank and of the motor over time, with the speeds of the averaged model.
-/// A free motion is drawn as solved. For a scenario with a prescribed motion, the run-up starts from rest.
+/// If the scenario has a free motion, the curves are those of its solution. If its motion is prescribed, the run-up is
+/// computed from rest.
 ///
 /// # Errors
 /// [`ErrorKind::Input`] without a motor. The errors of [`motion`].

@@ -87,7 +87,7 @@ fn capital(name: &str) -> String {
     signs.next().map_or_else(String::new, |first| first.to_uppercase().chain(signs).collect())
 }
 
-/// The largest residual of an agreeing channel as a fraction of the channel's range, and the channel.
+/// Among the agreeing channels, the channel with the largest residual in relation to its range, and this ratio.
 /// A channel that varies by no more than its bound has no range.
 fn largest_difference(proof: &Proof) -> Option<(f64, &Channel)> {
     let shares = proof.engines.iter().flat_map(|engine| &engine.channels).filter_map(|own| {

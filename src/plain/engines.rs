@@ -11,7 +11,8 @@ use prover::numbers;
 use prover::run::{EngineProof, ForceFault, Proof};
 
 /// A table with one row per engine and one column per stage.
-/// A cell shows the channel that ranks highest: by verdict, then by the ratio of error to bound.
+/// A cell shows the worst channel: the worst by verdict, and among equal verdicts the one with the largest ratio of
+/// error to bound.
 pub fn table(engines: &[EngineProof], width: Option<usize>) -> String {
     let rows = engines.iter().map(|engine| {
         let verdict = engine.failure.as_ref().map_or(engine.verdict.word(), |_| "failed").to_string();
@@ -68,7 +69,7 @@ pub fn source(engine: &EngineProof) -> &str {
     }
 }
 
-/// Verdict on the forces that an engine itself exerts, and their channel that ranks highest.
+/// Verdict on the forces that an engine itself exerts, and the worst of their channels.
 pub fn exerted(own: &EngineProof) -> String {
     let Some(worst) = worst(&own.channels) else { return "none".into() };
     let (residual, unit) = (&worst.residual, worst.residual.channel.kind.unit);

@@ -183,7 +183,8 @@ fn reason(line: &Line, marks: &[Range<usize>], tell: Tell, width: Option<usize>)
     }
 }
 
-/// A formula behind `head`, in lines of at most `width` columns, with carets below the parts `marks` (byte ranges).
+/// The text `head` and then a formula, in lines of at most `width` columns, with carets below the parts `marks` (byte
+/// ranges).
 /// Lines are broken at blanks only.
 fn marked(head: &str, formula: &str, marks: &[Range<usize>], width: Option<usize>) -> String {
     let indent = head.chars().count().min(DEEPEST);
@@ -213,7 +214,7 @@ fn marked(head: &str, formula: &str, marks: &[Range<usize>], width: Option<usize
     both.filter(|line| !line.is_empty()).collect::<Vec<_>>().join("\n")
 }
 
-/// The words before a name that say which derivative is judged.
+/// Words for the judged derivative, to be put before the name of the formula.
 pub(crate) fn of(order: usize) -> String {
     match order {
         0 => String::new(),

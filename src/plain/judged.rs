@@ -164,7 +164,7 @@ pub fn ranked(proof: &Proof) -> Vec<(&EngineProof, &ChannelProof)> {
     all
 }
 
-/// The channel that ranks highest in the order of [`ranked`].
+/// The worst channel: the first one in the order of [`ranked`].
 pub fn worst<'a>(channels: impl IntoIterator<Item = &'a ChannelProof>) -> Option<&'a ChannelProof> {
     channels.into_iter().max_by(|a, b| by_rank(a, b))
 }

@@ -1,5 +1,5 @@
-//! The mechanism as the file describes it: links, joints, drives, transmissions and loads. A proof shows that methods
-//! agree on the file. Only a reader can see whether the file describes the intended mechanism.
+//! The mechanism as the file describes it: links, joints, drives, transmissions and loads. A proof shows that several
+//! methods get equal results from the file. Only a reader can see whether the file describes the intended mechanism.
 
 use super::cells::some;
 use crate::sentences;
@@ -17,7 +17,7 @@ const SHOWN: usize = 12;
 /// Significant digits of numbers of the file.
 const DIGITS: usize = 4;
 
-/// The mechanism in rows: the subject, and the words.
+/// The mechanism in rows: each row has a subject, such as the links, and its description.
 #[must_use]
 pub fn rows(proof: &Proof) -> Vec<(&'static str, String)> {
     let case = &proof.scene.case;

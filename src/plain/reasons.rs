@@ -20,7 +20,7 @@ use prover::run::Proof;
 /// The reason why something disagrees or is open, and the number of verdicts with that reason.
 pub struct Reason {
     key: String,
-    /// The first number with this reason, and the reason.
+    /// The name of the first judged number with this reason, and the reason.
     pub told: String,
     /// Number of verdicts with this reason.
     pub count: usize,
@@ -29,7 +29,8 @@ pub struct Reason {
 /// Largest number of blocks of a kind; further ones are only counted.
 pub const MOST: usize = 10;
 
-/// Wrong and open formulas, a block for each with value and derivatives together.
+/// A block for each value or derivative of a formula that is wrong or open. If the value is wrong, its derivatives have
+/// no block.
 #[must_use]
 pub fn formulas(proof: &Proof, tell: Tell, width: Option<usize>) -> Vec<String> {
     let Some(judgement) = &proof.judgement else { return Vec::new() };
@@ -56,7 +57,7 @@ fn in_blocks(proof: &Proof) -> Vec<&Check> {
 }
 
 /// Reasons why something disagrees or is open, with the remedies: a block for each cause, disagreements first.
-/// `most` blocks are shown.
+/// At most `most` blocks are shown; further blocks are only counted.
 pub fn reasons(proof: &Proof, tell: Tell, width: Option<usize>, most: usize, text: &mut String) {
     let mut all = formulas(proof, tell, width);
     all.extend(grouped(proof, tell).into_iter().map(|own| wrapped(&own.text(), width, 2)));
@@ -141,8 +142,8 @@ pub fn expected(proof: &Proof, tell: Tell, text: &mut String) {
 /// Largest number of instants at rest at which the interval of possible driving moments or forces is computed.
 const MOST_AT_REST: usize = 20;
 
-/// Reports joints with friction and transmissions with losses, if they are at rest.
-/// Also reports the widest interval of possible moments or forces of the first drive at these instants.
+/// Reports each joint with friction and each transmission with losses that is at rest at some instants.
+/// Also reports the widest interval of possible moments or forces of the first drive at the instants of rest.
 fn at_rest(proof: &Proof, width: Option<usize>, text: &mut String) {
     let (case, reference) = (&proof.scene.case, &proof.reference_trajectory);
     if case.is_free() {

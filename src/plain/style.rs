@@ -66,7 +66,7 @@ pub fn wrapped(text: &str, width: Option<usize>, indent: usize) -> String {
 }
 
 /// Text in lines of at most `width` columns, if a width is given.
-/// Continuation lines begin below the text of their line: behind `error: `, or behind the name of a value.
+/// Continuation lines begin at the column of the text in the first line: after `error: `, or after the name of a value.
 /// Lines of a file in a message stay as they are.
 pub(crate) fn within(text: &str, width: Option<usize>) -> String {
     let Some(width) = width else { return text.into() };

@@ -23,7 +23,7 @@ const ROSE: &str = "#fcf0f0";
 /// Size of a mark, and of the ring around a mark (mm).
 const MARK: f64 = 1.0;
 const RING: f64 = 1.7;
-/// Range of costs that are drawn; a logarithmic axis is divided into decades, and cannot begin at zero.
+/// Range of costs that are drawn: a logarithmic axis has no place for zero, and room for a limited number of decades.
 const DRAWN: RangeInclusive<f64> = 1e-20..=1e20;
 /// Number of characters in a line of the legend, and height of a small line (mm).
 const WIDTH: usize = 72;

@@ -98,7 +98,7 @@ fn law_of(law: &MotionLaw, unit: &str) -> Value {
         MotionLaw::Cycloidal { rise, time } => {
             json!({ "law": law.name(), format!("rise_{unit}"): rise, "time_s": time })
         }
-        // A curve has only its name, because a spline has no short form.
+        // For a law given as a curve, only the law's name is written, because a spline has no short form.
         MotionLaw::Curve(_) => json!({ "law": law.name() }),
     }
 }

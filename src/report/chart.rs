@@ -1,4 +1,4 @@
-//! A diagram with two logarithmic axes, and the marks of the parties.
+//! A diagram with two logarithmic axes, and the marks of the parties, which are the compared programs.
 
 use crate::sentences;
 use drawing::palette::SERIES;
@@ -15,7 +15,8 @@ pub(super) const DASHED: Style = Style { dash: "1.6 1.2", ..solid(GREY, 0.3) };
 pub(super) const SMALL: f64 = 3.0;
 /// Horizontal distance between the marks of parties that fail at the same value of the horizontal axis (mm).
 pub(super) const ASIDE: f64 = 2.6;
-/// Size of small marks, divided by the usual size. Bounds have small marks, and so have crosses (`Filling::Cross`).
+/// Size of small marks, divided by the usual size. A small mark shows the bound of an error, or is drawn on a cross
+/// (`Filling::Cross`).
 pub(super) const SMALLER: f64 = 0.55;
 
 /// How a mark is filled.
@@ -49,7 +50,7 @@ impl Chart {
         Chart { figure: DrawnFigure::default(), low: Vec2::new(left, below - height), size, ends }
     }
 
-    /// Position of a pair of values on the paper.
+    /// Position on the paper that belongs to a pair of values.
     pub(super) fn at(&self, place: [f64; 2]) -> Vec2 {
         let share = |axis: usize| {
             let [low, high] = self.ends[axis].map(f64::log10);

@@ -89,7 +89,7 @@ fn reasons(lines: &[Line], scenario: &Scenario, claimed: &Claimed, tell: Tell, w
     }
 }
 
-/// The simple causes of wrong formulas, by name; `None` if no simple cause was found.
+/// The names of the wrong formulas, each with the simple cause of its error; `None` if no simple cause was found.
 fn causes(claimed: &Claimed) -> BTreeMap<&str, Option<&FormulaCause>> {
     claimed.judgement.causes.iter().map(|(name, cause)| (name.as_str(), cause.as_ref())).collect()
 }

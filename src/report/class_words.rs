@@ -160,7 +160,7 @@ const UNITS: [(&str, &str); 25] = [
     ("kgf m", "кгс·м"),
 ];
 
-/// The symbol of a unit in a language. The symbol of a unit without a row in `UNITS` stays as it is.
+/// The symbol of a unit in a language. A unit without a row in `UNITS` keeps its symbol, but with `²` for `^2`.
 pub(super) fn unit(language: SheetLanguage, symbol: &str) -> String {
     let own = UNITS.iter().find(|(english, _)| *english == symbol);
     match (language, own) {

@@ -50,8 +50,8 @@ impl Closing {
 }
 
 /// Name of the worst item, and its ratio of error to bound.
-/// The item is the channel that ranks highest. If all channels agree but a check disagrees or is open, the item is the
-/// check with the largest ratio.
+/// The item is the worst channel, which is the first one in the order of [`ranked`]. If all channels agree but a check
+/// disagrees or is open, the item is the check with the largest ratio.
 /// Checks that agree are ignored. The bound of a published number is half a unit of its last digit, so the ratio of
 /// such a check is usually near 1 and gives no information.
 fn worst(proof: &Proof) -> [String; 2] {

@@ -96,7 +96,8 @@ fn row(own: &Compared, by: Option<Input>) -> [String; 7] {
 
 const SIMULATION: &str = sentences::THE_REST_IS_OFF_BY_LESS_THAN_A_FIFTIETH;
 
-/// Whether the error of a channel could come from a simulation: the error is small, and no cause was found.
+/// Whether the error of a channel may be the numerical error of a simulation: the error is small, and no cause was
+/// found.
 fn looks_like_a_simulation(pair: &SidePair, own: &Compared) -> bool {
     let is_explained = pair.causes.iter().any(|cause| cause.of.contains(&own.claim.text));
     own.is_derived && own.since.is_some() && !own.is_gross() && !is_explained
@@ -144,7 +145,8 @@ fn rank(own: &Compared) -> f64 {
     }
 }
 
-/// Lines about what was not compared, and about rows that contradict each other or jump back.
+/// Lines about what was not compared, about rows that contradict each other, and about a row whose time or input jumps
+/// back.
 fn notes(pair: &SidePair) -> String {
     let mut text = String::new();
     if pair.unshared > 0 {

@@ -30,8 +30,8 @@ impl Cycle {
         self.machine.organs.iter().zip(&self.achieved)
     }
 
-    /// The moments in the order of their beginnings. Moments that begin and end at the same angles are joined into one
-    /// with both names.
+    /// The moments of the cycle, each a name and a span of the main shaft's angle, in the order of their beginnings.
+    /// Moments with the same span are joined into one with all their names.
     fn moments(&self) -> Vec<(String, [f64; 2])> {
         let spans = |own: &design::synthesize::machine_file::Moment| {
             own.spans.iter().map(|span| (own.name.clone(), *span)).collect::<Vec<_>>()

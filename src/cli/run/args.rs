@@ -27,11 +27,11 @@ pub(in crate::cli) struct Args {
     pub grid: GridArgs,
     #[command(flatten)]
     pub start: StartArgs,
-    /// Multiply every bound by this factor, to see how close a proof is to its bounds. The factor 0 keeps the verdicts
+    /// Multiply every bound by this factor, to see how close a proof is to its bounds. The factor 0 changes no bound
     /// and prints every residual beside its bound
     #[arg(long, hide = true, value_name = "FACTOR", allow_hyphen_values = true, value_parser = number::not_negative)]
     pub tolerance_scale: Option<f64>,
-    /// Write the settings that the proof has found to the `[engine]` section of the scenario file. The settings are
+    /// Write the found settings to the `[engine]` section of the scenario file. The settings are
     /// valid only for the mechanism of the file, so options that change parameters, modes or the start are not allowed
     #[arg(long, conflicts_with_all = ["set", "mode", "start_crank_deg"])]
     pub write: bool,

@@ -125,7 +125,8 @@ impl<'a> Session<'a> {
         Ok(())
     }
 
-    /// What to do next, by the verdict. For several files, the text is empty, because a table of all files follows.
+    /// Advice for the next step, chosen by the verdict. For several files, the text is empty, because a table of all
+    /// files follows.
     fn next(&self, proof: &Proof) -> String {
         if self.args.files.len() > 1 {
             return String::new();

@@ -48,8 +48,8 @@ pub(super) struct CheckArgs {
     /// scenario, the first of these names that exists is used [default: the only rocker of the last group]
     #[arg(long, value_name = "NAME")]
     link: Vec<String>,
-    /// Working point or output point, found like the output link of --link [default: the only point of the link without
-    /// a joint]
+    /// Working point or output point, found like the output link of --link [default: the link's only point without a
+    /// joint]
     #[arg(long, value_name = "NAME")]
     point: Vec<String>,
     #[command(flatten)]

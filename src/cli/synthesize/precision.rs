@@ -24,7 +24,7 @@ const SHOWN: usize = 10;
 struct Target {
     #[command(flatten)]
     outputs: Outputs<ClosedForms>,
-    /// Number in the table of the four-bar to write and prove [default: 1, if it has no defect]
+    /// Table number of the four-bar to write and prove [default: 1, if it has no defect]
     #[arg(long, value_name = "N")]
     take: Option<NonZeroUsize>,
     /// Speed of the crank in the scenario, in turns per minute. The sense follows from the order of the positions
@@ -148,7 +148,7 @@ pub(super) struct MotionArgs {
     /// Given pivot, for three poses; at most two pivots and pins together
     #[arg(long, value_name = "X,Y", value_parser = pair, allow_hyphen_values = true)]
     pivot_mm: Vec<[f64; 2]>,
-    /// Given pin of the coupler, for three poses; the origin is the working point, and x points at the pose's angle
+    /// Given pin of the coupler, for three poses; origin at the working point, x axis at the pose's angle
     #[arg(long, value_name = "X,Y", value_parser = pair, allow_hyphen_values = true)]
     pin_mm: Vec<[f64; 2]>,
     #[command(flatten)]

@@ -36,7 +36,7 @@ pub(super) struct EffortArgs {
     /// Method of the refinement [default: the method in the file]
     #[arg(long, value_name = "METHOD", value_parser = refinement)]
     refinement: Option<Refinement>,
-    /// Evaluations of each refinement; with exact derivatives, its steps [default: the number in the file]
+    /// Evaluations per refinement; steps for a method with exact derivatives [default: the number in the file]
     #[arg(long, value_name = "N")]
     evaluations: Option<usize>,
 }

@@ -12,8 +12,8 @@ use scenario::Scenario;
 const PATIENCE: Duration = Duration::from_secs(20);
 /// Longest time for which solver and proof leave the processor to the browser, which draws the first picture.
 const DRAWING: Duration = Duration::from_millis(100);
-/// Curves are shown without a verdict if the proof takes longer. Otherwise they come with the verdict, which then is there
-/// sooner.
+/// If the proof takes longer than this, the curves are shown first, without a verdict. Otherwise the page with the
+/// verdict shows them, and the time for a page without a verdict is saved.
 const SOON: Duration = Duration::from_millis(500);
 /// A new draft is sent together with its first results if these come within this time.
 const TOGETHER: Duration = Duration::from_millis(40);
@@ -68,7 +68,7 @@ impl Desk {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Waits for a change with which `find` returns something.
+    /// Waits until `find` returns a value for the state. `find` is called now and after every change.
     fn wait<T>(&self, mut find: impl FnMut(&mut State) -> Option<T>) -> T {
         let mut found = None;
         let waits = |state: &mut State| {
@@ -118,13 +118,13 @@ impl Desk {
         self.wait(|state| (state.draft > after).then(|| (state.draft, Arc::clone(&state.text))))
     }
 
-    /// Leaves a draft for the proof. The draft replaces an older draft whose proof has not begun.
+    /// Stores a draft to be proven. The draft replaces an older draft whose proof has not begun.
     pub(super) fn leave(&self, draft: u64, scenario: Scenario) {
         self.state().unproven = Some((draft, scenario));
         self.changed.notify_all();
     }
 
-    /// Waits for a draft for the proof.
+    /// Waits for a draft to be proven, and takes it.
     pub(super) fn next_unproven(&self) -> (u64, Scenario) {
         self.wait(|state| state.unproven.take())
     }
@@ -141,13 +141,15 @@ impl Desk {
         }
     }
 
-    /// Waits until a browser has drawn the page of a draft, or for a while. A newer draft ends the wait.
+    /// Waits, at most for the time `DRAWING`, until a browser has drawn the page of a draft. A newer draft ends the
+    /// wait.
     pub(super) fn wait_for_drawing(&self, draft: u64) {
         let is_open = |state: &mut State| state.draft == draft && state.drawn < state.page_since;
         drop(self.changed.wait_timeout_while(self.state(), DRAWING, is_open));
     }
 
-    /// Waits for the verdict of a draft for a while. Returns whether it is there. A newer draft ends the wait.
+    /// Waits, at most for the time `SOON`, for the verdict of a draft. Returns whether the verdict is there. A newer
+    /// draft ends the wait.
     pub(super) fn is_judged_soon(&self, draft: u64) -> bool {
         let is_judged = |state: &State| state.outcome.draft == draft && state.outcome.stage == DraftStage::Judged;
         let is_open = |state: &mut State| state.draft == draft && !is_judged(state);
@@ -160,7 +162,7 @@ impl Desk {
         Some(self.state().outcome.clone()).filter(|outcome| outcome.draft == draft)
     }
 
-    /// Waits for a change after the version `after`, which the browser has drawn, or for a while.
+    /// Waits, at most for the time `PATIENCE`, for a version above `after`. The browser has drawn the version `after`.
     /// Returns the state for the page.
     pub(super) fn told(&self, after: u64) -> String {
         let mut now = self.state();

@@ -33,8 +33,8 @@ fn moved(text: &str, point: &str, places: &[(String, [Vec2; 2])]) -> Result<Stri
             Err(error) => refused = Some(error),
         }
     }
-    // A coordinate that is an expression cannot be changed. Such a coordinate is an error only if the point moves on
-    // no link.
+    // A coordinate that is an expression cannot be changed. Such a coordinate is an error only if the point could be
+    // moved on none of its links.
     match refused {
         Some(error) if !is_moved => Err(error),
         _ => Ok(text),

@@ -63,7 +63,8 @@ impl PageServer {
     }
 }
 
-/// A word of 32 letters that other programs cannot guess. The keys of the hasher come from the system's random numbers.
+/// A word of 32 hexadecimal digits that other programs cannot guess. The keys of the hasher come from the system's
+/// random numbers.
 fn random_word() -> String {
     let part = || RandomState::new().build_hasher().finish();
     format!("{:016x}{:016x}", part(), part())

@@ -26,8 +26,8 @@ const TICK: Duration = Duration::from_millis(2);
 /// The file is read at least this often, because a change may leave its length and its time of change as they were.
 const RELOOK: Duration = Duration::from_millis(500);
 
-/// Limits for the columns of the first picture and of the later pages (bytes): fewer instants, but the browser shows
-/// them sooner.
+/// Largest size of all columns in the first page and in the later pages (bytes). With fewer instants, the browser shows
+/// a page sooner.
 const PICTURE_BYTES: usize = 50_000;
 const PAGE_BYTES: usize = 500_000;
 
