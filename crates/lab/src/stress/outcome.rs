@@ -84,11 +84,11 @@ pub struct PartyAtPoint {
     pub sweeps: Option<usize>,
     /// Number of extrapolations of the judged run.
     pub extrapolated: Option<usize>,
-    /// Number of steps in the duration of the grid.
+    /// Number of steps from t = 0 to the grid's instant that is farthest from t = 0.
     pub steps: Option<f64>,
     /// Number of runs in the engine's search for settings.
     pub runs: Option<usize>,
-    /// Work of the engine's search for settings. The unit is a step without sweeps.
+    /// Work of the engine's search for settings. The unit is the work of one step without sweeps.
     pub work: Option<f64>,
     /// Counted operations, in the order of [`Count::ALL`](linkage::work::Count::ALL).
     /// The operations of all runs are counted: one run of an analytic side, several runs of an engine.

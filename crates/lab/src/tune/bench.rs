@@ -17,7 +17,7 @@ use prover::run::Options;
 
 /// Coarsest accuracy that is tried for an engine that controls its error.
 const COARSEST: f64 = 0.1;
-/// Smallest number of sweeps that is tried first, while no cost limit is known.
+/// While no cost limit is known, the search begins with the first listed number of sweeps that is not below this number.
 const ENOUGH: usize = 64;
 /// First step that is tried, as a multiple of the engine's usual or given step.
 /// A coarse step is cheap, and its cost predicts the cost of other steps.
@@ -28,7 +28,7 @@ const COARSER: f64 = 1.4;
 const GAIN: f64 = 0.95;
 /// Coarse steps for measuring the lower limit of a run's cost, as rotations of the fastest driving link (rad).
 /// With such a coarse step, most of the cost is the reading of results.
-/// The first step at which the engine runs is used.
+/// The steps are tried in this order. The cost is measured at the first step with which the engine finishes a run.
 const ROUGH: [f64; 3] = [PI / 6.0, PI / 18.0, PI / 54.0];
 
 /// Result of the search with one engine.
@@ -50,7 +50,7 @@ pub(super) struct Bench<'a> {
     pub(super) runs: usize,
     /// Whether the engine has refused the last method. A refusal does not depend on the step or the number of sweeps.
     pub(super) refused: bool,
-    /// Work done so far, and total work allowed. The unit is a step without sweeps.
+    /// Work done so far, and total work allowed. The unit is the work of one step without sweeps.
     pub(super) effort: f64,
     pub(super) budget: f64,
     /// Whether a run was omitted because its work exceeds the allowance.
