@@ -17,7 +17,8 @@ use prover::run::Options;
 
 /// Coarsest accuracy that is tried for an engine that controls its error.
 const COARSEST: f64 = 0.1;
-/// While no cost limit is known, the search begins with the first listed number of sweeps that is not below this number.
+/// While no cost limit is known, the smallest listed number of sweeps that is at least this number is tried first.
+/// With a cost limit, the lower limit of the cost is measured at that number, too.
 const ENOUGH: usize = 64;
 /// First step that is tried, as a multiple of the engine's usual or given step.
 /// A coarse step is cheap, and its cost predicts the cost of other steps.
@@ -138,7 +139,7 @@ impl Bench<'_> {
         self.refused = false;
         let floor = if unlimited { Floor(Vec::new()) } else { self.floor(search.engine, way, sweeps, search.limit()) };
         // Without a cost limit, the search begins with many sweeps.
-        // With few sweeps, the search would continue down to the finest steps.
+        // With too few sweeps, no step meets the request, and the search would try ever finer steps.
         let first = sweeps.iter().copied().find(|&sweeps| sweeps >= ENOUGH && unlimited);
         let start = if search.engine.controls_error() { way.resolution } else { COARSE_START * way.resolution };
         let mut row = Row { start, last: f64::INFINITY, rising: 0 };
@@ -164,7 +165,7 @@ impl Bench<'_> {
     }
 
     /// Searches for the largest step at which the settings meet the request.
-    /// Returns the measured or expected error of the settings at the lowest known cost.
+    /// Returns the measured or expected error of a run that costs as much as the cost limit.
     fn largest_step(&mut self, search: &mut Search, row: &mut Row, settings: Settings) -> f64 {
         let Search { engine, within, .. } = *search;
         let limit = search.limit();
