@@ -1,7 +1,7 @@
 //! Dimensions: the lengths and angles that define the links of a mechanism and its ground.
 //!
 //! A link with n points has 2 n - 3 lengths. If all points are on one line, the link has n - 1 lengths.
-//! The ground has horizontal and vertical distances from its first pivot.
+//! On the ground, the dimensions are the horizontal and vertical distances of the other points from the first pivot.
 //! Guide angles that are multiples of 90 degrees, and distances of zero, are visible without a number.
 
 use std::f64::consts::{FRAC_PI_2, PI};

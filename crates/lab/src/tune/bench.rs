@@ -81,7 +81,7 @@ impl Floor {
 struct Row {
     /// The first step to try.
     start: f64,
-    /// Error with the last number of sweeps, at the lowest known cost.
+    /// Error with the last tried number of sweeps, in a run that costs as much as the cost limit.
     /// `rising` is the number of successive increases of this error.
     last: f64,
     rising: usize,
