@@ -294,7 +294,7 @@ fn ring(label: &PlacedLabel, distance: f64) -> impl Iterator<Item = Vec2> {
     let (anchor, half, clear) = (label.anchor, label.size / 2.0, label.clear);
     let directions = (0..DIRECTIONS).map(|k| linkage::math::unit(std::f64::consts::TAU * k as f64 / DIRECTIONS as f64));
     directions.map(move |direction| {
-        // The side or corner of the box that faces the anchor touches the end of a ray from the anchor.
+        // `reach` is the distance from the centre of the box to its edge, in the direction of the anchor.
         let reach = (half.x / direction.x.abs().larger(1e-9)).smaller(half.y / direction.y.abs().larger(1e-9));
         anchor + direction * (clear + distance + reach)
     })
@@ -405,8 +405,8 @@ mod tests {
 
     #[test]
     fn crowded_labels_still_get_positions() {
-        // Each of the 2000 labels is compared at 320 positions with all other labels, twice for every pair of
-        // neighbours.
+        // For every pair of neighbours among the 2000 labels, both labels are compared with all other labels, at 320
+        // positions each.
         // Without a limit, these would be more than 1e12 comparisons, far more than `MOST_COMPARED`.
         let crowd: Vec<PlacedLabel> = (0..2000).map(|k| label(0.01 * f64::from(k), 0.0)).collect();
         let places = Placer::of(&crowd, &Obstacles::default(), 10_000_000).placed();
