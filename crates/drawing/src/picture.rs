@@ -353,7 +353,7 @@ fn layer(layer: Layer, link: LinkId) -> String {
     }
 }
 
-/// Line style and fill of a mark with the look `look`, for the placement of the mark's link.
+/// Line style and fill of a mark with the look `look`. The style also depends on the placement of the mark's link.
 fn style(look: Look, link: LinkId, place: &LinkPlacement) -> (Style, Option<Tint>) {
     let paint = match look.ink {
         Ink::Link => colour(link),

@@ -80,7 +80,7 @@ struct Letters {
 }
 
 impl Letters {
-    /// Displacement on paper (y downwards) by the length `along` in the direction of the base line, and by `rise` above it.
+    /// Displacement on paper (y downwards): `along` in the direction of the base line, and `rise` above this line.
     fn turned(&self, along: f64, rise: f64) -> Vec2 {
         if self.upward { Vec2::new(-rise, -along) } else { Vec2::new(along, -rise) }
     }
