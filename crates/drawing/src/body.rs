@@ -18,7 +18,7 @@ const QUARTER: usize = 6;
 pub fn places(mechanism: &Mechanism, link: LinkId) -> Vec<Vec2> {
     let points = mechanism.links()[link].points.iter().map(|point| point.local);
     let all = points.chain(mechanism.joints().iter().filter_map(|joint| joint.on(link)));
-    // Positive and negative zero are the same position, so adding 0.0 makes them equal.
+    // Positive and negative zero are the same position. Adding 0.0 gives both the same bits.
     let mut seen = BTreeSet::new();
     all.filter(|place| seen.insert([place.x, place.y].map(|own| (own + 0.0).to_bits()))).collect()
 }

@@ -1,8 +1,8 @@
 //! Dimensions: the lengths and angles that define the links of a mechanism and its ground.
 //!
 //! A link with n points has 2 n - 3 lengths. If all points are on one line, the link has n - 1 lengths.
-//! The ground has horizontal and vertical distances from its first pivot.
-//! Guide angles that are multiples of 90 degrees, and distances of zero, are visible without a number.
+//! On the ground, the dimensions are the horizontal and vertical distances of the other points from the first pivot.
+//! Guide angles that are multiples of 90 degrees, and distances of zero, get no number: the drawing itself shows them.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -21,7 +21,7 @@ const ALIGNED: f64 = 1e-7;
 /// A number in a drawing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Dimension {
-    /// The link; the ground for the positions of pivots and fixed guides.
+    /// The link that has this dimension. Positions of pivots and fixed guides are dimensions of the ground.
     pub link: LinkId,
     /// What the number measures.
     pub measure: Measure,

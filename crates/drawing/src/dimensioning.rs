@@ -83,7 +83,8 @@ impl Picture<'_> {
         }
     }
 
-    /// Draws a distance of the ground below the marks, or to the right of them, with extension lines to all points.
+    /// Draws a distance between points of the ground, with extension lines to these points.
+    /// A horizontal distance is drawn below all marks, and a vertical distance is drawn to the right of all marks.
     fn draw_offset(&mut self, own: &Dimension, points: &[Vec2], axis: usize, row: usize, [low, high]: [Vec2; 2]) {
         let [_, to, ..] = points else { return };
         let level = FIRST + APART * row as f64;

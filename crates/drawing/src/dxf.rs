@@ -54,7 +54,7 @@ impl Dxf {
     }
 
     fn text(&mut self, layer: &str, at: Vec2, text: &str, set: &Type, factor: f64) {
-        // The format is in ASCII.
+        // The format allows only ASCII characters. Other characters are written as escape sequences.
         let letter = |sign: char| match sign.is_ascii() {
             true => sign.to_string(),
             false => format!("\\U+{:04X}", u32::from(sign)),

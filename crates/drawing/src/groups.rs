@@ -182,7 +182,8 @@ impl Whole<'_> {
         Mechanism::unchecked(mechanism.links().entries().map(strip).collect(), joints)
     }
 
-    /// The joint with the ground in place of the link `solved`, at the position that the pose of this link gives.
+    /// A copy of the joint in which the ground replaces the link `solved`.
+    /// The pose of this link gives the joint's position on the ground.
     /// `None` if the link has no pose.
     fn grounded(&self, joint: &Joint, solved: LinkId) -> Option<Joint> {
         let pose = self.places[solved].pose()?;

@@ -120,7 +120,8 @@ impl Guide {
     }
 
     /// Side of a cylinder's closed end: 1 in the direction of the axis, -1 in the opposite direction.
-    /// The closed end is farther from the guide's point than the open end, because the crank is at the guide's point.
+    /// The closed end is the end that is farther from the guide's point.
+    /// The rod that moves the piston comes through the open end, usually from a crank at the guide's point.
     fn head(&self) -> f64 {
         if self.travel[1] + self.travel[0] >= 0.0 { 1.0 } else { -1.0 }
     }

@@ -165,7 +165,7 @@ pub fn lay_loose(mechanism: &Mechanism, drivers: &[DrivingLink], angles: &[f64],
     close(mechanism, laid)
 }
 
-/// Finds a dyad of two links without a pose whose outer joints are on links with a pose.
+/// Finds a dyad whose two links have no pose yet, and whose outer joints connect them to links that have a pose.
 fn dyad(mechanism: &Mechanism, laid: &Laid) -> Option<Group> {
     let is_placed = |link: LinkId| laid.places[link].pose().is_some();
     let joints = mechanism.joints();
@@ -231,8 +231,8 @@ fn close(mechanism: &Mechanism, mut laid: Laid) -> Laid {
     laid
 }
 
-/// The circles on which the two links of a dyad allow the inner pin: one circle for each link whose outer joint is a
-/// pin.
+/// The circles on which the two links of a dyad can hold the inner pin: one circle for each link whose outer joint is
+/// a pin.
 fn reaches(mechanism: &Mechanism, group: &Group, laid: &Laid) -> Vec<(Vec2, f64)> {
     let (GroupKind::Rrr | GroupKind::Rrp, Some(&inner)) = (group.kind, group.inner.first()) else { return Vec::new() };
     let of_link = |(&link, &outer): (&LinkId, &JointId)| {
@@ -242,8 +242,8 @@ fn reaches(mechanism: &Mechanism, group: &Group, laid: &Laid) -> Vec<(Vec2, f64)
         let centre = laid.places[base.link].pose()?.point(base.local);
         joint.is_pin().then_some((centre, (pin - own).norm()))
     };
-    // If driven joints make one body of several links, the distance between the body's pins is not the length of a
-    // link.
+    // Driven joints can make one body of several links. The distance between the pins of such a body is not the length
+    // of a link, so there are no circles.
     if !group.is_rigid() {
         return Vec::new();
     }

@@ -137,7 +137,7 @@ roles! {
     Drive = "drive": Text, None, 0.4, Signs;
     /// Head of the arrow that shows in which direction a drive moves its link.
     DriveHead = "drive-head": Text, Ink, 0.1, Signs;
-    /// A motor: a circle, with the letter M beside it as [`Lettering::Motor`](crate::Lettering::Motor).
+    /// Circle of a motor. The letter M beside the circle is a label, [`Lettering::Motor`](crate::Lettering::Motor).
     Motor = "motor": Text, None, 0.4, Signs;
     /// Line of the arrow of a force or a moment.
     Load = "load": Load, None, 0.6, Signs;
@@ -152,7 +152,7 @@ pub enum Ink {
     Link,
     /// The colour of text.
     Text,
-    /// A pale colour for the background.
+    /// A pale colour for auxiliary lines.
     Quiet,
     /// The colour of loads.
     Load,

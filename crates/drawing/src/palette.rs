@@ -15,7 +15,7 @@ pub struct PaletteColour {
     pub hatch_deg: f64,
 }
 
-/// Colours of links, which also differ in grey scale (after Okabe and Ito 2008).
+/// Colours of links (after Okabe and Ito 2008). The colours are also distinct in grey scale.
 pub const LINKS: [PaletteColour; 7] = [
     PaletteColour { light: "#0072b2", dark: "#56b4e9", hatch_deg: 45.0 },
     PaletteColour { light: "#d55e00", dark: "#ff8c42", hatch_deg: -45.0 },
@@ -74,8 +74,8 @@ fn pairs() -> impl Iterator<Item = [&'static str; 2]> {
 
 /// Style rules for the dark mode of an SVG document: each colour on light paper is replaced by its colour on dark
 /// paper.
-/// The rules apply only if a viewer in dark mode shows the document alone. On print and within a page, the document
-/// stays light.
+/// The rules apply only if a viewer in dark mode shows the document alone. A printed document, and a document that is
+/// embedded in a web page, stay light.
 pub fn dark_rules(document: &str) -> String {
     let mut rules = Vec::new();
     for [light, dark] in pairs() {

@@ -27,8 +27,8 @@ pub(crate) fn draw(figure: &DrawnFigure, surface: &mut impl Surface) {
     figure.ink.iter().for_each(|ink| put(ink, glyphs, surface));
 }
 
-/// A warning with the letters of figures that the font for bitmaps and PDF lacks, and with a remedy. `None` if no
-/// letter is missing.
+/// A warning if the font for bitmaps and PDF lacks letters that occur in the figures. It lists these letters and
+/// suggests a remedy. `None` if no letter is missing.
 pub fn lacking_letters<'a>(figures: impl Iterator<Item = &'a DrawnFigure>) -> Option<Error> {
     let mut found = BTreeSet::new();
     figures.for_each(|figure| collect(&figure.ink, &mut found));

@@ -33,8 +33,8 @@ const LOOSE: &str = "2 1.4";
 const CONSTRUCTION: &str = "4 1 0.5 1";
 /// Half the angle of the arc that represents a circle of reachable points (rad).
 const REACH: f64 = 0.7;
-/// Largest number of straight pieces that represent a path for the placement of labels. Labels must not touch these
-/// pieces.
+/// For the placement of labels, a path is replaced by at most this number of straight pieces. Labels must not touch
+/// these pieces.
 const PIECES: usize = 60;
 /// Opacity of tints.
 const TINT: f64 = 0.14;
@@ -353,7 +353,7 @@ fn layer(layer: Layer, link: LinkId) -> String {
     }
 }
 
-/// Line style and fill of a mark with the look `look`, for the placement of the mark's link.
+/// Line style and fill of a mark with the look `look`. The style also depends on the placement of the mark's link.
 fn style(look: Look, link: LinkId, place: &LinkPlacement) -> (Style, Option<Tint>) {
     let paint = match look.ink {
         Ink::Link => colour(link),

@@ -30,7 +30,7 @@ fn shared(mechanism: &Mechanism) -> Vec<Place> {
     all
 }
 
-/// Positions on the ground of all revolute pairs with the ground (m).
+/// Positions (m) of the revolute pairs that join a link to the ground, each position once.
 pub fn pivots(mechanism: &Mechanism) -> Vec<Vec2> {
     let on_ground = |place: &Place| place.sides.iter().find(|side| side.link == GROUND).map(|side| side.local);
     shared(mechanism).iter().filter_map(on_ground).collect()

@@ -10,7 +10,7 @@ pub(crate) fn span(case: &Case) -> f64 {
     end(f64::larger) - end(f64::smaller)
 }
 
-/// Work of a run. The unit is the work of a step without sweeps.
+/// Work of a run. The unit is the work of one engine step that makes no solver sweeps.
 /// If the engine chooses its steps itself, the result is 0 (unknown).
 pub(crate) fn work_of_run(case: &Case, engine: &dyn Engine, settings: &Settings) -> f64 {
     if engine.controls_error() {

@@ -2,7 +2,7 @@
 //! Errors are measured against a reference solution.
 //!
 //! The error is proportional to a power of the step.
-//! A few runs against the reference therefore find the largest step of each method.
+//! For each method, a few runs against the reference therefore find the largest step that meets the requested error.
 //! Three runs of the engine also predict the error without the reference.
 //! The predicted error is reported beside the measured error.
 //! See docs/numerics/laboratory.md.
@@ -30,7 +30,7 @@ use prover::numbers::significant;
 use prover::run::{Options, memory};
 use scenario::Scenario;
 
-/// Work allowed by default. The unit is a step without sweeps.
+/// Work allowed by default. The unit is the work of one step without sweeps.
 /// The shipped mechanisms need only a small fraction of this work, even at an allowed error of 1e-7 of the scale.
 const BUDGET: f64 = 5e6;
 

@@ -22,7 +22,8 @@ pub fn to_png(bitmap: &Bitmap) -> Result<Vec<u8>> {
     pixmap.encode_png().map_err(|error| unwritten("the PNG", &error))
 }
 
-/// An animated GIF that repeats forever. Every frame lasts `hundredths` of a second. All frames have the same size.
+/// An animated GIF that repeats forever. `hundredths` is the duration of a frame in hundredths of a second.
+/// All frames have the same size.
 ///
 /// # Errors
 /// [`ErrorKind::Input`] for frames of more than 65535 pixels in width or height.

@@ -4,8 +4,8 @@
 use linkage::math::{ColumnVector, KeepNan, Matrix, Vec2, cross, rotated, unit};
 use linkage::mechanism::{Joint, JointSide, LinkId, LinkPose, Mechanism, Pose};
 
-/// Weight of gaps between a missing link and a placed link. The weight is large, so that only gaps between missing
-/// links remain.
+/// Weight of gaps between a missing link (a link without a known pose) and a placed link.
+/// The weight is large, so that only gaps between missing links remain.
 const HELD: f64 = 1000.0;
 /// Number of start values that are tried. `STEPS` is the number of steps from each start value.
 /// If more than `FEW` links are missing, fewer start values are tried, to limit the time.

@@ -404,7 +404,7 @@ fn text_element(at: Vec2, text: &str, set: &Type) -> String {
 mod tests {
     use super::*;
 
-    /// The wall of a cylinder is open at one end, and the cylinder hides everything beneath it.
+    /// The mark of a cylinder needs both: its line is open at one end, and its fill hides everything beneath it.
     #[test]
     fn an_open_curve_can_be_filled_and_stay_open() {
         let mut figure = DrawnFigure::default();

@@ -37,8 +37,8 @@ const ON_LINE: [f64; 2] = [40.0, 3.0];
 const ON_MARK: [f64; 2] = [45.0, 4.0];
 /// `AWAY` is the cost of a millimetre of distance, and `CROSSED` the cost of a leader that passes through another
 /// label.
-/// `MISLEADING` is the cost of each point of another label that is nearer to this label than the anchor of this label,
-/// and the largest sum of these costs.
+/// A label is misleading if the point of another label is nearer to it than its own point.
+/// `MISLEADING` is the cost of each such point, and the largest total cost of all such points.
 const AWAY: f64 = 0.5;
 const CROSSED: f64 = 12.0;
 const MISLEADING: [f64; 2] = [9.0, 18.0];
@@ -47,7 +47,7 @@ const MISLEADING: [f64; 2] = [9.0, 18.0];
 pub const LETTER: f64 = 4.2;
 /// A line connects a label with its point if their distance is larger than this (mm), for labels of the font size
 /// [`LETTER`].
-/// The distance is proportional to the font size.
+/// At another font size, this limit is scaled in proportion.
 const FAR: f64 = 3.2;
 /// How far a slanted letter leans over the end of its text, divided by the font size.
 const SLANT: f64 = 0.15;
@@ -87,8 +87,8 @@ impl Obstacles {
     }
 }
 
-/// A position that a label may take, with its cost among lines, marks and points. The cost does not include overlaps
-/// with other labels.
+/// A position that a label may take, with its cost. The cost includes lines, marks and the points of other labels, but
+/// not overlaps with other labels.
 #[derive(Clone, Copy)]
 struct Spot {
     at: Vec2,
@@ -294,7 +294,7 @@ fn ring(label: &PlacedLabel, distance: f64) -> impl Iterator<Item = Vec2> {
     let (anchor, half, clear) = (label.anchor, label.size / 2.0, label.clear);
     let directions = (0..DIRECTIONS).map(|k| linkage::math::unit(std::f64::consts::TAU * k as f64 / DIRECTIONS as f64));
     directions.map(move |direction| {
-        // The side or corner of the box that faces the anchor touches the end of a ray from the anchor.
+        // `reach` is the distance from the centre of the box to its edge, in the direction of the anchor.
         let reach = (half.x / direction.x.abs().larger(1e-9)).smaller(half.y / direction.y.abs().larger(1e-9));
         anchor + direction * (clear + distance + reach)
     })
@@ -405,8 +405,8 @@ mod tests {
 
     #[test]
     fn crowded_labels_still_get_positions() {
-        // Each of the 2000 labels is compared at 320 positions with all other labels, twice for every pair of
-        // neighbours.
+        // For every pair of neighbours among the 2000 labels, both labels are compared with all other labels, at 320
+        // positions each.
         // Without a limit, these would be more than 1e12 comparisons, far more than `MOST_COMPARED`.
         let crowd: Vec<PlacedLabel> = (0..2000).map(|k| label(0.01 * f64::from(k), 0.0)).collect();
         let places = Placer::of(&crowd, &Obstacles::default(), 10_000_000).placed();

@@ -18,13 +18,14 @@ pub fn round_up(least: f64) -> f64 {
     }
     let power = least.log10().floor() as i32;
     let candidates = (power - 1..=power + 1).flat_map(|n| ["1", "2", "2.5", "5"].map(|m| (m, n)));
-    // The numbers are parsed from text. Thus 0.02, for example, is the double nearest to 0.02 and is printed as 0.02.
+    // The numbers are parsed from text. A product such as 2 * 0.01 could have a rounding error, and would then be
+    // printed with many digits.
     let numbers = candidates.filter_map(|(m, n)| format!("{m}e{n}").parse::<f64>().ok());
     numbers.filter(|&number| number >= least * (1.0 - SAME)).fold(f64::INFINITY, f64::smaller)
 }
 
-/// Round scale factor (units per millimetre) at which `largest` is at most `room` millimetres long, but longer than
-/// half of `room`.
+/// A round number: the scale factor (units per millimetre) at which `largest` is at most `room` millimetres long, but
+/// longer than half of `room`.
 pub fn factor(largest: f64, room: f64) -> f64 {
     round_up(largest / room)
 }

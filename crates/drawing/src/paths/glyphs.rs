@@ -80,7 +80,7 @@ struct Letters {
 }
 
 impl Letters {
-    /// The vector on paper (y downwards) of a step `along` the base line and of a step `rise` above the base line.
+    /// Displacement on paper (y downwards): `along` in the direction of the base line, and `rise` above this line.
     fn turned(&self, along: f64, rise: f64) -> Vec2 {
         if self.upward { Vec2::new(-rise, -along) } else { Vec2::new(along, -rise) }
     }

@@ -124,7 +124,7 @@ impl DrawingBackend for PlotPaper<'_> {
         let upward = matches!(style.transform(), FontTransform::Rotate270);
         let count = text.lines().count() as f64;
         for (index, line) in text.lines().enumerate() {
-            // A text that is anchored at its bottom has its last line at the anchor.
+            // If a text is anchored at its bottom, its last line is at the anchor, and its other lines are above it.
             let row = match style.anchor().v_pos {
                 VPos::Top | VPos::Center => index as f64,
                 VPos::Bottom => index as f64 + 1.0 - count,

@@ -31,8 +31,8 @@ pub struct PlotCurve {
     /// Pairs of values in the order of drawing. The curve has a gap at a pair that is not finite.
     pub points: Vec<[f64; 2]>,
     /// Largest rounding error of the ordinates.
-    /// If all ordinates of a chart lie within twice the largest of these errors, the range of the vertical axis is
-    /// widened, so that the curves look constant.
+    /// If the ordinates of a chart differ by at most twice the largest of these errors, the range of the vertical axis
+    /// is widened, so that the curves look constant.
     pub noise: f64,
     /// Marked points with their labels.
     pub marks: Vec<([f64; 2], String)>,

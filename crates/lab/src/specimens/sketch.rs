@@ -100,7 +100,7 @@ impl<'a> SpecimenSketch<'a> {
         let crank_link = sketch.link(pivot);
         sketch.poses[crank_link].angle = zero + start;
         sketch.join(false, 0, crank_link, pivot);
-        // The crank's length is the distance to a point at its end.
+        // The crank's end is the point E. The distance of E from the pivot is the crank's length.
         let end = sketch.random.vector(crank[0], crank[1]);
         sketch.put(crank_link, "E", pivot + end);
         sketch
@@ -173,7 +173,7 @@ impl<'a> SpecimenSketch<'a> {
         DrawnJoint { places, axis, first }
     }
 
-    /// Adds masses, and resistances on some of the links that turn. No mass centre is on a line between joints.
+    /// Gives every link a mass, and some of the turning links a resistance. No mass centre is on a line between joints.
     pub fn finish(mut self) -> (Spec, Vec<LinkPose>) {
         for index in 0..self.spec.links.len() {
             let points = &self.spec.links[index].points;

@@ -129,7 +129,7 @@ pub struct Spec {
 pub struct Other {
     /// Name of the scenario. If the field is empty, the scenario is called "test".
     pub name: String,
-    /// Keys of the drive that replace the speed: a motion law, or a free motion.
+    /// Keys for a motion law or a free motion in the drive section. They replace the key for the speed.
     pub drive: String,
     /// Further sections, such as a motor or loads.
     pub sections: String,
@@ -248,7 +248,7 @@ impl Spec {
     }
 
     /// This mechanism with all lengths multiplied by `factor`, and all moments of inertia by the square of `factor`.
-    /// Masses and numbers in text sections are unchanged.
+    /// All else is unchanged: the masses, for example, and the numbers in the texts of `other`.
     pub fn larger(&self, factor: f64) -> Spec {
         let mut other = self.with_places(|at| at * factor);
         for (_, _, inertia) in other.links.iter_mut().filter_map(|body| body.mass.as_mut()) {
@@ -286,7 +286,8 @@ impl Spec {
     }
 }
 
-/// A four-bar O-A-B-C with links along their x axes: crank, coupler and rocker of the given lengths.
+/// A four-bar O-A-B-C whose base, crank, coupler and rocker have the given lengths.
+/// Each moving link lies along the x axis of its own frame.
 /// The pivots are O = (0, 0) and C = (`base`, 0). The links are slender rods of 10 kg/m.
 pub fn four_bar([base, crank, coupler, rocker]: [f64; 4], left: bool) -> Spec {
     let rod = |name: &str, [from, to]: [&str; 2], length: f64| SpecimenLink {

@@ -9,8 +9,8 @@ use linkage::error::Result;
 pub enum EngineUse {
     /// Only the analytic sides run, not the engines.
     None,
-    /// A search finds the engines' settings. The number is the work allowed for the search; the unit is a step without
-    /// sweeps.
+    /// A search finds the engines' settings. The number is the work allowed for the search.
+    /// The unit is the work of one engine step without sweeps.
     Found(f64),
     /// Engines run at this step (s) and number of sweeps.
     Given {
@@ -40,7 +40,7 @@ impl Setup {
     }
 }
 
-/// Work allowed for an engine's search for settings at one point. The unit is a step without sweeps.
+/// Work allowed for an engine's search for settings at one point. The unit is the work of one step without sweeps.
 /// This limit is a hundredth of the work allowed for a proof.
 pub const WORK: f64 = 2e5;
 

@@ -1,4 +1,4 @@
-//! Outcome of a point, with the names and the order of its JSON form.
+//! Outcome of a point. The declarations also fix the names and the order of the fields in JSON.
 //! Numbers that are not finite are `null` in JSON and are read back as infinite.
 
 use serde::{Deserialize, Deserializer, Serialize};
@@ -66,7 +66,7 @@ pub struct PartyAtPoint {
     /// Reason of a verdict other than agreement.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub why: String,
-    /// Reference of the errors, in words; empty if no errors were computed.
+    /// Name of the reference from which the errors are computed; empty if no errors were computed.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub against: String,
     /// The worst channel of each group; empty if the solver or engine failed.
@@ -74,7 +74,8 @@ pub struct PartyAtPoint {
     pub reached: Vec<WorstOfGroup>,
     /// Largest opening of a joint, divided by the mechanism's size.
     pub closure: Option<f64>,
-    /// Difference between the balancing moments from reactions and from powers, divided by the moments in the balance.
+    /// Largest difference between the balancing moment from reactions and the balancing moment from powers, divided by
+    /// the largest moment on the driving link.
     pub balance: Option<f64>,
     /// Step (s) of the run that is judged.
     #[serde(rename = "step_s")]
@@ -83,11 +84,11 @@ pub struct PartyAtPoint {
     pub sweeps: Option<usize>,
     /// Number of extrapolations of the judged run.
     pub extrapolated: Option<usize>,
-    /// Number of steps in the duration of the grid.
+    /// Number of steps from t = 0 to the grid's instant that is farthest from t = 0.
     pub steps: Option<f64>,
     /// Number of runs in the engine's search for settings.
     pub runs: Option<usize>,
-    /// Work of the engine's search for settings. The unit is a step without sweeps.
+    /// Work of the engine's search for settings. The unit is the work of one step without sweeps.
     pub work: Option<f64>,
     /// Counted operations, in the order of [`Count::ALL`](linkage::work::Count::ALL).
     /// The operations of all runs are counted: one run of an analytic side, several runs of an engine.

@@ -116,7 +116,7 @@ fn of_engine(
 ) -> PartyAtPoint {
     let options = match setup.engines {
         EngineUse::None | EngineUse::Found(_) => Options::default(),
-        // The settings are given, so no budget is needed for a search.
+        // The settings are given, so there is no search, and the smallest budget is enough.
         EngineUse::Given { step, sweeps } => Options::default().step(step).sweeps(sweeps).budget(1.0),
     };
     let options = match setup.engines {

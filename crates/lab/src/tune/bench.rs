@@ -17,7 +17,8 @@ use prover::run::Options;
 
 /// Coarsest accuracy that is tried for an engine that controls its error.
 const COARSEST: f64 = 0.1;
-/// Smallest number of sweeps that is tried first, while no cost limit is known.
+/// While no cost limit is known, the smallest listed number of sweeps that is at least this number is tried first.
+/// With a cost limit, the lower limit of the cost is measured at that number, too.
 const ENOUGH: usize = 64;
 /// First step that is tried, as a multiple of the engine's usual or given step.
 /// A coarse step is cheap, and its cost predicts the cost of other steps.
@@ -28,7 +29,7 @@ const COARSER: f64 = 1.4;
 const GAIN: f64 = 0.95;
 /// Coarse steps for measuring the lower limit of a run's cost, as rotations of the fastest driving link (rad).
 /// With such a coarse step, most of the cost is the reading of results.
-/// The first step at which the engine runs is used.
+/// The steps are tried in this order. The cost is measured at the first step with which the engine finishes a run.
 const ROUGH: [f64; 3] = [PI / 6.0, PI / 18.0, PI / 54.0];
 
 /// Result of the search with one engine.
@@ -50,7 +51,7 @@ pub(super) struct Bench<'a> {
     pub(super) runs: usize,
     /// Whether the engine has refused the last method. A refusal does not depend on the step or the number of sweeps.
     pub(super) refused: bool,
-    /// Work done so far, and total work allowed. The unit is a step without sweeps.
+    /// Work done so far, and total work allowed. The unit is the work of one step without sweeps.
     pub(super) effort: f64,
     pub(super) budget: f64,
     /// Whether a run was omitted because its work exceeds the allowance.
@@ -80,7 +81,7 @@ impl Floor {
 struct Row {
     /// The first step to try.
     start: f64,
-    /// Error with the last number of sweeps, at the lowest known cost.
+    /// Error with the last tried number of sweeps, in a run that costs as much as the cost limit.
     /// `rising` is the number of successive increases of this error.
     last: f64,
     rising: usize,
@@ -138,7 +139,7 @@ impl Bench<'_> {
         self.refused = false;
         let floor = if unlimited { Floor(Vec::new()) } else { self.floor(search.engine, way, sweeps, search.limit()) };
         // Without a cost limit, the search begins with many sweeps.
-        // With few sweeps, the search would continue down to the finest steps.
+        // With too few sweeps, no step meets the request, and the search would try ever finer steps.
         let first = sweeps.iter().copied().find(|&sweeps| sweeps >= ENOUGH && unlimited);
         let start = if search.engine.controls_error() { way.resolution } else { COARSE_START * way.resolution };
         let mut row = Row { start, last: f64::INFINITY, rising: 0 };
@@ -164,7 +165,7 @@ impl Bench<'_> {
     }
 
     /// Searches for the largest step at which the settings meet the request.
-    /// Returns the measured or expected error of the settings at the lowest known cost.
+    /// Returns the measured or expected error of a run that costs as much as the cost limit.
     fn largest_step(&mut self, search: &mut Search, row: &mut Row, settings: Settings) -> f64 {
         let Search { engine, within, .. } = *search;
         let limit = search.limit();

@@ -34,7 +34,7 @@ pub(super) fn confirmed(
 ) -> Result<Candidate> {
     let mut now = candidate.clone();
     for _ in 0..MOST {
-        // The settings are given, so no budget is needed for a search.
+        // The settings are given, so there is no search, and the smallest budget is enough.
         let options = Options::exactly(engine.with(now.settings).as_ref());
         let Some(options) = options.map(|options| options.reference(reference).budget(1.0)) else { break };
         let proof = prove(scenario, &options)?;

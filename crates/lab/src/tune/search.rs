@@ -10,7 +10,8 @@ const MOST_RUNS: usize = 9;
 const NEAR_ENOUGH: f64 = 0.8;
 /// The search aims at this fraction of the requested error.
 const AIM: f64 = 0.92;
-/// The search ends if the smallest step that is too large is less than this multiple of the largest sufficient step.
+/// The search ends when the smallest step that was found too large, divided by the largest step that was found fine
+/// enough, is below this number.
 const CLOSE: f64 = 1.06;
 /// Smallest observed order at which the error counts as dependent on the step.
 const FLAT: f64 = 0.3;
@@ -31,7 +32,7 @@ pub(super) enum Found {
         /// The run with this step.
         measured: Measured,
     },
-    /// To meet the request would cost more than the limit.
+    /// All steps that meet the request cost more than the limit.
     /// The fields are the finest affordable step, and the measured or expected error at this step.
     TooDear {
         /// The step.

@@ -18,7 +18,8 @@ const INSTANTS: usize = 24;
 const MOST_ENGINES: usize = 10;
 
 /// A chain of `count` four-bars that are nearly parallelograms.
-/// The bars differ in length by some thousandths of `BAR`, so no four-bar comes near a dead point.
+/// The bars differ in length by only some thousandths of `BAR`. All bars therefore stay nearly parallel to the crank,
+/// and no four-bar comes near a dead point.
 pub(in crate::stress) fn chain(count: usize, speed: f64) -> Result<Case> {
     let length = |k: usize| BAR * (1.0 + 2e-3 * (k as f64).sin());
     let rod = |length: f64| (10.0 * length, [0.5 * length, 0.05 * length], 10.0 * length.powi(3) / 12.0);

@@ -1,4 +1,4 @@
-//! Four-bars: ratios of masses and lengths, transmission angles, speeds, sizes.
+//! Families of four-bars. They vary ratios of masses and lengths, transmission angles, speeds and sizes.
 
 use linkage::case::{Case, CaseBuilder};
 use linkage::error::Result;

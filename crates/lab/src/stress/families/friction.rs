@@ -11,8 +11,8 @@ use crate::stress::{Setup, StressFamily};
 const COEFFICIENT: f64 = 0.1;
 
 /// A wedge on a floor. A follower in a vertical guide drives the wedge by a shoe on the wedge's face.
-/// Friction locks the wedge up to a limiting angle of the face.
-/// The angle of the face is larger than the limiting angle, by the fraction 1 / `gain`.
+/// Friction locks a wedge whose face is inclined to the floor by no more than a limiting angle.
+/// The function makes a wedge whose face has (1 + 1 / `gain`) times the limiting angle.
 /// The driving force is about `gain` times the driving force without friction.
 fn wedge(gain: f64) -> Result<Setup> {
     let angle = 2.0 * COEFFICIENT.atan() * (1.0 + 1.0 / gain);

@@ -1,4 +1,4 @@
-//! Long runs: many steps of an engine, many revolutions of the analytic sides.
+//! Long runs. Engines make many steps, and the analytic sides solve instants after many revolutions of the crank.
 
 use std::f64::consts::TAU;
 

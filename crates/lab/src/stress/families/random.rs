@@ -6,7 +6,7 @@ use crate::specimens::dyads::{SORTS, chain, sample};
 use crate::specimens::sketch::RandomSource;
 use crate::stress::{Setup, StressFamily};
 
-/// Upper limit of the number of trials until a random mechanism stays away from dead points.
+/// Largest number of random mechanisms that are tried in the search for one that stays away from dead points.
 const MOST_DRAWN: usize = 100_000;
 /// Step of the grid (rad) and number of steps.
 const STEP: f64 = 0.05;

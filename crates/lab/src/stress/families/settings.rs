@@ -1,4 +1,4 @@
-//! Settings of engines: step up to divergence, and number of sweeps.
+//! Families that vary an engine's settings: the step, until the engine diverges, and the number of sweeps.
 
 use super::chain::chain;
 use super::four_bar::{LENGTHS, SPEED_OF_ALL, builder, rods};
