@@ -21,7 +21,7 @@ const ULPS: f64 = 20.0;
 ///
 /// In a free motion, the integrator adds errors: the error of each step (rad) may be as large as the accuracy.
 /// Every output time is also the end of an integration step.
-/// Dense output times limit the steps more than the accuracy does, so a tighter accuracy then hardly reduces the errors.
+/// Dense output times limit the steps more than the accuracy does, so a tighter accuracy hardly reduces the errors.
 /// On the shipped run-ups the errors are 5e-9 to 5e-7 of the channel's scale at an accuracy of 1e-8.
 ///
 /// A constraint error rotates a link by an angle equal to the constraint error divided by the link's length.

@@ -55,8 +55,8 @@ fn forces_in_a_parallelogram_are_those_of_statics() {
     let (cos, sin) = (angle.cos(), angle.sin());
     let total = [3.0 * -16.0 * cos, 3.0 * (-16.0 * sin + G)];
     // The coupler does not turn, so the y components of force in its two joints are equal.
-    // Moments about the second pivot: the x component of the force on the second crank balances the y component and the
-    // crank's weight.
+    // Moments about the second pivot: the moment of the x component of the force on the second crank balances the moments
+    // of the y component and of the crank's weight.
     let half = total[1] / 2.0;
     let on_second = [(-half * cos - 1.0 * G * cos / 2.0) / sin, -half];
     close_to(state.loops[0].force, on_second, 1e-9);
