@@ -129,8 +129,8 @@ fn published_numbers_apply_only_to_their_branch() {
         assert_eq!((own > 0, published(&moved), &moved["verdict"]), (true, own, &json!("agree")), "{name}");
     }
     assert_eq!(published(&run("crank_rocker.toml --start-crank-deg 100 --mode coupler,rocker=right")), 0);
-    // At a changing speed, velocities at a crank angle depend on the start angle of the crank. With another start angle,
-    // derived numbers are therefore not checked.
+    // At a changing speed, velocities at a crank angle depend on the start angle of the crank. With another start
+    // angle, derived numbers are therefore not checked.
     let ramp = ("law = \"constant\"", "law = \"ramp\"\ntime_s = 1");
     let speed = ("[drive]\n", "[drive]\nlaw = \"constant\"\n");
     place.edited("crank_rocker.toml", "ramp.toml", &[speed, ramp]);
