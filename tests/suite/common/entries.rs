@@ -85,7 +85,7 @@ pub fn structure(bytes: &[u8]) -> Result<()> {
             return Ok(());
         }
     };
-    // The structure is built up from the ground: the driving links are added first, then the groups in their order.
+    // The links are added from the ground outwards: first the driving links, then the groups in their order.
     // Every group is joined to links that were added before it, and every joint is used exactly once.
     let (mut known, mut used) = (vec![GROUND], Vec::new());
     for (_, &DrivingLink { link, joint, .. }) in structure.leading() {
