@@ -35,7 +35,8 @@ def _printer() -> Any:
         """Writes an expression with the operators, functions and names of formulas."""
 
         def _print(self, expression: Any, **settings: Any) -> str:
-            # The base class also prints what formulas do not have, such as infinity or the imaginary unit.
+            # Each kind is checked here, because the base class would also print infinity or the imaginary unit,
+            # which formulas do not have.
             if isinstance(expression, Symbol):
                 return self._name(expression.name)
             if isinstance(expression, AppliedUndef):

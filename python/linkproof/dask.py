@@ -13,8 +13,8 @@ from distributed import Client, as_completed
 from linkproof._linkproof import Scenario, Sweep, resume
 from linkproof.errors import LinkproofError, ReadError
 
-#: Cases of a share: about a second of work in batches, and much more if they are read and solved one by one.
-#: What a dead worker has stored of a share stays, so a long share costs little.
+#: Number of cases in a share. Batches solve them in about a second; reading and solving them singly takes much longer.
+#: If a worker dies, the results that it has stored are kept, so a long share loses little work.
 SHARE = 100_000
 
 
@@ -97,7 +97,7 @@ def sweep(
 
     client.run_on_scheduler(allow, allowed_failures)
     files, cases = plan.part_files, 0
-    # Tables that the scenario names lie beside it; workers have another current directory.
+    # The scenario refers to tables in its own directory, and workers have another current directory.
     given = {"directory": out, "count": count, "path": os.path.abspath(scenario.path)}
     futures = client.map(_solved, range(1, count + 1), pure=False, retries=retries, batch_size=1000, **given)
     try:

@@ -241,12 +241,12 @@ const HOMES: &[(&str, &str)] = &[
 ];
 
 /// Files and directories of side 1 and side 2.
-/// Both sides may use the mechanism and the integrator, including the interface through which the integrator calls a
-/// side.
+/// Both sides may use the mechanism and the integrator. They may also use the interface through which the integrator
+/// evaluates the equations of motion of a side.
 const SIDES: [&[&str]; 2] = [&["assur", "assur_solver.rs"], &["newton"]];
 
 /// Limit on the number of lines of a file.
-/// A file of this length or more serves more than one purpose.
+/// A file of this length or more is assumed to serve more than one purpose, so it must be split.
 const MOST_LINES: usize = 600;
 
 /// Words that no code may contain.
@@ -286,7 +286,8 @@ fn rust_files(directory: &Path) -> Vec<PathBuf> {
     files
 }
 
-/// Dependencies between modules: the using module, the used module, and a sentence that states the file and the path.
+/// Dependencies between modules: the using module, the used module, and a sentence that states the using file and the
+/// path by which the file names the used item.
 fn room_edges() -> BTreeMap<(String, String), String> {
     let mut edges = BTreeMap::new();
     for ((from, to), path) in Graph::of(&roots()).edges() {
@@ -587,7 +588,7 @@ fn files_are_short_and_free_of_stopgaps() {
             if lines >= MOST_LINES {
                 wrong.push(format!("{}: {lines} lines, fewer than {MOST_LINES} are allowed; split it", file.display()));
             }
-            // This file lists the banned words, and the boundary to Simbody has a separate test.
+            // Two files are exempt: this file lists the banned words, and the boundary to Simbody has a separate test.
             let own = file.ends_with("suite/architecture.rs") || file.ends_with("simbody/src/ffi.rs");
             let told = |line: &str| line.trim_start().starts_with("//");
             let code: String = text.lines().filter(|line| !told(line)).collect::<Vec<_>>().join("\n");

@@ -180,7 +180,7 @@ fn placeholder(line: &str) -> Option<String> {
 }
 
 /// The commands to run, each only once.
-/// The short forms `check` and `run` give one command for each scenario, as separate jobs.
+/// If rows name formulas of a scenario, one `check` of the scenario is a job; if rows name tables, one `run` is a job.
 /// The commands written in a row form one job.
 fn jobs(page: &str) -> Vec<Vec<(String, i32)>> {
     let (mut seen, mut short, mut jobs) = (BTreeSet::new(), BTreeSet::new(), Vec::new());
@@ -227,7 +227,7 @@ fn expanded(place: &Place, word: &str) -> Vec<String> {
     files
 }
 
-/// The shipped files, and the sixty variants of the repository.
+/// A directory with the shipped files and the repository's scenarios, including the sixty of `variants60`.
 fn place() -> Place {
     let place = Place::new();
     place.ok("new --shipped --force");

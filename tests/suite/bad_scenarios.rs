@@ -462,8 +462,8 @@ fn oracles() {
             "oracle[3].figures[1].points", ["needs two points, found 1"]),
         bad!("\"reduced_inertia_mean_kg_m2\"" => "\"distance_mm\", points = [\"A\", \"X\"]", INPUT, at "figures =", key
             "oracle[3].figures[1].points", ["no point \"X\""]),
-        // `figures` must not name the mass or the length of a link, because such a figure would only confirm the file
-        // itself.
+        // `figures` must not name the mass or the length of a link: the file itself gives these values, so the
+        // comparison would prove nothing.
         bad!("\"reduced_inertia_mean_kg_m2\"" => "\"mass_kg\", link = \"crank\"", INPUT, at "figures =", key
             "oracle[3].figures[1].figure", ["no figure \"mass_kg\""]),
         bad!("\"reduced_inertia_mean_kg_m2\"" => "\"distance_mm\", points = [\"C\", \"C\"]", INPUT, at "figures =", key

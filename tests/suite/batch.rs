@@ -21,7 +21,8 @@ use linkage::solver::{Solver, State};
 use linkage::trajectory::{OfPoint, Stage};
 
 /// Bound on the differences, as a fraction of the largest value of the same kind.
-/// The bound allows about 900 rounding errors of 1.1e-16, from the crank to the last dyad and back.
+/// Rounding errors accumulate from the crank to the last dyad, and for forces back from the last dyad to the crank.
+/// The bound allows about 900 rounding errors of 1.1e-16.
 const ROUNDING: f64 = 1e-13;
 /// Acceleration of the crank (rad/s^2); it is not zero, so that terms with the acceleration are tested.
 const ALPHA: f64 = 3.7;

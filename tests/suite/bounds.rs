@@ -1,5 +1,5 @@
 //! The parts of every bound of a few scenarios, as a reviewed table.
-//! Tests that plant an error of several bounds also pass if the bound is a thousand times too wide.
+//! Other tests plant an error that is a multiple of the bound, so they also pass if the bound is far too wide.
 //! This test fails if a bound is a thousand times too wide.
 //!
 //! Numbers have two digits.
@@ -103,7 +103,7 @@ fn parts(sample: &Sample, proof: &Proof, all: &mut Numbers) {
     for own in engine.channels.iter().filter(|own| own.residual.scale > 0.0) {
         let (quantity, scale) = (own.residual.channel.kind.quantity, own.residual.scale);
         let parts = &own.parts;
-        // Differences between sweeps below the engine's rounding are noise of the machine, so the table lists them as
+        // An iteration part that is below the engine's rounding is noise of the machine, so the table lists the part as
         // zero.
         let iteration = if parts.iteration <= parts.rounding { 0.0 } else { parts.iteration };
         let of_error = [parts.discretisation, iteration, parts.rounding, parts.reference];

@@ -1,5 +1,5 @@
 //! Clearance against brute force.
-//! The distances come from independent formulas, at poses of side 2, on a fine grid of crank angles.
+//! Independent formulas compute the distances from the poses of side 2 on a fine grid of crank angles.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -182,7 +182,7 @@ fn check(case: &Case, asked: &ClearanceQuestion, found: &ClearanceResult, seen: 
     seen.distances += found.work.distances;
 }
 
-/// Mechanisms with driven slides and joints between moving links, and with transmissions.
+/// Mechanisms with driven slides, with driven joints between moving links, and with transmissions.
 const GIVEN: [&str; 6] =
     ["boom_lift", "oldham_ram", "four_bar_relative", "rack_and_pinion", "planetary_train", "geared_five_bar"];
 
@@ -258,7 +258,7 @@ fn random_mechanisms_against_brute_force() {
     assert!(seen.pairs > 100 && seen.collisions > 10, "{seen:?}");
 }
 
-/// In each case, a nail lies just inside the path of a point of a random moving link.
+/// In each case, a thin nail beside the path of a point of a random moving link overlaps the path slightly.
 /// Sampled poses miss most nails, even on a grid of 7 200 intervals.
 #[test]
 fn planted_thin_crossings_are_found() {

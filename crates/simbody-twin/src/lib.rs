@@ -40,7 +40,7 @@ impl Simbody {
     /// Each projection therefore starts close to the pose in the current assembly mode.
     pub const ACCURACY: f64 = 1e-8;
     /// Constraint tolerance divided by the mechanism's extent from the origin.
-    /// Under prescribed motion the pose follows from the constraints alone, so a looser tolerance has no benefit.
+    /// Under prescribed motion the pose follows from the constraints alone: a looser tolerance would only add error.
     /// Projections aim at a tenth of the tolerance. Rounding errors prevent a smaller tolerance.
     /// With a tolerance of 1e-14, projections fail on `fourth_class`.
     pub const TOLERANCE: f64 = 1e-12;
@@ -114,7 +114,7 @@ impl Engine for Simbody {
     }
 
     fn own_routes(&self, _: &Case) -> &'static [Route] {
-        // The list of methods is empty, because the only method already reports the forces that the engine applies.
+        // The list is empty, because the default method already reports the forces that act in the simulation.
         &[]
     }
 

@@ -10,8 +10,8 @@ use linkage::case::Case;
 use linkage::math::KeepNan;
 use linkage::trajectory::{ChannelKind, ChannelSubject, Unit};
 
-/// Factor by which the pose amplifies a constraint error. The factor is 1 / sin of the angle between two links, which
-/// is 10 at 6 degrees.
+/// Factor by which the pose amplifies a constraint error. The factor is 1 / sin of the angle between two links. At an
+/// angle of 6 degrees the factor is 10.
 const POSE: f64 = 10.0;
 /// Rounding errors in the tree and in the projection, in units in the last place.
 const ULPS: f64 = 20.0;
@@ -21,15 +21,15 @@ const ULPS: f64 = 20.0;
 ///
 /// In a free motion, the integrator adds errors: the error of each step (rad) may be as large as the accuracy.
 /// Every output time is also the end of an integration step.
-/// If output times are dense, a tighter accuracy therefore hardly reduces the errors.
+/// Dense output times limit the steps more than the accuracy does, so a tighter accuracy hardly reduces the errors.
 /// On the shipped run-ups the errors are 5e-9 to 5e-7 of the channel's scale at an accuracy of 1e-8.
 ///
 /// A constraint error rotates a link by an angle equal to the constraint error divided by the link's length.
 /// The rotation is largest for the shortest link.
 /// A factor that depends on the pose (`POSE`) amplifies the errors: the errors of the angles contain this factor once,
 /// the errors of velocities contain its square, and the errors of accelerations and forces contain its cube.
-/// Rates of constraints are kept below the tolerance times the drive's speed. Accelerations follow from positions and
-/// velocities.
+/// Simbody keeps the rates of the constraint errors below the tolerance times the drive's speed. Accelerations follow
+/// from positions and velocities.
 pub(super) fn bound(case: &Case, [tolerance, accuracy]: [f64; 2], channel: &ChannelKind) -> f64 {
     let longest = case.grid.times.iter().fold(0.0, |max: f64, t| max.larger(t.abs()));
     let speed = case.drives.top_speed(case.mechanism.size());

@@ -75,7 +75,7 @@ struct RawRun {
 /// `linkproof_act`.
 type Callback = unsafe extern "C" fn(*mut c_void, *const BodyState, *mut f64);
 
-// The functions marked `safe` cannot be misused with the given types.
+// The functions marked `safe` are sound for all arguments that the types of their parameters permit.
 unsafe extern "C" {
     fn linkproof_simbody_new(
         bodies: *const RawBody,
@@ -159,7 +159,7 @@ struct Acting {
 unsafe extern "C" fn acting(user: *mut c_void, bodies: *const BodyState, loads: *mut f64) {
     // SAFETY: `user` points to the box of data, which exists as long as the run. Simbody calls this function from one
     // thread at a time.
-    // The run was built with the same numbers of bodies and of loads (three per body).
+    // `count` is the number of bodies with which the run was built. Simbody passes three loads for every body.
     let (acting, bodies, loads) = unsafe {
         let acting = &mut *user.cast::<Acting>();
         let count = acting.count;
@@ -283,7 +283,7 @@ impl LinkageRun {
         let SimbodyState { bodies, loops } = &mut self.state;
         let raw = self.raw.as_ptr();
         // SAFETY: the run is alive and has no other user.
-        // The vectors are as long as the bodies and loops from which the run was built, and the shim fills all vectors.
+        // The vectors have one element for every body and every loop of the run, and the shim fills all elements.
         // The shim writes at most `size` bytes of text.
         let read = told(|text, size| unsafe {
             linkproof_simbody_read(raw, reactions.into(), bodies.as_mut_ptr(), loops.as_mut_ptr(), text, size)

@@ -40,7 +40,7 @@ pub struct Inertia {
     /// Moment of inertia about the mass centre (kg m^2).
     pub inertia: f64,
     /// Additional mass at the mass centre, only for the integrator (kg).
-    /// Gravity does not act on this mass. When reactions are read, applied forces balance the inertia forces of this
+    /// Gravity does not act on this mass. When reactions are read, additional forces cancel the inertia forces of this
     /// mass.
     /// The results are exact if every degree of freedom is prescribed, because accelerations then do not depend on
     /// masses.
@@ -67,7 +67,7 @@ pub struct SimbodyBody {
     pub joint: SimbodyJoint,
     /// Mass and inertia of the body.
     pub inertia: Inertia,
-    /// Constant moment that opposes the body's rotation (N m); zero while the body is at rest.
+    /// Moment of constant magnitude that opposes the body's rotation (N m). The moment does not act on a body at rest.
     pub resistance: f64,
     /// Coordinate of the body's joint at time 0 (rad or m).
     pub coordinate: f64,

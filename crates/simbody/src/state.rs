@@ -1,6 +1,6 @@
 //! Simbody's results at one instant. The memory layout is that of C.
 
-/// Results at one instant. Bodies start with number 1; bodies and loops are in the order in which they were added.
+/// Results at one instant. Bodies and loops are in the order in which they were added. The first body has number 1.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct SimbodyState {
     /// All bodies except the ground.
@@ -31,7 +31,7 @@ pub struct BodyState {
     pub alpha: f64,
     /// Force on the body from its joint with the parent (N).
     pub force: [f64; 2],
-    /// Moment of the joint with the parent on the body, about the joint's point on the body (N m).
+    /// Moment on the body from its joint with the parent, about the joint's point on the body (N m).
     /// This moment includes the driving moment.
     pub moment: f64,
     /// Generalised force of the prescribed motion (N m for a pin, N for a slider).

@@ -55,8 +55,8 @@ fn forces_in_a_parallelogram_are_those_of_statics() {
     let (cos, sin) = (angle.cos(), angle.sin());
     let total = [3.0 * -16.0 * cos, 3.0 * (-16.0 * sin + G)];
     // The coupler does not turn, so the y components of force in its two joints are equal.
-    // Moments about the second pivot: the x component of the force on the second crank balances the y component and the
-    // crank's weight.
+    // Moments about the second pivot: the moment of the x component of the force on the second crank balances the
+    // moments of the y component and of the crank's weight.
     let half = total[1] / 2.0;
     let on_second = [(-half * cos - 1.0 * G * cos / 2.0) / sin, -half];
     close_to(state.loops[0].force, on_second, 1e-9);
@@ -103,7 +103,7 @@ fn all_links_may_be_massless() {
     run.advance(0.1).unwrap();
     let state = run.read(true).unwrap();
     // The loaded crank needs a moment of 6 N m, which it gets from the axial force in the coupler. The driven crank is
-    // parallel and as long, so its drive supplies the same moment.
+    // parallel to the loaded crank and has the same length, so its drive supplies the same moment.
     close_to(state.loops[0].force, [-6.0 / 1.1_f64.sin(), 0.0], 1e-11);
     assert!((state.bodies[0].drive - 6.0).abs() < 1e-11);
 }

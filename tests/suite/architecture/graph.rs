@@ -152,7 +152,8 @@ fn take(modules: &mut BTreeMap<Vec<String>, Module>, at: Vec<String>, file: &Pat
                 }
             }
             Item::Use(import) => {
-                // A re-export does not count as a use, because a use of the exported name leads to its definition.
+                // A re-export is no dependency: code that names the re-exported item depends on the file that
+                // defines the item.
                 let handed_on = !matches!(import.vis, syn::Visibility::Inherited);
                 let mut leaves = Vec::new();
                 expand(&import.tree, &mut Vec::new(), &mut leaves);

@@ -9,7 +9,7 @@ fn mass_centres_and_inertias_beyond_the_mechanism_are_refused() {
         &["link \"crank\"", "times the largest link", "check the unit", "add a point at the mass centre"];
     let key = "links.crank.mass_centre";
     assert_refused(GOOD, &Bad { edits: &[far], kind: INPUT, at: "mass_centre", key, words });
-    // A second mass, with which the first mass is compared.
+    // This edit gives the rocker a mass, with which the crank's mass and inertia are compared.
     let rod = (
         "[links.rocker.points]",
         "[links.rocker]\nmass_kg = 1\nmass_centre = { x_mm = 0, y_mm = 0 }\n[links.rocker.points]",
@@ -30,8 +30,8 @@ fn large_and_heavy_links_within_precision_are_accepted() {
         super::parse(&GOOD.replacen(from, to, 1), super::TABLE).unwrap_or_else(|error| panic!("{to}: {error}"))
     };
     taken("{ x_mm = 13, y_mm = 0 }", "{ x_m = 300, y_m = 0 }");
-    // A mass centre far from the joints is accepted if the link has a point there, because the point makes the link as
-    // large as this distance.
+    // The limit applies to the distance between a mass centre and the nearest point of its link. With a point at the
+    // mass centre this distance is zero, so the mass centre is accepted.
     let point = "mass_centre = { x_mm = 13, y_mm = 0 }\n[links.crank.points]";
     taken(point, "mass_centre = { x_m = 1300, y_m = 0 }\n[links.crank.points]\nG = { x_m = 1300, y_m = 0 }");
     // This large inertia is accepted, because no other link has a mass with which the inertia could be compared.

@@ -61,7 +61,7 @@ fn times_must_lie_within_the_run() {
 }
 
 /// A time beyond the end of a motion law or of a free motion is refused.
-/// For a table, the message names the line of the row.
+/// If the time is in a table of published numbers, the message names the line of the table that contains the time.
 #[test]
 fn times_must_lie_within_the_law_and_rows_name_their_line() {
     let law = [

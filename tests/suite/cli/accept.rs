@@ -276,8 +276,8 @@ fn unproven_figures_are_accepted_only_on_request() {
     let outcome = check(&place);
     assert_eq!(outcome.code, 1);
     assert!(outcome.stdout.contains("the verdict was accepted as disagree and still is"), "{}", outcome.stdout);
-    // The original scenario agrees again, but the stored figures were accepted from the scenario with the verdict
-    // disagree.
+    // Without the wrong formula the verdict is agree again. The check still fails, because the stored figures were
+    // accepted with the verdict disagree.
     fs::write(place.path(SCENARIO), text).unwrap();
     assert_eq!(check(&place).code, 3);
     place.ok(&format!("accept {SCENARIO}"));

@@ -12,7 +12,8 @@ use super::tools::Place;
 const QUICK: &str = "--quick --engine rapier --only positions";
 
 /// A peer as a shell script.
-/// The shell commands `solve` answer a request to solve: they write the table of the answer to the path in `$csv`.
+/// When the peer is asked to solve a case, it runs the shell commands in `solve`. These commands write the table of the
+/// answer to the path in `$csv`.
 fn peer(place: &Place, name: &str, solve: &str) {
     let ways = r#"echo '[{"name": "as it is", "resolution": "none"}]'"#;
     let csv = r#"csv=$(sed -n 's/.*"csv":"\([^"]*\)".*/\1/p' "$2")"#;

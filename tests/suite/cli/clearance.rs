@@ -38,7 +38,7 @@ fn the_crankcase_is_reported_as_clear() {
 #[test]
 fn a_collision_is_an_outcome_and_no_error() {
     let place = Place::new();
-    // This test does not need swept areas, which cost the most work.
+    // Swept areas cost the most work. This test does not use them, so they are computed roughly.
     let rough = |wanted: &str| format!("wanted_mm = {wanted}\narea_rel = 0.01");
     place.edited(
         "crankcase.toml",

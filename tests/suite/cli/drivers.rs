@@ -61,7 +61,7 @@ fn without_a_name_every_joint_is_listed() {
     assert_eq!(rows[1].split_whitespace().collect::<Vec<_>>(), ["driving", "link", "joint", "class", "structure"]);
     assert!(rows[2].contains("crank ") && rows[2].ends_with("I(0,1) -> IV(2,3,4,5) (as in the file)"), "{out}");
     assert!(rows[3].contains("link_5 ") && rows[3].ends_with("I(0,5) -> III(1,2,3,4)"), "{out}");
-    // With `--driver all`, the answer lists each of the seven joints once, in the same table as without a name.
+    // `--driver all` and `--driver` without a name give the same table, which lists each of the seven joints once.
     assert_eq!(driven("fourth_class", "all").len(), 7);
     assert_eq!(out, inspect(&["scenarios/fourth_class.toml", "--driver", "all"]).1);
     assert!(!out.contains("chain of dyads"), "{out}");

@@ -68,8 +68,8 @@ fn a_symlink_given_as_target_is_followed() {
     assert_eq!(fs::metadata(place.path("real.json")).unwrap().permissions().mode() & 0o777, 0o640);
 }
 
-/// Symptom: on a full disk `--json` and `--csv` left empty files. A limit on the size of files ends a write as a full
-/// disk does.
+/// Symptom: on a full disk `--json` and `--csv` left empty files. Instead of a full disk, the test uses a limit on the
+/// size of files, at which a write fails in the same way.
 #[test]
 fn regress_a_full_disk_leaves_the_older_file() {
     let place = Place::new();

@@ -58,7 +58,7 @@ fn of_check(own: &Check) -> Numbers<'static> {
     numbers
 }
 
-/// Source of an engine's values of a stage.
+/// How an engine obtains the values of this channel's stage: it reads them or derives them.
 fn source(info: &EngineInfo, own: &ChannelProof) -> String {
     match info.provides.iter().find(|(stage, _)| *stage == own.residual.channel.kind.stage.name()).unwrap().1 {
         Provision::Computed => "read".into(),

@@ -261,7 +261,7 @@ fn a_scenario_is_never_used_as_an_output_file() {
     let (scenario, other) = ("scenarios/crank_rocker.toml", "scenarios/ov7_base.toml");
     let before = fs::read(place.path(other)).unwrap();
     for command in [
-        // A shell expands `--json scenarios/*.toml` to the arguments of this test.
+        // A shell turns `--json scenarios/*.toml` into arguments like these.
         format!("run --no-record --json {other} {scenario}"),
         format!("solve {scenario} --with assur --csv {other}"),
         format!("inspect {scenario} --json {other}"),

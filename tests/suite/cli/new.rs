@@ -28,7 +28,7 @@ fn every_template_is_proven_for_its_whole_motion() {
                 None
             }
             Some(end) => Some(drive.at(end).value - drive.at(0.0).value),
-            // The grid of a train covers several turns.
+            // With transmissions, such as gears, the grid may cover several whole revolutions.
             None if !scenario.case.mechanism.transmissions().is_empty() => {
                 Some(((inputs.last().unwrap() - inputs[0]) / TAU).round().larger(1.0) * TAU)
             }
@@ -152,9 +152,9 @@ fn jansens_leg_walks() {
     assert!(degrees > 150 && stride > 0.85, "{degrees} {stride}");
 }
 
-/// The patent's table: with the leg drawn in, the foot is at (0, 0).
-/// In the pose half a revolution earlier, the foot is one unit (100 mm) ahead.
-/// Between the two poses of the table the foot is on the ground.
+/// In the pose of the patent's table, at a crank angle of 180 degrees, the foot is at (0, 0).
+/// Half a revolution earlier, the foot is one unit of the table (100 mm) further along x.
+/// Between these two poses the foot is on the ground.
 #[test]
 fn klanns_leg_walks() {
     let (x, y) = steps("klann", "P33");

@@ -120,7 +120,7 @@ fn a_read_only_directory_is_found_at_once() {
     fs::set_permissions(&locked, PermissionsExt::from_mode(0o755)).unwrap();
 }
 
-/// The test whether an existing file can be written leaves this file unchanged.
+/// The command first tests whether an existing output file can be written. This leaves the file unchanged.
 #[test]
 fn an_older_file_survives_a_bad_scenario() {
     let place = Place::new();
@@ -136,7 +136,8 @@ fn in_shell(place: &Place, prepare: &str, arguments: &str) -> Output {
     Command::new("sh").current_dir(place.path("")).args(["-c", &script]).arg(linkproof).output().unwrap()
 }
 
-/// A limit on the size of files ends a write as a full disk does, and needs no special permissions.
+/// Instead of a full disk, the test uses a limit on the size of files, at which a write fails in the same way. Unlike a
+/// full disk, the limit needs no special permissions.
 #[test]
 fn no_output_is_left_half_written() {
     let place = Place::new();

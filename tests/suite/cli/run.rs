@@ -142,7 +142,8 @@ fn every_check_is_in_the_json() {
     for figure in figures {
         assert!(crank_rocker.iter().any(|name| !name.starts_with("published") && name.ends_with(figure)), "{figure}");
     }
-    // Wrong printed numbers that the program can compute: both lengths, and both steady speeds.
+    // Printed numbers that are known to be wrong: the program compares its own two lengths and two steady speeds with
+    // them.
     for side in ["assur", "newton"] {
         for (oracle, wrong) in [
             ("lengths", ["distance_m of O A", "distance_m of A B"]),
@@ -344,8 +345,8 @@ fn scenarios_of_one_name_do_not_overwrite_each_other() {
 fn unrequested_channels_are_neither_compared_nor_checked() {
     let place = Place::new();
     let only = "[channels]\nwant = [\"positions\", \"velocities\"]\n\n[grid]";
-    // Published numbers of channels that are not requested are refused, so the test removes the numbers at the end of
-    // the file, some of which are forces.
+    // Given numbers of a channel that is not requested are refused. Some of the foreign program's numbers at the end of
+    // the file are forces, so the test removes these numbers.
     let text = fs::read_to_string(place.path("scenarios/crank_rocker.toml")).unwrap();
     place.edited("crank_rocker.toml", "few.toml", &[("[grid]", only), (from_outside(&text), "")]);
     let document = place.run("run scenarios/few.toml --no-record --json -").json();
@@ -365,8 +366,8 @@ fn unrequested_channels_are_neither_compared_nor_checked() {
 
 /// The option `--tolerance-scale` multiplies every bound by one factor.
 /// With a factor of 1e-9, even correct numbers disagree.
-/// With a factor of zero, the report prints every channel and check with its bound; the verdicts stay those of factor
-/// 1.
+/// A factor of zero is an exception: the verdicts are those of factor 1, and the report prints every channel and check
+/// with its bound.
 #[test]
 fn the_tolerance_scale_applies_to_every_bound() {
     let place = Place::new();

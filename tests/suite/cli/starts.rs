@@ -43,7 +43,7 @@ fn run_accepts_another_grid() {
             "{command}: {text}"
         );
     }
-    // Replacing the grid does not affect published numbers.
+    // Published numbers are still checked if an option replaces the grid.
     let text = place.ok("run scenarios/fourth_class.toml -v --no-record --crank-deg 70,80");
     assert!(text.contains("published"), "{text}");
     for (command, words) in [
@@ -129,7 +129,8 @@ fn published_numbers_apply_only_to_their_branch() {
         assert_eq!((own > 0, published(&moved), &moved["verdict"]), (true, own, &json!("agree")), "{name}");
     }
     assert_eq!(published(&run("crank_rocker.toml --start-crank-deg 100 --mode coupler,rocker=right")), 0);
-    // At a changing speed, velocities at a crank angle depend on the start angle of the crank.
+    // At a changing speed, velocities at a crank angle depend on the start angle of the crank. With another start
+    // angle, derived numbers are therefore not checked.
     let ramp = ("law = \"constant\"", "law = \"ramp\"\ntime_s = 1");
     let speed = ("[drive]\n", "[drive]\nlaw = \"constant\"\n");
     place.edited("crank_rocker.toml", "ramp.toml", &[speed, ramp]);
@@ -137,8 +138,8 @@ fn published_numbers_apply_only_to_their_branch() {
     assert!(moved["checks"].as_array().unwrap().iter().all(|check| check["origin"] != "derived"), "{moved}");
 }
 
-/// Symptom: the file's approximate position fits two configurations.
-/// For such a file, the command that lists configurations and the option that chooses a configuration were refused.
+/// Symptom: if the approximate position in a file fits two configurations, the command that lists configurations and
+/// the option that chooses a configuration were refused.
 /// Cause: the start in the file was evaluated before the request.
 #[test]
 fn regress_an_ambiguous_start_does_not_block_its_resolution() {

@@ -204,7 +204,7 @@ fn rows(text: &str) -> Vec<Vec<&str>> {
     text.lines().map(|line| line.split(',').collect()).collect()
 }
 
-/// Largest length of a vector over the rows of a solution; its components are two channels.
+/// Largest length of a vector over the rows of a solution. The two channels are the components of the vector.
 fn largest(place: &Place, file: &str, channels: [&str; 2]) -> f64 {
     let text = place.ok(&format!("solve scenarios/{file} -o -"));
     let rows = rows(&text);

@@ -128,7 +128,7 @@ impl Table {
 
 /// The commands that a help lists.
 /// Continuation lines are skipped because they are indented further than commands.
-/// Arguments are skipped because they begin with a sign.
+/// Arguments are skipped because they do not begin with a lower-case letter.
 pub fn listed(help: &str) -> impl Iterator<Item = &str> {
     let above = help.split("\nOptions:").next().unwrap_or_default().lines();
     above

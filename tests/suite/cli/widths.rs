@@ -62,7 +62,7 @@ fn every_command_on_every_shipped_file_fits_80_columns() {
     });
     let files = files.join(" ");
     assert_fits(&place, &format!("run --no-record --verbose --explain {files}"));
-    // With so little work, most verdicts are inconclusive. `terminal.rs` has short reports of the other verdicts.
+    // With so little work, most verdicts are inconclusive. `terminal.rs` tests short reports with other verdicts.
     assert_fits(&place, &format!("run --no-record --budget 1 {files}"));
 }
 

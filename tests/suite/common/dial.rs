@@ -3,7 +3,7 @@
 //! With the factor zero, no bound fails.
 //! Instead, a test prints each residual that uses more of its bound than any earlier residual at the same line of code.
 //! Printing requires `-- --nocapture`.
-//! The last line printed for a line of code is therefore its worst residual.
+//! The last residual printed for a line of code is therefore the worst one at this line.
 
 use std::panic::Location;
 use std::sync::LazyLock;

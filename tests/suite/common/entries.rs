@@ -85,8 +85,8 @@ pub fn structure(bytes: &[u8]) -> Result<()> {
             return Ok(());
         }
     };
-    // The parts are the driving links, then the groups in their order.
-    // Every group is joined to earlier parts, and every joint is used exactly once.
+    // The links are added from the ground outwards: first the driving links, then the groups in their order.
+    // Every group is joined to links that were added before it, and every joint is used exactly once.
     let (mut known, mut used) = (vec![GROUND], Vec::new());
     for (_, &DrivingLink { link, joint, .. }) in structure.leading() {
         assert!(!known.contains(&link), "link {link} is solved twice");

@@ -6,18 +6,18 @@ use std::{env, fs};
 /// Number of differing lines that a failure shows.
 const SHOWN: usize = 20;
 
-/// Whether this run writes what tests expect anew, instead of comparing with it.
+/// Whether this run rewrites the files of expected texts, instead of comparing texts with these files.
 pub fn is_updated() -> bool {
     env::var_os("UPDATE_EXPECTED").is_some_and(|value| value == "1")
 }
 
-/// Asserts that a text is that of a file of the repository. `tests` names the tests that write the file anew.
+/// Asserts that a text equals a file of the repository. `tests` names the tests that write the file anew.
 #[track_caller]
 pub fn agrees_with(path: &str, text: &str, tests: &str) {
     agrees_by(path, text, tests, |_, _| false);
 }
 
-/// The same for a text whose differing lines may be alike.
+/// Like [`agrees_with`], but lines that differ are accepted if `are_alike` accepts them.
 #[track_caller]
 pub fn agrees_by(path: &str, text: &str, tests: &str, are_alike: impl Fn(&str, &str) -> bool) {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
