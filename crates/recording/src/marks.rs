@@ -85,7 +85,7 @@ pub fn letter(text: &str, at: Vec2, z: f64) -> TextPrimitive {
         billboard: true,
         font_size: 18.0,
         scale_invariant: true,
-        // Viewers draw light letters on a dark background, so the letters are white.
+        // Viewers put a dark background behind light letters, so white letters are always readable.
         color: Some(Color { r: 1.0, g: 1.0, b: 1.0, a: 1.0 }),
         text: text.into(),
     }
