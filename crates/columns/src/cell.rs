@@ -10,7 +10,7 @@ use linkage::math::KeepNan;
 pub struct TableCell {
     /// The number; NaN if the cell does not contain a number.
     pub value: f64,
-    /// Number of printed decimals minus the exponent.
+    /// Number of printed decimals minus the printed exponent (3 for `1.25e-1`).
     pub decimals: i32,
     /// Number of digits, counted from the first nonzero digit.
     pub(crate) significant: u16,
@@ -26,14 +26,14 @@ pub const MISSING: Rounded = Rounded::exact(f64::NAN);
 /// Value of a cell with a NaN or an infinity that a program computed.
 pub const UNDEFINED: Rounded = Rounded { value: f64::NAN, error: f64::INFINITY };
 
-/// Limit for exponents, far outside the range of a double. Larger exponents count as this one, so that sums of digits and
-/// exponents cannot overflow.
+/// Largest magnitude of an exponent, far outside the range of a double. Exponents of larger magnitude are replaced by it,
+/// so that sums of digits and exponents cannot overflow.
 const FARTHEST: i32 = 100_000;
 
 /// Words that mean an empty cell.
 const EMPTY: [&str; 6] = ["-", "na", "n/a", "<na>", "null", "none"];
 
-/// Words for NaN and infinity, after the sign.
+/// Words for NaN and infinity, without the sign that may precede them.
 const NO_NUMBER: [&str; 6] = ["nan", "nan(ind)", "inf", "infinity", "1.#ind", "1.#qnan"];
 
 /// Whether nothing was measured in the cell. A NaN that a program computed does not count as missing.

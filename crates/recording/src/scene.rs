@@ -12,8 +12,8 @@ use linkage::trajectory::{Channel, Trajectory};
 
 /// Upper limit of the number of frames. In a long recording, [`FRAMES_PER_SECOND`] allows more frames.
 const FRAMES: f64 = 400.0;
-/// Upper limit of the number of frames per second of log time. If there are enough samples, the frames are at least half
-/// as many as the limit.
+/// Upper limit of the number of frames per second of log time. If there are enough samples, the number of frames is at
+/// least half of the limit.
 const FRAMES_PER_SECOND: f64 = 50.0;
 
 /// Everything that can be drawn of a recording.
