@@ -5,7 +5,7 @@ use linkage::math::KeepNan;
 
 /// Printed instants count as exact if their pattern is improbable for rounded instants.
 /// The probability of the pattern by chance must be at most 1 / `EVIDENCE`.
-/// Rounded instants look equally spaced over n steps by chance with the probability 1 / n.
+/// By chance, n steps between rounded instants look equal with the probability 1 / n.
 /// The step of rounded instants, in units of the last digit, is divisible by two with the probability 1 / 2 and by five
 /// with the probability 1 / 5.
 /// A trailing zero therefore occurs by chance with the probability 1 / 10.
@@ -41,7 +41,8 @@ fn chosen_as(values: &[Rounded], sort: Sort) -> bool {
     let step = values.get(1).map_or(first.value, |second| second.value - first.value);
     let is_step = |pair: &[Rounded]| (pair[1].value - pair[0].value - step).abs() <= 8.0 * f64::EPSILON * size;
     let is_first_one = first.value == 0.0 || is_multiple(first.value, step);
-    // The half unit contains a margin for its rounding error. The division by 1 + 1e-9 removes this margin.
+    // Each `error` is half a unit of the last printed digit, times 1 + 1e-9 as a margin for rounding errors.
+    // The division by 1 + 1e-9 removes this margin.
     let unit = 2.0 * values.iter().map(|at| at.error).fold(0.0, f64::larger) / (1.0 + 1e-9);
     if !is_first_one || !values.windows(2).all(is_step) {
         return are_multiples(values, unit, sort);
