@@ -26,8 +26,8 @@ pub const MISSING: Rounded = Rounded::exact(f64::NAN);
 /// Value of a cell with a NaN or an infinity that a program computed.
 pub const UNDEFINED: Rounded = Rounded { value: f64::NAN, error: f64::INFINITY };
 
-/// Largest magnitude of an exponent, far outside the range of a double. Exponents of larger magnitude are reduced to it,
-/// so that sums of digits and exponents cannot overflow.
+/// Largest magnitude of an exponent, far outside the range of a double. Larger magnitudes are reduced to this one, so
+/// that sums of digits and exponents cannot overflow.
 const FARTHEST: i32 = 100_000;
 
 /// Words that mean an empty cell.

@@ -150,7 +150,8 @@ mod tests {
             (3, &|row| format!("{:.0}", 2.7777 * row), false),
             (9, &|row| format!("{:.6}", row / 780.0), false),
             (73, &|row| format!("{:.6}", row / 780.0), false),
-            // The step is a round number, but the first instant is not, so the instants do not count as chosen.
+            // The step is a round number, but the first instant is no multiple of it, so the instants do not count as
+            // chosen.
             (9, &|row| format!("{:.5}", 1.0 / 12.0 + 0.1 * row), false),
             (1, &|_| "0.0417".into(), false),
             (1, &|_| "0".into(), true),
@@ -174,7 +175,7 @@ mod tests {
             (["0.000", "17.000", "46.000", "63.000", "90.000"], degrees, true),
             (["0.000", "0.200", "0.500", "0.600", "1.000"], any, true),
             (["0.0000", "0.0333", "0.0667", "0.2000", "0.5000"], any, false),
-            // The instants in the next row are rounded multiples of a step. By chance they look equally spaced.
+            // The instants in the next row are rounded. Only by chance do they look equally spaced.
             (["2.068378", "9.362942", "16.657506", "23.952070", "31.246634"], degrees, false),
         ] {
             assert_eq!(chosen(&of(&texts.map(Into::into))), expected, "{texts:?}");
