@@ -249,7 +249,7 @@ impl Scenario {
     /// `route`: method for the engine's reactions and balancing moment: "differences", "native" or "probe".
     /// `budget`: work allowed for the search of settings, in steps.
     /// `memory`: bytes allowed.
-    /// `tolerance`: largest bound that allows a conclusive verdict, as a fraction of a channel's scale, between 0 and 1.
+    /// `tolerance`: largest bound that allows a conclusive verdict: a fraction of a channel's scale, between 0 and 1.
     ///
     /// Settings that are not given are taken from the scenario, or chosen by the proof.
     #[pyo3(signature = (**options))]
