@@ -128,7 +128,7 @@ impl Scenario {
     /// `input`: crank angle in rad (or joint angle in rad, slide in m) of the picture.
     /// `time`: time of the picture in s.
     /// `each_mode`, `loads`, `dimensions`, `all_traces`: whether to draw all assembly modes, the loads, the dimensions,
-    /// the paths of all points.
+    /// or the paths of all points.
     /// `groups`: whether to draw the driving links and the groups separately.
     /// `traces`: names of points whose paths are drawn.
     /// `enlarged`: names of points whose paths are also drawn enlarged.
