@@ -10,7 +10,7 @@ use linkage::math::KeepNan;
 pub struct TableCell {
     /// The number; NaN if the cell does not contain a number.
     pub value: f64,
-    /// Number of printed decimals minus the exponent.
+    /// Number of printed decimals minus the printed exponent (3 for `1.25e-1`).
     pub decimals: i32,
     /// Number of digits, counted from the first nonzero digit.
     pub(crate) significant: u16,
@@ -26,14 +26,14 @@ pub const MISSING: Rounded = Rounded::exact(f64::NAN);
 /// Value of a cell with a NaN or an infinity that a program computed.
 pub const UNDEFINED: Rounded = Rounded { value: f64::NAN, error: f64::INFINITY };
 
-/// Limit for exponents, far outside the range of a double. Larger exponents count as this one, so that sums of digits and
-/// exponents cannot overflow.
+/// Largest magnitude of an exponent, far outside the range of a double. Larger magnitudes are reduced to this one, so
+/// that sums of digits and exponents cannot overflow.
 const FARTHEST: i32 = 100_000;
 
 /// Words that mean an empty cell.
 const EMPTY: [&str; 6] = ["-", "na", "n/a", "<na>", "null", "none"];
 
-/// Words for NaN and infinity, after the sign.
+/// Words for NaN and infinity, without the sign that may precede them.
 const NO_NUMBER: [&str; 6] = ["nan", "nan(ind)", "inf", "infinity", "1.#ind", "1.#qnan"];
 
 /// Whether nothing was measured in the cell. A NaN that a program computed does not count as missing.
@@ -87,7 +87,7 @@ impl TableCell {
     }
 
     /// The cell with the trailing zeros that the column's format left out.
-    /// Zeros are added until the cell has `decimals` decimals or `significant` significant digits.
+    /// Zeros are added until the cell has `decimals` decimals or, if it is not zero, `significant` significant digits.
     pub(crate) fn with_zeros(mut self, decimals: i32, significant: u16) -> TableCell {
         let mut zeros = decimals.saturating_sub(self.decimals).max(0);
         if self.has_digits() {
@@ -103,12 +103,14 @@ impl TableCell {
 /// The numbers of a column, each with the uncertainty caused by the printing of its digits.
 ///
 /// A column is printed with a fixed number of decimals or of significant digits, and programs omit trailing zeros.
-/// The largest number of decimals or digits of any cell is therefore the fixed number.
+/// The fixed number is therefore the largest number of decimals, or of digits, that any cell has.
 /// The uncertainty is half a unit of the last printed digit. The uncertainty is computed for both formats, and the
 /// larger value counts.
-/// The larger value is always the uncertainty for the actual format:
-/// With fixed decimals, the number of largest magnitude has the most significant digits.
-/// With fixed significant digits, the number of smallest magnitude has the most decimals.
+/// The larger value is always the uncertainty for the actual format.
+/// With fixed decimals, the number of largest magnitude has the most significant digits. As many significant digits in
+/// every number would give the other numbers a smaller uncertainty.
+/// With fixed significant digits, the number of smallest magnitude has the most decimals. As many decimals in every
+/// number would give the other numbers a smaller uncertainty.
 ///
 /// Several whole numbers may have more digits than all other cells only because of trailing zeros.
 /// The trailing zeros then count as digits lost in rounding, unless the numbers count as exact: see [`chosen`].
@@ -151,7 +153,7 @@ pub(crate) fn numbers_as(cells: &[TableCell], precision: Precision) -> Vec<Round
 }
 
 /// Some whole numbers may have more digits than all other cells only because of trailing zeros.
-/// If at least this many whole numbers do, the column counts as rounded to fewer digits.
+/// If there are at least this many such whole numbers, the column counts as rounded to fewer digits.
 /// By chance, one whole number in ten ends with zero.
 const FEW: usize = 2;
 

@@ -16,8 +16,8 @@ const SINGLE: u16 = 7;
 /// whose absolute value is at most a half.
 /// A file usually has one format. If this format omits trailing zeros, decimals and significant digits both vary from
 /// cell to cell of a column that is not constant.
-/// If the number of decimals and the number of significant digits vary in every column of `others`, the zeros are
-/// taken as printed with at least the decimals and digits of the coarsest of these columns.
+/// If the number of decimals and the number of significant digits vary in every column of `others`, each zero counts as
+/// printed with at least as many decimals as the coarsest of these columns has.
 /// Constant columns, and columns of exact equidistant numbers ([`chosen`]), are not considered.
 /// If a column of `others` has a fixed number of decimals, as from `%.6f`, or contains only whole numbers, each column
 /// may have a separate format. The zeros may then be rounded to the format of their column.
@@ -35,8 +35,8 @@ where
 }
 
 /// Evidence from the columns other than the column of zeros.
-/// The evidence consists of the smallest number of decimals, the smallest number of digits, and the coarsest precision
-/// of any of these columns.
+/// The evidence consists of three minima over these columns: the minimum of the decimals, of the digits, and of the
+/// precision.
 #[derive(Clone, Copy)]
 struct Vouched {
     decimals: i32,

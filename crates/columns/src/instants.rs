@@ -5,7 +5,7 @@ use linkage::math::KeepNan;
 
 /// Printed instants count as exact if their pattern is improbable for rounded instants.
 /// The probability of the pattern by chance must be at most 1 / `EVIDENCE`.
-/// Rounded instants look equally spaced over n steps by chance with the probability 1 / n.
+/// By chance, n steps between rounded instants look equal with the probability 1 / n.
 /// The step of rounded instants, in units of the last digit, is divisible by two with the probability 1 / 2 and by five
 /// with the probability 1 / 5.
 /// A trailing zero therefore occurs by chance with the probability 1 / 10.
@@ -41,7 +41,8 @@ fn chosen_as(values: &[Rounded], sort: Sort) -> bool {
     let step = values.get(1).map_or(first.value, |second| second.value - first.value);
     let is_step = |pair: &[Rounded]| (pair[1].value - pair[0].value - step).abs() <= 8.0 * f64::EPSILON * size;
     let is_first_one = first.value == 0.0 || is_multiple(first.value, step);
-    // The half unit contains a margin for its rounding error. The division by 1 + 1e-9 removes this margin.
+    // Each `error` is half a unit of the last printed digit, times 1 + 1e-9 as a margin for rounding errors.
+    // The division by 1 + 1e-9 removes this margin.
     let unit = 2.0 * values.iter().map(|at| at.error).fold(0.0, f64::larger) / (1.0 + 1e-9);
     if !is_first_one || !values.windows(2).all(is_step) {
         return are_multiples(values, unit, sort);
@@ -149,7 +150,8 @@ mod tests {
             (3, &|row| format!("{:.0}", 2.7777 * row), false),
             (9, &|row| format!("{:.6}", row / 780.0), false),
             (73, &|row| format!("{:.6}", row / 780.0), false),
-            // The step is a round number, but the first instant is not, so the instants do not count as chosen.
+            // The step is a round number, but the first instant is no multiple of it, so the instants do not count as
+            // chosen.
             (9, &|row| format!("{:.5}", 1.0 / 12.0 + 0.1 * row), false),
             (1, &|_| "0.0417".into(), false),
             (1, &|_| "0".into(), true),
@@ -173,7 +175,7 @@ mod tests {
             (["0.000", "17.000", "46.000", "63.000", "90.000"], degrees, true),
             (["0.000", "0.200", "0.500", "0.600", "1.000"], any, true),
             (["0.0000", "0.0333", "0.0667", "0.2000", "0.5000"], any, false),
-            // The instants in the next row are rounded multiples of a step. By chance they look equally spaced.
+            // The instants in the next row are rounded. Only by chance do they look equally spaced.
             (["2.068378", "9.362942", "16.657506", "23.952070", "31.246634"], degrees, false),
         ] {
             assert_eq!(chosen(&of(&texts.map(Into::into))), expected, "{texts:?}");

@@ -7,7 +7,7 @@ use linkage::math::KeepNan;
 /// One row of the two compared columns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RowPair {
-    /// Index of the row in the column of the party whose instants are used.
+    /// Index of the row in the column of the party at whose instants the columns are compared.
     pub row: usize,
     /// Time (s); NaN if unknown.
     pub time: f64,
@@ -88,7 +88,7 @@ pub struct JudgedColumns {
     pub missing: usize,
     /// Root mean square of the differences, over all rows in which both values are numbers.
     pub rms: f64,
-    /// The largest known part of a bound.
+    /// Largest known part of the bound in any row in which both values are numbers.
     pub widest: f64,
     /// The widest bound.
     pub loosest: f64,
@@ -101,7 +101,8 @@ pub struct JudgedColumns {
 }
 
 /// Compares the two columns row by row.
-/// If one value is a number and the other value is a computed NaN, the row exceeds its bound.
+/// If one value is a number and the other value is a computed NaN, the row exceeds its bound, unless the NaN belongs to
+/// an analytic reference.
 pub fn judge(both: &Beside) -> JudgedColumns {
     let Beside { values, places, drift, turn, allowance, measure } = *both;
     let (mut own, mut squares, mut numbers) = (JudgedColumns::default(), 0.0, 0usize);

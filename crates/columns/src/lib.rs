@@ -1,5 +1,5 @@
 #![doc = include_str!("../README.md")]
-//! Loops over rows are in this crate, because this crate is compiled with optimisation.
+//! Loops over rows are in this crate, because release builds compile it with the highest optimisation level.
 //!
 //! - [`read`]: a text with separated columns as a [`TextTable`].
 //! - [`CellTable`]: the cells of a table as written.

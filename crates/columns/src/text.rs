@@ -31,8 +31,8 @@ impl TextTable {
         self.columns.first().map_or(0, Vec::len)
     }
 
-    /// Words for the row with this index, counted from 0: its line number if the table has lines, otherwise its row
-    /// number.
+    /// Words for the row with the index `row` (from 0): its line number if the table has line numbers, otherwise its
+    /// row number (from 1).
     pub fn place(&self, row: usize) -> String {
         match self.lines.get(row) {
             Some(line) => sentences::line_of_the_table(&line),
@@ -101,7 +101,7 @@ impl fmt::Display for Twice {
     }
 }
 
-/// Upper limit of the memory that the numbers of a text need (bytes).
+/// Memory that the numbers of a text need at most (bytes), estimated from the separators.
 pub fn bytes(text: &str) -> f64 {
     let cells = text.bytes().filter(|byte| matches!(byte, b',' | b';' | b'\t' | b' ' | b'\n')).count() + 1;
     (cells * (size_of::<TableCell>() + size_of::<Rounded>())) as f64

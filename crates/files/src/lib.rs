@@ -33,9 +33,9 @@ pub fn replace<E: From<io::Error>>(target: &OutputTarget, fill: impl FnOnce(&Fil
     written(target, fill, true)
 }
 
-/// Replaces a file that can be made again.
-/// Unlike [`replace`], this function does not wait for the device, and it does not remove temporary files of killed
-/// runs. After a loss of power, the file may be incomplete.
+/// Replaces a file whose content can be computed again if the file is lost.
+/// Unlike [`replace`], this function does not wait until the device has stored the content, and it does not remove
+/// temporary files of killed runs. After a loss of power, the file may be incomplete.
 ///
 /// # Errors
 /// The errors of [`replace`].

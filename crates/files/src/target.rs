@@ -11,7 +11,7 @@ use linkage::error::{Error, ErrorKind};
 
 /// Upper limit of the number of symbolic links followed from a name to its file.
 const LINKS: usize = 40;
-/// Upper limit of the number of bytes that are read from an older file.
+/// Number of bytes at the beginning of an older file that decide whether the file may be replaced.
 const SEEN: u64 = 64 << 20;
 
 /// A file to be written, with the rule for replacing an existing file.
@@ -21,7 +21,7 @@ pub enum OutputTarget<'a> {
     /// The caller named exactly this file.
     Named(&'a Path),
     /// The program generated the name of the file, or a part of the name.
-    /// An older file is replaced if `is_ours` accepts its beginning.
+    /// An older file is replaced if `is_ours` accepts its content (its first 64 MiB if it is longer).
     Made(&'a Path, &'a dyn Fn(&[u8]) -> bool),
 }
 

@@ -127,8 +127,8 @@ impl Builder {
         slf
     }
 
-    /// Let a joint move freely. `initial_speed` (rad/s) is its speed at t = 0. `nominal_speed` (rad/s) is its speed in
-    /// the nominal motion, to which crank angles refer.
+    /// Let a joint move freely. `initial_speed` (rad/s) is its speed at t = 0. `nominal_speed` (rad/s) is its constant
+    /// speed in the nominal motion. An instant given by a crank angle is an instant of the nominal motion.
     #[pyo3(signature = (joint, initial_speed, nominal_speed))]
     fn free<'py>(
         mut slf: PyRefMut<'py, Self>,
@@ -188,7 +188,7 @@ impl Builder {
         Ok(slf)
     }
 
-    /// Set the number of equal intervals between the instants of one turn.
+    /// Set the number of equal intervals into which the instants divide one turn of the crank.
     #[pyo3(signature = (intervals, /))]
     fn instants(mut slf: PyRefMut<'_, Self>, intervals: usize) -> PyRefMut<'_, Self> {
         slf.changed(|inner| inner.instants(intervals));

@@ -238,7 +238,7 @@ impl Scenario {
     /// A column named like a channel needs no entry.
     /// `absolute`: allowed difference in the unit of the channel.
     /// `relative`: allowed difference as a fraction of the channel's scale.
-    /// `of_value`: allowed difference as a fraction of each value.
+    /// `of_value`: allowed difference as a fraction of the reference value in the same row.
     /// Each of these three is one number for all channels, or a dictionary from channels to numbers.
     /// `by`: whether rows are matched by "time" or by "input".
     /// `interpolate`: whether the table is interpolated between its rows.

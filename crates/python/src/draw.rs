@@ -127,14 +127,15 @@ impl Scenario {
     /// `medium`: "svg", "pdf", "png" or "dxf" for a still picture, "gif" or "webp" for a moving picture.
     /// `input`: crank angle in rad (or joint angle in rad, slide in m) of the picture.
     /// `time`: time of the picture in s.
-    /// `each_mode`, `loads`, `dimensions`, `all_traces`, `groups`: whether to draw all assembly modes, the loads, the
-    /// dimensions, the paths of all points, or the groups apart.
+    /// `each_mode`, `loads`, `dimensions`, `all_traces`: whether to draw all assembly modes, the loads, the dimensions,
+    /// or the paths of all points.
+    /// `groups`: whether to draw the driving links and the groups separately.
     /// `traces`: names of points whose paths are drawn.
     /// `enlarged`: names of points whose paths are also drawn enlarged.
     /// `positions`: number of positions.
     /// `width`: width of a bitmap in pixels.
     /// `frames`: number of frames.
-    /// `seconds`: duration of a turn in s.
+    /// `seconds`: duration of a moving picture in s.
     #[pyo3(signature = (medium="svg", **options))]
     fn draw(&self, py: Python<'_>, medium: &str, options: Option<Bound<'_, PyDict>>) -> PyResult<Picture> {
         let wish = Wish::of_python(py, medium, options)?;

@@ -23,7 +23,7 @@ pub(crate) struct ProofWish {
     tolerance: Option<f64>,
 }
 
-/// The value of a word; an unknown word is an error that lists all words.
+/// The element of `all` that is called `word`; an unknown word is an error that lists all words.
 fn chosen<T>(key: &str, word: &str, all: &[T], name: impl Fn(&T) -> &'static str) -> Result<T, Error>
 where
     T: Copy,
@@ -216,7 +216,8 @@ impl Proof {
         self.engine(py, engine)?.trajectory.clone().map(|own| Solution::of(py, own)).transpose()
     }
 
-    /// The time step (s) or relative accuracy of the engine; of several engines, the largest of these numbers.
+    /// The time step of the engine (s), or its relative accuracy if it controls its error. The largest of these numbers
+    /// if there are several engines.
     #[getter]
     fn resolution(&self) -> f64 {
         self.inner.engines.iter().map(|own| own.info.settings.resolution).fold(0.0, KeepNan::larger)
@@ -245,10 +246,10 @@ impl Scenario {
     /// `step`: time step of the engine in s.
     /// `accuracy`: relative accuracy of an engine that controls its error.
     /// `sweeps`, `substeps`, `extrapolated`: number of sweeps in a step, of substeps in a step, of extrapolations.
-    /// `route`: "differences", "native" or "probe".
+    /// `route`: method for the engine's reactions and balancing moment: "differences", "native" or "probe".
     /// `budget`: work allowed for the search of settings, in steps.
     /// `memory`: bytes allowed.
-    /// `tolerance`: largest conclusive bound as a fraction of a channel's scale, between 0 and 1.
+    /// `tolerance`: largest bound that allows a conclusive verdict: a fraction of a channel's scale, between 0 and 1.
     ///
     /// Settings that are not given are taken from the scenario, or chosen by the proof.
     #[pyo3(signature = (**options))]

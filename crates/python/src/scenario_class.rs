@@ -156,7 +156,8 @@ impl Scenario {
 
     /// This scenario with only the channels that the words select; other quantities are not computed.
     ///
-    /// A word is a stage ("positions"), a subject ("link.rocker"), a subject's stage or a channel ("joint.B.fx_N").
+    /// A word is a stage ("positions"), a subject ("point.P"), a subject's stage ("point.P.positions") or a channel
+    /// ("joint.B.fx_N").
     #[pyo3(signature = (*words))]
     fn only(&self, py: Python<'_>, words: Vec<String>) -> PyResult<Scenario> {
         self.with(Changes { only: words, ..self.changes.clone() }).or_raised(py)

@@ -96,7 +96,7 @@ impl Sensitivity {
     /// `sampled_shift`, `sampled_least`, `sampled_most`: mean, smallest and largest value of the sample, each minus the
     /// nominal value.
     /// `unsolved`: number of samples without a solution.
-    /// `multiple`: the factor on all tolerances at which the range of linear theory ends.
+    /// `multiple`: end of the range in which linear theory holds, as a factor on all tolerances.
     /// `linear`: the reason for this end.
     /// With "from", linear theory fails from this factor on.
     /// With "until_unsolved", a random mechanism cannot be solved at this factor.

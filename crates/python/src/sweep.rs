@@ -65,7 +65,7 @@ fn dictionary(numbers: &[(String, f64)]) -> String {
     format!("{{{}}}", all.join(", "))
 }
 
-/// The share of the cases for the pair (number of the share, number of all shares).
+/// The share of the cases from a pair: the number of this share (from 1), and the count of all shares.
 fn share(given: Option<(u64, u64)>) -> Result<Option<Shard>, Error> {
     match given {
         Some((number, count)) if !(1..=count).contains(&number) => {
@@ -84,7 +84,7 @@ fn positive(key: &str, given: Option<u64>) -> Result<Option<u64>, Error> {
     }
 }
 
-/// The varied numbers of a dictionary.
+/// The axes of a sweep, from a dictionary that gives the values of each varied number.
 fn axes(vary: &Bound<'_, PyAny>) -> PyResult<Vec<SweepAxis>> {
     let py = vary.py();
     let mut axes = Vec::new();

@@ -45,7 +45,7 @@ fn rows(plan: &SweepPlan, first: u64, group: RowGroup) -> Table {
     Table::of(columns)
 }
 
-/// A part of the table without rows.
+/// An empty part of the table: all columns, but no rows.
 fn nothing(plan: &SweepPlan) -> RowGroup {
     let columns = |count: usize| vec![Vec::new(); count];
     let (values, figures) = (columns(plan.design.axes().len()), columns(plan.figures.len()));
@@ -88,9 +88,9 @@ impl Sweep {
     }
 }
 
-/// A notebook shows the spread of the figures up to this number of cases.
+/// A notebook shows the spread of the figures only if the sweep has at most this number of cases.
 const SHOWN: u64 = 1_000_000;
-/// Any goal, for a pass over the table that needs a goal but does not use the best cases.
+/// An arbitrary goal, for a summary whose best cases are not used.
 const FIRST: Goal = Goal { figure: 0, is_largest: false };
 
 #[pymethods]

@@ -138,8 +138,8 @@ fn shared<'py>(py: Python<'py>, values: Buffer, kind: &str) -> PyResult<Bound<'p
     py.import("numpy")?.call_method1("frombuffer", (owner, kind))
 }
 
-/// Tables with equal columns as one stream of Arrow. `first` only gives the columns; the stream does not contain its
-/// rows.
+/// Tables with the same column names and types as one stream of Arrow. `first` gives these names and types; the stream
+/// does not contain its rows.
 pub(crate) fn streamed<'py>(
     py: Python<'py>,
     first: &Table,

@@ -13,7 +13,7 @@ use crate::sentences;
 
 /// Time between two checks for Ctrl-C.
 const PATIENCE: Duration = Duration::from_millis(50);
-/// Stack size of the thread (bytes). The main thread of a program usually has a stack of this size.
+/// Stack size of the working thread (bytes). The main thread of a program usually has a stack of this size.
 const STACK: usize = 8 << 20;
 
 /// What the working thread sends: a report of its progress, or its result.

@@ -29,8 +29,8 @@ const ASKED: [&str; 9] = [
     "reference",
     "record_hz",
 ];
-/// Prefix of the metadata keys of the engine's settings. A proof may have found these settings, so differences in other
-/// metadata keys are reported first.
+/// Prefix of the metadata keys of the engine's settings. A proof may choose these settings itself, so differences in
+/// the user's requests or in the scenario's text are reported first.
 const ENGINE: &str = "engine";
 
 /// Where a recording goes.

@@ -1,4 +1,4 @@
-//! Reads a recording for viewers that do not know its messages. The result is a moving picture, or only numbers.
+//! Reads a recording for viewers that cannot decode its messages. The result is a moving picture, or only numbers.
 
 use super::extent::{corners, placed};
 use super::recording::RecordedSide;
@@ -17,7 +17,8 @@ use prost::Message as _;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-/// Largest message of a picture that is read (bytes), and largest number of parts in all messages.
+/// `LONGEST` is the size of the largest message that is decoded (bytes).
+/// `PARTS` limits the number of parts in all messages together.
 /// Both limits are far beyond what a viewer can show.
 /// The limits are needed because a part in memory takes up to a hundred times its size in the file.
 const LONGEST: usize = 1 << 22;

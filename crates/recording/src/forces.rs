@@ -61,7 +61,7 @@ impl<'a> Forces<'a> {
         let size = self.scene.size;
         let length = (self.scale * force.norm()).larger(SHORTEST * size);
         let head = (0.3 * length).smaller(0.06 * size);
-        // Arrows are round. A thinner arrow must therefore lie higher to be visible on a thicker arrow.
+        // Arrows are round bodies. A thin arrow at the height of a thick arrow would be inside it, so it lies higher.
         let (broad, z) = (side.paint.broad.sqrt(), (8.0 + 4.0 * side.paint.layer) * self.scene.layer());
         let mut color = colour(side.paint.rgba);
         // Arrows are more transparent than the links below them.

@@ -9,7 +9,7 @@ use linkage::math::Vec2;
 
 /// Opacity of filled areas, out of 255. Shapes beneath these areas remain visible.
 const TINT: u8 = 70;
-/// Colour of the holes in pins, for light and dark backgrounds, and radius of a hole divided by the radius of the pin.
+/// The holes in pins: colour, which suits light and dark backgrounds, and radius divided by the radius of the pin.
 const HOLE: ([u8; 4], f64) = ([40, 40, 40, 255], 0.5);
 
 /// How marks are drawn.
@@ -19,7 +19,7 @@ pub struct Brush {
     pub unit: f64,
     /// Red, green, blue, opacity.
     pub rgba: [u8; 4],
-    /// Thickness divided by the thickness of the first side.
+    /// Thickness of this side's lines divided by the thickness of the first side's lines.
     pub broad: f64,
     /// Height above the plane of motion (m).
     pub z: f64,
@@ -71,7 +71,7 @@ impl Brush {
 }
 
 /// Triangles from the centre of a polygon to its sides.
-/// This division is correct because every polygon of the sketch is star-shaped about its centre.
+/// These triangles cover exactly the polygon, because every polygon of the sketch is star-shaped about its centre.
 fn fan(corners: &[Vec2]) -> Vec<Vec2> {
     let middle = corners.iter().sum::<Vec2>() / corners.len().max(1) as f64;
     let next = corners.iter().cycle().skip(1);
@@ -85,7 +85,7 @@ pub fn letter(text: &str, at: Vec2, z: f64) -> TextPrimitive {
         billboard: true,
         font_size: 18.0,
         scale_invariant: true,
-        // Viewers draw light letters on a dark background, so the letters are white.
+        // Viewers put a dark background behind light letters, so white letters are always readable.
         color: Some(Color { r: 1.0, g: 1.0, b: 1.0, a: 1.0 }),
         text: text.into(),
     }

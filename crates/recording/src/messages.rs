@@ -18,10 +18,10 @@ use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
 use mcap::{McapError, McapResult, Message, parse_record};
 use prost::DecodeError;
 
-/// Record length that is allowed in any file. A decompressed record may be longer than its file.
+/// Record length that is allowed even in a shorter file, because a decompressed record may be longer than its file.
 const SMALL: usize = 1 << 20;
 
-/// Calls `visit` for every message, in the order of the file. Error messages call the file `path`.
+/// Calls `visit` for every message, in the order of the file. Error messages name the file by its `path`.
 ///
 /// # Errors
 /// [`ErrorKind::Io`] for a file that is cut off or damaged, and for a message that `visit` cannot read.

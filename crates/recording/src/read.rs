@@ -16,7 +16,7 @@ use std::{fs, io};
 /// Values, each with the sequence number of its sample.
 type Numbered = Vec<(u32, f64)>;
 
-/// Use of one MCAP channel: its side, and the meaning of each message field, by the field's number.
+/// What the messages of an MCAP channel contain: the channel's side, and the meaning of each message field by number.
 struct Topic {
     side: String,
     is_grid: bool,
@@ -76,7 +76,7 @@ fn bounded(bytes: &[u8], path: &Path) -> Result<()> {
     Err(Error::new(ErrorKind::Io, message).help(sentences::RECORD_IT_AGAIN_RECORDINGS_OF_THIS_PROGRAM))
 }
 
-/// Reads every side from the bytes of a recording. Error messages call the recording `path`.
+/// Reads every side from the bytes of a recording. Error messages name the recording by its `path`.
 ///
 /// # Errors
 /// The errors of [`load`] that concern the content of the file.
@@ -107,7 +107,7 @@ pub fn read_bytes(bytes: &[u8], path: &Path) -> Result<Vec<(String, Trajectory)>
 }
 
 /// Content of a message's topic, from the topic's name and from the descriptor in the file.
-/// `None` if the topic is not one of a side, or not in protobuf.
+/// `None` if the topic does not belong to a side, or if its messages are not in protobuf.
 fn topic(message: &Message, names: &mut schema::Names) -> std::result::Result<Option<Topic>, DecodeError> {
     let channel = &message.channel;
     let parts = channel.topic.strip_prefix('/').and_then(|rest| rest.split_once('/'));
@@ -116,7 +116,7 @@ fn topic(message: &Message, names: &mut schema::Names) -> std::result::Result<Op
         return Ok(None);
     }
     // The field `x_m` of `link/crank` is the channel `link.crank.x_m`.
-    // Fields of errors have small units in their names, so they match no channel and are not read.
+    // The names of error fields end in smaller units, such as `um`, so they match no channel and are not read.
     let (is_grid, subject) = (subject == "grid", subject.replacen('/', ".", 1));
     let field = |name: &String| match is_grid {
         true => Some(Field::Grid(name.clone())),

@@ -10,10 +10,10 @@ use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{GROUND, Link, LinkId, LinkPose, Mechanism};
 use linkage::trajectory::{Channel, Trajectory};
 
-/// Usual upper limit of the number of frames. For a long recording, [`FRAMES_PER_SECOND`] is the upper limit.
+/// Upper limit of the number of frames. In a long recording, [`FRAMES_PER_SECOND`] allows more frames.
 const FRAMES: f64 = 400.0;
-/// Upper limit of the number of frames per second of log time. If there are enough samples, at least half of this
-/// number of frames remains.
+/// Upper limit of the number of frames per second of log time. If there are enough samples, the number of frames is at
+/// least half of the limit.
 const FRAMES_PER_SECOND: f64 = 50.0;
 
 /// Everything that can be drawn of a recording.
@@ -84,7 +84,7 @@ impl<'a> ViewerScene<'a> {
         times
     }
 
-    /// Frames of all links at a time.
+    /// Coordinate frames of all links at a time.
     /// All sides are in one message, because a viewer that jumps in time uses only the last message.
     pub fn frames(&self, time: f64, nanoseconds: u64) -> FrameTransforms {
         let mut transforms = Vec::new();

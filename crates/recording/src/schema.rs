@@ -92,7 +92,7 @@ pub fn numbers(mut data: &[u8]) -> Result<Vec<(u32, f64)>, prost::DecodeError> {
 
 /// Upper limit of the length of a message description that is parsed (bytes).
 /// The limit is hundreds of times the length of linkproof's descriptions.
-/// The limit is needed because the parts of a description take up to a hundred times their file size in memory.
+/// The limit is needed because the parts of a description in memory take up to a hundred times their size in the file.
 const LONGEST: usize = 1 << 20;
 
 /// Names of the numeric fields of schemas. Each schema is parsed once.
@@ -123,7 +123,7 @@ pub fn field_names(descriptor: &[u8], full_name: &str) -> Result<BTreeMap<u32, S
     Ok(numbers.map(|field| (field.number() as u32, field.name().to_string())).collect())
 }
 
-/// Channels in the message of a subject, without friction.
+/// Channels in the message of a subject, except the channels of friction.
 /// The message of a sliding joint has the channels of any joint, and additional channels.
 fn kinds(subject: ChannelSubject) -> impl Iterator<Item = &'static ChannelKind> {
     let joint = subject == ChannelSubject::Slider;

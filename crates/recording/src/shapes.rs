@@ -14,7 +14,7 @@ use linkage::math::Vec2;
 pub struct SidePaint {
     /// Red, green, blue, opacity, each 0 to 255.
     pub rgba: [u8; 4],
-    /// Thickness divided by the thickness of the first side.
+    /// Thickness of this side's lines divided by the thickness of the first side's lines.
     pub broad: f64,
     /// Height above the plane of motion, in layers.
     pub layer: f64,
@@ -50,7 +50,8 @@ pub fn stamp(nanoseconds: u64) -> Option<Timestamp> {
     Some(Timestamp { seconds: seconds.into(), nanos: (nanoseconds % 1_000_000_000) as i32 })
 }
 
-/// Rounds to single precision, which is enough for pictures. The trailing zeros let numbers compress to half the size.
+/// Rounds to single precision, which is enough for pictures.
+/// The last bits of a rounded number are zero, so the numbers compress to half the size.
 pub fn short(value: f64) -> f64 {
     f64::from(value as f32)
 }
@@ -60,7 +61,7 @@ pub fn vector(at: Vec2, z: f64) -> Vector3 {
     Vector3 { x: short(at.x), y: short(at.y), z: short(z) }
 }
 
-/// A box with a square base in the plane.
+/// Extents of a box that has a square base in the plane.
 pub fn extent(width: f64, height: f64) -> Option<Vector3> {
     Some(Vector3 { x: short(width), y: short(width), z: short(height) })
 }

@@ -26,7 +26,7 @@ pub fn text(name: &str, links: &SceneUpdate) -> String {
     text + "</robot>"
 }
 
-/// The description as a message: a text in CDR, little endian, with its length and a closing zero.
+/// The description as a text message in CDR encoding: the text's length (little endian), the text, and a zero byte.
 pub fn message(text: &str) -> Vec<u8> {
     let mut data = vec![0, 1, 0, 0];
     data.extend((text.len() as u32 + 1).to_le_bytes());

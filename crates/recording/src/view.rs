@@ -139,7 +139,7 @@ fn telling(trajectory: &Trajectory) -> Vec<&Channel> {
         let own = || trajectory.iter().filter(|(channel, column)| channel.kind.unit == unit && range(column) > 0.0);
         let least = own().map(|(channel, _)| rank(channel.kind)).min()?;
         let best = own().filter(|(channel, _)| rank(channel.kind) == least);
-        // If several channels have equal ranges, the first is used, so that the choice does not depend on rounding.
+        // If several channels have the largest range, the first of them is used.
         best.reduce(|best, next| if range(next.1) > range(best.1) { next } else { best }).map(|(channel, _)| channel)
     };
     units.into_iter().filter_map(of).take(2).collect()

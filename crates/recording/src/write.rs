@@ -23,8 +23,8 @@ use std::path::Path;
 /// Upper limit of the log time (s). In nanoseconds, this limit is a third of the largest signed 64-bit number.
 const LONGEST: f64 = 3e9;
 
-/// A sample is also kept if it comes slightly too early: by at most this fraction of the sample spacing. The times of
-/// grids are rounded, so an exact comparison would lose samples.
+/// A sample may come earlier than it is due by this fraction of the requested sample spacing, and is still kept.
+/// The times of grids are rounded, so an exact comparison would lose samples.
 const EARLY: f64 = 1e-6;
 
 /// Writes a recording to `path`. An older recording is replaced only by a complete recording, through a temporary file.
