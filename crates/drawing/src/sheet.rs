@@ -53,7 +53,7 @@ pub fn fit(extent: Vec2, room: Vec2) -> f64 {
     }
     let power = 10f64.powi(least.log10().floor() as i32 - 1);
     let rounded = (least / power * (1.0 - 1e-12)).ceil() * power;
-    // The scale is parsed from text with two digits, so that it is also printed with two digits.
+    // The product can have a rounding error. Printing the scale with two digits and parsing the text removes this error.
     format!("{rounded:.1e}").parse().unwrap_or(rounded)
 }
 
