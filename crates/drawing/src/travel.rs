@@ -1,5 +1,6 @@
 //! Travel of blocks on their guides, and one pose of the members of every transmission.
-//! The travel sets the drawn length of the guides. A cam's profile is drawn so that it touches the follower in the pose.
+//! The travel sets the drawn length of the guides. A cam's profile is drawn such that it touches the follower in this
+//! pose.
 
 use linkage::math::{KeepNan, Motion, Vec2};
 use linkage::mechanism::{JointId, LinkId, Mechanism, TransmissionId};

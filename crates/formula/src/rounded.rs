@@ -19,7 +19,8 @@ pub struct Rounded {
 
 /// Rounding error of an IEEE 754 operation: half a unit in the last place.
 const HALF: f64 = f64::EPSILON / 2.0;
-/// Rounding error of a function of the system library: less than a unit in the last place, with a margin.
+/// Rounding error of a function of the system library. The error is less than one unit in the last place; as a margin,
+/// two units are assumed.
 const WHOLE: f64 = 2.0 * f64::EPSILON;
 
 impl Rounded {
@@ -55,7 +56,7 @@ impl Rounded {
     }
 
     /// Adds the error of underflow to a result that may be too small for a double.
-    /// A result that `is_zero` exactly has no such error.
+    /// If the result is exactly zero (`is_zero`), it has no such error.
     fn or_tiny(self, is_zero: bool) -> Self {
         match self.value.abs() < f64::MIN_POSITIVE && !is_zero {
             true => Rounded { error: self.error + f64::MIN_POSITIVE, ..self },
