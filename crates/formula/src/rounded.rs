@@ -196,8 +196,8 @@ fn larger(one: f64, other: f64) -> f64 {
 }
 
 /// Value of a function that is monotonic from `domain[0]` to `domain[1]`.
-/// The value changes between the argument and each end of the argument's interval.
-/// The error is the larger of the two changes.
+/// The values at the two ends of the argument's interval differ from the value at the argument.
+/// The error is the larger of the two differences.
 /// If the argument is outside the domain by less than its error, the end of the domain is used instead.
 fn growing(function: impl Fn(f64) -> f64, x: Rounded, domain: [f64; 2]) -> Rounded {
     let at = |value: f64| function(value.clamp(domain[0], domain[1]));
