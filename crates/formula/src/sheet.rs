@@ -30,8 +30,8 @@ pub struct DerivationSheet {
     /// Values after a change, each with the number of the change for which it was calculated.
     changed: Vec<(u32, Rounded)>,
     change: u32,
-    /// Number of evaluations so far. One evaluation is that of one subexpression at one instant. Callers add their own evaluations to this
-    /// number.
+    /// Number of evaluations so far. One evaluation is that of one subexpression at one instant.
+    /// Callers add their own evaluations to this number.
     pub operations: u64,
 }
 

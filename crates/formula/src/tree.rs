@@ -191,7 +191,7 @@ impl fmt::Display for FormulaTree {
             }
             NodeShape::Pair(operator, parts) => {
                 let rank = operator.rank();
-                // The inner and the outer operator may have the same precedence.
+                // If the inner operator has a lower precedence than the outer one, parentheses are needed.
                 // With equal precedence, parentheses are needed on the right of `+`, `-`, `*` and `/`, and on the left
                 // of `^`.
                 let [left, right] = match operator {
@@ -241,7 +241,7 @@ pub enum Function {
     Exp,
     /// Natural logarithm.
     Ln,
-    /// -1, 0 or 1: the derivative of the absolute value.
+    /// -1, 0 or 1: the sign of a number. Except at 0, it is the derivative of the absolute value.
     Sign,
 }
 
