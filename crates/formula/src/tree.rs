@@ -191,8 +191,8 @@ impl fmt::Display for FormulaTree {
             }
             NodeShape::Pair(operator, parts) => {
                 let rank = operator.rank();
-                // If inner and outer operator have the same precedence, parentheses are needed on the right of `+`, `-`,
-                // `*` and `/`, and on the left of `^`.
+                // If inner and outer operator have the same precedence, parentheses are needed on the right of `+`,
+                // `-`, `*` and `/`, and on the left of `^`.
                 let [left, right] = match operator {
                     Operator::Plus | Operator::Minus | Operator::Times | Operator::Over => [rank, rank + 1],
                     Operator::Power => [rank + 1, NEGATION],
