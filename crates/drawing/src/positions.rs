@@ -23,7 +23,7 @@ const APART: f64 = 3.0;
 const BESIDE: f64 = 6.0;
 /// Positions closer to each other than this (mm on paper) share one label, such as `0,12`.
 const ONE: f64 = 0.5;
-/// Steps from one numbered position to the next that are tried. With step 3, every third position has a number.
+/// Possible steps from one numbered position to the next. With step 3, every third position has a number.
 const STEPS: [usize; 9] = [1, 2, 3, 4, 5, 6, 8, 9, 12];
 
 /// Positions of a mechanism that are drawn with thin lines in addition to the complete drawing, and paths of points.
@@ -45,7 +45,7 @@ pub struct NumberedPath {
     pub link: LinkId,
     /// The path in the world (m).
     pub path: Vec<Vec2>,
-    /// World position of the point in the positions 0, 1, 2 and so on of the mechanism (m).
+    /// World coordinates of the point (m) in the positions 0, 1, 2 and so on of the mechanism.
     pub places: Vec<Vec2>,
 }
 
@@ -57,8 +57,8 @@ impl NumberedPath {
         high - low
     }
 
-    /// The smallest step from one numbered position to the next at which the numbers have space beside the path, for a
-    /// scale (m/mm).
+    /// The smallest step from one numbered position to the next at which the numbers have space beside the path.
+    /// The path is drawn at the scale `scale` (m/mm).
     /// `None` if the path is too small for numbers.
     fn numbered_every(&self, scale: f64) -> Option<usize> {
         let way: f64 = self.places.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
@@ -68,7 +68,8 @@ impl NumberedPath {
 }
 
 impl Picture<'_> {
-    /// Draws the outlines of moving links in other positions as one pale element. Each position is a part with a name.
+    /// Draws the outlines of moving links in other positions as one pale element. Within it, each position is an
+    /// element with its own name.
     pub fn draw_thin(&mut self, positions: &[(Vec<LinkPlacement>, String)]) {
         let mut all = DrawnFigure::default();
         for (places, name) in positions {
@@ -150,8 +151,8 @@ impl Picture<'_> {
     }
 }
 
-/// A cell with one path. The path is enlarged by a round factor, as far as path and numbers fit into the size `room`
-/// (mm).
+/// A cell with one path. The path is enlarged by the largest round factor at which path and numbers fit into the size
+/// `room` (mm).
 /// The cell has no heading.
 #[must_use]
 pub fn enlarged(own: &NumberedPath, room: Vec2) -> SheetCell {

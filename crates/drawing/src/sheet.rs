@@ -53,7 +53,7 @@ pub fn fit(extent: Vec2, room: Vec2) -> f64 {
     }
     let power = 10f64.powi(least.log10().floor() as i32 - 1);
     let rounded = (least / power * (1.0 - 1e-12)).ceil() * power;
-    // The scale is parsed from text with two digits, so that it is also printed with two digits.
+    // The product can have a rounding error. Printing the scale with two digits and parsing the text removes it.
     format!("{rounded:.1e}").parse().unwrap_or(rounded)
 }
 
@@ -124,8 +124,8 @@ pub fn sheet(title: &str, subtitle: &str, cells: &[SheetCell], least: f64) -> (D
     (sheet, [(whole + 2.0 * MARGIN).ceil(), (MARGIN - GAP - top).ceil()])
 }
 
-/// The pictures of the cells alone, side by side, with their size (mm). Every cell has at least the size `least` (mm).
-/// The upper left corner is the origin.
+/// The pictures of the cells side by side, without headings, scales and legends, and the size (mm) of the whole figure.
+/// Every cell has at least the size `least` (mm). The upper left corner is the origin.
 pub fn bare(cells: &[SheetCell], least: Vec2) -> (DrawnFigure, [f64; 2]) {
     let size = |cell: &SheetCell| cell.bounds[1] - cell.bounds[0];
     let room = cells.iter().map(size).fold(least, |most, own| most.sup(&own));

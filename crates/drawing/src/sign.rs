@@ -155,7 +155,8 @@ pub fn arrow(tip: Vec2, unit: f64) -> Vec<Mark> {
 }
 
 /// An arrow around the origin: its arc and its head. The arrow is counter-clockwise for a `sense` above 0.
-/// The arrow begins in the direction `from` (rad) at the distance `radius` (m). `u` is the unit of the sketch (m).
+/// Seen from the origin, the start of the arrow lies in the direction `from` (rad) at the distance `radius` (m).
+/// `u` is the unit of the sketch (m).
 pub fn turning(sense: f64, radius: f64, from: f64, u: f64) -> [Mark; 2] {
     let sense = sense.signum();
     let end = unit(from + sense * SWEEP) * radius;

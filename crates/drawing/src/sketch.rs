@@ -16,7 +16,7 @@ const UNITS: f64 = 60.0;
 const STOP: f64 = 1.4;
 
 /// The unit (m) of a sketch, for a picture of unknown size. A pin is 2.4 units wide, a block is 10 units long.
-/// A picture about 150 units wide is easy to read.
+/// If the size of the picture is known, a unit of about 1/150 of its width makes the picture easy to read.
 pub fn unit(mechanism: &Mechanism) -> f64 {
     mechanism.size() / UNITS
 }
@@ -173,7 +173,7 @@ fn ground(mechanism: &Mechanism, unit: f64) -> Vec<Mark> {
     marks
 }
 
-/// Whether a link has more than two joints, all of them pins on links that slide.
+/// Whether a link has more than two joints, and each of them is a pin to a moving link that also has a slide.
 fn is_platform(mechanism: &Mechanism, link: LinkId) -> bool {
     let joints = |link| mechanism.joints().iter().filter(move |joint| joint.on(link).is_some());
     let is_carried = |joint: &Joint| {

@@ -8,7 +8,7 @@ use linkage::mechanism::{CamContact, LinkId, Mechanism, Transmission, Transmissi
 
 /// Inner end of the stroke that shows how far a wheel has turned, as a fraction of the wheel's radius.
 const STROKE: f64 = 0.8;
-/// Length of a rack beyond the contact at both ends of its travel, as a fraction of the pinion's radius.
+/// At each end of its travel, a rack extends beyond the contact by this fraction of the pinion's radius.
 const BEYOND: f64 = 0.6;
 /// Number of drawn points of a cam's profile.
 const CORNERS: usize = 360;

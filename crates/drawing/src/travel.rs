@@ -1,5 +1,6 @@
 //! Travel of blocks on their guides, and one pose of the members of every transmission.
-//! The travel sets the drawn length of the guides; the pose sets the profiles of cams.
+//! The travel sets the drawn length of the guides. A cam's profile is drawn such that it touches the follower in this
+//! pose.
 
 use linkage::math::{KeepNan, Motion, Vec2};
 use linkage::mechanism::{JointId, LinkId, Mechanism, TransmissionId};
@@ -10,7 +11,8 @@ use linkage::mechanism::{JointId, LinkId, Mechanism, TransmissionId};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Travels {
     joints: Vec<Option<[f64; 2]>>,
-    /// For every transmission, the coordinates of its members in one pose (rad, or rad and m).
+    /// For every transmission, the coordinates of its two members in one pose: two angles (rad), or the angle (rad) of
+    /// the first member and the slide (m) of the second.
     members: Vec<Option<[f64; 2]>>,
 }
 

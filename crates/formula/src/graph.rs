@@ -300,8 +300,8 @@ impl FormulaGraph {
 
     /// The node of an operator on two operands, simplified if an operand is zero or one.
     /// Derivatives produce many zeros and ones.
-    /// If a factor is dropped, no domain error is lost: the factor's node exists elsewhere, where its domain is
-    /// checked.
+    /// Where a derivative drops a factor, no domain error is lost: the factor comes from the formula that is
+    /// differentiated, and its domain is checked there.
     pub(crate) fn pair(&mut self, operator: Operator, left: NodeId, right: NodeId) -> NodeId {
         let (a, b) = (self.exact(left), self.exact(right));
         match (operator, a, b) {

@@ -96,7 +96,7 @@ fn whole(input: &mut Input<'_>) -> Read<FormulaTree> {
     }
 }
 
-/// The fault of a character at a position where an operator or the end of an operand is expected.
+/// The fault if the character `sign` stands where an operator or the end of an operand is expected.
 fn no_operator<T>(sign: char, at: usize) -> Read<T> {
     let own = at..at + sign.len_utf8();
     if sign == ',' {
@@ -153,7 +153,7 @@ fn sign<'a>(input: &mut Input<'a>) -> Read<Prefix<Input<'a>, FormulaTree, ErrMod
 }
 
 fn negative(part: FormulaTree) -> FormulaTree {
-    // The range of the text begins one byte before the operand.
+    // The text range of the negated formula begins one byte before its operand.
     // The byte before the operand is the minus or a space behind the minus.
     let at = part.at.start.saturating_sub(1)..part.at.end;
     FormulaTree { shape: NodeShape::Negative(Box::new(part)), at }
@@ -207,7 +207,7 @@ fn operand(input: &mut Input<'_>) -> Read<FormulaTree> {
         None => {
             refused(sentences::THE_FORMULA_ENDS_WHERE_A_PART, start..start, sentences::ADD_A_NUMBER_A_NAME_OR_A_CALL)
         }
-        // No operand begins with a plus or minus. The parser then tries to read a sign before an operand.
+        // No operand begins with a plus or minus. At such a character, the parser tries to read a sign instead.
         Some('-' | '+') => none(),
         Some(sign @ (')' | ',' | '=' | '*' | '/' | '^')) => {
             let message = sentences::a_part_is_missing_before(&sign);

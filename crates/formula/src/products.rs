@@ -77,7 +77,8 @@ impl Products {
     }
 }
 
-/// Adds all products of the chosen quantities with the quantities from index `next` on.
+/// Adds the product of the chosen powers of quantities. Also adds all products of these with powers of the quantities
+/// from index `next` on.
 fn put(quantities: &[(f64, Dimension)], next: usize, chosen: &mut Vec<(u8, i8)>, products: &mut Vec<Product>) {
     let value: f64 = chosen.iter().map(|&(index, power)| quantities[usize::from(index)].0.powi(power.into())).product();
     let dimension = chosen.iter().try_fold([0.0; 3], |sum: [f64; 3], &(index, power)| {
@@ -103,8 +104,8 @@ fn put(quantities: &[(f64, Dimension)], next: usize, chosen: &mut Vec<(u8, i8)>,
 }
 
 /// Information (bits) in a number that is known to a relative accuracy. For example, 1/60 has 3 bits and 1.4715 has 13.
-/// A round number, a simple fraction, or a simple fraction of pi has few bits. Any other number has as many bits as the
-/// accuracy.
+/// A round number, a simple fraction, or a simple fraction of pi has few bits. Any other number has the bits of its
+/// accuracy, which are `-log2(accuracy)`.
 /// A number with few bits is easily matched by chance.
 #[must_use]
 pub fn information(value: f64, accuracy: f64) -> f64 {

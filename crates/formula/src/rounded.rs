@@ -19,7 +19,8 @@ pub struct Rounded {
 
 /// Rounding error of an IEEE 754 operation: half a unit in the last place.
 const HALF: f64 = f64::EPSILON / 2.0;
-/// Rounding error of a function of the system library: less than a unit in the last place, with a margin.
+/// Rounding error of a function of the system library. The error is less than one unit in the last place; as a margin,
+/// two units are assumed.
 const WHOLE: f64 = 2.0 * f64::EPSILON;
 
 impl Rounded {
@@ -55,7 +56,7 @@ impl Rounded {
     }
 
     /// Adds the error of underflow to a result that may be too small for a double.
-    /// A result that `is_zero` exactly has no such error.
+    /// If the result is exactly zero (`is_zero`), it has no such error.
     fn or_tiny(self, is_zero: bool) -> Self {
         match self.value.abs() < f64::MIN_POSITIVE && !is_zero {
             true => Rounded { error: self.error + f64::MIN_POSITIVE, ..self },
@@ -195,8 +196,8 @@ fn larger(one: f64, other: f64) -> f64 {
 }
 
 /// Value of a function that is monotonic from `domain[0]` to `domain[1]`.
-/// The value changes between the argument and each end of the argument's interval.
-/// The error is the larger of the two changes.
+/// The values at the two ends of the argument's interval differ from the value at the argument.
+/// The error is the larger of the two differences.
 /// If the argument is outside the domain by less than its error, the end of the domain is used instead.
 fn growing(function: impl Fn(f64) -> f64, x: Rounded, domain: [f64; 2]) -> Rounded {
     let at = |value: f64| function(value.clamp(domain[0], domain[1]));

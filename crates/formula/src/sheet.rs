@@ -19,7 +19,8 @@ enum Part {
 #[derive(Clone, Debug, Default)]
 pub struct DerivationSheet {
     parts: Vec<Part>,
-    /// Indices of the subexpressions of every formula. A subexpression is listed before its arguments.
+    /// Indices in `parts` of the subexpressions of every formula. Unlike in `parts`, a subexpression is listed before
+    /// its arguments.
     formulas: Vec<Vec<usize>>,
     names: BTreeMap<String, usize>,
     /// Inputs, by instant.
@@ -29,8 +30,8 @@ pub struct DerivationSheet {
     /// Values after a change, each with the number of the change for which it was calculated.
     changed: Vec<(u32, Rounded)>,
     change: u32,
-    /// Number of evaluations so far, counted per subexpression and instant. Callers add their own evaluations to this
-    /// number.
+    /// Number of evaluations so far. One evaluation is that of one subexpression at one instant.
+    /// Callers add their own evaluations to this number.
     pub operations: u64,
 }
 
@@ -49,7 +50,7 @@ pub struct FormulaTarget {
     pub value: f64,
     /// Largest allowed distance of a value from the correct value.
     pub bound: f64,
-    /// A whole turn, if the value is an angle.
+    /// A whole turn, in the unit of the value; `None` if the value is not an angle.
     pub turn: Option<f64>,
 }
 

@@ -154,7 +154,7 @@ fn with_derivatives(tree: &FormulaTree, x: f64, y: f64) -> [Rounded; 3] {
 }
 
 /// The limit of central differences by Ridders' extrapolation, with the error of the limit.
-/// `None` if the limit is not accurate to five digits, as near a kink, a pole, or the end of a domain.
+/// `None` if the limit is not accurate to five digits. This happens near a kink, a pole, or the end of a domain.
 fn limit_of_differences(function: &dyn Fn(f64) -> Rounded) -> Option<(f64, f64)> {
     let (mut before, mut best) = (Vec::<f64>::new(), None::<(f64, f64)>);
     for level in 0..9 {
@@ -223,7 +223,7 @@ proptest! {
         let known = program.run(&[Rounded { value: x, error }, Rounded { value: y, error }])[0];
         let other = program.run(&[Rounded::exact(x + share[0] * error), Rounded::exact(y + share[1] * error)])[0];
         prop_assume!(known.value.is_finite() && known.error.is_finite() && other.value.is_finite());
-        // atan2 jumps by a turn at its branch cut, so it is excluded. Angles are compared modulo a turn.
+        // atan2 jumps by a turn at its branch cut, so it is excluded here. Users of an angle compare it modulo a turn.
         prop_assume!(!holds(&tree, &|shape| matches!(shape, NodeShape::Call(Function::Atan2, _))));
         prop_assert!((known.value - other.value).abs() <= known.error + other.error, "{}: {:?} {:?}", tree, known, other);
     }

@@ -191,9 +191,8 @@ impl fmt::Display for FormulaTree {
             }
             NodeShape::Pair(operator, parts) => {
                 let rank = operator.rank();
-                // The inner and the outer operator may have the same precedence.
-                // With equal precedence, parentheses are needed on the right of `+`, `-`, `*` and `/`, and on the left
-                // of `^`.
+                // If inner and outer operator have the same precedence, parentheses are needed on the right of `+`,
+                // `-`, `*` and `/`, and on the left of `^`.
                 let [left, right] = match operator {
                     Operator::Plus | Operator::Minus | Operator::Times | Operator::Over => [rank, rank + 1],
                     Operator::Power => [rank + 1, NEGATION],
@@ -241,7 +240,7 @@ pub enum Function {
     Exp,
     /// Natural logarithm.
     Ln,
-    /// -1, 0 or 1: the derivative of the absolute value.
+    /// -1, 0 or 1: the sign of a number. Except at 0, it is the derivative of the absolute value.
     Sign,
 }
 

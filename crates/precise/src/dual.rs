@@ -109,7 +109,8 @@ impl<B: Scalar, const N: usize> Scalar for Dual<B, N> {
         Some(DualFactors { values: Eliminated::of(values)?, rows })
     }
 
-    /// The derivatives of the solution of A x = b follow from A x' = b' - A' x, so that A is eliminated only once.
+    /// The derivatives of the solution of A x = b follow from A x' = b' - A' x. The matrix is again A, so A is
+    /// eliminated only once.
     fn solution(factors: &Self::Factors, right: &[Self]) -> Vec<Self> {
         let values: Vec<B> = right.iter().map(|own| own.value).collect();
         let values = factors.values.solved(&values);

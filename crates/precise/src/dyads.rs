@@ -27,7 +27,8 @@ struct Dyad {
     links: [LinkId; 2],
     outer: [JointId; 2],
     inner: JointId,
-    /// Positions of the outer joints on the earlier links to which the dyad is attached.
+    /// Positions of the outer joints in the frames of the links to which the dyad is attached. These links belong to
+    /// earlier groups, or are the ground or the crank.
     bases: [JointSide; 2],
     /// For each link of the dyad: positions of the outer and the inner joint.
     locals: [[linkage::math::Vec2; 2]; 2],
@@ -86,7 +87,7 @@ impl Dyad {
         let (base, half) = (b - a, Long::of(0.5));
         let square = base.dot(base);
         // `along` and `across` give the inner joint's position along the base and perpendicular to it, as fractions of
-        // the base.
+        // the base's length. The first value called `across` is the square.
         let along = (square + rods[0].dot(rods[0]) - rods[1].dot(rods[1])) * half / square;
         let across = rods[0].dot(rods[0]) / square - along * along;
         if !(across > Long::ZERO) {

@@ -291,8 +291,8 @@ impl<'a, S: Scalar> Whole<'a, S> {
         None
     }
 
-    /// Velocities, accelerations and forces in a closed pose. `angles` are the angles of the links, to within half a
-    /// turn.
+    /// Velocities, accelerations and forces in a closed pose. `angles` are approximate angles of the links (rad), with
+    /// errors of less than half a turn. They give the number of whole turns.
     pub(crate) fn instant(&self, frames: &[Frame<S>], angles: &[f64], drives: &[[S; 3]]) -> Option<Snapshot<S>> {
         let mut instant = Snapshot::at_rest(self.case);
         instant.frames = frames.to_vec();

@@ -14,8 +14,9 @@ fn row(link: LinkId) -> usize {
     3 * (link.index() - 1)
 }
 
-/// Action on the joint's second link if the unknown is 1: the force, the moment about the world's origin, and the
-/// joint's moment. The joint's moment is a part of the moment about the origin.
+/// Action of one of a joint's two unknowns on the joint's second link, for the value 1 of the unknown: the force, the
+/// moment about the world's origin, and the joint's moment.
+/// The joint's moment is a part of the moment about the origin.
 type Unit<S> = (Vector<S>, S, S);
 
 impl<S: Scalar> Whole<'_, S> {
@@ -100,7 +101,8 @@ impl<S: Scalar> Whole<'_, S> {
         Some(())
     }
 
-    /// Force that joints, drives and loads exert on the ground, and the moment of this force about the origin.
+    /// Force that joints, drives and loads exert on the ground, and the moment that they exert on the ground, about the
+    /// world's origin.
     pub(crate) fn shaking(&self, instant: &Snapshot<S>) -> Wrench<S> {
         let (mut force, mut moment) = instant.on_ground;
         let mut add = |own: Wrench<S>| (force, moment) = (force + own.0, moment + own.1);

@@ -120,7 +120,7 @@ impl<S: Scalar> DriveNumbers<S> {
         matches!(self.law, Law::Curve(_))
     }
 
-    /// The time `time` (s), with the derivatives that keep the input constant if numbers of the law change.
+    /// The time `time` (s), with its derivatives with respect to the numbers of the law, at a constant input.
     /// `None` if the input has derivatives but the rate of the input is zero.
     pub(crate) fn time_of_same_input(&self, time: f64) -> Option<S> {
         let [input, rate, _] = self.at(S::of(time));

@@ -1,7 +1,7 @@
 #![doc = include_str!("../README.md")]
 //!
-//! [`solve`] solves dyads of revolute pairs in closed form ([`dyads`]). For every other mechanism, [`solve`] solves
-//! all equations of the mechanism at once ([`whole`]).
+//! If a mechanism of dyads of revolute pairs has a crank at constant speed and no loads except weights, [`solve`] uses
+//! closed forms ([`dyads`]). In every other case, [`solve`] solves all equations of the mechanism at once ([`whole`]).
 //! The second method accepts any [`Scalar`]: with [`Dual`] numbers it gives the exact derivatives of every channel with
 //! respect to the [`CaseNumbers`] of the case.
 //! The methods share the case with the analytic sides, but no equations and no code.

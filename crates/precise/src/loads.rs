@@ -13,8 +13,8 @@ use super::numbers::CaseNumbers;
 use super::scalar::Scalar;
 use super::vector::Vector;
 
-/// An angular velocity below this fraction of the fastest one counts as rounding error. For the speed of a point, the
-/// fastest angular velocity is multiplied by the mechanism's size.
+/// An angular velocity below this fraction of the largest one counts as rounding error. The speed of a point counts as
+/// rounding error below this fraction of the largest angular velocity times the mechanism's size.
 const STANDSTILL: f64 = 1e-12;
 
 /// The resultants of all loads on every link, the ground included. `input` is the input of the first drive.
@@ -70,7 +70,7 @@ impl<S: Scalar> Sum<'_, S> {
         self.force(own.first.link, -(axis * force), place);
     }
 
-    /// Largest absolute angular velocity of a link (rad/s).
+    /// Largest absolute angular velocity of all links (rad/s).
     fn fastest(&self) -> f64 {
         self.at.frames.iter().map(|frame| frame.omega.value().abs()).fold(0.0, |a, b| if a < b { b } else { a })
     }

@@ -66,7 +66,7 @@ pub type LiftTable<'a, S> = &'a dyn Fn(usize, usize) -> Vec<(S, Course)>;
 pub(crate) fn angle_of<S: Scalar>([x, y]: [S; 2], near: f64) -> S {
     let rough = y.value().atan2(x.value());
     let (sin, cos) = S::of(rough).sin_cos();
-    // The remainder is smaller than the rounding error of `rough`, so the remainder equals its sine.
+    // The remainder is the rounding error of `rough`. The remainder is so small that its sine has the same value.
     let rest = cos * y - sin * x;
     let turns = ((near - rough) / (2.0 * PI)).round();
     S::of(rough) + rest + S::TURN * S::of(turns)

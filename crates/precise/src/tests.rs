@@ -90,7 +90,7 @@ fn channels<S: Scalar>(case: &Case, numbers: &CaseNumbers<S>, time: f64, keeps_i
 }
 
 /// Derivatives of all channels with respect to one number, from differences in double-double.
-/// Extrapolation removes the errors of h^2 and h^4.
+/// Extrapolation removes the error terms in h^2 and h^4.
 fn differences(case: &Case, number: CaseNumber, time: f64) -> Vec<f64> {
     let moved = |h: f64| {
         let lift = |own: CaseNumber, value: f64| Long::of(value) + if own == number { Long::of(h) } else { Long::ZERO };
@@ -139,8 +139,8 @@ fn derivatives_equal_differences_in_double_double() {
                 assert!(off <= 1e-10 * most, "{law:?} {number:?} {channel}: {found} and {expected}, of {most}");
             }
         }
-        // The mass of the ground has no effect. A point that carries no joint and no load affects only the channels of
-        // this point.
+        // Some numbers, such as the mass of the ground, change no channel. A point that carries no joint and no load
+        // affects only the channels of this point.
         assert!(not_zero > 60, "{not_zero}");
     }
 }
@@ -197,15 +197,15 @@ fn loads_equal_those_of_the_sides() {
         let joints = case.mechanism.joints().len();
         let (forces, moments) = (vec![Vec2::zeros(); joints], vec![0.0; joints]);
         let reactions = JointReactions { forces: &forces, moments: &moments, transmitted: &[] };
-        // By the principle of virtual work, the load changes the crank's moment by the power of the load divided by the
-        // crank's speed.
+        // By the principle of virtual work, the load reduces the crank's moment by the power of the load divided by the
+        // crank's speed (10 rad/s).
         let power = case.load_power(&motions, &loaded.angles, reactions);
         let off = (loaded.efforts[0] - free.efforts[0]) + power / 10.0;
         assert!(off.abs() < 1e-12 * (1.0 + power.abs()), "{load:?}: {off}, {power}");
     }
 }
 
-/// The force on the frame is the sum of weights, inertia forces and loads.
+/// The force on the ground is the sum of weights, inertia forces and loads.
 #[test]
 fn the_frame_carries_all_forces() {
     let case = slider_crank().with(|parts| parts.loads = all_loads()).unwrap();

@@ -22,7 +22,8 @@ const NEAR: f64 = 1e-10;
 
 /// Does the same as [`solve`](super::solve), by all equations at once, for mechanisms of revolute and prismatic pairs
 /// with up to some tens of links.
-/// From the start pose, the motion is followed in steps of at most one degree of every driving link.
+/// From the start pose, the motion is followed in small steps. In a step, a drive rotates by at most one degree, or
+/// slides by at most pi/180 of the mechanism's size.
 /// At each requested instant, Newton's method is repeated until the pose changes only by rounding errors.
 ///
 /// # Errors

@@ -229,7 +229,8 @@ mod tests {
         }
     }
 
-    /// Means, variances and correlations of ten thousand cases, within five standard errors of independent numbers.
+    /// The means, variances and correlations of ten thousand cases are accurate to five standard errors. The standard
+    /// errors are those of independent random numbers.
     /// Sobol's sequence and the Latin hypercube have smaller deviations than random numbers.
     #[test]
     fn samples_have_the_moments_of_their_distributions() {

@@ -127,14 +127,14 @@ impl Figures<'_> {
             }
             FigureKind::Reach(_) | FigureKind::Verdict(_) => return None,
         };
-        // Only channels are allowed in the claim, because the numbers of parameters and of reduced quantities may vary
+        // Only channels are allowed in the claim, because the values of parameters and of reduced quantities may vary
         // from case to case.
         let claim = Claim::of_channels(&own.quantity, &self.case.all_channels()).ok()?;
         if let (NodeShape::Name(_), [(_, printed)]) = (&claim.tree.shape, &claim.channels[..]) {
             let (tally, unit) = (self.grid.tally(own.statistic)?, printed.to_si(1.0));
-            // For the value of an extreme, square root and unit are applied only to this value.
-            // For the input at an extreme, square root and unit are applied to all values, because rounding may make
-            // different values equal.
+            // If the figure is the value of an extreme, square root and unit are applied to the extreme only.
+            // If the figure is the input at an extreme, square root and unit are applied to all values before the
+            // search, because rounding may make different values equal.
             let is_late = !is_place && !matches!(own.statistic, Statistic::Mean | Statistic::Rms);
             let mut quantity = self.quantity(printed)?;
             let is_root = is_late && printed.magnitude;

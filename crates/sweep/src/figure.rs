@@ -15,7 +15,7 @@ use scenario::{CaseFigure, Claim, FigureKind, Scenario};
 /// The part of a case's solution that the figures need.
 struct SolvedCase {
     trajectory: Trajectory,
-    /// Smallest sine of a transmission angle.
+    /// Smallest sine of the transmission angles of all dyads, over the whole motion.
     sine: f64,
 }
 
@@ -63,7 +63,7 @@ pub(crate) fn all(figures: &[CaseFigure], scenario: &Scenario, values: &mut [f64
 
 fn solved(case: &Case, channels: &[Channel], needs_poses: bool) -> Result<SolvedCase> {
     let mut sine = f64::NAN;
-    // Only the part of the mechanism on which the requested channels depend is solved, as the command `solve` does.
+    // As in the command `solve`, only that part of the mechanism is solved on which the requested channels depend.
     // A transmission angle needs all links.
     let wanted = if needs_poses { case.clone() } else { case.wanting_only(channels).scene()?.case };
     let mut sampler = Sampler::new(&wanted);

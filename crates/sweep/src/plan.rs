@@ -27,7 +27,7 @@ pub struct SweepPlan {
     pub design: SweepDesign,
     /// The figures of every case.
     pub figures: Vec<CaseFigure>,
-    /// Cases whose index is a multiple of this number are proven, engines included; `None` for no proof.
+    /// Cases whose index is a multiple of this number are proven, also by the physics engines; `None` for no proof.
     pub prove_every: Option<u64>,
     /// Number of cases that are stored together.
     pub part: u64,

@@ -13,7 +13,7 @@ use crate::sentences;
 use crate::store::{Failure, SweepStore};
 use crate::table::Rows;
 
-/// One of several shares of a sweep's parts. The shares are equal, up to one part.
+/// One of several shares of a sweep's parts. The sizes of the shares differ by at most one part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
     /// Number of the share, from 1.
@@ -43,7 +43,7 @@ fn cases_of(plan: &SweepPlan, parts: impl Iterator<Item = u64>) -> u64 {
     parts.map(|part| plan.cases_of(part).count() as u64).sum()
 }
 
-/// Numbers of cases since the start of the run.
+/// How many cases are finished: in this run so far, and in earlier runs.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SweepTally {
     /// Cases solved in this run.
@@ -76,7 +76,8 @@ impl SweepTally {
     }
 }
 
-/// Solves the parts of a shard, or of the whole sweep, that are not stored yet. `progress` receives the numbers of cases after every part.
+/// Solves the parts of a shard, or of the whole sweep, that are not stored yet.
+/// After every part, `progress` is called with the numbers of finished cases.
 /// If `progress` returns `Break`, the sweep stops.
 /// If the proof of a case disagrees, the sweep stops after the part of this case; finished parts remain stored.
 /// Without `shard`, the parts are joined to one table while further parts are solved.
@@ -114,8 +115,8 @@ pub fn run(
     outcome
 }
 
-/// Solves and stores parts. `done` receives the numbers of cases and the parts stored since its last call. Its first call
-/// has the parts of an earlier run.
+/// Solves and stores parts. After every part, `done` is called with the numbers of finished cases so far, and with the
+/// parts that were stored since the previous call. The first call also contains the parts of earlier runs.
 fn stored(
     plan: &SweepPlan,
     store: &SweepStore,

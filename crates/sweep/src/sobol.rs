@@ -123,7 +123,8 @@ mod tests {
         }
     }
 
-    /// Among the first 2^k points, each interval of length 2^-k contains exactly one point, in every dimension.
+    /// In every dimension, the range from 0 to 1 is divided into 2^k equal intervals. Each interval contains exactly
+    /// one of the first 2^k points.
     #[test]
     fn every_dimension_is_stratified() {
         let sobol = Sobol::of(MOST);

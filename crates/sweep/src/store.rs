@@ -50,8 +50,8 @@ impl Failure {
     }
 }
 
-/// Where a table is written: at `at`, in place of an earlier table of this program. An existing file may be empty,
-/// because the computer may have lost power while the file was written.
+/// Where a table is written: at `at`, in place of an earlier table of this program. An empty file is replaced too: it
+/// remains if the computer lost power while the file was written.
 fn target(at: &Path) -> OutputTarget<'_> {
     OutputTarget::Made(at, &|bytes| bytes.is_empty() || bytes.starts_with(b"PAR1"))
 }

@@ -153,7 +153,7 @@ impl SweepSummary {
 
 impl FigureSpread {
     /// The statistics of a column whose first row is the case `first`; `None` if all values are NaN.
-    /// `deviation` is the sum of the squared deviations from the mean.
+    /// Here, `deviation` is still the sum of the squared deviations from the mean, not the standard deviation.
     fn of(column: &[f64], first: u64) -> Option<FigureSpread> {
         let present = || (first..).zip(column).filter(|(_, value)| !value.is_nan());
         let (case, &first_value) = present().next()?;
@@ -163,7 +163,7 @@ impl FigureSpread {
             least = if value < least.0 { (value, case) } else { least };
             most = if value > most.0 { (value, case) } else { most };
         }
-        // Equal values have exactly their value as mean.
+        // If all values are equal, the mean is exactly this value.
         let mean = first_value + sum / count as f64;
         let deviation = present().map(|(_, value)| (value - mean).powi(2)).sum();
         Some(FigureSpread { count, least, most, mean, deviation })

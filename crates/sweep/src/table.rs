@@ -39,7 +39,8 @@ pub(crate) struct Rows {
     pub results: Vec<CaseResult>,
 }
 
-/// Number of bytes after which the joined table waits for the storage device, so that the wait at its end is short.
+/// Number of appended bytes after which the program waits until the storage device has stored the joined table. The
+/// wait after the last part is then short.
 const SYNCED: u64 = 2 << 20;
 
 /// State of a solved case.

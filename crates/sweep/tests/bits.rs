@@ -1,4 +1,4 @@
-//! Cases that are solved in batches equal, bit by bit, cases that are read and solved alone.
+//! The figures of cases solved in batches equal, bit by bit, the figures of the same cases read and solved alone.
 
 use linkproof_sweep::{DesignKind, SweepAxis, SweepDesign, SweepPlan};
 use scenario::Scenario;
@@ -157,7 +157,7 @@ fn a_mechanism_of_three_dyads_gives_the_same_bits() {
         "transmission_angle_deg",
         "max:point.9.v_m_s",
     ];
-    // The published numbers are in tables beside the file.
+    // The oracles are left out, because their published numbers are in tables beside the file.
     let text = &file.text[..file.text.find("[[oracle]]").unwrap()];
     let [solved, _] = compared(&plan(text, &axes, &figures, 16));
     assert!(solved >= 8, "{solved} solved");

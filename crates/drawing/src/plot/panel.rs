@@ -255,7 +255,7 @@ fn is_drawn(point: &[f64; 2]) -> bool {
 /// Ticks at equal scales: both axes include zero, have the same step, and show the same number of units per length.
 fn equal(plot: &PlotChart, ends: [[f64; 2]; 2], noise: f64, room: [f64; 2]) -> [Ticks; 2] {
     let [x, y] = ends.map(|[low, high]| [low.smaller(0.0), high.larger(0.0)]);
-    // If the curves consist only of rounding errors, each looks like a point.
+    // If all values are only rounding errors, each axis is at least one unit long. Each curve then looks like a point.
     let size = x.into_iter().chain(y).map(f64::abs).fold(0.0, f64::larger);
     let least = if size <= noise { 1.0 } else { 0.05 * size };
     let spans = [x, y].map(|[low, high]| (high - low).larger(least));
@@ -286,8 +286,8 @@ fn legend(plot: &PlotChart) -> Vec<Vec<(usize, f64)>> {
     rows
 }
 
-/// Selects the points of a curve that are drawn: the first, lowest, highest and last of successive points within the
-/// width [`CELL`].
+/// Selects the points of a curve that are drawn. The curve is divided into groups of successive points, each at most
+/// [`CELL`] wide. Of each group, the first, the lowest, the highest and the last point are drawn.
 /// All extreme values are therefore drawn.
 fn thinned(points: &[[f64; 2]], at: &dyn Fn(&[f64; 2]) -> Vec2) -> Vec<[f64; 2]> {
     let mut kept = Vec::new();

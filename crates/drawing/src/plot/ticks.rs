@@ -13,7 +13,8 @@ use linkage::math::KeepNan;
 const DEGREES: [f64; 12] = [0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 90.0, 180.0];
 /// If the largest magnitude of an axis lies outside these limits, a power of ten stands before the unit.
 const PLAIN: [f64; 2] = [0.01, 1e5];
-/// A multiple of the step counts as an end of the axis if its distance from the end is at most this fraction of a step.
+/// If an end of the axis differs from a multiple of the step by at most this fraction of a step, the end counts as this
+/// multiple.
 const SAME: f64 = 1e-6;
 
 /// Ticks of an axis.
