@@ -18,6 +18,17 @@ const OPEN: f64 = 1e-6;
 /// Such small gaps arise only because the least-squares solution spreads the largest gap over the joints.
 const SEEN: f64 = 1e-2;
 
+/// A circle on which a link can place a pin. Only an arc of the circle is drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct PinCircle {
+    /// Centre (world, m).
+    pub centre: Vec2,
+    /// Radius (m).
+    pub radius: f64,
+    /// Direction of the middle of the arc: towards the other circle of the dyad, or +x if the dyad has one circle.
+    pub toward: Vec2,
+}
+
 /// A mechanism at one instant, assembled completely or in part.
 #[derive(Clone, Debug)]
 pub struct Laid {
@@ -25,9 +36,8 @@ pub struct Laid {
     pub places: Vec<LinkPlacement>,
     /// Joints that stay open: the joint, and the two world points (m) that should coincide.
     pub gaps: Vec<(JointId, [Vec2; 2])>,
-    /// For dyads that cannot be closed: the circles on which the two links can place the inner pin, as centres and
-    /// radii (m).
-    pub reaches: Vec<(Vec2, f64)>,
+    /// For dyads that cannot be closed: the circles on which the two links can place the inner pin.
+    pub reaches: Vec<PinCircle>,
     /// Reasons why the mechanism cannot be assembled completely, group by group.
     pub faults: Vec<Error>,
     /// Assembly mode of each group that is placed.
@@ -233,7 +243,7 @@ fn close(mechanism: &Mechanism, mut laid: Laid) -> Laid {
 
 /// The circles on which the two links of a dyad can hold the inner pin: one circle for each link whose outer joint is
 /// a pin.
-fn reaches(mechanism: &Mechanism, group: &Group, laid: &Laid) -> Vec<(Vec2, f64)> {
+fn reaches(mechanism: &Mechanism, group: &Group, laid: &Laid) -> Vec<PinCircle> {
     let (GroupKind::Rrr | GroupKind::Rrp, Some(&inner)) = (group.kind, group.inner.first()) else { return Vec::new() };
     let of_link = |(&link, &outer): (&LinkId, &JointId)| {
         let joint = &mechanism.joints()[outer];
@@ -247,7 +257,11 @@ fn reaches(mechanism: &Mechanism, group: &Group, laid: &Laid) -> Vec<(Vec2, f64)
     if !group.is_rigid() {
         return Vec::new();
     }
-    group.links.iter().zip(&group.outer).filter_map(of_link).collect()
+    let circles: Vec<(Vec2, f64)> = group.links.iter().zip(&group.outer).filter_map(of_link).collect();
+    let other = |centre: Vec2| circles.iter().map(|own| own.0 - centre).find(|apart| apart.norm() > 0.0);
+    let circle =
+        |&(centre, radius): &(Vec2, f64)| PinCircle { centre, radius, toward: other(centre).unwrap_or(Vec2::x()) };
+    circles.iter().map(circle).collect()
 }
 
 /// Returns at most `most` configurations of a mechanism. The driven joints have the coordinates `angles` (rad or m).

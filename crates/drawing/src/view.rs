@@ -137,11 +137,8 @@ fn figure(
         picture.draw_thin(&series.thin);
         small.extend(series.paths.iter().filter(|path| !picture.draw_numbered(path)).map(|path| path.name.as_str()));
     }
-    for (index, (centre, radius)) in laid.reaches.iter().enumerate() {
-        // Only an arc of each circle is drawn. Its middle lies towards the centre of the dyad's other circle.
-        // If the dyad has only one circle, the middle of the arc lies in the direction of x.
-        let other = laid.reaches.get(index ^ 1).map_or(Vec2::new(1.0, 0.0), |other| other.0 - centre);
-        picture.draw_reach(*centre, *radius, other);
+    for circle in &laid.reaches {
+        picture.draw_reach(circle.centre, circle.radius, circle.toward);
     }
     picture.draw_marks();
     picture.open_wheels();
