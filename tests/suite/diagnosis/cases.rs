@@ -1,5 +1,5 @@
 //! Faults in the case.
-//! The analytic side solves the faulty case, with errors like those of an engine.
+//! The analytic side solves the faulty case; errors like those of an engine are added to its values.
 
 use super::{Tally, edited, examined, parsed, text};
 use linkage::case::{Case, Grid};
