@@ -82,7 +82,7 @@ fn gap(case: &Case, state: &State) -> f64 {
 
 /// Opening of a four-bar's loop after a step of `step` (s) with constant velocities, divided by the mechanism's size.
 /// A vector r of a link that rotates by omega h becomes r + omega h n - (omega h)^2 / 2 r.
-/// The velocities close the loop except for the last terms: h^2 / 2 |sum of omega^2 r| around the loop.
+/// The terms omega h n add up to zero around the loop, so the loop opens by the last terms: h^2 / 2 |sum of omega^2 r|.
 /// Every step corrects the whole earlier gap (erp = 1), so only the gap of one step remains.
 fn gap_of_a_step(case: &Case, state: &State, step: f64) -> f64 {
     let joints = case.mechanism.joints();
@@ -101,7 +101,7 @@ fn gap_of_a_step(case: &Case, state: &State, step: f64) -> f64 {
 
 /// Story 64.
 /// At a step of 0.08 deg of the crank, loops open by 1.02e-7 of the mechanism's size.
-/// At every crank angle, the opening is the local error of one step, to 3 % of its largest value.
+/// At every crank angle, the opening equals the local error of one step, except for 3 % of the largest local error.
 /// With two substeps, the opening is a quarter of the opening with one substep.
 /// In an extrapolated run, only the rounding error of the combination remains.
 #[test]
