@@ -263,7 +263,8 @@ fn regress_14_thirty_two_sweeps_are_as_good_as_a_thousand() {
 #[test]
 #[cfg(feature = "f32")]
 fn regress_60_single_precision_is_within_its_rounding_bound() {
-    // A few instants in a quarter to two revolutions are enough, because the test concerns rounding, not convergence.
+    // The test concerns rounding, not convergence, so each grid has few instants.
+    // The grids cover from a quarter of a revolution to two revolutions.
     let parts = [
         ("crank_rocker", 0.0, 1.0),
         ("crank_rocker", 0.0, 0.25),
@@ -281,7 +282,7 @@ fn regress_60_single_precision_is_within_its_rounding_bound() {
         // The constants of the bounds were found on the crank-rocker, so the probe is tested only there.
         let routes: &[Route] = if name == "crank_rocker" { &Route::ALL } else { &[Route::Differences, Route::Native] };
         for (single, double) in [("rapier-f32", "rapier"), ("impulse-f32", "impulse")] {
-            // Short grids also use the smaller step. Long grids need `LINKPROOF_DRAWS` above 1 for the smaller step.
+            // Short grids always use the smaller step too, long grids only if `LINKPROOF_DRAWS` is above 1.
             let steps = if to - from < 0.5 || by_night() { &[1e-3, 2.5e-4][..] } else { &[1e-3] };
             for (&route, &step) in routes.iter().flat_map(|route| steps.iter().map(move |step| (route, step))) {
                 let engines = [double, single].map(|name| {
@@ -317,7 +318,7 @@ fn regress_60_single_precision_is_within_its_rounding_bound() {
         }
     }
     // The bounds are tight: for each bound, the error of some channel is at least a fiftieth of the bound.
-    // The bound of a slide's moment assumes all masses at a distance of the mechanism's size.
+    // The bound of a slide's moment assumes that the forces of all masses have the mechanism's size as their lever arm.
     // The guided links of `quick_return` and `scotch_yoke` are lighter and nearer than this bound assumes.
     // For the moments of these slides, an error of a thousandth of the bound is therefore enough.
     used.iter().for_each(|(what, share)| println!("{what:?}: {share:.1e}"));
