@@ -70,7 +70,8 @@ fn bare(path: &str, is_left_out: impl Fn(&str) -> bool) -> Scenario {
 
 /// Symptom: in an unloaded Oldham coupling, the driving moment is zero but disagreed by 83 % with the moment from the
 /// powers.
-/// Cause: the driving hub has no extent, so there was no moment with which to compare the rounding error.
+/// Cause: the driving hub has only one point, so no force had a lever arm about the hub.
+/// There was therefore no moment that could serve as the scale of the rounding error.
 #[test]
 fn regress_a_single_point_driving_link_uses_slider_moments() {
     let mut scenario = bare("scenarios/formulas/oldham_coupling.toml", |_| false);

@@ -81,8 +81,8 @@ fn share(stage: Stage) -> f64 {
     }
 }
 
-/// The diagnosis of a suspect with the bounds of an engine.
-/// The numerical error of the suspect is up to 0.7 times the engine's bounds.
+/// Adds a numerical error to the values of a suspect, and diagnoses the suspect.
+/// The bounds are typical bounds of an engine, and the error is at most 0.7 times these bounds.
 fn examined(case: &Case, suspect: &Trajectory, step: Option<f64>) -> Option<Diagnosis> {
     let reference = analytic::AssurSolver.solve(case).unwrap();
     let mut seed = 1u64;

@@ -290,8 +290,8 @@ fn wrong_input_is_refused_with_a_remedy() {
 }
 
 /// A small picture has no letters.
-/// A picture opened by itself is dark in a viewer in dark mode.
-/// Inside a page or printed, it stays light.
+/// If a viewer in dark mode opens the file of a picture directly, the picture is dark.
+/// Inside a page or printed, the picture stays light.
 #[test]
 fn small_pictures_have_no_letters_and_pictures_follow_a_dark_viewer() {
     let small = svg(&[&file("crank_rocker"), "--traces", "--small"]);

@@ -1,5 +1,5 @@
 //! Requirements on every engine, and errors that once occurred.
-//! Each error has a symptom and a cause.
+//! The comment on each error states its symptom and its cause.
 //! Errors with a number are listed as stories in `docs/stories.md`.
 
 mod accuracy;
@@ -141,7 +141,7 @@ fn regress_01_the_motor_holds_its_speed_over_many_turns() {
             let angles = run.column(&Channel::named("link.crank.angle_rad").unwrap()).unwrap();
             let steps = case.grid.times.last().unwrap() / engine.settings().resolution;
             for (angle, crank) in angles.iter().zip(run.inputs()) {
-                // The bound is half a unit in the last place of the largest angle for each step.
+                // For each step, the bound grows by half a unit in the last place of the largest angle.
                 let bound = 0.5 * epsilon(engine.as_ref()) * 32.0 * steps;
                 assert_within!((angle - crank).abs(), bound, "{}: {angle} at {crank}", engine.name());
             }

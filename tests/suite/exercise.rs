@@ -30,8 +30,9 @@ fn variant(number: usize) -> (Scenario, AnswerSheet) {
     (scenario, sheet)
 }
 
-/// A table of answers as a student writes it: with the requested decimals, or with as many decimals as a small number
-/// needs for three significant digits.
+/// A table of answers as a student writes it.
+/// Right answers have the requested decimals.
+/// Other answers have more decimals if they need more for three significant digits.
 fn written(sheet: &AnswerSheet, answers: &[Vec<f64>]) -> String {
     let mut text =
         format!("crank_deg,{}\n", sheet.columns.iter().map(|own| own.name.clone()).collect::<Vec<_>>().join(","));

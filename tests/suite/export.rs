@@ -64,7 +64,7 @@ fn bodies_are_the_links_on_the_spanning_tree() {
             assert_eq!((body.parent.as_ref(), &body.joint), (parent.as_ref(), &joint.name), "{}", scenario.name);
             assert_eq!(body.kind == Kind::Slide, joint.slides());
             assert_eq!((body.mass, body.centre), (link.mass, link.mass_centre), "{}: {}", scenario.name, link.name);
-            // The moments of inertia must satisfy MuJoCo's condition.
+            // MuJoCo requires that no moment of inertia exceeds the sum of the two others.
             // Only `z` matters in planar motion.
             let [x, y, z] = body.inertia;
             assert!(x + y >= z && y + z >= x && z + x >= y && x > 0.0);
@@ -112,7 +112,8 @@ fn the_file_holds_the_start_pose_and_its_speeds() {
             let gap = second.0.speed(second.1) - first.0.speed(first.1);
             let (off, turning) = match joint.axis_on(joint.first.link) {
                 None => (gap.norm(), 0.0),
-                // The guide that carries the block rotates, so its rotation is subtracted from the velocity of the gap.
+                // The guide that carries the block rotates; the velocity that the block has from this rotation is no
+                // velocity of a gap, and is subtracted.
                 Some(axis) => {
                     let axis = rotated(unit(first.0.angle), axis);
                     let way = second.0.place(second.1) - first.0.place(first.1);

@@ -155,7 +155,7 @@ fn val_crank_rocker_printed_mass_and_inertia_show_in_the_mean_reduced_inertia() 
             .unwrap()
             .inertia
     };
-    // The inertias are m l^2 / 12 for 22.6 kg, and the listed m l^2 / 5 for 2.6 kg.
+    // Two wrong moments of inertia of the crank: `heavy` is m l^2 / 12 with 22.6 kg, `listed` is m l^2 / 5 with 2.6 kg.
     let mass = ("mass_kg = 2.6", "mass_kg = 22.6");
     let [heavy, listed] = ["inertia_kg_m2 = 0.0012727", "inertia_kg_m2 = 0.00035"]
         .map(|to| ("inertia_kg_m2 = 0.00014641741001640535", to));
@@ -209,7 +209,7 @@ fn rapier_shows_second_order_in_every_channel_of_both_mechanisms() {
             .filter(|c| !c.convergence.observed.is_nan())
             .map(|c| (c.residual.channel.to_string(), c.convergence.observed))
             .collect();
-        // Only the motion of the crank and of points on it is exact at every step.
+        // Only the motion of the crank and of its points is exact, so only these channels have no observed order.
         assert!(
             orders.len() * 10 > proof.engine().channels.len() * 7,
             "{name}: {} of {}",
@@ -298,7 +298,7 @@ fn with_correction(printed: f64, right: f64) -> Proof {
 fn known_wrong_numbers_disagree_and_their_corrections_agree() {
     assert_eq!(with_correction(51.0, 50.0).verdict.word(), "agree");
     // First case: the printed number agrees, although the finding calls it wrong.
-    // Second case: neither number agrees; the right number is off by two units of its last digit.
+    // Second case: neither number agrees; the number given as correct is off by two units of its last digit.
     for (printed, right, words) in [(50.0, 51.0, "but the number agrees"), (51.0, 50.000_000_002, "are both wrong")] {
         match with_correction(printed, right).verdict {
             Verdict::Disagree { place } => assert!(place.contains(words), "{place}"),

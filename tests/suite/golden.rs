@@ -30,7 +30,7 @@ fn the_truth_is_that_of_other_commands() {
         // `compare` reads the Parquet table and finds the numbers of the scenario in it.
         let compared = place.run(&format!("compare set/{name}/truth.parquet set/{name}/{name}.toml"));
         assert_eq!(compared.code, 0, "{name}: {}{}", compared.stdout, compared.stderr);
-        // Every channel has its range, and a bound far below the largest value with the same unit.
+        // For every channel, `bounds.csv` states the range, and a bound far below the largest value with the same unit.
         let (truth, bounds) = (columns(&truth), columns(&read(&format!("set/{name}/bounds.csv"))));
         assert_eq!(bounds["channel"].len(), truth.len() - 2, "{name}");
         let number = |column: &str, k: usize| bounds[column][k].parse::<f64>().unwrap();
@@ -45,7 +45,7 @@ fn the_truth_is_that_of_other_commands() {
             assert!(bound > 0.0 && bound < 1e-8 * largest, "{name}: {channel}: {bound} of {largest}");
         }
     }
-    // A format that cannot hold the mechanism is left out, with its reason.
+    // If a format cannot hold the mechanism, there is no model in this format, and the manifest states why.
     let manifest: Value = serde_json::from_str(&read("set/manifest.json")).unwrap();
     let model = |k: usize| &manifest["mechanisms"][k]["models"]["xml"];
     assert_eq!(model(0), "swinging_parallelogram/swinging_parallelogram.xml");

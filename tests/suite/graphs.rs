@@ -99,7 +99,8 @@ impl Seen {
         names
     }
 
-    /// Millimetres per unit on an axis, from the numbers at its ticks: numbers in the same row or in the same column.
+    /// Millimetres on the sheet per unit of an axis, from the numbers at the ticks of the axis.
+    /// The numbers of the horizontal axis are in one row, those of the vertical axis in one column.
     fn scale(&self, axis: usize) -> f64 {
         let numbers: Vec<(f64, [f64; 2])> = self
             .texts
@@ -233,7 +234,8 @@ fn pdf_and_png_hold_the_same_charts() {
     let text = String::from_utf8_lossy(&pdf);
     assert!(pdf.starts_with(b"%PDF-") && text.trim_end().ends_with("%%EOF"));
     assert_eq!((text.matches("/Type /Page\n").count(), text.matches("/Count 1").count()), (1, 1), "{}", &text[..300]);
-    // The PDF contains four curves, whose line width no other line has, and the outlines of letters.
+    // The PDF contains four curves, their four line samples in the legend, and the outlines of letters.
+    // Only curves and line samples have the line width 0.45 mm.
     assert!(text.matches("0.45 w").count() >= 8 && text.matches("\nf\n").count() > 20);
     let size = seen(&fs::read_to_string(place.path("r.svg")).unwrap()).size;
     let stated = text.split("/MediaBox [0 0 ").nth(1).unwrap().split(']').next().unwrap();

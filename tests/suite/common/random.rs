@@ -28,7 +28,7 @@ pub fn for_each(count: u32, check: impl Fn(&DyadSpecimen) -> Result<(), TestCase
 }
 
 /// Runs `check` on `count` random mechanisms of one to `most` dyads of the given kinds.
-/// The number of dyads cycles; with a single dyad, the kind cycles too.
+/// The numbers of dyads follow each other in turn; for mechanisms with a single dyad, so do the kinds.
 pub fn for_each_of(
     allowed: &[[bool; 3]],
     most: usize,

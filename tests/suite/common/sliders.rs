@@ -160,8 +160,9 @@ pub fn slider_crank() -> Sample {
 
 /// The slider-crank with a rod of 0.11 m.
 /// The rod is too short if the crank's tip is farther than 0.11 m from the slider's line.
-/// From the start onwards, the rod is first too short at 180 deg + asin(0.09 / 0.1) = 244.158 deg from the guide.
-/// When the rod becomes too short, the crank angle is 261.347 deg.
+/// From the start onwards, this first happens when the crank is at 180 deg + asin(0.09 / 0.1) = 244.158 deg from the
+/// guide.
+/// The crank angle, measured from the world's x axis, is then 261.347 deg.
 pub fn short_rod() -> Case {
     let rod = 0.11;
     let case = slider_crank().case;
@@ -184,7 +185,7 @@ const BLOCK_AXIS: f64 = -0.6;
 const ROCKER_PLACE: Vec2 = Vec2::new(0.05, 0.01);
 const BLOCK_PLACE: Vec2 = Vec2::new(-0.01, 0.02);
 
-/// RPR: crank 0.1 m, block on its pin, sliding on a rocker about (0.25, 0.05).
+/// RPR: crank of 0.1 m, block on the crank pin; the block slides on a rocker that turns about (0.25, 0.05).
 ///
 /// With the guide at eta, A = C + t e + h n (h constant): v . n = t eta', v . e = t' - h eta',
 /// a . n = t eta'' + 2 t' eta' - h eta'^2, a . e = t'' - t eta'^2 - h eta''.

@@ -3,7 +3,7 @@
 //! Sizes are from 1 mm to 10 m, and masses within a mechanism spread over four decades.
 //! Speeds are from 0.1 to 3000 rpm in either direction.
 //! Motions are prescribed or free.
-//! Loads are of all kinds, each of the same magnitude as the inertia forces and weights.
+//! Loads are of all kinds; each load has the order of magnitude of the inertia forces and weights.
 //! Within the range of its grid, no specimen comes near a singular pose.
 
 mod motions;
@@ -23,7 +23,7 @@ use super::sketch::RandomSource;
 use super::spec::Spec;
 use shapes::{Shape, short};
 
-/// Engine step as a crank angle (rad), if the scenario states a step.
+/// Crank angle (rad) per engine step at the largest crank speed, in scenarios that state a step.
 const STEP: f64 = 0.005;
 
 /// A mechanism with its motion and loads.

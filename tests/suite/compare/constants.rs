@@ -1,5 +1,5 @@
 //! Constant columns.
-//! If the other columns of a file omit trailing zeros, a `0` counts as printed with as many digits as these columns.
+//! If the other columns of a file omit trailing zeros, a `0` is taken to have as many digits as their numbers.
 //! If no other column omits trailing zeros, a `0` may be a rounded value.
 
 use super::digits::Format;
@@ -56,7 +56,7 @@ fn structural_constants_agree_in_every_format() {
     }
 }
 
-/// If the other columns omit trailing zeros, a column of `0` is exact to the digits of these columns, so a wrong `0`
+/// If the other columns omit trailing zeros, a `0` is taken to have as many digits as their numbers, so a wrong `0`
 /// disagrees.
 /// If the other columns have fixed decimals, `0` may be the rounded form of any value below 0.5.
 #[test]

@@ -70,7 +70,9 @@ impl Format {
     }
 }
 
-/// A printed table: format, factor and name of the times; columns with name, format and numbers; and the times (s).
+/// A table as printed.
+/// `times` holds the format of the printed times, the factor from seconds to their unit, and the name of their column.
+/// `columns` holds the name, the format and the numbers of each column, and `at` the times (s).
 struct Printed {
     times: (Format, f64, &'static str),
     columns: Vec<(String, Format, Vec<f64>)>,
@@ -225,8 +227,9 @@ fn rounded_instants_excuse_only_the_change_within_them() {
                 let speed = column(&name.replace(".x_m", ".vx_m_s"));
                 let row = (37 * (index + 1)) % speed.len();
                 let half = 0.5 * times.0.unit(times.1 * printed.at[row]) / times.1;
-                // The error is three units of the last digit plus twice the change within the rounding of the instant.
-                // The correct number may differ by one change within the rounding of the instant.
+                // The planted error is three units of the last digit plus twice the change of the quantity in half a
+                // unit of the instant.
+                // Of this error, the rounding of the instant can explain only one such change.
                 printed.columns[index].2[row] += 3e-9 + 2.0 * speed[row].abs() * half + 1e3 * half * half;
                 wrong.push(row);
             }

@@ -286,7 +286,7 @@ fn a_table_comes_through_a_pipe_with_all_its_bytes() {
     assert!(code == Some(2) && told.contains("Parquet file that comes through a pipe"), "{told}");
 }
 
-/// Memory is estimated before it is allocated: for the numbers of a table, the comparison, and `[[oracle]]`.
+/// The memory for the numbers of a table, for the comparison and for `[[oracle]]` is estimated before it is allocated.
 #[test]
 fn tables_beyond_the_memory_limit_are_refused() {
     let place = place();

@@ -53,8 +53,9 @@ fn three_programs_agree_within_their_tolerances() {
         let found = compared(map, table, &[]);
         let channels = &found.pairs[0].channels;
         assert_eq!(found.verdict.word(), "agree", "{map}: {:?}", found.verdict);
-        // In each table, some error must use a part of its tolerance, because otherwise the test would prove nothing.
-        // Tables from closed formulas contain only rounding errors, so a smaller part is enough for these tables.
+        // In each table, the error of at least one channel must use more than the share `near` of its tolerance.
+        // If all tolerances were far too wide, the agreement would prove nothing.
+        // Tables from closed formulas contain only rounding errors, so a smaller share is enough for these tables.
         let near = if map.starts_with("pylinkage") { 0.01 } else { 0.3 };
         assert!(channels.iter().any(|own| own.worst.unwrap().used() > near), "{map}");
         let mapping = Mapping::load(&path(&format!("{map}.map.toml"))).unwrap();

@@ -1,6 +1,6 @@
 //! Columns of instants as they occur in practice.
 //! The instants may be in a different order, repeated, in different units, concatenated, or under different names.
-//! Each column is judged correctly, or refused with its location.
+//! Each column is judged correctly, or refused with a message that states where the problem is.
 
 use std::fmt::Write;
 use std::fs;

@@ -65,7 +65,7 @@ fn a_wrong_mapping_is_refused_with_its_position() {
     assert!(format!("{:?}", error.advice()).contains("link.rocker.angle_rad"), "{:?}", error.advice());
 }
 
-/// Numbers with few digits agree within half a unit of the last digit; times also agree within half a unit.
+/// The bound includes half a unit of the last digit of each number, and half a unit of the last digit of each time.
 #[test]
 fn digits_of_numbers_and_of_instants_are_in_the_bound() {
     let scenario = scenario("crank_rocker");

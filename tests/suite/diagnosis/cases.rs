@@ -1,5 +1,5 @@
 //! Faults in the case.
-//! The analytic side solves the faulty case, with errors like those of an engine.
+//! The analytic side solves the faulty case; errors like those of an engine are added to its values.
 
 use super::{Tally, edited, examined, parsed, text};
 use linkage::case::{Case, Grid};
@@ -150,7 +150,7 @@ fn tally(faults: &[Fault], what: &str) -> Tally {
         let right = text(name);
         let case = parsed(name, &right).case;
         let wrong = parsed(name, &edited(&right, from, to)).case.on(case.grid.clone()).unwrap();
-        // The faulty side uses times instead of crank angles, like an engine.
+        // As for an engine, the grid of the faulty side is given by times, not by crank angles.
         let grid = Grid::of_times(wrong.crank(), case.grid.times.clone());
         let suspect = analytic::AssurSolver.solve(&wrong.on(grid).unwrap()).unwrap();
         let found = examined(&case, &suspect, None);

@@ -61,7 +61,8 @@ fn two_faults_at_once_have_no_single_cause() {
     assert!(report.contains("\n  cause     no"));
 }
 
-/// The search for a cause has a separate limit: it may do as much work as the proof, and stops at this limit.
+/// The search for a cause has a work limit of its own: as much work as the budget allows for the proof.
+/// At this limit the search stops.
 /// The report and the JSON then say that the search was stopped early.
 #[test]
 fn a_truncated_search_for_a_cause_is_reported() {

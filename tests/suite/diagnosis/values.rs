@@ -10,7 +10,7 @@ fn solved(case: &Case) -> Trajectory {
     analytic::AssurSolver.solve(case).unwrap()
 }
 
-/// The correct values, with the channels selected by `which` changed by `change`.
+/// The correct values, except that `change` is applied to the channels that `which` selects.
 fn changed(case: &Case, which: impl Fn(&str, Stage) -> bool, change: impl Fn(usize, f64) -> f64) -> Trajectory {
     let right = solved(case);
     let column = |(channel, values): (&Channel, &[f64])| match which(&channel.to_string(), channel.kind.stage) {
@@ -21,7 +21,7 @@ fn changed(case: &Case, which: impl Fn(&str, Stage) -> bool, change: impl Fn(usi
     Trajectory::new(right.times().to_vec(), right.inputs().to_vec(), right.channels().to_vec(), columns).unwrap()
 }
 
-/// The correct values, with the selected stages delayed by `by`.
+/// The correct values, except that the channels of the selected stages are late by `by` (s).
 fn late(case: &Case, by: f64, which: impl Fn(Stage) -> bool) -> Trajectory {
     let times = case.grid.times.iter().map(|t| t - by).collect();
     let (right, other) = (solved(case), solved(&case.on(Grid::of_times(case.crank(), times)).unwrap()));

@@ -19,7 +19,7 @@ fn a_legend_names_the_links_by_their_numbers() {
     }
 }
 
-/// The head of a drive's arrow is the only black area.
+/// The only black areas of a picture are the arrowheads of its drives, so counting black areas counts the drives.
 #[test]
 fn a_link_that_only_forces_move_has_no_arrow_of_a_drive() {
     let heads = |name: &str| {
@@ -59,7 +59,8 @@ fn paths_of_joints_are_drawn_unless_they_are_circles() {
     assert_eq!(paths("crank_rocker").len(), 1);
 }
 
-/// A DXF file has the pins of a crank at the length of the crank, on the layer of the joints.
+/// In a DXF file, the distance between the two pins of a link is the length of the link.
+/// The pins are on the layer of the joints.
 #[test]
 fn a_dxf_file_has_full_size_and_layers() {
     let directory = tempfile::tempdir().unwrap();

@@ -56,7 +56,7 @@ fn twelve_positions_of_a_turn_are_drawn_and_numbered() {
     assert!(has(&document, "position 0 drawn fully"));
     let expected: Vec<String> = (1..12).map(|k| format!("position {k}")).collect();
     assert_eq!(thin(&document), expected);
-    // The crank is link 1.
+    // The colour of link 1, the crank, is `#0072b2`.
     // The crank pin has twelve positions, 30 deg apart, on a circle around O.
     let all = dots(&document);
     let pin = &all["#0072b2"];
@@ -150,7 +150,8 @@ fn a_path_is_enlarged_at_the_stated_scale() {
         assert!(ratio >= 2.0, "{ratio}");
         let colour = drawing::palette::link(side.link).light;
         let drawn = &dots(&document)[colour];
-        // Paths of points of the same link have the same colour, so the dots of this path are searched for.
+        // The dots of all paths of a link have the same colour.
+        // The dots of this path are therefore the twelve successive dots that fit the computed places best.
         let (places, from): (Vec<Vec2>, Vec2) = ((0..12).map(at).collect(), at(0));
         let fits = |first: usize| {
             let own = &drawn[first..first + 12];

@@ -116,8 +116,9 @@ fn side(all: &[Vec2], a: usize, b: usize, c: usize) -> f64 {
     cross(all[b] - all[a], all[c] - all[a]).signum()
 }
 
-/// The points of a moving link (mm), reconstructed from the lengths in the drawing, in their order.
-/// `shown` decides only on which side of a line or in which sense a point lies, not the distances.
+/// The points of a moving link (mm), reconstructed from the lengths in the drawing, in the order of the lengths.
+/// All distances come from `lengths`.
+/// `shown` only decides on which side of a line a point lies, or in which direction along the line.
 fn rebuilt(shown: &[Vec2], lengths: &[(usize, usize, f64)]) -> BTreeMap<usize, Vec2> {
     let mut built: BTreeMap<usize, Vec2> = BTreeMap::new();
     let Some(&(first, second, length)) = lengths.first() else { return built };

@@ -14,7 +14,8 @@ use linkage::drive::{DriveMotion, Load, MotionLaw, Motor, MotorLaw, ShaftInertia
 use linkage::mechanism::LinkId;
 use scenario::Scenario;
 
-/// A bar of 2 kg and 0.05 kg m^2 about its mass centre, which is `centre` from the pivot.
+/// A bar of 2 kg, with a moment of inertia of 0.05 kg m^2 about its mass centre.
+/// The distance of the mass centre from the pivot is `centre` (m).
 /// The bar starts in the direction `start` (deg).
 fn bar(centre: f64, start: f64, gravity: bool) -> Case {
     let field = if gravity { "[gravity]\nx_m_s2 = 0\ny_m_s2 = -9.81\n" } else { "" };

@@ -79,8 +79,8 @@ fn a_resistance_dissipates_exactly_its_work() {
         let turned: Vec<f64> = kinks.into_iter().filter(|_| crosses(&model, previous.crank, at.crank)).collect();
         way += match turned.first() {
             None => (now - last).abs(),
-            // Between the previous instant and this instant, the rocker passes its nearest extreme position and
-            // returns.
+            // Between the previous instant and this instant, the rocker reaches the nearest extreme position and turns
+            // back.
             Some(_) => {
                 let extreme = kinks.into_iter().min_by(|a, b| (a - now).abs().total_cmp(&(b - now).abs())).unwrap();
                 (extreme - last).abs() + (extreme - now).abs()

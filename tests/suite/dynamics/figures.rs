@@ -165,7 +165,7 @@ fn a_flywheel_gives_the_requested_non_uniformity() {
         let again = model.with_flywheel(found.inertia).regime(&[], ACCURACY).unwrap();
         assert_within!((again.non_uniformity() / wanted - 1.0).abs(), 1e-10, "{wanted}");
     }
-    // The motion is uniform enough without a flywheel.
+    // A non-uniformity of 0.5 is allowed here, so no flywheel is needed.
     assert_eq!(Flywheel::of(&model, 0.5, ACCURACY).unwrap().inertia, 0.0);
     // With a large flywheel the speed hardly changes, so J = W / (delta omega^2), as in textbooks (Merzalow).
     // W is the largest surplus of work that the kinetic energy of the mechanism does not absorb.

@@ -21,8 +21,8 @@ use linkage::mechanism::LinkId;
 const SIDES: [&dyn Solver; 2] = [&AssurSolver, &NewtonSolver];
 const G: f64 = 9.81;
 
-/// Moment of inertia of N four-bars about the pivots, and the moment of the weights if all bars are level.
-/// All vertical bars rotate by one angle; the rods move on a circle without rotating.
+/// Moment of inertia of N four-bars about the pivots, and the moment of the weights if all pivoted bars are horizontal.
+/// The N + 1 pivoted bars always have the same angle; the N rods between them move on a circle without rotating.
 fn pendulum(pairs: usize) -> [f64; 2] {
     let n = pairs as f64;
     [(n + 1.0) / 3.0 + n, G * ((n + 1.0) / 2.0 + n)]
@@ -97,7 +97,7 @@ fn apart(found: &[Trajectory; 2], of: impl Fn(&Channel) -> bool) -> f64 {
 }
 
 /// One parallelogram, computed by hand.
-/// The rod does not rotate, so each end of the rod carries half of its weight and inertia.
+/// The rod does not rotate, so half of the rod's weight and inertia force acts at each of its ends.
 /// The remaining forces follow from the moments on a bar about its pivot.
 #[test]
 fn reactions_of_one_four_bar_match_the_hand_calculation() {
@@ -185,7 +185,7 @@ fn drift(case: &Case, found: &Trajectory) -> f64 {
     (most - least) / all[0].abs().larger(1.0)
 }
 
-/// Mechanisms with change points that were never the subject of a fault.
+/// Mechanisms with change points; no known fault of this program ever concerned one of these mechanisms.
 /// These are kites, antiparallelograms, and a four-bar whose longest and shortest links together are as long as the
 /// two remaining links.
 /// The energy is constant, and the sides agree.
@@ -285,7 +285,7 @@ fn a_drive_passes_change_points_only_on_request() {
             assert_within!(off, 1e-8, "{lengths:?} {left}: {off}");
             for side in SIDES {
                 assert!(side.solve(&driven(lengths, left, 60.0, false, &cranks)).is_err(), "{}", side.name());
-                // The motion is also tested from the start in the opposite direction.
+                // The motion from the same start in the opposite direction is tested too.
                 let back: Vec<f64> = cranks.iter().map(|crank| 120.0 - crank).collect();
                 let there = solve(side, &driven(lengths, left, 60.0, true, &back));
                 assert_eq!(there.times().len(), back.len());
@@ -311,7 +311,8 @@ fn a_change_point_itself_has_velocities_and_accelerations() {
         assert_within!((error.input().unwrap().value.to_degrees() - 180.0).abs(), 1e-9, "{error}");
         let wanted = Wanted::of(&[Stage::Positions, Stage::Velocities, Stage::Accelerations]);
         let found = solve(side, &case.wanting(wanted));
-        // The expected limit is the mean over the neighbouring poses.
+        // At the change point, the angular velocity is a limit, which must be the mean of the values at the two
+        // neighbouring poses.
         // The sides compute the limit from the branch equation, with the second derivatives of |AB|^2.
         let omega = column(&found, "link.rocker.omega_rad_s");
         assert_within!((omega[1] - 0.5 * (omega[0] + omega[2])).abs(), 1e-3, "{omega:?}");
@@ -378,7 +379,7 @@ fn higher_groups_pass_their_change_points() {
         let plain = driven.replace("through = \"smooth\"\n", "");
         let case = Scenario::parse(&plain, Path::new("through.toml")).unwrap_or_else(|error| panic!("{error}")).case;
         // The different steps put instants at different distances from the change point.
-        // The sign of the determinant does not reveal the wrong branch, which keeps this sign.
+        // On the wrong branch, the determinant keeps its sign beyond the change point, so the sign reveals nothing.
         // Near the change point, the distance from the previous pose does not reveal the wrong branch either.
         for steps in [20.0f64, 30.0, 60.0, 37.0, 100.0, 200.0, 300.0, 731.0, 2000.0] {
             let times = (0..).map(|k| 0.6 * f64::from(k) / steps).take_while(|&t| t <= 0.6).collect();

@@ -82,7 +82,7 @@ fn gap(case: &Case, state: &State) -> f64 {
 
 /// Opening of a four-bar's loop after a step of `step` (s) with constant velocities, divided by the mechanism's size.
 /// A vector r of a link that rotates by omega h becomes r + omega h n - (omega h)^2 / 2 r.
-/// The velocities close the loop except for the last terms: h^2 / 2 |sum of omega^2 r| around the loop.
+/// The terms omega h n add up to zero around the loop, so the loop opens by the last terms: h^2 / 2 |sum of omega^2 r|.
 /// Every step corrects the whole earlier gap (erp = 1), so only the gap of one step remains.
 fn gap_of_a_step(case: &Case, state: &State, step: f64) -> f64 {
     let joints = case.mechanism.joints();
@@ -101,7 +101,7 @@ fn gap_of_a_step(case: &Case, state: &State, step: f64) -> f64 {
 
 /// Story 64.
 /// At a step of 0.08 deg of the crank, loops open by 1.02e-7 of the mechanism's size.
-/// At every crank angle, the opening is the local error of one step, to 3 % of its largest value.
+/// At every crank angle, the opening equals the local error of one step, except for 3 % of the largest local error.
 /// With two substeps, the opening is a quarter of the opening with one substep.
 /// In an extrapolated run, only the rounding error of the combination remains.
 #[test]
@@ -263,7 +263,8 @@ fn regress_14_thirty_two_sweeps_are_as_good_as_a_thousand() {
 #[test]
 #[cfg(feature = "f32")]
 fn regress_60_single_precision_is_within_its_rounding_bound() {
-    // A few instants in a quarter to two revolutions are enough, because the test concerns rounding, not convergence.
+    // The test concerns rounding, not convergence, so each grid has few instants.
+    // The grids cover from a quarter of a revolution to two revolutions.
     let parts = [
         ("crank_rocker", 0.0, 1.0),
         ("crank_rocker", 0.0, 0.25),
@@ -281,7 +282,7 @@ fn regress_60_single_precision_is_within_its_rounding_bound() {
         // The constants of the bounds were found on the crank-rocker, so the probe is tested only there.
         let routes: &[Route] = if name == "crank_rocker" { &Route::ALL } else { &[Route::Differences, Route::Native] };
         for (single, double) in [("rapier-f32", "rapier"), ("impulse-f32", "impulse")] {
-            // Short grids also use the smaller step. Long grids need `LINKPROOF_DRAWS` above 1 for the smaller step.
+            // Short grids always use the smaller step too, long grids only if `LINKPROOF_DRAWS` is above 1.
             let steps = if to - from < 0.5 || by_night() { &[1e-3, 2.5e-4][..] } else { &[1e-3] };
             for (&route, &step) in routes.iter().flat_map(|route| steps.iter().map(move |step| (route, step))) {
                 let engines = [double, single].map(|name| {
@@ -317,7 +318,7 @@ fn regress_60_single_precision_is_within_its_rounding_bound() {
         }
     }
     // The bounds are tight: for each bound, the error of some channel is at least a fiftieth of the bound.
-    // The bound of a slide's moment assumes all masses at a distance of the mechanism's size.
+    // The bound of a slide's moment assumes that the forces of all masses have the mechanism's size as their lever arm.
     // The guided links of `quick_return` and `scotch_yoke` are lighter and nearer than this bound assumes.
     // For the moments of these slides, an error of a thousandth of the bound is therefore enough.
     used.iter().for_each(|(what, share)| println!("{what:?}: {share:.1e}"));

@@ -94,7 +94,7 @@ fn regress_42_a_slider_out_of_reach_is_an_error_with_its_crank_angle() {
 }
 
 /// Symptom: 2 deg from the dead point of a class III group, both Rapier builds silently took the wrong branch.
-/// Cause: the loops had opened by only 0.2 %.
+/// Cause: a run was stopped only if a loop opened far, but here the loops had opened by only 0.2 %.
 /// A run that reaches the end must stay on its branch; a run that changes branch must be stopped.
 #[test]
 fn regress_higher_groups_do_not_change_branch_unnoticed() {

@@ -100,8 +100,8 @@ fn regress_10_a_weight_at_rest_is_reported_in_world_axes_whichever_body_is_first
         let case = hanging(swapped).scenario().unwrap().case;
         for build in builds(&case) {
             let found = errors(&case, &build, 1e-3, 0.1, 0.0);
-            // The first-order error is about the rotation in one step, which is 1e-9 rad in this test. Errors of 6e-10
-            // and 3e-9 were measured.
+            // The relative error of first order is about as large as the angle of rotation in one step, 1e-9 rad.
+            // Errors of 6e-10 and 3e-9 were measured.
             found.iter().for_each(|error| assert_within!(*error, 1e-8, "{build:?}: {found:?}"));
         }
         let joint = SpanningTree::of(&case.mechanism).cut[0];

@@ -23,7 +23,7 @@ fn exact_period() -> f64 {
     std::f64::consts::TAU / (omega * a)
 }
 
-/// The pendulum in a separate world.
+/// The pendulum in a Rapier world that contains nothing else.
 struct Pendulum {
     world: PhysicsWorld,
     handle: MultibodyJointHandle,

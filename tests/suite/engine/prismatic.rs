@@ -90,7 +90,7 @@ fn regress_52_links_in_sliders_turn_together() {
         for (state, &crank) in states(solver.as_ref(), &case, &case.grid.times).unwrap().iter().zip(&case.grid.inputs) {
             for link in case.mechanism.links().ids().skip(1) {
                 let turned = state.angles[link] - case.start.0[link].angle;
-                // The bound is half a unit in the last place of the largest angle for each step, as in story 1.
+                // For each step, the bound grows by half a unit in the last place of the largest angle, as in story 1.
                 let bound = 0.5 * f64::EPSILON * 128.0 * (crank / SPEED / 1e-3);
                 let error = (turned - (crank - case.crank().start)).abs();
                 assert_within!(error, bound, "{} link {link} at {crank}: {error:e}", solver.name());
@@ -121,7 +121,7 @@ fn regress_53_errors_of_sliders_are_as_measured() {
 }
 
 /// Story 54.
-/// Symptom: the error shows only when a run follows the wrong branch.
+/// Symptom: no value looks wrong, until a run follows the wrong branch.
 /// Cause: at the start, a slide has the wrong sign if the parent in the spanning tree is the joint's second
 /// link.
 /// The first step closes the loop again, which hides the fault.

@@ -91,7 +91,7 @@ fn a_hook_applies_exactly_once_plain_and_extrapolated() {
     }
 }
 
-/// A method has a default only if the default calls methods that every implementation must define.
+/// In the traits of engines and solvers, a method has a default only if the default calls required methods.
 /// A wrapper that forgets a required method therefore does not compile.
 #[test]
 fn engine_and_solver_have_only_derived_default_methods() {

@@ -323,7 +323,7 @@ fn forgotten_normal(sheet: &AnswerSheet, random: &mut RandomSource, answers: &mu
     let link = if forgets_three { "link_3" } else { "rocker_4" };
     Some(Box::new(move |cause| match cause {
         Some(MarkCause::NoNormal(own)) => own == link,
-        // The acceleration of D then also lacks the normal part of point D, which is an equally right cause.
+        // The acceleration of point D then lacks its normal part too, so a cause that names this part is equally right.
         Some(MarkCause::WithoutPart(_, point, _)) => point == "D",
         _ => false,
     }))

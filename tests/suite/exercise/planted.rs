@@ -10,7 +10,7 @@ use crate::common::sketch::RandomSource;
 
 /// Number of mistakes.
 const COUNT: usize = 300;
-/// The criterion: this share of each value, but at least half a unit of the last requested decimal.
+/// The criterion allows an error of this share of each value, but at least half a unit of the last requested decimal.
 const SHARE: f64 = 0.05;
 
 #[test]

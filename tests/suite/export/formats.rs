@@ -1,4 +1,4 @@
-//! SDF, URDF and USD: structure of the files, refusals, and the bounds on the relations of joints.
+//! SDF, URDF and USD: structure of the files, refusals, and error bounds of the relations between joint coordinates.
 //! `tests/viewers/formats_check.py` opens the files with public parsers.
 
 use roxmltree::{Document, Node};

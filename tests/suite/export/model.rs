@@ -173,7 +173,7 @@ impl Document {
         let geom = child(child(root, "default"), "geom");
         let named = root.descendants().filter(|node| node.attribute("name").is_some() && !node.has_tag_name("key"));
         let kind = |node: Node| match node.parent().unwrap().tag_name().name() {
-            // All sensors share one namespace; so do all equality constraints and all tendons.
+            // All sensors share one namespace, all equality constraints a second one, and all tendons a third one.
             parent @ ("sensor" | "equality" | "tendon") => parent.to_string(),
             _ => node.tag_name().name().to_string(),
         };

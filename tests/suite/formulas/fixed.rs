@@ -41,7 +41,8 @@ fn a_formula_that_is_a_billionth_too_large_is_wrong() {
     }
 }
 
-/// In degrees, a relative error of 1e-10 is wrong: the unit's conversion factor is known to its last digit.
+/// A formula in degrees is already wrong with a relative error of 1e-10.
+/// The conversion to degrees does not widen the bound, because the conversion factor is known to its last digit.
 #[test]
 fn a_formula_in_degrees_is_judged_as_strictly() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker.toml");

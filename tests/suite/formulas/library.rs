@@ -22,7 +22,7 @@ fn the_library_is_right() {
 
 /// Names that a diagnosis may give each kind of slip.
 /// "Per radian" is also accepted where a power and a moment are confused.
-/// Power and moment differ by the crank's speed, as rates per second and per radian do.
+/// Power is moment times the crank's speed, just as a rate per second is the rate per radian times the crank's speed.
 const NAMED: &[(&str, &[&str])] = &[
     ("sign", &["a sign"]),
     ("unit", &["a unit", "per radian"]),

@@ -96,7 +96,7 @@ fn a_letter_changed_in_a_shipped_file_is_found_with_little_work() {
 
 /// Symptom: thousands of formulas, each using the previous one, took minutes.
 /// Cause: for each formula, all formulas on which it depends were evaluated, differentiated, and searched for undefined
-/// values.
+/// values again.
 #[test]
 fn regress_chained_claims_are_judged_once_each() {
     let of = |count: usize, text: &dyn Fn(usize) -> String| {

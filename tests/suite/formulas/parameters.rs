@@ -65,8 +65,8 @@ to_deg = 405
 step_deg = "90/ratio"
 "#;
 
-/// The short name `b` of a parameter `b_mm` has the unit of the key that uses it, if both measure the same quantity.
-/// For a key of another quantity, `b` has the SI unit.
+/// The short name `b` of a parameter `b_mm` may be used in the value of a key.
+/// If the key is a length too, `b` is the length in the unit of the key; otherwise `b` is the length in metres.
 /// A whole key, such as `b_mm`, is the number as given, without conversion.
 #[test]
 fn numbers_may_be_expressions_of_parameters() {

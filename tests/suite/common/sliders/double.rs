@@ -13,7 +13,8 @@ const SLOT_AXIS: f64 = 1.4;
 const YOKE_GUIDE: Vec2 = Vec2::new(0.1, 0.05);
 const SLOT: Vec2 = Vec2::new(0.03, -0.02);
 
-/// RPP: crank 0.1 m, block on its pin, sliding in the oblique slot of a yoke that slides on the ground.
+/// RPP: crank of 0.1 m, block on the crank pin.
+/// The block slides in the oblique slot of a yoke, and the yoke slides on the ground.
 ///
 /// The block's joint point Q = A + const stays on the slot.
 /// With the slot's normal m this gives s = m . (Q - G - slot) / m . g.

@@ -84,7 +84,7 @@ pub fn law(random: &mut RandomSource, spec: &mut Spec, safe: Safe) -> &'static s
 }
 
 /// A free motion: released at rest, or started with a speed, or driven by a motor.
-/// The motor's torque has the magnitude of `moment` (N m).
+/// The motor's torque at the crank has the order of magnitude of `moment` (N m).
 /// `moment` is the moment on the crank that inertia forces and weights cause at the nominal speed.
 pub fn free(random: &mut RandomSource, spec: &mut Spec, moment: f64, falls: bool) -> &'static str {
     let speed = spec.speed;
@@ -102,7 +102,7 @@ pub fn free(random: &mut RandomSource, spec: &mut Spec, moment: f64, falls: bool
     ["let go", "from a speed", "motor from rest", "motor from a speed"][kind]
 }
 
-/// A motor with a torque of the magnitude of `moment` on a crank at `speed`.
+/// A motor for a crank with the nominal speed `speed`; its torque at the crank has the order of magnitude of `moment`.
 fn motor(random: &mut RandomSource, speed: f64, moment: f64) -> String {
     let ratio = if random.yes() { 1.0 } else { random.number(2.0, 30.0) };
     let efficiency = if random.yes() { 1.0 } else { random.number(0.6, 1.0) };

@@ -46,7 +46,7 @@ impl Safe {
     }
 }
 
-/// The shape with the number `index`; the ten kinds of shape follow each other in turn.
+/// The shape with the number `index`; the last digit of `index` selects one of ten kinds of shape.
 pub fn shape(random: &mut RandomSource, index: u64) -> Result<Shape, String> {
     let round = (index / 10) as usize;
     let (sort, mut spec) = match index % 10 {
