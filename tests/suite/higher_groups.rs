@@ -14,8 +14,9 @@ use prover::bounds::{magnitudes, residuals};
 /// Number of mechanisms of each family.
 const TRIES: usize = 60;
 
-/// A measure of how near the pose is to a singular pose: the largest speed or square root of an acceleration, divided
-/// by the crank's speed.
+/// A measure of how near a motion comes to a singular pose.
+/// The measure is the largest of all speeds and of the square roots of all accelerations, divided by the crank's speed.
+/// The measure is at least 1.
 /// The rounding error of a solution grows with the square of `nearness`.
 /// Near a singular pose, accelerations are large even if a speed passes through zero.
 /// Lengths are about a metre, so linear and angular speeds are of similar size.
