@@ -233,7 +233,8 @@ impl Row<'_> {
         let mut take = |own: Vec2, about: f64| {
             force -= own;
             moment -= about;
-            // A force through the origin has a moment with a rounding error of the force times the mechanism's size.
+            // The moment of a force about the origin has a rounding error proportional to the force and the mechanism's size,
+            // even if the force acts through the origin.
             (largest, turning) = (largest.larger(own.norm()), turning.larger(about.abs()).larger(size * own.norm()));
         };
         for joint in case.mechanism.joints() {
@@ -287,7 +288,8 @@ impl Row<'_> {
         let mut take = |own: Vec2, about: f64| {
             force -= own;
             moment -= about;
-            // A force through the origin has a moment with a rounding error of the force times the mechanism's size.
+            // The moment of a force about the origin has a rounding error proportional to the force and the mechanism's size,
+            // even if the force acts through the origin.
             (largest, turning) = (largest.larger(own.norm()), turning.larger(about.abs()).larger(size * own.norm()));
         };
         for (index, body) in case.mechanism.links().entries().skip(1) {
