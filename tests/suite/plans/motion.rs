@@ -42,7 +42,8 @@ fn the_chord_method_on_the_crank_pin_has_its_known_factor() {
 
 #[test]
 fn the_error_of_all_methods_is_of_second_order() {
-    // A tangent spans two divisions, so its term of fourth order is four times as large.
+    // A tangent spans two divisions instead of one.
+    // The error's term of fourth order, divided by its term of second order, is therefore four times as large.
     let bound = |method: Method| match method {
         Method::TangentVelocity | Method::TangentAcceleration => 0.2,
         Method::ChordVelocity
