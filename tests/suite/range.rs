@@ -140,7 +140,8 @@ fn double_crank_and_crank_rocker_turn_as_named() {
     assert_eq!(turns([0.4, 0.1, 0.35, 0.3]), [1, 0, 0]);
 }
 
-/// Given data of the synthesis (scenarios/crank_rocker.toml): 50 deg with crank and coupler stretched, 82 deg folded.
+/// Given data of the synthesis (scenarios/crank_rocker.toml) are two angles of the rocker: 50 deg with crank and coupler
+/// stretched, and 82 deg with crank and coupler folded.
 /// The crank's angles are those of the lines from O to B.
 #[test]
 fn val_crank_rocker_extreme_positions() {

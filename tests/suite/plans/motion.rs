@@ -147,8 +147,9 @@ fn chord_errors_of_a_piston_match_the_closed_form() {
 fn a_link_that_turns_uniformly_has_no_error() {
     let diagram = motion("crank_rocker", "link.crank.angle_rad", 12);
     for found in &diagram.found {
-        // The angle grows by 2 pi. The rounding error of the angle is divided by the interval once or twice, so no
-        // order is found.
+        // The angle grows by 2 pi.
+        // The only error is the angle's rounding error, divided by the interval once or twice.
+        // This error has no order.
         assert!(found.orders == [None; 2], "{found:?}");
         assert_within!(found.largest, 1e-11, "{found:?}");
         assert_within!(found.share, 1e-11, "{found:?}");
