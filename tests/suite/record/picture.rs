@@ -246,7 +246,8 @@ fn a_film_has_motion_forces_and_curves_of_its_recording() {
     }
 }
 
-/// The drive's torque is plotted first, then the component of a reaction with the largest range.
+/// The drive's torque is plotted first.
+/// The next plot shows the component of a reaction that has the largest range of all such components.
 /// One revolution lasts half of the recording.
 #[test]
 fn a_view_starts_with_the_main_plots_and_shows_everything() {
