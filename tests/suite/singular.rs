@@ -193,7 +193,7 @@ fn regress_configurations_beyond_a_dead_point_are_found() {
 }
 
 /// A chain with ten loops; side 1 first follows all poses over the revolution.
-/// Before the fix, the solution took 2.7 s, and its time grew with the third power of the number of loops.
+/// An older version took 2.7 s for this solution, and its time grew with the third power of the number of loops.
 #[test]
 fn both_sides_solve_a_long_chain() {
     let case = four_bars(10, 0.01, 0.01);

@@ -1,5 +1,5 @@
 //! `linkproof sweep` and `linkproof merge`: figures equal to those of `solve`, complete tables, and the same bytes for
-//! any number of threads, shards and stops.
+//! any number of threads, shards and interruptions.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -14,7 +14,7 @@ use parquet::record::Field;
 
 use crate::cli::tools::{Place, Table};
 
-/// A four-bar whose numbers are parameters.
+/// Command that writes a four-bar scenario whose numbers are parameters.
 const FOUR_BAR: &str = "new four-bar";
 const FIGURES: &str = "--figure max:joint.A.f_N --figure maxabs:drive.torque_N_m --figure at_min:link.rocker.angle_deg";
 
