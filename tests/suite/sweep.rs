@@ -125,7 +125,8 @@ fn figures_under_resistance_have_the_bits_of_solve() {
     }
 }
 
-/// A crank that is too long cannot turn; a ground that is too long cannot be assembled. No case is dropped.
+/// A crank that is too long cannot rotate fully, and with a ground that is too long, the mechanism cannot be assembled.
+/// No case is dropped.
 #[test]
 fn impossible_cases_are_refused_with_their_reasons() {
     let place = Place::empty();
@@ -196,7 +197,7 @@ fn threads_and_shards_do_not_change_the_bytes() {
     place.refused("merge shard1 other", &["different sweeps"]);
 }
 
-/// A loss of power may cut off a part that was not yet on the device.
+/// After a loss of power, the file of a part may lack its end, because this end was not yet on the device.
 #[test]
 fn a_part_without_its_end_is_solved_again() {
     let place = Place::empty();
