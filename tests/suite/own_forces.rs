@@ -145,8 +145,9 @@ fn native_errors(name: &str, build: Build, step: f64, times: &[f64]) -> [f64; 2]
 
 /// If a mechanism starts in motion, its first velocities satisfy the constraints of the first pose, not of an earlier
 /// pose.
-/// Usually the impulses of a step also correct the velocities for the change of pose since the step before.
-/// Without a further correction, the impulses of the first steps lack this part.
+/// In later steps, the impulses also turn the velocities from the constraints of the previous pose to those of the
+/// present pose.
+/// Without a correction, the impulses of the first steps lack this part.
 /// The missing part is 39 % of the range of a reaction, at any step.
 #[test]
 fn impulses_at_the_start_of_a_moving_mechanism_converge() {

@@ -56,8 +56,8 @@ fn the_singular_point_gives_the_solvers_velocities_and_accelerations() {
     }
 }
 
-/// In the acceleration plan, two assumed angular accelerations give two false positions of the tip of an outer joint.
-/// The true position of this tip is on the line through the two false positions.
+/// In the acceleration plan, two assumed angular accelerations give two false positions of the singular point's tip.
+/// The true position of the tip is on the line through the two false positions.
 /// The construction gives the angular accelerations of the solver.
 #[test]
 fn two_false_positions_give_the_solvers_accelerations() {
