@@ -14,8 +14,9 @@ use prover::bounds::{magnitudes, residuals};
 /// Number of mechanisms of each family.
 const TRIES: usize = 60;
 
-/// A measure of how near the pose is to a singular pose: the largest speed or square root of an acceleration, divided
-/// by the crank's speed.
+/// A measure of how near a motion comes to a singular pose.
+/// The measure is the largest of all speeds and of the square roots of all accelerations, divided by the crank's speed.
+/// The measure is at least 1.
 /// The rounding error of a solution grows with the square of `nearness`.
 /// Near a singular pose, accelerations are large even if a speed passes through zero.
 /// Lengths are about a metre, so linear and angular speeds are of similar size.
@@ -80,9 +81,11 @@ fn agree(among: Among, tries: usize) {
         let what = format!("{}, sliding {:?}, {among:?}", family.topology.name, family.slides);
         println!("{what}: {solved} solved, {as_drawn} as drawn, {}", worst.map(|w| format!("{w:.1e}")).join(" "));
         // Many mechanisms may end at dead points, but more than a tenth of all mechanisms must be solved.
+        // More than half of all mechanisms must start in the drawn pose.
         assert!(solved * 10 > tries && as_drawn * 2 > tries, "{what}: only {solved}, {as_drawn} of {tries}");
         for stage in Stage::ALL {
-            // The bounds are those of the published mechanisms, multiplied by the square of `nearness`.
+            // The bounds are those of the published mechanisms.
+            // The differences in `worst` are already divided by the square of `nearness`.
             let bound = match stage {
                 Stage::Positions => 1e-12,
                 Stage::Velocities | Stage::Accelerations => 1e-11,

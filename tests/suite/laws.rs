@@ -108,7 +108,7 @@ fn val_the_engine_agrees_by_every_route() {
     }
 }
 
-/// The observed order of values obtained by differences is the same as at constant speed.
+/// Values obtained by differences converge with the order 2, as at constant speed.
 #[test]
 fn val_the_order_stays_two() {
     let scenario = shipped("cycloidal_start.toml");

@@ -109,7 +109,8 @@ fn only_the_command_line_names_its_options_and_commands() {
     assert!(wrong.is_empty(), "give advice as `linkage::error::Advice`:\n{}", wrong.join("\n"));
 }
 
-/// The compiler does not report unused items of a macro from another crate, so this test looks for unused sentences.
+/// The sentences are items that a macro of another crate defines.
+/// The compiler does not report such items as unused, so this test looks for unused sentences.
 #[test]
 fn every_sentence_is_used() {
     let top = Path::new(env!("CARGO_MANIFEST_DIR"));

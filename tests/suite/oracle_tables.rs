@@ -182,7 +182,8 @@ fn correct_tables_are_never_refused_by_time_or_crank_angle() {
 }
 
 /// If the instants are exact, the planted error is three units of the last digit.
-/// If the instants are rounded, twice the change of the number within this rounding is added to the planted error.
+/// If the instants are rounded, the planted error is larger.
+/// It then exceeds twice the change of the number within half a unit of the last digit of the instant.
 #[test]
 fn a_wrong_number_is_found_among_rounded_instants() {
     let mut planted = 0;
@@ -259,7 +260,7 @@ fn a_zero_column_is_exact_if_others_omit_trailing_zeros() {
     assert_eq!(verdicts("point.A.x_m", Format::General(9)), wrong);
 }
 
-/// Angles that differ by whole revolutions are equal, because some programs print angles within one revolution.
+/// Some programs print angles within one revolution, so angles that differ by whole revolutions count as equal.
 /// Positions have no such period.
 #[test]
 fn angles_may_be_whole_turns_apart() {

@@ -73,7 +73,7 @@ fn a_given_step_is_extrapolated_from_coarser_ones_only() {
         assert_eq!((proof.verdict.word(), own(&proof).verdict.word()), ("agree", "agree"), "{step:e}");
         assert_eq!(proof.engine().info.settings.resolution, step);
     }
-    // If the number of extrapolations is given, it applies to the given step.
+    // If step and number of extrapolations are both given, both are used unchanged.
     let proof = proven(&scenario, &Options::default().step(1e-3).extrapolated(2));
     let settings = own(&proof).info.settings;
     assert_eq!((settings.resolution, settings.extrapolated), (1e-3, 2));
@@ -145,7 +145,9 @@ fn native_errors(name: &str, build: Build, step: f64, times: &[f64]) -> [f64; 2]
 
 /// If a mechanism starts in motion, its first velocities satisfy the constraints of the first pose, not of an earlier
 /// pose.
-/// Without a correction, the impulses of the first steps lack the part due to the change from an earlier pose.
+/// In later steps, the impulses also turn the velocities from the constraints of the previous pose to those of the
+/// present pose.
+/// Without a correction, the impulses of the first steps lack this part.
 /// The missing part is 39 % of the range of a reaction, at any step.
 #[test]
 fn impulses_at_the_start_of_a_moving_mechanism_converge() {

@@ -8,7 +8,8 @@ use analytic::NewtonSolver;
 use design::bearings::{journal_diameter, over_range};
 use scenario::Scenario;
 
-/// A crank alone with its mass centre at radius r: |R| = m |w^2 r e + g|, largest where the centre is lowest.
+/// A crank alone with its mass centre at radius r; the unit vector e points from the pivot to the mass centre.
+/// The reaction is |R| = m |w^2 r e + g|, which is largest where the mass centre is lowest.
 #[test]
 fn the_reaction_of_a_bare_crank_peaks_with_its_mass_lowest() {
     let text = "format = 1\nname = \"bare\"\ntitle = \"t\"\n[ground.points]\nO = { x_m = 0, y_m = 0 }\n[links.crank]\nmass_kg = 2\n\
@@ -56,7 +57,8 @@ fn val_ov7_new_largest_reactions_and_journals() {
     assert_within!((1e3 * journal_diameter(crank.value, 0.01, 200e6) - 8.04).abs(), 0.005);
 }
 
-/// At the refined angle of a maximum, side 2 gives the reaction that was found, and near this angle no larger reaction.
+/// At the refined angle of a maximum, side 2 gives the same reaction.
+/// Near this angle, side 2 gives no larger reaction.
 #[test]
 fn the_other_side_has_the_same_peaks() {
     for name in ["crank_rocker.toml", "fourth_class.toml", "class3_group.toml"] {

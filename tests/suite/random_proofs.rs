@@ -80,8 +80,8 @@ fn never_disagree(sorts: &[[bool; 3]], count: usize) {
     assert!(2 * proven >= count, "only {proven} of {count} mechanisms are proven, {open} are inconclusive");
 }
 
-/// Mechanisms with the drive at any other joint: slides, and angles between moving links.
-/// Half of the mechanisms get a wheel on gears or a belt; half of the mechanisms with a wheel are driven at the crank.
+/// Most of these mechanisms are not driven at the crank, but by a slide or by an angle between moving links.
+/// Half of the mechanisms get a wheel on gears or a belt; half of these are driven at the crank.
 /// Half of all mechanisms have friction.
 #[test]
 fn random_mechanisms_driven_at_any_joint_never_disagree() {

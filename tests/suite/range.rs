@@ -140,8 +140,9 @@ fn double_crank_and_crank_rocker_turn_as_named() {
     assert_eq!(turns([0.4, 0.1, 0.35, 0.3]), [1, 0, 0]);
 }
 
-/// Given data of the synthesis (scenarios/crank_rocker.toml): 50 deg with crank and coupler stretched, 82 deg folded.
-/// The crank's angles are those of the lines from O to B.
+/// The synthesis (scenarios/crank_rocker.toml) prescribes two angles of the rocker: 50 deg with crank and coupler
+/// stretched, and 82 deg with crank and coupler folded.
+/// In the stretched pose, the crank points from O to B; in the folded pose, it points away from B.
 #[test]
 fn val_crank_rocker_extreme_positions() {
     let range = Range::of(&shipped("crank_rocker.toml").case).unwrap();
@@ -351,7 +352,7 @@ fn an_unreachable_angle_is_refused_with_the_reachable_range() {
     let case = spec.scenario().unwrap().case;
     let [from, to] = closed_form(lengths, spec.start).unwrap().map(f64::to_degrees);
     let check = |error: linkage::Error, who: &str| {
-        // The solver reports only its result; `explained` adds the range.
+        // The error of the solver does not state the reachable range; `explained` adds the range.
         assert!(error.is_out_of_reach() && !error.to_string().contains("reachable crank angles"), "{who}: {error}");
         assert_eq!(error.advice()[0], Advice::ShortenGrid, "{who}");
         let crank = error.input().unwrap().value.to_degrees();
@@ -399,7 +400,8 @@ fn coinciding_configurations_have_no_velocities() {
 /// Velocities are divided by a determinant of the order of 1 / k; the relative error of this determinant is k times the
 /// relative error of the angles.
 /// Accelerations are divided by the same determinant again.
-/// In relative terms, however, the errors of velocities and of accelerations both grow by a factor of k^2.
+/// A second division by the determinant adds a relative error of the same order.
+/// The relative errors of velocities and of accelerations therefore both grow with k^2.
 /// The angles of the two sides differ by up to 2.5 epsilon k.
 /// Relative differences between the two sides are up to 2.1 epsilon k^2 for velocities and 6.4 epsilon k^2 for
 /// accelerations.
@@ -441,8 +443,9 @@ fn loss_of_digits_at_a_dead_point_follows_the_condition_number() {
 
 /// If two sums of link lengths differ by only a millionth, the mechanism has no change point.
 /// The shortest link is the frame.
-/// If the difference is positive, all other links rotate fully about the frame.
-/// If the difference is negative, no link rotates fully.
+/// If shortest and longest link together are shorter than the other two links, all links rotate fully about the
+/// frame.
+/// If they are longer, no link rotates fully.
 #[test]
 fn nearly_equal_sums_of_lengths_are_no_change_point() {
     let of = |more: f64| FourBar::of_lengths([1.0, 2.0, 3.0, 2.0 + more]).of_type;

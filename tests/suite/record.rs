@@ -388,7 +388,8 @@ fn a_file_that_is_no_recording_is_not_called_damaged() {
 fn a_recording_that_cannot_be_written_is_an_error_with_its_path() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("old.mcap");
-    // A directory at the path of the file stops even a superuser; file permissions do not stop a superuser.
+    // A directory at the path of the file prevents even a superuser from writing the file.
+    // File permissions would not prevent a superuser from writing.
     fs::create_dir(&path).unwrap();
     let run = Run::over(turn(5));
     let error = run.write(&path).unwrap_err();

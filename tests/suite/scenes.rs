@@ -114,8 +114,8 @@ fn the_scene_of_a_free_motion_omits_nothing() {
     assert_eq!(AssurSolver.solve(&scene.case).unwrap().channels().len(), own.channels().len());
 }
 
-/// Two links may share the name of a point although only an omitted link joined the two links at this point.
-/// Without the omitted link, the two points get different names.
+/// Two links have points of the same name, and only a third link joins them there.
+/// If this third link is omitted, the two points get different names.
 #[test]
 fn a_point_split_by_an_omitted_link_gets_two_names() {
     let case = shipped("ov7_base.toml").case;
@@ -125,7 +125,7 @@ fn a_point_split_by_an_omitted_link_gets_two_names() {
     }
 }
 
-/// Exact work of requests for some channels of shipped scenarios, part by part.
+/// Exact work of proofs of shipped scenarios, for all channels or only some, with a number for each part of a proof.
 /// If these numbers change, the cost has changed.
 #[test]
 fn work_of_scenes_is_unchanged() {

@@ -78,7 +78,8 @@ fn all_results_have_the_same_numbers() {
         assert_eq!(cell("tolerance").parse::<f64>().ok(), limit);
     }
 
-    // The extreme stays at its instant for these small changes: the central difference has an error of order step^2.
+    // For these small changes, the extreme stays at its instant.
+    // The error of the central difference is therefore of order step^2.
     for (key, at) in [("crank_mm", 40.0), ("coupler_mm", 120.0), ("rocker_mm", 80.0), ("speed_rpm", 60.0)] {
         let step = 1e-4 * at;
         place.ok(&format!("sweep four_bar.toml --vary {key}={}:{}:2 --figure {figure} -o {key}", at - step, at + step));

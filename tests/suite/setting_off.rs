@@ -85,7 +85,7 @@ fn regress_a_weight_that_drives_the_motor_meets_its_losses() {
     }
 }
 
-/// Symptom: the sides differed by the whole motion, and neither side explained why.
+/// Symptom: the two sides gave motions in opposite directions, and neither side explained why.
 /// Cause: from rest, the crank may start in both directions, because a load drives it in one direction and the motor in
 /// the opposite direction.
 /// Side 1 took one direction, side 2 the opposite direction.
@@ -99,7 +99,8 @@ fn regress_an_ambiguous_start_is_refused() {
 }
 
 /// A pendulum on a driven crank is at rest when the motion begins; its load acts against the motion that then begins.
-/// Symptom: at the first instant, the momentum of the whole mechanism lacked this load, so a correct motion disagreed.
+/// Symptom: at the first instant, the check of the whole mechanism's momentum did not include this load, so a correct
+/// motion disagreed.
 #[test]
 fn regress_a_load_on_a_link_that_starts_at_rest_agrees() {
     let text = |load: &str| {

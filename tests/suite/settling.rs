@@ -128,7 +128,7 @@ fn one_sweep_suffices_without_a_loop() {
 
 /// Symptom: 4096 sweeps are not enough for a four-bar in free motion whose rocker is 156 times lighter than its
 /// coupler.
-/// Cause: the rows of the loop were along the world axes.
+/// Cause: the constraint rows that close the loop were along the world axes.
 /// With rows along and across the rocker, 16 sweeps leave an error of 1.5e-7.
 #[test]
 fn regress_a_light_rocker_behind_a_heavy_coupler_needs_few_sweeps() {
@@ -260,8 +260,8 @@ mode = "left"
 [grid]
 "#;
 
-/// Symptom: at every step tried, an engine passed the dead points outside its grid, before the first instant and after
-/// the last.
+/// Symptom: with every step size that was tried, an engine stepped across a dead point before the first instant of the
+/// grid and across another after the last instant.
 /// Cause: the engine makes a few steps before the grid and beyond it, and the search attributed the error of the
 /// crossing to the sweeps.
 /// Both ends of the test's grid are 0.15 deg from a dead point.

@@ -21,7 +21,7 @@ use prover::engines::Simbody;
 use prover::run::{Options, prove};
 use std::collections::BTreeMap;
 
-/// Every scenario at the top level of the repository's scenarios whose drives have constant speed.
+/// Every scenario in the directory `scenarios` itself that Simbody accepts and whose drives have constant speed.
 fn scenarios() -> Vec<String> {
     let directory = concat!(env!("CARGO_MANIFEST_DIR"), "/scenarios");
     let names = std::fs::read_dir(directory).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
@@ -105,7 +105,8 @@ fn distant_instants_are_as_accurate() {
     }
 }
 
-/// The instants lie before and after the start, in any order, repeated, and without the start itself.
+/// The instants lie before and after the start; they are unordered, and one of them is repeated.
+/// Some grids do not contain the start itself.
 #[test]
 fn instants_may_be_unordered_and_before_the_start() {
     for name in ["crank_rocker.toml", "quick_return.toml", "five_bar.toml"] {
@@ -276,7 +277,8 @@ fn random_mechanisms_agree() {
 }
 
 /// A measure of how near a run comes to a singular pose.
-/// The measure is the largest speed, or the square root of the largest acceleration, divided by the crank's speed.
+/// The measure is the largest of all speeds and of the square roots of all accelerations, divided by the crank's speed.
+/// The measure is at least 1.
 /// Lengths are about a metre, so linear and angular speeds have similar magnitudes.
 /// The effect of a small error grows with the square of `nearness`.
 fn nearness(case: &Case, truth: &Trajectory) -> f64 {

@@ -51,8 +51,8 @@ fn regress_change_points_are_refused() {
         is_refused("over", &at(parallelogram, left, 60.0, &[95.0, 175.0, 185.0, 275.0]), 180.0);
         is_refused("over, in one step of one degree", &at(parallelogram, left, 179.5, &[179.5, 180.5]), 180.0);
         is_refused("back over", &at(parallelogram, left, 60.0, &[60.0, -10.0]), 0.0);
-        // Two mechanisms beyond the fault report: a kite, and a four-bar whose longest and shortest links together are
-        // as long as the two remaining links.
+        // The fault report did not mention the next two mechanisms.
+        // They are a kite, and a four-bar whose longest and shortest links together are as long as its other two links.
         is_refused("kite", &at([0.3, 0.2, 0.2, 0.3], left, 90.0, &[90.0, 200.0]), 180.0);
         is_refused("sum", &at([0.5, 0.1, 0.25, 0.35], left, 90.0, &[90.0, 170.0, 190.0]), 180.0);
     }
@@ -193,7 +193,7 @@ fn regress_configurations_beyond_a_dead_point_are_found() {
 }
 
 /// A chain with ten loops; side 1 first follows all poses over the revolution.
-/// Before the fix, the solution took 2.7 s, and its time grew with the third power of the number of loops.
+/// An older version took 2.7 s for this solution, and its time grew with the third power of the number of loops.
 #[test]
 fn both_sides_solve_a_long_chain() {
     let case = four_bars(10, 0.01, 0.01);

@@ -95,7 +95,7 @@ fn slider_crank(rod: f64, offset: f64) -> Case {
     Scenario::parse(&text, Path::new("t.toml")).unwrap().case
 }
 
-/// The rod just spans the distance from the crank pin to the guide: 0.1 sin(phi) = offset +- rod.
+/// At a limit, the rod is as long as the distance from the crank pin to the guide: 0.1 sin(phi) = offset +- rod.
 #[test]
 fn a_short_rod_limits_the_crank_when_perpendicular_to_the_guide() {
     for (rod, offset) in [(0.08, 0.0), (0.06, 0.01), (0.09, -0.03)] {

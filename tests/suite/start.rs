@@ -116,7 +116,8 @@ links = ["guide", "block"]
 points = ["C", "A"]
 axis_deg = 0
 "#;
-    // C = (-240, 0), A = (0, 100): the guide points from C towards A (12, 5)/13, or away from it.
+    // C = (-240, 0), A = (0, 100): the unit vector from C to A is (12, 5)/13.
+    // The guide points in this direction or in the opposite direction.
     for (mode, sign) in [("ahead", 1.0), ("behind", -1.0)] {
         let start = format!("[[start.groups]]\nlinks = [\"guide\", \"block\"]\nmode = \"{mode}\"");
         let scenario = parse("C = { x_mm = -240, y_mm = 0 }", body, 90.0, &start).unwrap();

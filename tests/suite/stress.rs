@@ -69,7 +69,8 @@ fn the_sides_agree_on_gears_friction_cylinders_and_cams() {
 }
 
 /// Symptom: near a change point both analytic sides agreed with the solution in double-double, but not with each other.
-/// Cause: the condition number was measured only at poses with an unusually large difference between the sides.
+/// Cause: the condition number enters the bound between the sides, but it was measured only at poses with an unusually
+/// large difference.
 #[test]
 fn regress_the_condition_of_a_pose_is_in_the_bound_between_the_sides() {
     for gap in [1e-12, 3e-11, 1e-10, 1e-6] {
@@ -97,7 +98,7 @@ fn a_long_chain_keeps_its_digits() {
 
 /// The work of side 1 for a chain is the sum of the work for its four-bars; the test counts operations and uses no
 /// clock.
-/// Side 2 iterates on blocks, and needs the same number of iterations per four-bar in a long chain.
+/// Side 2 iterates on blocks, and in a long chain needs at most a fifth more iterations per four-bar.
 #[test]
 fn work_per_four_bar_does_not_grow_with_the_chain() {
     let work = |count: f64| {

@@ -1,5 +1,5 @@
 //! `linkproof sweep` and `linkproof merge`: figures equal to those of `solve`, complete tables, and the same bytes for
-//! any number of threads, shards and stops.
+//! any number of threads, shards and interruptions.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -14,7 +14,7 @@ use parquet::record::Field;
 
 use crate::cli::tools::{Place, Table};
 
-/// A four-bar whose numbers are parameters.
+/// Command that writes a four-bar scenario whose numbers are parameters.
 const FOUR_BAR: &str = "new four-bar";
 const FIGURES: &str = "--figure max:joint.A.f_N --figure maxabs:drive.torque_N_m --figure at_min:link.rocker.angle_deg";
 
@@ -125,7 +125,8 @@ fn figures_under_resistance_have_the_bits_of_solve() {
     }
 }
 
-/// A crank that is too long cannot turn; a ground that is too long cannot be assembled. No case is dropped.
+/// A crank that is too long cannot rotate fully, and with a ground that is too long, the mechanism cannot be assembled.
+/// No case is dropped.
 #[test]
 fn impossible_cases_are_refused_with_their_reasons() {
     let place = Place::empty();
@@ -196,7 +197,7 @@ fn threads_and_shards_do_not_change_the_bytes() {
     place.refused("merge shard1 other", &["different sweeps"]);
 }
 
-/// A loss of power may cut off a part that was not yet on the device.
+/// After a loss of power, the file of a part may lack its end, because this end was not yet on the device.
 #[test]
 fn a_part_without_its_end_is_solved_again() {
     let place = Place::empty();

@@ -34,7 +34,8 @@ struct Differences {
     condition: f64,
     /// Largest condition number of the chain of dyads.
     chain: f64,
-    /// Number of exchanges of the conditional driver: the ground lead that the method of class change drives.
+    /// The method of class change drives a ground lead, the conditional driver.
+    /// This is the number of times that the method changes to another conditional driver.
     exchanges: usize,
     /// Number of reversals of the first lead on the ground.
     limits: usize,
@@ -140,7 +141,7 @@ fn all_methods_agree_with_both_solvers_over_the_turn_of_the_published_drive() {
             let found = differences(case, &only_triad(case), &states, &case.grid.times);
             // Some two hundred operations lie between a pose and the accelerations.
             // If the rounding errors (1.1e-16) of all operations had the same sign, the sum would be 2e-14.
-            // The solver adds its rounding errors, so the bound is 1e-13.
+            // The bound is 1e-13, because the solver has rounding errors too.
             assert!(found.are_within(1e-13), "{name} {} {found:?}", solver.name());
             assert!(found.condition < 2.0 && found.chain < 2.0, "{found:?}");
             // The motion passes both limits of the first ground lead.

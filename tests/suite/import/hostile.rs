@@ -64,7 +64,8 @@ fn damaged_sources_never_panic() {
     }
 }
 
-/// The same for a randomly damaged link of PMKS+, whose last character is correct again after the damage.
+/// The import of randomly damaged links of PMKS+ never panics.
+/// The check character at the end of each link fits the damaged text.
 #[test]
 fn damaged_links_never_panic() {
     let names = ["four_bar", "slot", "force", "welded", "driven_slide"];

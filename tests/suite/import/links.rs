@@ -121,8 +121,8 @@ fn masses_and_forces_have_the_units_of_the_document() {
         let own = links.iter().find(|own| own.name == link).unwrap();
         (own.mass, own.inertia, scenario.case.gravity, scenario.case.loads.len())
     };
-    // Units of mass and moment of inertia: g and kg cm^2 in an address in cm, lb and lb in^2 in one in inches, kg and
-    // kg m^2 in one in m.
+    // The units of mass and moment of inertia depend on the unit of length of the address.
+    // They are g and kg cm^2 for cm, lb and lb in^2 for inches, and kg and kg m^2 for m.
     let (own, inertia, gravity, loads) = mass("four_bar.pmks", "BC");
     assert_within!((own - 0.06).abs() + (inertia - 3e-4).abs() + gravity.norm(), 1e-15);
     assert_eq!(loads, 0);

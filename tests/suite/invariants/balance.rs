@@ -31,7 +31,7 @@ impl Instant<'_> {
         self.case.mechanism.links().entries().skip(1)
     }
 
-    /// Resultant of the loads on every link, at its mass centre.
+    /// For every link, the resultant of the loads on this link, at the link's mass centre.
     fn loads(&self) -> Vec<Wrench> {
         let here = self.here();
         let mut loads = vec![Wrench::ZERO; here.motions.len()];
@@ -39,7 +39,7 @@ impl Instant<'_> {
         loads
     }
 
-    /// Forces of the joints on `link` (0 for the ground).
+    /// Forces of the joints on `link`; link 0 is the ground.
     /// A joint acts on both of its links at the joint's point on the second link.
     fn on(&self, link: LinkId) -> Vec<Action> {
         let here = self.here();

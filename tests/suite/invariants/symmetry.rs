@@ -248,7 +248,8 @@ fn twice_the_masses_make_exactly_twice_the_forces() {
         let heavier = case_of(&sample.spec.heavier(2.0));
         for solver in analytic::all() {
             for (ours, theirs) in pairs(solver, &sample, &heavier, 1.0) {
-                // Doubling all masses does not change any rounding error, so the forces are exactly twice as large.
+                // A factor of 2 is exact in floating-point numbers.
+                // Twice the masses therefore give exactly twice the forces.
                 let doubled: Vec<Vec2> = ours.forces.iter().map(|force| force * 2.0).collect();
                 proptest::prop_assert_eq!(&*theirs.forces, &doubled);
                 let doubled: Vec<f64> = ours.moments.iter().map(|moment| moment * 2.0).collect();

@@ -55,7 +55,7 @@ fn three_turns(lengths: [f64; 4], turning: [f64; 2], left: bool, speed: f64, ste
         }
         for pair in found.windows(2) {
             // No link of these mechanisms rotates more than eight times as fast as the crank.
-            // A larger step of an angle is therefore an error of a whole revolution.
+            // If an angle changes by more than eight steps of the crank, the solver has miscounted a revolution.
             let limit = (8.0 * step_deg.to_radians()).smaller(TAU * 0.75);
             let jumps = (1..4).map(|link| (pair[1].angles[LinkId(link)] - pair[0].angles[LinkId(link)]).abs());
             assert_within!(jumps.fold(0.0, f64::larger), limit, "{} {lengths:?}", solver.name());

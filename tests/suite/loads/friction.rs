@@ -107,7 +107,7 @@ fn val_a_wedge_lifts_with_the_tangent_of_its_angle_and_twice_that_of_friction() 
 
 /// Driven by its follower, the wedge moves only if its angle alpha exceeds 2 phi. The force is then
 /// F = P / tan(alpha - 2 phi). Below 2 phi no force moves the wedge.
-/// If the force on the wedge has the opposite sign, the forces are undetermined below 2 phi.
+/// If P pulls instead of pushing, the equations have several solutions below 2 phi, so the forces are undetermined.
 #[test]
 fn val_a_wedge_locks_below_twice_the_angle_of_friction() {
     let limit = 2.0 * MU.atan();

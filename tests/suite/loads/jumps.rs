@@ -65,7 +65,8 @@ fn forces_are_not_judged_where_the_runs_reverse_at_another_instant() {
 /// In a prescribed motion, a resistance makes the forces jump, but not the accelerations.
 #[test]
 fn a_prescribed_acceleration_is_judged_where_a_load_jumps() {
-    // The angles 33.3 and 33.9 deg are close to the reversal, where the impulses of several runs are combined.
+    // The angles 33.3 and 33.9 deg are close to the reversal.
+    // The extrapolation combines the impulses of several runs, in which the resistance may have different signs there.
     let grid = "angles_deg = [0, 30, 33.3, 33.9, 60, 120, 180, 240, 300]\n";
     let proof = rocker(grid, &Options::default().step(2e-3).sweeps(16).extrapolated(1).route(Route::Probe));
     let [accelerations, forces] = [Stage::Accelerations, Stage::Reactions].map(|stage| left_out_in(&proof, stage));

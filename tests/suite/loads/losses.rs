@@ -48,8 +48,8 @@ fn val_efficiency_of_a_planetary_train() {
 }
 
 /// A square thread with the lead angle alpha and the angle of friction phi.
-/// The moments are F d/2 tan(phi + alpha) up and F d/2 tan(phi - alpha) down. Beyond phi = alpha, the screw is
-/// self-locking.
+/// The moments are F d/2 tan(phi + alpha) up and F d/2 tan(phi - alpha) down.
+/// The screw is self-locking if phi is larger than alpha.
 #[test]
 fn val_screws_on_both_sides_of_self_locking() {
     let (lead, force, diameter): (f64, f64, f64) = (0.008, 6400.0, 0.03);
@@ -156,7 +156,8 @@ fn wrong_efficiencies_are_refused() {
     for (from, to, key) in [
         ("efficiency = 0.9", "efficiency = 0", "efficiency"),
         ("efficiency = 0.9", "efficiency = 1.1", "efficiency"),
-        // Symptom: the two sides disagreed, because the losses leave no digits of the useful power.
+        // Symptom: the two sides disagreed.
+        // The useful power is so small beside the losses that rounding errors cover all its digits.
         ("efficiency = 0.9", "efficiency = 1e-9", "from 1e-6 to 1"),
         ("efficiency_back = 0.8", "efficiency_back = -1e9", "from -1e6 to 1"),
         ("efficiency_back = 0.8", "efficiency_back = 1.1", "efficiency_back"),
@@ -222,9 +223,10 @@ points = { R = { x_mm = 0, y_mm = 0 }, T = { x_mm = 50, y_mm = -5 } }
 "#;
 
 /// Symptom: both free motions of this test disagreed falsely.
-/// First cause: the engine computes friction from the acceleration of its first step, which lacks half of the
-/// centripetal part.
-/// Second cause: with a loss at rest, one moment is undetermined, and this moment was mistaken for a force in a guide.
+/// First cause: the engine computes friction from the acceleration of its first step, and this acceleration lacks half
+/// of the centripetal part.
+/// Second cause: while a transmission with losses is at rest, one moment is undetermined.
+/// This moment was mistaken for a force in a guide.
 #[test]
 fn regress_free_motions_with_losses_never_disagree() {
     let five_bar = include_str!("../../../scenarios/geared_five_bar.toml").split("[[formula]]").next().unwrap();

@@ -62,7 +62,7 @@ fn reduced_moments_of_varying_loads_match_the_reactions() {
     let model = ReducedModel::of(&case).unwrap();
     // The period is two revolutions, because one load table extends over two revolutions.
     // The table over two revolutions has three points per period; the press's table has nine points per revolution.
-    // The rod reverses at points of the press's table.
+    // The resistance of the rod adds no kinks, because the rod reverses at points of the press's table.
     assert_eq!((model.kinks().period, model.kinks().cranks.len()), (Some(2.0 * TAU), 3 + 18));
     let times: Vec<f64> = (0..=400).map(|k| f64::from(k) * 1e-3).collect();
     let found = RunUp::of(&model, 120.0, &times, 1e-12).unwrap();

@@ -233,7 +233,8 @@ impl Row<'_> {
         let mut take = |own: Vec2, about: f64| {
             force -= own;
             moment -= about;
-            // A force through the origin has a moment with a rounding error of the force times the mechanism's size.
+            // Even for a force through the origin, the moment about the origin has a rounding error.
+            // This error is proportional to the force times the mechanism's size.
             (largest, turning) = (largest.larger(own.norm()), turning.larger(about.abs()).larger(size * own.norm()));
         };
         for joint in case.mechanism.joints() {
@@ -287,7 +288,8 @@ impl Row<'_> {
         let mut take = |own: Vec2, about: f64| {
             force -= own;
             moment -= about;
-            // A force through the origin has a moment with a rounding error of the force times the mechanism's size.
+            // Even for a force through the origin, the moment about the origin has a rounding error.
+            // This error is proportional to the force times the mechanism's size.
             (largest, turning) = (largest.larger(own.norm()), turning.larger(about.abs()).larger(size * own.norm()));
         };
         for (index, body) in case.mechanism.links().entries().skip(1) {
@@ -319,7 +321,8 @@ fn worst(case: &Case, all: &Trajectory) -> [f64; 5] {
     let strongest = found.iter().map(|(_, [_, strongest])| *strongest).fold(0.0, f64::larger);
     let mut worst = [0.0f64; 5];
     for ([force, moment, by_force, by_moment], [power, own]) in found {
-        // In the dwell of a cam all powers are rounding errors of the powers at other instants.
+        // In the dwell of a cam, all powers are only rounding errors.
+        // The scale is therefore at least a fraction of the largest power of the motion.
         let scale = own.larger(DWELL * strongest);
         let power = if power == 0.0 { 0.0 } else { power / scale };
         for (worst, own) in worst.iter_mut().zip([force, moment, by_force, by_moment, power]) {

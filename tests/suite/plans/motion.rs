@@ -42,7 +42,8 @@ fn the_chord_method_on_the_crank_pin_has_its_known_factor() {
 
 #[test]
 fn the_error_of_all_methods_is_of_second_order() {
-    // A tangent spans two divisions, so its term of fourth order is four times as large.
+    // A tangent spans two divisions instead of one.
+    // The error's term of fourth order, divided by its term of second order, is therefore four times as large.
     let bound = |method: Method| match method {
         Method::TangentVelocity | Method::TangentAcceleration => 0.2,
         Method::ChordVelocity
@@ -146,8 +147,9 @@ fn chord_errors_of_a_piston_match_the_closed_form() {
 fn a_link_that_turns_uniformly_has_no_error() {
     let diagram = motion("crank_rocker", "link.crank.angle_rad", 12);
     for found in &diagram.found {
-        // The angle grows by 2 pi. The rounding error of the angle is divided by the interval once or twice, so no
-        // order is found.
+        // The angle grows by 2 pi.
+        // The only error is the angle's rounding error, divided by the interval once or twice.
+        // This error has no order.
         assert!(found.orders == [None; 2], "{found:?}");
         assert_within!(found.largest, 1e-11, "{found:?}");
         assert_within!(found.share, 1e-11, "{found:?}");

@@ -56,8 +56,8 @@ fn the_singular_point_gives_the_solvers_velocities_and_accelerations() {
     }
 }
 
-/// Two assumed angular accelerations give two false positions.
-/// The true position is on the line through the two false positions.
+/// In the acceleration plan, two assumed angular accelerations give two false positions of the singular point's tip.
+/// The true position of the tip is on the line through the two false positions.
 /// The construction gives the angular accelerations of the solver.
 #[test]
 fn two_false_positions_give_the_solvers_accelerations() {
@@ -76,7 +76,7 @@ fn two_false_positions_give_the_solvers_accelerations() {
         assert_within!((found.alphas[1] - state.motions[point.links[0].0].alpha).abs(), 1e-10 * 1e4 * far);
         let size = point.accelerations[0].norm().larger(100.0) * far;
         assert_within!((found.at - point.accelerations[0]).norm(), 1e-10 * size, "{degrees}");
-        // The position depends linearly on the assumed angular acceleration.
+        // The position of the tip depends linearly on the assumed angular acceleration.
         let share = (alpha - first) / (second - first);
         assert_within!((one.at + (other.at - one.at) * share - found.at).norm(), 1e-10 * size);
     }

@@ -141,7 +141,8 @@ fn links_that_never_turn_have_no_relative_vectors() {
     }
 }
 
-/// A slider-crank with point names that collide with the plan's names for points under a sliding point.
+/// The plan names the point of a guide that coincides with a sliding point.
+/// In this slider-crank, a point of the scenario already has such a name.
 /// The rod of this slider-crank slides through a block that only rotates.
 #[test]
 fn contours_of_a_swinging_block_close_with_unique_letters() {

@@ -246,7 +246,8 @@ fn a_film_has_motion_forces_and_curves_of_its_recording() {
     }
 }
 
-/// The drive's torque is plotted first, then the component of a reaction with the largest range.
+/// The drive's torque is plotted first.
+/// The next plot shows the component of a reaction that has the largest range of all such components.
 /// One revolution lasts half of the recording.
 #[test]
 fn a_view_starts_with_the_main_plots_and_shows_everything() {
@@ -376,7 +377,8 @@ fn both_sides_are_visible_and_the_robot_has_the_same_parts() {
     }
 }
 
-/// A recording of enough instants has about 400 frames, or 50 frames per second of log time if these are more than 400.
+/// If there are enough instants, a recording has about 400 frames.
+/// A recording of more than eight seconds of log time has more frames, about 50 per second.
 /// The recording always has a frame of the last instant.
 #[test]
 fn slow_motion_has_more_frames_and_ends_with_the_last_instant() {

@@ -29,7 +29,8 @@ fn ending(index: u64, bad: &Damaged) -> String {
             return format!("refused: {:?}", error.kind());
         }
     };
-    // A scenario that loads is solved without changes, but only at a few instants of its grid near the start.
+    // A scenario that loads is solved at only a few instants of its grid near the start.
+    // Nothing else in the scenario is changed.
     let Some(scenario) = shortened(scenario) else { return "loads, with no instant near its start".into() };
     match prove(&scenario, &Options::default().budget(BUDGET)) {
         Ok(proof) => {

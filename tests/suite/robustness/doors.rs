@@ -23,7 +23,7 @@ const SEED: u64 = 1;
 /// Number of attacks in an ordinary run; every kind of input gets the same number.
 const FEW: u64 = 16 * DOORS.len() as u64;
 /// Limits of memory (kB) and processor time (s) for a command.
-/// Two threads use processor time twice as fast.
+/// Processor times of all threads add up, so a command with two busy threads reaches the limit in half the time.
 const MEMORY: u64 = 2_000_000;
 const SECONDS: u64 = 60;
 /// If a command takes longer than this elapsed time (s), the command is stopped.

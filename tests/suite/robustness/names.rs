@@ -119,7 +119,8 @@ fn messages_show_no_terminal_control_characters() {
     #[cfg(unix)]
     place.refused("run /dev/zero --no-record", &["/dev/zero", "64 MiB"]);
     // A long formula is cut in the message.
-    // The cut falls inside a character of the formula, which has two bytes or, if it is invisible, three bytes.
+    // The formula consists of characters of two bytes, or of invisible characters of three bytes.
+    // With the different beginnings, the cut also falls between the bytes of a character.
     for letter in ["\u{e9}", "\u{202e}"] {
         for start in ["", "p", "ph"] {
             let text = format!("{start}{}", letter.repeat(12_000));

@@ -113,7 +113,7 @@ fn place() -> Place {
     place.ok(&format!("{RUN} --record seen"));
     fs::remove_file(place.path("seen/pendulum.foxglove.json")).unwrap();
     place.ok(&format!("{SWEEP} --shard 1/1 -o shard"));
-    // A class with a single sheet, whose only answer is right.
+    // Answers of a class of students with only one exercise sheet; the only answer is right.
     place.ok(&EXERCISE.replace("output out", "output class"));
     let answers = fs::read_to_string(place.path("class/teacher/answers.csv")).unwrap();
     let cells: Vec<&str> = answers.lines().last().unwrap().split(',').collect();
@@ -126,8 +126,8 @@ fn place() -> Place {
     place
 }
 
-/// Runs a command with `what` at its output path.
-/// Asserts that the command reports `what`, and checks the exit code.
+/// Runs a command whose output path is already occupied; `what` describes what is there.
+/// Asserts that the command reports the occupied path, and checks the exit code.
 fn meets(place: &Place, (command, file, then, _): Writer, what: &str) -> Outcome {
     let outcome = place.run(command);
     let told = format!("{}{}", outcome.stdout, outcome.stderr);

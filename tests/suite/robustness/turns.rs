@@ -14,8 +14,7 @@ fn assert_repeats(near: &Trajectory, far: &Trajectory, turns: f64, what: &str) {
         let scale = near.iter().fold(1e-3, |most: f64, value| if value.abs() > most { value.abs() } else { most });
         for (near, far) in near.iter().zip(far) {
             let gone = match channel.kind.unit {
-                // For each revolution of the crank, the link must make the same whole number of revolutions as at the
-                // start of the motion.
+                // The link must make a whole number of revolutions for each revolution of the crank.
                 Unit::Radian => ((far - near) / TAU).round() * TAU,
                 _ => 0.0,
             };

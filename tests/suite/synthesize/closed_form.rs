@@ -86,8 +86,8 @@ fn crank_rockers_have_the_requested_extreme_positions() {
         let least = range.groups[GroupId(0)].determinant;
         assert_within!((least.value.abs().asin() - found.transmission).abs(), 1e-6, "{least:?} {found:?}");
         assert!(same_angle(least.crank, found.transmission_at, 1e-6));
-        // From one extreme position to the other, the crank rotates through pi + theta, and from there on to the first
-        // one through pi - theta.
+        // For one stroke of the rocker, the crank rotates by pi + theta; for the return stroke, by pi - theta.
+        // The time ratio is the ratio of these two angles.
         let way = (rocker.extremes[0].crank - rocker.extremes[1].crank).abs();
         let slower = way.larger(TAU - way);
         assert_within!((slower / (TAU - slower) - found.time_ratio).abs(), 1e-7);

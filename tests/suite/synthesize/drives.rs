@@ -57,8 +57,8 @@ fn the_designed_drives_keep_their_timing() {
         assert!(found.unrest(&task) <= unrest && found.wrong() <= wrong, "{name}");
         assert!(degrees[0] <= late && degrees[1] <= short && degrees[2] >= transmission, "{name}: {degrees:?}");
         // Every moving phase moves in the required direction.
-        // The least displacement is only one of several goals of the search, so the displacement found may be slightly
-        // too small.
+        // The task requires a least displacement of each phase.
+        // This is only one of several goals of the search, so the displacement found may be slightly too small.
         for (phase, done) in task.timing.phases().iter().zip(&found.phases) {
             assert!(
                 done.displacement * phase.sense.sign() >= (phase.least - 2e-3) * phase.sense.sign().abs(),

@@ -52,7 +52,8 @@ fn size(own: &PrecisionFourBar) -> f64 {
     own.checks.lengths.into_iter().fold(0.0, f64::larger)
 }
 
-/// Checks every four-bar without a defect at every position. Returns the number of checked four-bars.
+/// Checks, at every position, each four-bar that keeps its branch and has a large enough transmission angle.
+/// Returns the number of checked four-bars.
 fn assert_passed(all: &[PrecisionFourBar], error: impl Fn(&PrecisionFourBar, usize, &State) -> f64) -> usize {
     let sound = all.iter().filter(|own| own.checks.keeps_branch && own.checks.transmission > 0.02);
     let check = |own: &PrecisionFourBar| {

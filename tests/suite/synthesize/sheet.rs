@@ -49,7 +49,8 @@ fn the_output_is_found_in_any_structure() {
     let (link, point) = other.output.working_point();
     assert_eq!(base.case.mechanism.links()[link].name, "rod_57");
     assert_eq!(base.case.mechanism.links()[link].points[point.unwrap()].name, "7");
-    // If the output is a coordinate, its point is named, or it is the only point without a joint.
+    // If the output is a coordinate, the names given by the caller or the task determine its point.
+    // If no moving point has such a name, the only moving point without a joint is used.
     let (_, task) = needles_of("ov7_new.toml");
     let (link, Some(point)) = task.output.working_point() else { panic!("no working point") };
     let output = OutputQuantity::Coordinate { link, point, along: linkage::math::unit(0.0) };

@@ -66,8 +66,8 @@ pub fn truth(scenario: &Scenario) -> Trajectory {
     NewtonSolver.solve(&scenario.case).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// The rows of the space: all settings of the Rapier engines except the step. These settings are engine, route,
-/// extrapolation, substeps and sweeps.
+/// The rows of the space: each row is one combination of all settings of the Rapier engines except the step.
+/// These settings are engine, route, extrapolation, substeps and sweeps.
 fn rows(space: &Space) -> Vec<Box<dyn Engine>> {
     let mut rows = Vec::new();
     for engine in prover::engines::all(1e-3).into_iter().filter(|engine| !engine.controls_error()) {
@@ -87,8 +87,9 @@ fn rows(space: &Space) -> Vec<Box<dyn Engine>> {
 
 /// Searches every row of the space from the finest affordable step to larger steps.
 /// At first, the limit of the cost is the argument `below`.
-/// After a row with sufficient settings, the limit is the cost of these settings.
-/// Returns the cheapest settings of each row that stay below the limit and have at most the error `within`.
+/// Settings are sufficient if their cost is below the limit and their error is at most `within`.
+/// The cost of sufficient settings becomes the new limit.
+/// Returns the cheapest sufficient settings of each row; rows without sufficient settings give no result.
 /// Each result is therefore cheaper than the previous result, and the last result is the cheapest of all rows.
 /// Also returns the number of runs.
 pub fn cheaper(

@@ -9,7 +9,7 @@ use scenario::Scenario;
 
 use super::exhaustive::{Space, cheaper, error_of, truth};
 
-/// Upper limit of the cost of the result, divided by the lowest cost.
+/// Upper limit of the ratio of the result's cost to the lowest cost.
 pub const FACTOR: f64 = 1.5;
 
 /// Tunes by the cost model.
