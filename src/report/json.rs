@@ -1,4 +1,5 @@
-//! Proofs as JSON, schema 2. Numbers that are not finite are `null`, for example an order that rounding hides.
+//! Proofs as JSON, schema 2. Numbers that are not finite are `null`, for example an observed order of convergence that
+//! cannot be determined because of rounding.
 
 use crate::sentences;
 use std::collections::BTreeMap;
@@ -56,7 +57,7 @@ rows! {
         reason: Option<String> = proof.verdict.reason(tell),
         structure: String = proof.formula.clone(),
         reference: Reference = Reference::of(proof.reference, times),
-        /// What the file says the mechanism is, in words.
+        /// The mechanism in words, as the file describes it.
         machine: BTreeMap<&'static str, String> = machine::rows(proof).into_iter().collect(),
         /// Figures of the motion.
         figures: Vec<FigureRow> = proof.figures().iter().map(|own| FigureRow::of(own, proof)).collect(),
