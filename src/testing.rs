@@ -167,7 +167,7 @@ impl Proving {
         self
     }
 
-    /// Sets the grid by values of the input: crank angles (rad) or slide positions (m), measured as in the scenario file.
+    /// Sets the grid by values of the input: crank angles (rad) or slide positions (m), as measured in the scenario.
     pub fn cranks(mut self, angles: impl IntoIterator<Item = f64>) -> Self {
         self.instants = Some(Instants { values: angles.into_iter().collect(), grid: Grid::of_inputs });
         self
