@@ -20,8 +20,8 @@ fn below(directory: &'static Dir<'static>, path: &str, found: &mut Vec<(String, 
 }
 
 /// Every embedded file: its path, with `/` as separator, and its bytes.
-/// The embedded files are the scenarios with their tables, the catalogues, and the findings that published numbers
-/// cite.
+/// The embedded files are the scenarios with their tables, the catalogues, and the document of findings, to which
+/// scenarios refer beside published numbers.
 #[must_use]
 pub fn files() -> Vec<(String, &'static [u8])> {
     let mut found = vec![("docs/findings.md".to_string(), FINDINGS)];

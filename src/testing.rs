@@ -90,7 +90,7 @@ impl AssertProven for Proof {
     }
 }
 
-/// Message of a test that fails with this proof; `None` if the proof agrees.
+/// The failure message of a test with this proof; `None` if the proof agrees, so that the test passes.
 fn failure(proof: &Proof) -> Option<String> {
     let word = match proof.verdict {
         Verdict::Agree { .. } | Verdict::Expected { .. } => return None,
@@ -167,7 +167,7 @@ impl Proving {
         self
     }
 
-    /// Sets the grid by crank angles (rad, as the scenario states them).
+    /// Sets the grid by values of the input: crank angles (rad) or slide positions (m), as measured in the scenario.
     pub fn cranks(mut self, angles: impl IntoIterator<Item = f64>) -> Self {
         self.instants = Some(Instants { values: angles.into_iter().collect(), grid: Grid::of_inputs });
         self
@@ -179,7 +179,7 @@ impl Proving {
         self
     }
 
-    /// Sets the crank angle at t = 0 (rad, as the scenario states it).
+    /// Sets the input at t = 0: a crank angle (rad) or a slide position (m), measured as in the scenario file.
     pub fn start(mut self, crank: f64) -> Self {
         self.asked.crank = Some(crank);
         self

@@ -1,4 +1,4 @@
-//! A mechanism reduced to its crank, its steady motion under its motor, its flywheel.
+//! The reduction of a mechanism to its crank, the steady motion under its motor, and its flywheel.
 
 use crate::sentences;
 use serde_json::{Value, json};
@@ -178,7 +178,7 @@ pub(crate) fn json(scenario: &Scenario, found: &Found) -> String {
     pretty(&value)
 }
 
-/// The end of a run-up as text, the limits of the motor's law that the run-up exceeds, and an empty line.
+/// The text about a run-up: how it ended, the limits of the motor's law that it exceeds, and an empty line.
 pub(crate) fn run_up(run_up: &RunUp, limits: &[MotorLimit], width: usize) -> String {
     let degrees = |crank: f64| fixed_in(crank.to_degrees(), 6, "deg");
     let mut text = match run_up.end {

@@ -37,7 +37,8 @@ impl Drivers {
         }
     }
 
-    /// A table of all joints with class and structural formula, or, for a single joint, its groups.
+    /// For several joints, a table with the class and structural formula for each; for a single joint, the structure
+    /// with its groups.
     pub(crate) fn text(&self, case: &Case) -> String {
         match &self.0[..] {
             [one] => one.text(case),
@@ -67,7 +68,8 @@ impl Drivers {
 }
 
 impl Driver {
-    /// The structure for one joint with its groups, and the class of the structure in the file.
+    /// The structure with this driven joint, and its groups. If the file drives another joint, also that joint and the
+    /// class with it.
     fn text(&self, case: &Case) -> String {
         let mechanism = &case.mechanism;
         let joint = &mechanism.joints()[self.joint];

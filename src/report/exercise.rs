@@ -19,13 +19,13 @@ use std::fmt::Write;
 
 /// A sheet with its name.
 pub(crate) struct NamedSheet {
-    /// Name of the sheet, of its files and of its student.
+    /// Name of the sheet and of its files; for a drawn sheet it numbers the student, as in `student_001`.
     pub(crate) name: String,
     /// The right answers.
     pub(crate) sheet: AnswerSheet,
 }
 
-/// Name of the first column of a table of answers, which has the positions.
+/// Name of the column of positions, the first column of a table of answers.
 fn positions_of(sheet: &AnswerSheet) -> &'static str {
     sheet.case.crank().input.shown_in().1
 }

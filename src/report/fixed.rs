@@ -24,7 +24,7 @@ pub(crate) struct FixedStructure<'a> {
 
 /// A configuration of the whole structure.
 struct Configuration {
-    /// The modes of its groups that have names.
+    /// The assembly modes of its groups, without the modes `Only` and `Followed`.
     modes: Vec<&'static str>,
     /// Pose of every link, the ground included.
     poses: Vec<LinkPose>,

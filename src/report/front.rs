@@ -33,12 +33,12 @@ pub(crate) struct Front<'a> {
     pub(crate) limit: &'a str,
     /// The limit in words, and its unit.
     pub(crate) noun: [String; 2],
-    /// Limits with their mechanisms; `None` if no mechanism keeps the limits.
+    /// Values of the varied limit, each with its mechanism; `None` if no mechanism keeps all limits at this value.
     pub(crate) points: &'a [(f64, Option<Reached>)],
 }
 
 impl Reached {
-    /// The word of the verdict, which is written in capitals.
+    /// The word in capitals in the verdict, as in `AGREE`; `-` if the verdict has none.
     fn word(&self) -> &str {
         let is_verdict = |word: &&str| word.len() > 1 && word.chars().all(|letter| letter.is_ascii_uppercase());
         self.verdict.split([':', ' ']).find(is_verdict).unwrap_or("-")

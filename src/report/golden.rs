@@ -51,11 +51,11 @@ pub(crate) struct Golden {
     pub(crate) title: String,
     /// What sort of mechanism it is.
     pub(crate) sort: &'static str,
-    /// Endings of the models, each with the reason if the model is missing.
+    /// File name endings of the models, each with the reason if the model is missing.
     pub(crate) models: Vec<(&'static str, Option<String>)>,
-    /// The instants and the channels of the truth.
+    /// The number of instants and the number of channels of the truth.
     pub(crate) size: [usize; 2],
-    /// Largest bound of a channel, divided by the largest magnitude of all channels with its unit.
+    /// Largest relative bound of a channel: its bound divided by the largest magnitude in all channels of its unit.
     pub(crate) bound: f64,
 }
 
@@ -84,13 +84,13 @@ pub(crate) fn tables(proof: &Proof) -> Result<[(&'static str, Vec<u8>); 3]> {
     Ok([("truth.csv", text), ("truth.parquet", table), ("bounds.csv", bounds.into_bytes())])
 }
 
-/// Largest bound of a channel, divided by the largest magnitude of all channels with its unit.
+/// Largest relative bound of a channel: its bound divided by the largest magnitude in all channels of its unit.
 pub(crate) fn largest_bound(truth: &Trajectory, bounds: &[f64]) -> f64 {
     let size = |values: &[f64]| ends(values.iter().map(|own| own.abs()))[1];
     let share = |(channel, bound): (&linkage::trajectory::Channel, &f64)| {
         let alike = truth.iter().filter(|(own, _)| own.kind.unit == channel.kind.unit);
         let scale = alike.map(|(_, values)| size(values)).fold(0.0, f64::larger);
-        // Smaller values are rounding errors of a quantity that is zero.
+        // If no value exceeds the bound, the values are only rounding errors of a quantity that is zero.
         if scale > *bound { bound / scale } else { 0.0 }
     };
     truth.channels().iter().zip(bounds).map(share).fold(0.0, f64::larger)

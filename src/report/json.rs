@@ -1,4 +1,5 @@
-//! Proofs as JSON, schema 2. Numbers that are not finite are `null`, for example an order that rounding hides.
+//! Proofs as JSON, schema 2. Numbers that are not finite are `null`, for example an observed order of convergence that
+//! cannot be determined because of rounding.
 
 use crate::sentences;
 use std::collections::BTreeMap;
@@ -56,11 +57,11 @@ rows! {
         reason: Option<String> = proof.verdict.reason(tell),
         structure: String = proof.formula.clone(),
         reference: Reference = Reference::of(proof.reference, times),
-        /// What the file says the mechanism is, in words.
+        /// The mechanism in words, as the file describes it.
         machine: BTreeMap<&'static str, String> = machine::rows(proof).into_iter().collect(),
         /// Figures of the motion.
         figures: Vec<FigureRow> = proof.figures().iter().map(|own| FigureRow::of(own, proof)).collect(),
-        /// Checks on the analytic sides.
+        /// Checks of the analytic solutions; `engines` has the checks of each engine.
         checks: Vec<CheckRow> = proof.checks.iter().map(|own| CheckRow::of(own, tell)).collect(),
         engines: Vec<Engine> = proof.engines.iter().map(|own| Engine::of(own, tell)).collect(),
         disputes["Vec::is_empty"]: Vec<DisputeRow> = proof.disputes.iter().map(DisputeRow::of).collect(),
@@ -77,7 +78,7 @@ rows! {
     struct FigureRow = |own: &ReportedFigure, proof: &Proof| {
         let run = &proof.reference_trajectory;
     } {
-        /// The figure as sweeps and files write it.
+        /// The figure in the notation of sweeps and scenario files.
         figure: String = own.figure.clone(),
         words: String = own.label.clone(),
         value: f64 = own.value,
@@ -130,7 +131,7 @@ rows! {
         reason: Option<String> = proof.verdict.reason(tell),
         channels: Vec<Channel> = proof.channels.iter().map(|own| Channel::of(info, own, tell)).collect(),
         /// Forces that the engine itself exerts.
-        /// These forces are judged in addition to the forces among the channels, which follow from the engine's motion.
+        /// They are judged in addition to the forces of `channels`, which are computed from the engine's motion.
         own_forces["Option::is_none"]: Option<OwnForcesRow> = own.map(|own| OwnForcesRow::of(proof, own, tell)),
         checks: Vec<CheckRow> = proof.checks.iter().map(|own| CheckRow::of(own, tell)).collect(),
         failure["Option::is_none"]: Option<String> = proof.failure.as_ref().map(|error| error.message().to_string()),

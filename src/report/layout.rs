@@ -11,7 +11,7 @@ use recording::{DrawnLink, Film, Line, Plot, View};
 const SPEEDS: [f64; 8] = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 0.8, 1.0];
 /// Shortest duration of a revolution that the eye can follow (s).
 pub(super) const TURN: f64 = 4.0;
-/// Height of the picture divided by the height of the mechanism.
+/// Size of the picture divided by the size of the mechanism, in the direction in which the mechanism fills more of it.
 const ROOM: f64 = 1.25;
 /// Ratio of width to height of the panel with the picture.
 const WIDE: f64 = 1.1;
@@ -34,8 +34,8 @@ pub(crate) fn text(view: &View) -> String {
     }))
 }
 
-/// Playback speed of a recording with the time scale `slow`. With `slow` = 1, the speed is the largest at which people
-/// can follow a revolution; `turn` is the log time of a revolution (s).
+/// Playback speed of a recording with the time scale `slow`; `turn` is the log time of a revolution (s).
+/// With `slow` = 1, this is the largest of [`SPEEDS`] at which people can follow a revolution. Otherwise it is 1.
 pub(crate) fn speed(slow: f64, turn: f64) -> f64 {
     if slow != 1.0 {
         return 1.0;
@@ -50,7 +50,7 @@ pub(crate) fn height(view: &View) -> f64 {
 }
 
 /// The panel with the mechanism: parallel projection from above.
-/// The view contains everything except axes and names of frames.
+/// The panel shows the whole mechanism; the axes and the names of frames are hidden.
 fn picture(view: &View) -> Value {
     let [low, high] = view.corners;
     let (centre, height) = ((low + high) / 2.0, height(view));
@@ -101,7 +101,7 @@ fn path(line: &Line) -> Value {
     })
 }
 
-/// Colour of a line: of a side, by its number (0 is the reference), or of an error.
+/// Colour of a line that shows a side; 0 is the reference. `None`: colour of a line that shows an error.
 fn colour(side: Option<usize>) -> &'static str {
     // Viewers draw samples as dots, which are darker than the line on a light background and lighter on a dark one.
     // The colours of this list suit both backgrounds.

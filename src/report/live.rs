@@ -146,7 +146,7 @@ pub(crate) fn state(state: &State, id: &str) -> Vec<u8> {
     [&head[..], &time, &speed, &jumped, &length.to_le_bytes(), id.as_bytes()].concat()
 }
 
-/// A viewer's request as text; `None` if it is not supported.
+/// Reads a request from a viewer's text message; `None` if the request is not supported.
 pub(crate) fn asked(text: &str) -> Option<Request> {
     let value: Value = serde_json::from_str(text).ok()?;
     let list = |key: &str| value.get(key)?.as_array();
@@ -161,7 +161,7 @@ pub(crate) fn asked(text: &str) -> Option<Request> {
     }
 }
 
-/// A viewer's request as bytes; `None` if it is not supported.
+/// Reads a request from a viewer's binary message; `None` if the request is not supported.
 pub(crate) fn asked_in_bytes(bytes: &[u8]) -> Option<Request> {
     let (&[kind, command], rest) = bytes.split_first_chunk()?;
     let (&speed, rest) = rest.split_first_chunk()?;

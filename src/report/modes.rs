@@ -20,7 +20,7 @@ enum Open<'a> {
     After(String, usize),
 }
 
-/// Why the list of the group `index` depends on an undecided group; `None` if it depends on no undecided group.
+/// The note beside the list of the group `index`; `None` if neither this group nor an earlier group is undecided.
 fn open<'a>(scenario: &Scenario, all: &[Modes], undecided: &'a [Undecided], index: GroupId) -> Option<Open<'a>> {
     if let Some(own) = undecided.iter().find(|other| other.group == index) {
         return Some(Open::Undecided(own.why.message()));

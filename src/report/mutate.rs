@@ -92,7 +92,8 @@ struct OfKind {
     trunk: Share,
     formulas: Share,
     margin: f64,
-    /// Smallest sizes at which the fault is found in every scenario: one for sides or formulas, one for the engine.
+    /// Sizes above which every fault of the kind is found in all scenarios: the first for faults in a side or a
+    /// formula, the second for faults in the engine.
     size: [Option<f64>; 2],
 }
 
@@ -179,7 +180,7 @@ fn lists(found: &[Mutated], tally: &FaultCounts) -> [(&'static str, Vec<String>)
     [(sentences::NOT_FOUND_IN_ONE_PARTY, not_found(found)), (sentences::OPEN_IN_THE_TRUNK, open(tally))]
 }
 
-/// Kinds of faults in the shared code that no independent number finds in any scenario.
+/// Kinds of faults that have an effect in the shared code but are found in no scenario.
 fn open(tally: &FaultCounts) -> Vec<String> {
     let open = all().filter(|kind| tally.trunk_kinds.contains(&kind.name) && !tally.trunk_found.contains(&kind.name));
     open.map(|kind| format!("{}: {}", kind.name, kind.says)).collect()
@@ -221,7 +222,7 @@ pub fn kinds_markdown() -> String {
     text
 }
 
-/// Outcomes of all kinds as a table in Markdown, with the figures above it and the missed faults below.
+/// Outcomes of all kinds as a table in Markdown. The numbers of found faults are above it, the missed faults below it.
 pub(crate) fn markdown(found: &[Mutated]) -> String {
     let tally = tally(found);
     let mut text = format!("{}.\n\n| {} |\n|{}\n", headline(&tally), KINDS.replace('>', ""), "---|".repeat(9));

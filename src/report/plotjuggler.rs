@@ -1,4 +1,4 @@
-//! A layout for PlotJuggler, which loads the recording: plots of reference, engine and errors.
+//! A layout for PlotJuggler: plots of reference, engine and errors. The layout also loads the recording.
 
 use std::path::Path;
 
@@ -13,7 +13,7 @@ pub(crate) fn text(numbers: &Numbers, file: &Path) -> String {
 }
 
 /// The plots, one below the other.
-/// Without plots the text is empty, because PlotJuggler exits if it must divide an area without plots.
+/// Without plots the text is empty, because PlotJuggler exits on a layout whose area is divided among no plots.
 fn plots(plots: &[Plot]) -> String {
     let count = plots.len();
     if count == 0 {

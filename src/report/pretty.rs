@@ -13,7 +13,8 @@ pub(super) fn list<T>(all: impl IntoIterator<Item = T>, one: impl FnMut(T) -> Va
 }
 
 /// Defines rows of a JSON report.
-/// A row states its sources, statements that prepare it, and then each key once, with type and value.
+/// A row states the arguments from which it is made. Then come preparing statements, and then each key once, with type
+/// and value.
 /// A key with a predicate, as in `key["Option::is_none"]: ..`, is omitted if the predicate is true.
 macro_rules! rows {
     ($($(#[$about:meta])* $vis:vis struct $row:ident = |$($given:ident: $of:ty),*| { $($first:tt)* } {

@@ -1,4 +1,4 @@
-//! The format of scenario files as a JSON Schema, for editors of TOML.
+//! The format of scenario files as a JSON Schema, for text editors that support TOML.
 
 use crate::sentences;
 use serde_json::{Map, Value, json};
@@ -65,8 +65,8 @@ fn of_key(key: &FileKey, path: &str) -> Value {
     value
 }
 
-/// The schema of a section, for three kinds of keys: fixed keys, names that the user chooses, and names that represent
-/// numbers.
+/// The schema of a section. There are three kinds of sections: with fixed keys, with user-chosen names of subsections,
+/// and with user-chosen names of numbers.
 fn table(path: &str) -> Value {
     let named = format!("{path}.*");
     match (section(path), section(&named)) {

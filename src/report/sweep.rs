@@ -90,8 +90,8 @@ pub(crate) fn text(
 const SIZE: [f64; 2] = [1100.0, 420.0];
 const MARGIN: [f64; 2] = [70.0, 60.0];
 
-/// The page: parallel coordinates of a sample, the best cases drawn, and the spread of every figure. `drawings` are the
-/// drawings of the best cases, as SVG.
+/// The page: parallel coordinates of a sample, drawings of the best cases, and the spread of every figure.
+/// `drawings` are these drawings as SVG.
 pub(crate) fn page(plan: &SweepPlan, summary: &SweepSummary, goal: Goal, title: &str, drawings: &[String]) -> String {
     let mut best = String::new();
     for (row, drawing) in summary.best.iter().zip(drawings) {
@@ -131,7 +131,7 @@ fn named<'a>(plan: &'a SweepPlan, row: &'a SweepRow) -> impl Iterator<Item = (St
     plan.columns().zip(values).map(|((name, unit), value)| (escaped(name), escaped(&with_unit(&shown(*value), unit))))
 }
 
-/// The cases with a line: the sample, and the best cases that are not in it.
+/// The cases that have a line in the parallel coordinates: the sample, and the best cases that are not in it.
 fn lines(summary: &SweepSummary) -> Vec<&SweepRow> {
     let further = summary.best.iter().filter(|own| !summary.sample.iter().any(|row| row.case == own.case));
     summary.sample.iter().chain(further).collect()

@@ -63,7 +63,8 @@ pub(crate) fn run_up(run_up: &RunUp, to: &mut dyn Write) -> Result<()> {
     table(&own, &run_up.trajectory, rows, to)
 }
 
-/// The I/O error that caused an error of the CSV writer, with its kind.
+/// Converts an error of the CSV writer: to the I/O error that caused it, which keeps its I/O kind, or else to an error
+/// of the kind `Other`.
 #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the CSV writer")]
 fn io_error(error: csv::Error) -> Error {
     if !error.is_io_error() {

@@ -167,7 +167,7 @@ pub(super) fn sentence(proof: &Proof) -> String {
     }
 }
 
-/// The channels as a table with one row per quantity. A row shows the channel of the quantity that ranks highest: by
+/// The channels as a table with one row per quantity. Of all channels of this quantity, the row shows the worst one: by
 /// verdict, then by the ratio of error to bound.
 fn channels(channels: &[ChannelProof], width: Option<usize>) -> String {
     let input = channels.first().map(|own| own.residual.input).unwrap_or_default();
@@ -192,8 +192,8 @@ fn channels(channels: &[ChannelProof], width: Option<usize>) -> String {
     trimmed(fitted(&header, width).add_rows(rows))
 }
 
-/// The checks as a table with one row per family. A row shows the check of the family with the largest ratio of
-/// residual to bound. A family is `expected` if all its wrong numbers are known to be wrong.
+/// The checks as a table with one row per family. Of all checks of this family, the row shows the one with the largest
+/// ratio of residual to bound. A family is `expected` if findings explain all its published numbers that are wrong.
 fn checks(proof: &Proof, width: Option<usize>) -> String {
     let families = distinct(proof.all_checks().map(|check| check.family.as_str()));
     let rows = families.into_iter().filter_map(|name| {

@@ -47,7 +47,7 @@ linkage::words! {
         Read = "read",
         /// Positions.
         Moving = "moving",
-        /// All channels, by side 1.
+        /// All channels, computed by the first analytic solver (`assur`); not judged yet.
         Solved = "solved",
         /// The verdict, or the error of the proof.
         Judged = "judged",
@@ -131,12 +131,12 @@ pub(crate) enum RequestKind {
     Keep,
     /// Change a parameter, in the unit of its key.
     Parameter { key: String, value: f64 },
-    /// Move a point, on each link from one position to another (m, in the frame of the link).
+    /// Move a point. For each link of the point: its old and its new position (m, in the frame of the link).
     Point { name: String, places: Vec<(String, [Vec2; 2])> },
 }
 
 impl Request {
-    /// The request `what` with the message `body`; `None` if the page does not send such a request.
+    /// Reads the request `what` from the message `body`; `None` if this is not a valid request of the page.
     pub(crate) fn of(what: &str, body: &str) -> Option<Request> {
         let body: Value = serde_json::from_str(body).ok()?;
         let text = |key: &str| body[key].as_str().map(String::from);

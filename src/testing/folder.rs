@@ -76,7 +76,7 @@ impl Folder {
         self
     }
 
-    /// Runs the tests selected by the arguments of the program, and returns its exit code.
+    /// Runs the tests that the arguments of the program select, and returns the exit code for the program.
     #[must_use = "the exit code says whether all agree"]
     pub fn main(self) -> ExitCode {
         run(&Arguments::from_args(), self.trials()).exit_code()

@@ -63,7 +63,7 @@ impl ClassKey {
         criterion_text(self.language(), self.criterion())
     }
 
-    /// The text in a table of answers that states its sheet: the name of the sheet, and the seed if there is one.
+    /// The text by which a table of answers states its sheet: the name of the sheet, and the seed if there is one.
     pub(crate) fn id(&self, name: &str) -> String {
         self.seed.map_or_else(|| name.into(), |seed| format!("{name} of seed {seed}"))
     }

@@ -7,8 +7,9 @@ use super::{ClassKey, NamedSheet, page, position, table};
 use scenario::Scenario;
 use std::fmt::Write;
 
-/// The task sheet as a page: drawing, given numbers, quantities, and a table for the answers. `start` is the input of
-/// the given start pose in the printed unit, if the sheet replaces this pose because it is nearly singular.
+/// The task sheet as a page: drawing, given numbers, quantities, and a table for the answers.
+/// If the scenario's start pose is nearly singular and the sheet uses another pose instead, `start` is the input of the
+/// scenario's start pose, in the printed unit.
 pub(crate) fn task(own: &NamedSheet, scenario: &Scenario, picture: &str, key: &ClassKey, start: Option<f64>) -> String {
     let (language, sheet) = (key.language(), &own.sheet);
     let title = words::task_of(language, &own.name);

@@ -51,7 +51,7 @@ fn agrees(proof: &Proof) -> bool {
     grade(&proof.verdict) == Grade::Agree
 }
 
-/// Reports the failure of a single engine, and engines whose forces disagree.
+/// Reports the failure of the engine if the proof has only one, and engines whose forces disagree.
 fn faults(proof: &Proof, told: &mut String) {
     for engine in &proof.engines {
         if let (Some(error), 1) = (&engine.failure, proof.engines.len()) {

@@ -8,7 +8,7 @@ use prover::check::{JudgedFormula, KnownTrajectory};
 use prover::run::Proof;
 use scenario::{Claim, Formula};
 
-/// Number of single-precision values of a formula in a row.
+/// Number of single-precision values that a formula adds to each row of the page's columns.
 pub(super) const WIDTH: usize = 2;
 
 /// A formula at all instants of the reference, in the unit of its claim.
@@ -20,7 +20,7 @@ pub(super) struct FormulaCurve<'a> {
     difference: Vec<f64>,
 }
 
-/// The formulas that claim a quantity of every instant, in the order of the file.
+/// The formulas that claim the values of a quantity at all instants, and not figures of it; in the order of the file.
 pub(super) fn of(proof: &Proof) -> Vec<FormulaCurve<'_>> {
     let Some(judgement) = &proof.judgement else { return Vec::new() };
     let (case, run) = (&proof.scene.case, &proof.reference_trajectory);

@@ -31,7 +31,7 @@ pub(super) fn sentence(proof: &Proof) -> String {
     escaped(&format!("{agreement}{judged} Reference: {}. {engine}: {parties}; {at}.", proof.reference))
 }
 
-/// What the file says the mechanism is, and the figures of its motion.
+/// The mechanism as the file describes it, and the figures of its motion.
 pub(super) fn facts(proof: &Proof) -> String {
     let told = machine::rows(proof).into_iter();
     let told: String = told.map(|(what, own)| format!("<dt>{what}</dt><dd>{}</dd>\n", escaped(&own))).collect();
@@ -119,7 +119,7 @@ fn joints(mechanism: &Mechanism) -> String {
     table("Joints", &["joint", "kind", "first link", "second link"], rows.collect())
 }
 
-/// A row of a table. `cells` are plain contents; `last` is the last cell, already with its HTML tags.
+/// A row of a table. `cells` are the contents of cells without the `td` tags; `last` is the last cell with its tags.
 fn row(cells: &[String], last: &str) -> String {
     let cells: String = cells.iter().map(|cell| format!("<td>{cell}</td>")).collect();
     format!("<tr>{cells}{last}</tr>\n")

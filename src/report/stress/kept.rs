@@ -47,7 +47,7 @@ pub(crate) fn json<'a>(family: &StressFamily, seed: u64, outcomes: impl Iterator
 }
 
 /// The stored results in the text of a file.
-/// A text with another schema, or from another program, gives no results, so everything is computed anew.
+/// A text with another schema, or not in this format, gives no results, so everything is computed anew.
 /// A changed or invalid point is also computed anew.
 pub(crate) fn outcomes(text: &str) -> Vec<StressOutcome> {
     let document: Option<Document<Value>> = serde_json::from_str(text).ok();

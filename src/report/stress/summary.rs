@@ -105,8 +105,8 @@ pub(super) fn names<'a>(outcomes: &[&'a StressOutcome]) -> Vec<&'a str> {
 }
 
 /// Cells of a solver or engine: the parameter values at which it agrees, and those at which it does not agree.
-/// For the points with agreement, the cells show the largest errors, the largest ratio of error to bound, and the
-/// largest bound of the channels with the largest errors.
+/// Over the points with agreement, the cells show the largest error of each group of quantities, and the largest ratio
+/// of error to bound. The last cell is the largest bound; at each point, only the worst channel of each group counts.
 pub(super) fn cells(outcomes: &[&StressOutcome], name: &str) -> [String; 7] {
     let mut by_dial: Vec<(f64, PointEnd)> = Vec::new();
     let mut largest: BTreeMap<QuantityGroup, f64> = BTreeMap::new();

@@ -1,5 +1,6 @@
 'use strict';
-// The page of `linkproof watch`: asks for changes, shows text, mistakes, sliders and the page of the newest draft.
+// The page of `linkproof watch`: asks the program whether anything has changed, and shows the text, its mistakes, the
+// sliders, and the page of the newest draft.
 
 const byId = (id) => document.getElementById(id);
 const [text, status, keep, reload] = ['text', 'status', 'keep', 'reload'].map(byId);

@@ -1,4 +1,5 @@
-// Names in the picture: each name is placed where it covers least, and changes its side only for a clear improvement.
+// Names in the picture: each name is placed where it hides the least of other names and of the mechanism.
+// A name moves to another side of its point only if that is clearly better.
 
 /** Height of letters, and width of one, in units of the picture. */
 const LETTER = matchMedia('(max-width: 30rem)').matches ? 5 : 3.3;
@@ -19,7 +20,7 @@ function namesByPlace() {
     const xs = motion.links[number - 1].points.map((point) => [point[1], point[2]]);
     return Math.max(0, ...xs.flatMap((a) => xs.map((b) => Math.hypot(a[0] - b[0], a[1] - b[1])))) / motion.unit;
   };
-  // A link that is short in the picture shows no number; the table of links has its colour.
+  // A link that is short in the picture has no number there; its colour identifies it in the table of links.
   const hasRoom = (own) => own.names !== 'centre' && (own.names !== 'link' || extent(own.on[0]) > ROOM);
   const found = [];
   for (const label of motion.labels.filter(hasRoom)) {

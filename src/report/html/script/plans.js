@@ -48,7 +48,7 @@ function drawPlan(content, own, now, link) {
   const vectors = chosen(now.vectors, link);
   const used = new Set(vectors.flatMap((vector) => [vector[2], vector[3]]));
   const [x, y] = [0, 1].map((axis) => range([[0, ...[...used].map((tip) => now.at[tip][axis])]]));
-  // The scale changes in round steps, so that a plan is neither too small nor too large, and lengths can be read.
+  // The scale fits the plan, and changes only in round steps, so that lengths can be read off with the scale bar.
   const whole = roundUp(Math.max(x[1] - x[0], y[1] - y[0]));
   const reach = 2 * REACH / whole;
   const place = ([a, b]) => [MIDDLE + (a - (x[0] + x[1]) / 2) * reach, MIDDLE - (b - (y[0] + y[1]) / 2) * reach];

@@ -84,7 +84,8 @@ function smooth(column, rates) {
     + step * share * rest * (rest * rates[row] - share * rates[row + 1]);
 }
 
-// Rows that are farther apart are not interpolated; the earlier row is shown.
+// If a link turns by this angle (rad) or more between two rows, the page does not interpolate between these rows, and
+// shows the earlier row.
 const FARTHEST = 0.2;
 const motion = page.motion || null;
 const isClose = new Uint8Array(time.length);
