@@ -433,7 +433,8 @@ def finds(reader, case, text):
 def plant(form, case, text, reader):
     """Faults that the reader must find; those whose pattern does not occur are left out."""
     for pattern, factor in FAULTS[form]:
-        # The fault changes the largest value, because the small value of a link without mass or inertia is not compared.
+        # The fault changes the largest value, because a link without mass or inertia has a small value that is not
+        # compared.
         found = max(re.finditer(pattern, text, re.MULTILINE), key=lambda own: abs(float(own[1])), default=None)
         if not found:
             continue
