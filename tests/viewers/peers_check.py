@@ -13,7 +13,7 @@ import tempfile
 from pathlib import Path
 
 TOP = Path(__file__).resolve().parent.parent.parent
-# Two limits for a quick measurement, set from measured values with a margin. The first limit is for the largest position
+# Two limits for a quick measurement: measured values with a margin. The first limit is for the largest position
 # error at the finest step, divided by the scale. The second is for the ratio of the errors at coarsest and finest step.
 # With a prescribed drive, Exudyn solves for the pose at every step, so its error does not fall with the step, and the
 # ratio is not tested.
