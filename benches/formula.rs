@@ -1,6 +1,6 @@
 //! Cost of judging formulas (values, first and second derivatives), divided by the cost of solving the poses.
 //! Both costs are measured on 3600 poses of a revolution.
-//! Only ratios from one run are printed.
+//! Only the ratios are printed; both costs of a ratio are measured in the same run.
 //! `cargo bench --bench formula`.
 
 #[path = "shared/timing.rs"]

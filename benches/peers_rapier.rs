@@ -24,7 +24,7 @@ const RUNS: usize = 5;
 /// Finest step (s); with smaller steps, second differences are rounding noise.
 const FINEST: f64 = 1.2e-5;
 /// Sweeps per step.
-/// More sweeps than these change no result.
+/// More than 16 sweeps change no result.
 /// With 8 sweeps, the reaction at the first instant is wrong by a few percent.
 const SWEEPS: [usize; 2] = [12, 16];
 

@@ -1,7 +1,7 @@
 //! Cost of a proof and its recording together, divided by the cost of the proof alone.
 //! For a long recording, a second ratio is measured: the cost of writing the same messages, already prepared, with the
 //! plain MCAP writer, divided by the cost of writing the recording.
-//! Only ratios from one run are printed.
+//! Only the ratios are printed; both costs of a ratio are measured in the same run.
 //! `cargo bench --bench record`.
 
 #[path = "shared/timing.rs"]

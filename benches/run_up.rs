@@ -2,7 +2,7 @@
 //! all channels.
 //! The run-up is half a second of `crank_rocker`, 501 output points.
 //! Each cost is divided by the cost of the run-up of the crank alone at the usual accuracy.
-//! Only ratios from one run are printed.
+//! Only the ratios are printed; both costs of a ratio are measured in the same run.
 //! `cargo bench --bench run_up`.
 //!
 //! This benchmark does not check errors; `tests/suite/bench.rs` tests the errors of the run-up at the usual accuracy
@@ -32,7 +32,7 @@ fn main() {
     let all_channels = |accuracy| shortest(REPEATS, || RunUp::of(&model, 0.0, black_box(&times), accuracy).unwrap());
     let one = crank_alone(ACCURACY);
     println!("cost divided by the cost of the run-up of the crank alone at the accuracy {ACCURACY:.0e}\n");
-    // The reduced model includes the range of motion and the kinks.
+    // The time for the reduced model includes finding the range of motion and the kinks of the model's coefficients.
     println!("{:14} {:>8.2}", "reduced model", shortest(REPEATS, || ReducedModel::of(black_box(&case)).unwrap()) / one);
     println!("{:14} {:>8.2}\n", "steady motion", shortest(REPEATS, || model.regime(&[], ACCURACY).unwrap()) / one);
     println!("{:14} {:>12} {:>12}", "run-up", "crank alone", "all channels");

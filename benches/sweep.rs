@@ -19,7 +19,7 @@ use scenario::Scenario;
 use sweep::{DesignKind, Goal, SweepAxis, SweepDesign, SweepPlan, SweepStore, SweepSummary};
 
 const AXES: [&str; 3] = ["crank_mm=20:40", "coupler_mm=110:135", "rocker_mm=80:100"];
-/// Every figure has a different quantity, so that no quantity serves two figures.
+/// No two figures use the same quantity, so that each figure adds the cost of its own quantity.
 const FIGURES: [&str; 10] = [
     "max:joint.O.f_N",
     "max:joint.A.f_N",

@@ -108,7 +108,8 @@ fn run(binary: &str, file: &Path, limit: Duration, further: &[String]) -> Outcom
 }
 
 /// The verdict, and its reason: the first two checks with this verdict, and the worst channel.
-/// The worst channel has the largest ratio of residual to bound, or, unless the run disagrees, the widest bound.
+/// If the run disagrees, the worst channel has the largest ratio of residual to bound.
+/// Otherwise, the worst channel has the widest bound, relative to the scale of the channel.
 fn judged(report: &Value) -> (&'static str, String) {
     let Some(run) = report["runs"].get(0) else {
         let error = &report["errors"][0];

@@ -32,8 +32,9 @@ SCENARIOS = [ROOT / "scenarios/crank_rocker_runup.toml", HERE / "crank_rocker_ba
 WANTED = 1e-6
 LINKS = ("crank", "coupler", "rocker")
 JOINTS = {"O": ("ground", "crank"), "A": ("crank", "coupler"), "B": ("coupler", "rocker"), "C": ("ground", "rocker")}
-# The load opposes the rocker's rotation. For the peers it is a friction that is proportional to the speed below ZONE
-# (rad/s). The crank starts at START (rad/s) instead of 0, so that the load has the right sense from the first instant.
+# The load opposes the rocker's rotation. For the peers, the load is a friction: proportional to the speed below ZONE
+# (rad/s), constant above.
+# The crank starts at START (rad/s) instead of 0, so that the load has the right sense from the first instant.
 ZONE, START = 1e-8, 1e-7
 STEPS = (500, 1000, 2000, 4000, 5000, 7000, 10000, 12000, 20000)
 

@@ -28,8 +28,8 @@ FIGURES = ["max:joint.O.f_N", "max:joint.A.f_N", "max:joint.B.f_N", "max:joint.C
            "mean:link.coupler.omega_rad_s"]
 OF_POSITIONS = ["range:point.E.x_mm", "at_max:point.E.y_mm"]
 POSES = 360
-# Number of four-bars in one call of `Ensemble.simulate`, which returns half a gigabyte. With more members, the time per pose is the same; with far fewer,
-# it is only half.
+# Number of four-bars in one call of `Ensemble.simulate`, which returns half a gigabyte. With more four-bars, the time per pose is the same;
+# with far fewer four-bars, the time per pose is half as long.
 MEMBERS = 20_000
 
 

@@ -33,7 +33,7 @@ from exudyn.utilities import (
 from crank_rocker import COUPLER, CRANK, GROUND, INERTIA, MASS, RESISTANCE, ROCKER, SPEED, start_angles, start_speeds
 
 EVERY, END = 4e-3, 0.46
-# With Exudyn's default of 0.9, forces oscillate for a quarter of a turn after the start.
+# Spectral radius. With Exudyn's default of 0.9, forces oscillate for a quarter of a turn after the start.
 RADIUS = 0.6
 KINDS = exu.OutputVariableType
 BODY = {"Rot": KINDS.Rotation, "Omega": KINDS.AngularVelocity, "Alpha": KINDS.AngularAcceleration}

@@ -15,7 +15,8 @@ import numpy as np
 
 from crank_rocker import COUPLER, CRANK, GROUND, INERTIA, MASS, RESISTANCE, ROCKER, SPEED, start_angles, start_speeds
 
-# Forces of the first steps are wrong: constraints lack the centripetal part of the motion until a gap has opened.
+# Forces of the first steps are wrong, because a constraint does not include the centripetal accelerations.
+# Their effect appears only some steps later, when a gap has opened between the two points of the constraint.
 EVERY, SETTLED, END = 4e-3, 20e-3, 0.48
 # A loop as stiff as the step allows: MuJoCo raises the time constant to two steps.
 HARD = 'solref="1e-9 0.5" solimp="0.9999 0.9999 1"'

@@ -36,7 +36,7 @@ def main(directory, step, result):
         times = [float(row["t_s"]) for row in csv.DictReader(file)]
     model = mujoco.MjModel.from_xml_path(str(place / f"{place.name}.xml"))
     loops = [model.equality(k).name for k in range(model.neq) if model.eq_type[k] == mujoco.mjtEq.mjEQ_CONNECT]
-    # Steps in an interval of the truth.
+    # Number of MuJoCo's steps between two instants of truth.csv.
     parts = math.ceil((times[1] - times[0]) / float(step) - 1e-6)
     model.opt.timestep = (times[1] - times[0]) / parts
     data = mujoco.MjData(model)

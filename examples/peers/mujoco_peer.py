@@ -109,7 +109,7 @@ def reaction(case, model, data, joint):
     name = joint["name"]
     sensor = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_SENSOR, f"{name}.force")
     if sensor < 0:
-        # A joint that closes a loop: the rows of its `connect` are forces that pull the first site to the second.
+        # This joint closes a loop; the rows of its `connect` are the force on the first of its two sites.
         rows = (data.efc_id[: data.nefc] == model.equality(name).id) & (
             data.efc_type[: data.nefc] == mujoco.mjtConstraint.mjCNSTR_EQUALITY)
         return -data.efc_force[: data.nefc][rows][:2], None

@@ -12,13 +12,14 @@ import sys
 CASE = {"in batches": 4.1e-6, "one by one": 300e-6}
 #: Bytes of a case in the table: an index, two varied numbers, two figures, state and reason.
 BYTES = 31
-#: Fixed time of a share on its worker (s), and time of a share for scheduler and client (s).
+#: Time that each share costs its worker in addition to its cases (s), and time that it costs scheduler and client (s).
 SHARE, SCHEDULER = 0.006, 0.003
 #: Time until the first worker takes a share, and between the starts of two workers (s). Not measured: they depend on the cluster.
 START, NEXT = 20.0, 0.05
 #: Mean life of a worker (s), and time until a dead one is replaced. Not measured either.
 LIFE, REPLACED = 4 * 3600.0, 60.0
-#: The merge: bytes a second, time of a part (s), bytes of memory of a part. A pass over the table: time of a case (s).
+#: Merging the parts: copied bytes per second, additional time per part (s), and bytes of memory per part.
+#: The last number is the time per case (s) of a pass over the table.
 COPY, PART, MEMORY, PASS = 300e6, 3.4e-3, 7800, 190e-9
 
 
@@ -35,7 +36,7 @@ def simulated(shares, work, workers, start=START, seed=1):
         if done <= ends[number]:
             shares, last = shares - 1, max(last, done)
         else:
-            # The share is repeated. Its stored parts would stay; here they count as lost.
+            # The share is repeated. In reality, the parts stored by the dead worker are kept; here they count as lost.
             deaths, done = deaths + 1, ends[number] + REPLACED
             ends[number] = done + chance.expovariate(1 / LIFE)
         heapq.heappush(free, (done, number))

@@ -169,7 +169,7 @@ def check_loads(tab, data, scenario, rows):
             name = data["loads"]["drives"][0]["name"]
             need(name in drawn, f"{name} is not drawn")
             told = numbers(drawn[name])
-            # The path is `M x y A r r 0 long way x y`: an arc from 45 deg below to the tip of the moment's arrow.
+            # The path is `M x y A r r 0 long way x y`: an arc from the angle -45 deg to the tip of the moment's arrow.
             start, end, clockwise = told[:2], told[7:9], told[6]
             link, *local = data["loads"]["drives"][0]["on"]
             where = place_of(row, given, motion["links"][link - 1]["name"], local)

@@ -107,7 +107,7 @@ def main(linkproof, chromium, directory):
             page.status("AGREE")
             page.page.screenshot(path=pictures / "watch.png")
             need(page.text() == given, "the text is not that of the file")
-            # A mistake at its line, with the way out; then mended.
+            # The page shows a mistake in the file at its line, with advice; then the file is corrected.
             file.write_text(given.replace("crank_mm = 40", "crank_mm = forty"))
             page.status("1 mistake")
             line = 1 + given[: given.index("crank_mm = 40")].count("\n")
@@ -117,7 +117,7 @@ def main(linkproof, chromium, directory):
             page.page.screenshot(path=pictures / "watch_mistake.png")
             file.write_text(given)
             page.status("AGREE")
-            # The text on the page: nothing is written until it is kept.
+            # The text is changed on the page; the file stays unchanged until the draft is kept.
             page.page.fill("#text", given.replace("rocker_mm = 80", "rocker_mm = 85"))
             page.page.wait_for_function("() => document.querySelector('input[name=rocker_mm]').value === '85'", timeout=PATIENCE)
             need(file.read_text() == given, "a draft was written to the file")

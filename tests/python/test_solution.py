@@ -98,7 +98,7 @@ def test_arrays_are_read_only_and_outlive_the_solution(crank_rocker):
     assert kept[0] == array[0] + 1.0
     del solution
     gc.collect()
-    # Memory that was freed would be reused by these.
+    # If the memory of `array` had been freed, these solutions would overwrite it.
     others = [crank_rocker.solve() for _ in range(20)]
     assert all(np.array_equal(other["joint.A.fx_N"], array) for other in others)
 

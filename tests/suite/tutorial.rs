@@ -73,7 +73,7 @@ fn followed(page: &str, place: &Path) -> (String, usize) {
 }
 
 /// Whether two lines have the same content.
-/// The last bit of a sine depends on the processor, so numbers may differ by 1 %.
+/// Numbers may differ by 1 %, because rounding differs between processors, for example in the last bit of a sine.
 /// Numbers below 1e-9 are rounding errors and may differ by more.
 /// Counts of quantities, channels and checks, and file sizes, are ignored.
 fn are_alike(one: &str, other: &str) -> bool {

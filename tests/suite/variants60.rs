@@ -166,7 +166,7 @@ fn structure_and_masses_match_the_interpretation() {
         let lengths: f64 = v.lengths.iter().sum::<f64>() + v.rocker.unwrap_or(0.0);
         let slider = if v.rocker.is_some() { 1.0 } else { 0.0 };
         let mass: f64 = mechanism.links().iter().map(|link| link.mass).sum();
-        // The bound allows for the sum of five decimal numbers, each accurate to its last bit.
+        // The bound allows for the rounding error of a sum of up to five masses.
         assert_within!((mass - 10.0 * lengths - slider).abs(), 1e-12, "{}: {mass}", v.number);
     }
 }

@@ -81,7 +81,8 @@ fn regress_planting_faults_keeps_to_the_work_limit() {
     let error = found.err().expect("600 faults in 100 four-bars are too many");
     assert!(error.message().contains("planting") && error.message().contains("the work limit is 1.0e5"), "{error}");
     assert!(error.advice().iter().any(|own| own.to_string().contains("some kinds")), "{error}");
-    // Counted are the fault-free solutions of both analytic sides and the exact answers of side 1, but no engine step.
+    // The counted work is that of the fault-free solutions of both analytic sides and the exact answers of side 1.
+    // No step of an engine was run.
     assert!(work.of(Count::Groups) < 1_000_000 && work.of(Count::Steps) == 0, "{work:?}");
     let few = MutationPlan { kinds: vec!["gravity-sign".into()], parties: vec![FaultyParty::Assur], ..asked };
     assert_eq!(mutate(&large, &few, &mut |_| {}).unwrap().mutants.len(), 1);
@@ -101,7 +102,7 @@ fn regress_forces_without_progress_are_given_up_early() {
 }
 
 /// The work for a proof of the engine's own forces has a limit.
-/// If the motion alone exceeds this limit, the settings of the forces are not searched for.
+/// If the proof of the motion alone takes more work than this limit, no search for settings for the forces follows.
 /// Without this limit, the four-bar of this test takes 118 million sweeps.
 #[test]
 fn regress_forces_are_skipped_if_the_motion_used_their_work() {

@@ -90,7 +90,8 @@ impl Wrong {
         self.compared_by(&ComparisonRule::default(), |_| ())
     }
 
-    /// The comparison of the table after a change of its printed form.
+    /// Compares the wrong table with the correct scenario.
+    /// Before the comparison, `printed` changes the form in which the table prints its values.
     fn compared_by(&self, how: &ComparisonRule, printed: impl Fn(&mut Sheet)) -> PartyComparison {
         let (right, path) = text(self.scenario);
         let scenario = Scenario::parse(&right, &path).unwrap();
@@ -232,7 +233,7 @@ fn late_rows_and_a_rotated_drive_are_both_reported() {
 }
 
 /// Except in the first row, MuJoCo prints the values at the beginning of a step.
-/// The error of the time step remains unexplained.
+/// The comparison explains this shift, but not the remaining error, which is due to the finite time step.
 #[test]
 fn a_correct_first_row_hides_no_cause() {
     let found = told("norton", "mj.csv", &["time=time_s", "px=point.P.x_m", "py=point.P.y_m"]);
@@ -258,7 +259,7 @@ fn angles_within_one_turn_hide_no_cause() {
 }
 
 /// The forces drift by twice the allowed difference.
-/// The diagnosis must not name a mass that is too large by a hundred-thousandth as the cause.
+/// The diagnosis must not explain the drift by a relative error of 1e-5 in a mass of the scenario.
 #[test]
 fn a_drift_is_not_attributed_to_a_number_of_the_case() {
     let wrong = Wrong {

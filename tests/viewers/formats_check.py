@@ -29,7 +29,8 @@ from urdf_parser_py import urdf as ros
 DOUBLE, SINGLE = 1e-12, 2e-7
 # Further starts: the inputs at these fractions of the motion's time.
 STARTS = (0.25, 0.5, 0.75)
-# Fraction of the time before the first change point. After it, the mode in the file gives another configuration.
+# Starts are taken only before the first change point; the number is this part of the motion's time.
+# After the change point, the mode in the file gives another configuration.
 UNTIL = {"n_four_bar_1": 0.07, "n_four_bar_2": 0.07}
 # Number of poses in which URDF is compared beside the start pose, and number of poses for the errors of relations.
 POSES, RELATED = 3, 10_000
@@ -432,7 +433,8 @@ def finds(reader, case, text):
 def plant(form, case, text, reader):
     """Faults that the reader must find; those whose pattern does not occur are left out."""
     for pattern, factor in FAULTS[form]:
-        # The largest value: a link without mass or inertia has a small value that is not compared.
+        # The fault changes the largest value, because a link without mass or inertia has a small value that is not
+        # compared.
         found = max(re.finditer(pattern, text, re.MULTILINE), key=lambda own: abs(float(own[1])), default=None)
         if not found:
             continue

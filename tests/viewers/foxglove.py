@@ -32,7 +32,7 @@ from PIL import Image
 
 SIZE = (1500, 900)
 LIMIT = 240.0
-# Time of the player after it has opened a file (ns).
+# Time in the recording that the player shows after it has opened the file (ns).
 START = 99_000_000
 # Software rendering, for machines without a graphics card.
 FLAGS = ["--headless=new", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--remote-debugging-port=0"]

@@ -50,7 +50,7 @@ def main(linkproof, count="300"):
             if number % 2:
                 shutil.copy(kept, out / "crank_rocker.mcap")
             child = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-            # Two thirds of the moments are in the last half of the run.
+            # About two thirds of the kills come after half of the run's time.
             began = time.monotonic()
             try:
                 child.wait(lasts * (1.1 - 1.1 * dice.random() ** 1.5))

@@ -29,15 +29,15 @@ import numpy as np
 # Numbers of steps in the interval, and number of compared instants, which lie on steps of every run.
 STEPS = (720, 1440, 2880, 5760)
 ROWS = 36
-# Formal orders: positions have order 2, forces order 1, because inertia forces use velocities of the middle of the previous step.
+# Formal orders: positions have order 2. Forces have order 1, because their inertia parts use velocities from half a step before.
 # Forces extrapolated from two runs have order 2.
 POSITION, FORCE = 2, 1
 # Largest difference of the observed order of positions from the formal order.
 ORDER = 0.1
 # Safety factors on the estimated error (Roache): 1.25 if the observed order is checked, 3 for forces, whose order is not checked.
 CLEAR, DOUBTFUL = 1.25, 3.0
-# Errors that do not depend on the step, as fractions of half the range: the rotor keeps its speed to 1e-9 over 2 pi, and forces have the
-# rounding error of a constraint problem with inertias twelve decades apart.
+# Errors that do not depend on the step, as fractions of half the range. For positions: the relative change of the rotor's speed over an angle of
+# 2 pi is up to 1e-9. For forces: the rounding error of a constraint problem with inertias twelve decades apart.
 REST = {POSITION: 2e-8, FORCE: 1e-6}
 # Limits of the errors of the finest run, as fractions of half the range of the channel.
 PROMISED = {"positions": 1e-5, "forces": 1e-2, "positions extrapolated": 1e-6, "forces extrapolated": 1e-3}
@@ -152,7 +152,7 @@ def reaction(scenario, model, data, name):
     """Force and moment of a joint's first link on its second, about the joint's point on the second, in world axes."""
     sensor = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_SENSOR, f"{name}.force")
     if sensor < 0:
-        # A joint that closes a loop: the rows of its `connect` are forces that pull the first site to the second.
+        # This joint closes a loop; the rows of its `connect` are the force on the first of its two sites.
         loop = model.equality(name).id
         rows = (data.efc_id[: data.nefc] == loop) & (data.efc_type[: data.nefc] == mujoco.mjtConstraint.mjCNSTR_EQUALITY)
         return -data.efc_force[: data.nefc][rows][:2], None

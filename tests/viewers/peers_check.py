@@ -13,9 +13,10 @@ import tempfile
 from pathlib import Path
 
 TOP = Path(__file__).resolve().parent.parent.parent
-# Largest position error at the finest step of a quick measurement, divided by the scale, and the smallest ratio of the
-# error at the coarsest step to it: measured, with a margin.
-# With a prescribed drive, Exudyn solves for the pose at every step, so that the ratio is not tested.
+# Two limits for a quick measurement: measured values with a margin. The first limit is for the largest position
+# error at the finest step, divided by the scale. The second is for the ratio of the errors at coarsest and finest step.
+# With a prescribed drive, Exudyn solves for the pose at every step, so its error does not fall with the step, and the
+# ratio is not tested.
 EXPECTED = {
     "scenarios/pendulum.toml": {"mujoco": (1e-11, 1e3), "exudyn": (3e-4, 10)},
     "scenarios/double_pendulum.toml": {"mujoco": (1e-11, 1e3), "exudyn": (1e-4, 10)},

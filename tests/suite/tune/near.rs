@@ -23,8 +23,8 @@ pub fn tuned(scenario: &Scenario, within: f64, channels: &[&str], options: &Opti
 }
 
 /// Tunes all Rapier engines.
-/// The test confirms the promised error with the analytic side that `tune` does not use, and the cost with the cost
-/// model.
+/// The test computes the error of the result again, against the analytic solution, which `tune` does not use.
+/// The test also computes the cost of the result again, with the cost model.
 /// An exhaustive search then finds the cheapest settings whose cost is below the cost of the result divided by `below`.
 /// The cost of the result may be at most [`FACTOR`] times the cost of these settings.
 pub fn near_the_cheapest(scenario: &Scenario, within: f64, below: f64, space: &Space) {

@@ -145,7 +145,8 @@ impl Linkage {
 
     /// Interval of crank angles (deg) around `from` in which both transmission angles stay above `least` (deg).
     /// `None` if both angles stay above `least` over a whole revolution.
-    /// The search uses steps of 0.01 deg; a peak between two steps exceeds the values at these steps by less than 1e-7.
+    /// The search uses steps of 0.01 deg.
+    /// If a cosine has a peak between two steps, the peak exceeds the cosines at these steps by less than 1e-7.
     pub fn interval(&self, from: f64, least: f64) -> Option<[f64; 2]> {
         const STEP: f64 = 0.01;
         let bound = least.to_radians().cos();
@@ -166,7 +167,7 @@ impl Linkage {
         Some([end(-1.0)?, end(1.0)?])
     }
 
-    /// The next crank angle (deg) at which the cosine of the slider's dyad reaches 1 without exceeding it.
+    /// The next crank angle (deg) at which the cosine of the slider's dyad has an extreme value of exactly 1 or -1.
     /// At this crank angle, crank and rod are perpendicular to the guide, and two branches cross.
     pub fn change_point(&self, from: f64, sense: f64) -> Option<f64> {
         let [l1, l2, _] = self.variant.lengths;

@@ -7,9 +7,9 @@ use linkage::math::KeepNan;
 const LEAST: f64 = 15.0;
 /// The transmission angle (deg) at which the grid ends, for variants whose given pose has a smaller angle than `LEAST`.
 const SMALL: f64 = 10.0;
-/// Number of engine steps between the ends of the grid and the limits of the crank.
+/// Least number of engine steps between an end of the grid and the nearest limit of the crank.
 /// Near a limit, the motion varies as the square root of the distance to the limit.
-/// The number of steps in this distance alone therefore determines the accuracy of a step.
+/// The accuracy of a step near the limit therefore depends only on the number of steps in this distance.
 /// With forty steps, one channel of variant 15 and one channel of variant 35 are inconclusive.
 /// With sixty steps, all channels are decided.
 const STEPS_TO_LIMIT: f64 = 60.0;
