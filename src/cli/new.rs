@@ -90,7 +90,8 @@ fn begin(name: &str, args: &Args) -> Result<u8> {
     Ok(code)
 }
 
-/// Writes a scenario to a file that the caller named, or whose name the program chose. An existing file is replaced only
+/// Writes a scenario to a file that the caller named, or whose name the program chose. An existing file is replaced
+/// only
 /// with `force`.
 pub(super) fn put(text: &str, path: &Path, is_named: bool, force: bool) -> Result<()> {
     free(path, force, sentences::GIVE_ANOTHER_NAME_WITH_OUTPUT)?;

@@ -28,7 +28,8 @@ use scenario::{Draft, Scenario};
 /// Largest number of configurations on a sheet, and of mistakes listed below a picture.
 const MOST: usize = 24;
 const SHOWN: usize = 3;
-/// A point stays on a circle if its distance from the centre changes by less than this fraction of the mechanism's size.
+/// A point stays on a circle if its distance from the centre changes by less than this fraction of the mechanism's
+/// size.
 const STILL: f64 = 1e-6;
 
 /// A note beside a picture.

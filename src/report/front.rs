@@ -76,7 +76,8 @@ pub(crate) fn text(front: &Front) -> String {
     text
 }
 
-/// The front as CSV: the limit, the deviation, and all dimensions in SI. Empty fields belong to limits without mechanism.
+/// The front as CSV: the limit, the deviation, and all dimensions in SI. Empty fields belong to limits without
+/// mechanism.
 ///
 /// # Errors
 /// The errors of [`as_csv`].

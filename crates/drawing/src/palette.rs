@@ -7,7 +7,8 @@ use linkage::mechanism::LinkId;
 /// A colour for light and dark paper, and the hatching that replaces it in pictures without colour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PaletteColour {
-    /// Colour on light paper (`#rrggbb`). The contrast of this colour with white is at least 3 : 1, as WCAG asks of lines.
+    /// Colour on light paper (`#rrggbb`). The contrast of this colour with white is at least 3 : 1, as WCAG asks of
+    /// lines.
     pub light: &'static str,
     /// Colour on dark paper (`#rrggbb`). The contrast of this colour with #16181c is at least 3 : 1.
     pub dark: &'static str,

@@ -169,7 +169,8 @@ impl FigureSpread {
         Some(FigureSpread { count, least, most, mean, deviation })
     }
 
-    /// The statistics of two columns. The sums of squares about the joint mean follow from those about the two means, as
+    /// The statistics of two columns. The sums of squares about the joint mean follow from those about the two means,
+    /// as
     /// moments of inertia about another axis do (Steiner's theorem).
     fn joined(one: Option<FigureSpread>, other: Option<FigureSpread>) -> Option<FigureSpread> {
         let (Some(one), Some(other)) = (one, other) else { return one.or(other) };

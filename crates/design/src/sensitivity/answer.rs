@@ -46,7 +46,8 @@ pub struct Sensitivity {
     pub keys: Vec<CaseKey>,
     /// The figures, in the order of the question.
     pub figures: Vec<FigureSlopes>,
-    /// Usual keys that were left out, each with the part of the file whose derivative with respect to the key is not known.
+    /// Usual keys that were left out, each with the part of the file whose derivative with respect to the key is not
+    /// known.
     pub left_out: Vec<(String, String)>,
     /// Whether the instants keep their inputs (`true`) or their times (`false`) when a key changes.
     pub by_input: bool,
