@@ -11,7 +11,7 @@ import numpy as np
 
 FUNCTIONS = {name: getattr(np, name) for name in ("sin", "cos", "tan", "sqrt", "exp", "abs", "sign")}
 FUNCTIONS |= {"asin": np.arcsin, "acos": np.arccos, "atan": np.arctan, "atan2": np.arctan2, "ln": np.log, "pi": math.pi}
-# Unit in a channel's name: the SI unit, and how many of the named units make one SI unit.
+# For each other unit in names of channels: its SI unit, and how many of it make one SI unit.
 UNITS = {"mm": ("m", 1e3), "deg": ("rad", 180 / math.pi)}
 KINDS = (
     ("position", r"(^|\.)([xy]|slide)_m$"),

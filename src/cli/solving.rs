@@ -34,7 +34,7 @@ impl With {
         }
     }
 
-    /// Solves `case`, the scene of a scenario.
+    /// Solves `case`, the part of the scenario's case on which the requested channels depend.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] if a setting of an engine is given but the solver is an analytic side, or if the solution

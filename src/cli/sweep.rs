@@ -49,8 +49,8 @@ pub(super) struct Args {
     /// Solve one of several equal shares of the cases, such as `2/8`; `linkproof merge` joins the shares
     #[arg(long, value_name = "I/N", value_parser = shard)]
     shard: Option<Shard>,
-    /// Cases stored together [default: about 1/64 of all cases, but 64 to 20000; 1/10000 of all cases if these exceed
-    /// 2e8]
+    /// Number of cases stored together [default: 1/64 of all cases, at least 64 and at most 20000; of more than 2e8
+    /// cases 1/10000, at most 1000000]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=10_000_000))]
     part: Option<u64>,
     /// Number of threads [default: number of cores]

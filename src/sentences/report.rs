@@ -347,7 +347,7 @@ linkage::sentences! {
     class_order_mode(links, class, order, pairs, mode) = "{links}: class {class}, order {order}, {pairs}, mode {mode}";
     BASIS_OF_THE_BOUND = "basis of the bound";
     // report/drivers.rs
-    STRUCTURE_FOR_OTHER_DRIVEN_JOINTS = "structure for each driven joint in place of the first drive\n";
+    STRUCTURE_FOR_OTHER_DRIVEN_JOINTS = "structure for each choice of the joint of the first drive\n";
     a_drawing_shows_one_driver(count) = "the link has {count} joints with the ground, but a drawing shows the groups for one driven joint";
     GIVE_THE_JOINT_INSTEAD = "give the joint instead of the link";
     COLUMNS_OF_DRIVERS = "driving link, joint, class, structure";

@@ -90,7 +90,7 @@ linkage::sentences! {
     REVOLUTIONS_PER_MINUTE_INSTEAD_OF_RAD = "revolutions per minute instead of rad/s";
     NEWTONS_TAKEN_FOR_KILOPONDS = "newtons taken for kiloponds";
     KILOPONDS_INSTEAD_OF_NEWTONS = "kiloponds instead of newtons";
-    A_THOUSANDTH_AS_KG_FOR_OR_KN = "a thousandth, as kg for g or kN for N";
+    A_THOUSANDTH_AS_KG_FOR_OR_KN = "a thousand times too small, as with kg for g or kN for N";
     A_THOUSANDFOLD_AS_FOR_KG = "a thousand times too large, as with g for kg or mN for N";
     PER_SECOND_TAKEN_FOR_PER = "per second taken for per minute";
     PER_MINUTE_INSTEAD_OF_PER = "per minute instead of per second";
@@ -341,7 +341,7 @@ linkage::sentences! {
     // mark/answers.rs
     in_the_file(file, message) = "{file}: {message}";
     the_answers_belong_to_another_sheet(file, found, expected) = "{file} has the answers to sheet {found}; expected sheet {expected}";
-    PUT_THE_ANSWERS_INTO_THE_FILE_OF_THEIR_SHEET = "each exercise and each student has a separate sheet: name the directory of this sheet, or put the answers into the file of this sheet";
+    PUT_THE_ANSWERS_INTO_THE_FILE_OF_THEIR_SHEET = "each student has a separate sheet in each exercise: name the directory of the exercise to which the answers belong, or move the answers to the file of their sheet";
     the_sheet_does_not_ask_for(file, line, column, name) = "{file}, line {line}, column {column}: the sheet does not ask for \"{name}\"";
     the_column_is_there_twice(file, line, column, name) = "{file}, line {line}, column {column}: the column \"{name}\" occurs twice";
     LEAVE_ONE_OF_THE_TWO_COLUMNS = "keep one of the two columns";

@@ -150,7 +150,7 @@ fn tally(faults: &[Fault], what: &str) -> Tally {
         let right = text(name);
         let case = parsed(name, &right).case;
         let wrong = parsed(name, &edited(&right, from, to)).case.on(case.grid.clone()).unwrap();
-        // As for an engine, the grid of the faulty side is given by times, not by crank angles.
+        // Like the grid of an engine, the grid of the faulty side is given by times, not by crank angles.
         let grid = Grid::of_times(wrong.crank(), case.grid.times.clone());
         let suspect = analytic::AssurSolver.solve(&wrong.on(grid).unwrap()).unwrap();
         let found = examined(&case, &suspect, None);

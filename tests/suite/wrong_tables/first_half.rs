@@ -222,7 +222,7 @@ pub(super) const TABLES: &[Wrong] = &[
         columns: PRESS,
         what: "kN in one column",
         make: Make::Values(|sheet| sheet.each("joint.B.fy_N", |_, value| value / 1e3)),
-        named: &["a thousandth, as kg for g or kN for N"],
+        named: &["a thousand times too small, as with kg for g or kN for N"],
     },
     Wrong {
         scenario: "crank_rocker",
