@@ -241,8 +241,7 @@ const HOMES: &[(&str, &str)] = &[
 ];
 
 /// Files and directories of side 1 and side 2.
-/// Both sides may use the mechanism and the integrator. They may also use the interface through which the integrator
-/// evaluates the equations of motion of a side.
+/// Both sides may use the mechanism, the integrator, and the integrator's interface to the equations of a side.
 const SIDES: [&[&str]; 2] = [&["assur", "assur_solver.rs"], &["newton"]];
 
 /// Limit on the number of lines of a file.
@@ -286,8 +285,7 @@ fn rust_files(directory: &Path) -> Vec<PathBuf> {
     files
 }
 
-/// Dependencies between modules: the using module, the used module, and a sentence that states the using file and the
-/// path by which the file names the used item.
+/// Dependencies between modules: the using module, the used module, and a sentence with the using file and the path.
 fn room_edges() -> BTreeMap<(String, String), String> {
     let mut edges = BTreeMap::new();
     for ((from, to), path) in Graph::of(&roots()).edges() {

@@ -56,7 +56,7 @@ fn slips_of_values_are_named() {
         add(
             "kN",
             &changed(&case, |_, stage| stage >= Stage::Reactions, |_, value| value / 1e3),
-            "another unit in joint.*: a thousandth",
+            "another unit in joint.*: a thousand times too small",
         );
         let angles = |name: &str, _: Stage| name.ends_with("angle_rad");
         let degrees = "another unit in link.*: degrees instead of radians";

@@ -38,8 +38,7 @@ const SAFE: f64 = 0.5;
 /// 0.25 rad.
 const STRAIGHT: f64 = 0.969;
 /// Two branches count as meeting if their distance is below this value (in units of the mechanism's size and rad).
-/// Lengths are rounded to 16 digits. The rounding separates crossing branches by about 1e-8, the square root of the
-/// rounding error.
+/// Rounding separates crossing branches by about 1e-8, the square root of the rounding error of lengths.
 const MEET: f64 = 1e-6;
 /// Shortest step. If even this step is too long, two branches count as meeting.
 const SHORTEST: f64 = 1e-9;
@@ -278,8 +277,7 @@ impl<'a> Tracker<'a> {
         let nearer = usize::from(!(ends[0].1.abs() < ends[1].1.abs()));
         let mut best = ([a, b][nearer].clone(), ends[nearer].1.abs());
         let close = Close { value: 0.0, width: 1e-14 * width.abs() };
-        // The search ends if Newton's method fails to find a pose. The best result so far is as accurate as the
-        // equations allow.
+        // If Newton's method finds no pose, the best result so far is as accurate as the equations allow.
         let _ = root::regula_falsi(ends, close, STEPS_TO_ZERO, |at| {
             let point = self.advance(a, at).ok_or(())?;
             let value = f(&point);
@@ -432,8 +430,7 @@ impl<'a> Tracker<'a> {
     /// Whether the extrapolated pose with links at infinity is accurate enough (see [`AGREED`]) and is the next
     /// singular pose of the curve.
     /// The accuracy of the angles of all links and of all determinants is tested.
-    /// The pose is the next singular pose if the determinants of the other groups have the same signs there as at the
-    /// last pose.
+    /// The pose is the next singular pose if the determinants of the other groups keep their signs up to it.
     fn is_settled(&self, points: &[Point]) -> bool {
         let last = &points[points.len() - 1];
         let Some(group) = weakest(&last.measures) else { return false };
