@@ -79,7 +79,7 @@ def test_data_frames_take_the_sweep(four_bar):
 def test_shares_and_stops_give_the_same_bytes(four_bar, tmp_path):
     given = {"vary": {"crank_mm": "20:50"}, "figures": FIGURES, "latin": 500, "part": 32}
     expected = pathlib.Path(four_bar.sweep(**given, jobs=1, out=tmp_path / "one").path).read_bytes()
-    # Each share is solved twice: in a directory of its own, and in a common directory that already has the plan.
+    # Each share is solved twice: in a separate directory, and in a common directory that already has the plan.
     plan = four_bar.sweep(**given, out=tmp_path / "shared", plan_only=True)
     assert not plan.is_complete and plan.parts == 16 and plan.counts == {"solved": 0, "refused": 0, "stored": 0}
     for number in [1, 2, 3]:

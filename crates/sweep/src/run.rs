@@ -1,6 +1,6 @@
 //! Runs a sweep on several threads.
 
-use std::collections::BTreeSet;
+use std::io;
 use std::ops::ControlFlow;
 use std::sync::{Mutex, PoisonError};
 
@@ -10,7 +10,7 @@ use linkage::threads::side_by_side;
 
 use crate::plan::{CaseResult, CaseSolver, SweepPlan, one_line};
 use crate::sentences;
-use crate::store::{Failure, SweepStore};
+use crate::store::SweepStore;
 use crate::table::Rows;
 
 /// One of several shares of a sweep's parts. The sizes of the shares differ by at most one part.
@@ -92,41 +92,42 @@ pub fn run(
     progress: &mut dyn FnMut(&SweepTally) -> ControlFlow<()>,
 ) -> Result<SweepTally> {
     if let Some(shard) = shard {
-        return stored(plan, store, shard, threads, &mut |tally, _| progress(tally));
+        return solve_parts(plan, store, shard, threads, progress);
     }
     let mut outcome = Ok(SweepTally::default());
     store.fill(plan, |table| {
+        let mut next = 0;
         // Parts are appended in their order. A part that is stored before an earlier part waits.
-        let (mut waiting, mut next, mut broken) = (BTreeSet::<u64>::new(), 0, None);
-        outcome = stored(plan, store, Shard::WHOLE, threads, &mut |tally, parts| {
-            waiting.extend(parts);
-            while broken.is_none() && waiting.remove(&next) {
-                broken = table.append(&store.part(next)).err();
+        let mut append = || {
+            while next < plan.parts() && store.has(next) {
+                table.append(&store.part(next)).map_err(io::Error::other)?;
                 next += 1;
             }
+            Ok::<bool, io::Error>(next == plan.parts())
+        };
+        let mut broken = None;
+        outcome = solve_parts(plan, store, Shard::WHOLE, threads, &mut |tally| {
+            broken = append().err();
             if broken.is_some() { ControlFlow::Break(()) } else { progress(tally) }
         });
-        match (broken, &outcome) {
-            (Some(error), _) => Err(error.into()),
-            (None, Ok(tally)) if next == plan.parts() && tally.disagreement.is_none() => Ok(()),
-            (None, Ok(_) | Err(_)) => Err(Failure::Unfinished),
-        }
+        broken.map_or(Ok(()), Err)?;
+        let is_whole = outcome.as_ref().is_ok_and(|tally| tally.disagreement.is_none()) && append()?;
+        if is_whole { Ok(()) } else { Err(None) }
     })?;
     outcome
 }
 
-/// Solves and stores parts. After every part, `done` is called with the numbers of finished cases so far, and with the
-/// parts that were stored since the previous call. The first call also contains the parts of earlier runs.
-fn stored(
+/// Solves and stores the parts of a shard. `progress` is as in [`run`].
+fn solve_parts(
     plan: &SweepPlan,
     store: &SweepStore,
     shard: Shard,
     threads: usize,
-    done: &mut dyn FnMut(&SweepTally, &[u64]) -> ControlFlow<()>,
+    progress: &mut dyn FnMut(&SweepTally) -> ControlFlow<()>,
 ) -> Result<SweepTally> {
     let mut tally = SweepTally::default();
-    let (old, open): (Vec<u64>, Vec<u64>) = shard.parts(plan).partition(|part| store.has(*part));
-    tally.stored = cases_of(plan, old.iter().copied());
+    let (stored, open): (Vec<u64>, Vec<u64>) = shard.parts(plan).partition(|part| store.has(*part));
+    tally.stored = cases_of(plan, stored.into_iter());
     let mut failed = None;
     // Idle solvers. A thread takes an idle solver for its next part, so each thread reads the scenario file only once.
     let solvers: Mutex<Vec<CaseSolver>> = Mutex::default();
@@ -140,21 +141,14 @@ fn stored(
         Ok((rows.first, rows.results))
     };
     let work = |index: usize, tell: &mut dyn FnMut(Result<(u64, Vec<CaseResult>)>)| tell(part(open[index]));
-    let mut old = old;
-    side_by_side(open.len(), threads, work, |index, part| {
+    side_by_side(open.len(), threads, work, |_, part| {
         match part {
-            Ok((first, results)) => {
-                tally.add(first, &results);
-                old.push(open[index]);
-            }
+            Ok((first, results)) => tally.add(first, &results),
             Err(error) => failed = failed.take().or(Some(error)),
         }
-        let go_on = done(&tally, &std::mem::take(&mut old));
+        let go_on = progress(&tally);
         if failed.is_some() || tally.disagreement.is_some() { ControlFlow::Break(()) } else { go_on }
     });
-    if open.is_empty() {
-        let _ = done(&tally, &old);
-    }
     failed.map_or(Ok(tally), Err)
 }
 

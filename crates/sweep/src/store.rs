@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 
 use files::{OutputTarget, put, read_text, replace};
 use linkage::error::{Error, ErrorKind, Result};
-use parquet::errors::ParquetError;
 
 use crate::plan::SweepPlan;
 use crate::sentences;
@@ -31,41 +30,10 @@ pub(crate) fn broken(path: &Path, error: &dyn std::fmt::Display) -> Error {
         .help(sentences::CHOOSE_ANOTHER_DIRECTORY)
 }
 
-/// Why a table is not written. Errors of the file system are a separate variant.
-pub(crate) enum Failure {
-    Io(io::Error),
-    Table(ParquetError),
-    /// The sweep was stopped, or has failed.
-    Unfinished,
-}
-
-impl Failure {
-    /// The error; `None` for an unfinished sweep.
-    fn at(self, path: &Path) -> Option<Error> {
-        match self {
-            Failure::Io(error) => Some(broken(path, &error)),
-            Failure::Table(error) => Some(broken(path, &error)),
-            Failure::Unfinished => None,
-        }
-    }
-}
-
 /// Where a table is written: at `at`, in place of an earlier table of this program. An empty file is replaced too: it
 /// remains if the computer lost power while the file was written.
 fn target(at: &Path) -> OutputTarget<'_> {
     OutputTarget::Made(at, &|bytes| bytes.is_empty() || bytes.starts_with(b"PAR1"))
-}
-
-impl From<io::Error> for Failure {
-    fn from(error: io::Error) -> Failure {
-        Failure::Io(error)
-    }
-}
-
-impl From<ParquetError> for Failure {
-    fn from(error: ParquetError) -> Failure {
-        Failure::Table(error)
-    }
 }
 
 impl SweepStore {
@@ -181,8 +149,8 @@ impl SweepStore {
     /// Writes the rows of a part. If a run is killed, unfinished files remain until the parts are joined and removed.
     pub(crate) fn write(&self, plan: &SweepPlan, part: u64, rows: &Rows) -> Result<()> {
         let at = self.part(part);
-        let written = put::<Failure>(&target(&at), |file| Ok(table::write(plan, rows, file)?));
-        written.or_else(|failure| failure.at(&at).map_or(Ok(()), Err))
+        put(&target(&at), |file| table::write(plan, rows, file).map_err(io::Error::other))
+            .map_err(|error| broken(&at, &error))
     }
 
     /// Joins all parts to one table, and removes the parts of this directory.
@@ -200,24 +168,24 @@ impl SweepStore {
             };
             parts.push(holder.part(part));
         }
-        self.fill(plan, |table| parts.iter().try_for_each(|part| Ok(table.append(part)?)))
+        self.fill(plan, |table| Ok(parts.iter().try_for_each(|part| table.append(part)).map_err(io::Error::other)?))
     }
 
     /// Lets `fill` append all parts to the joined table, and removes the parts of this directory.
-    /// If `fill` returns [`Failure::Unfinished`], there is no joined table, and the parts stay.
+    /// If `fill` returns `Err(None)`, the sweep is not finished: there is no joined table, and the parts stay.
     pub(crate) fn fill(
         &self,
         plan: &SweepPlan,
-        fill: impl FnOnce(&mut JoinedTable) -> std::result::Result<(), Failure>,
+        fill: impl FnOnce(&mut JoinedTable) -> std::result::Result<(), Option<io::Error>>,
     ) -> Result<()> {
         let at = self.table();
-        let filled = replace::<Failure>(&target(&at), |file| {
-            let mut table = JoinedTable::new(plan, file)?;
+        let filled = replace::<Option<io::Error>>(&target(&at), |file| {
+            let mut table = JoinedTable::new(plan, file).map_err(io::Error::other)?;
             fill(&mut table)?;
-            Ok(table.close()?)
+            Ok(table.close().map_err(io::Error::other)?)
         });
-        if let Err(failure) = filled {
-            return failure.at(&at).map_or(Ok(()), Err);
+        if let Err(failed) = filled {
+            return failed.map_or(Ok(()), |error| Err(broken(&at, &error)));
         }
         let own = self.directory.join(PARTS);
         fs::remove_dir_all(&own).map_err(|error| broken(&own, &error))

@@ -148,13 +148,14 @@ impl Desk {
         drop(self.changed.wait_timeout_while(self.state(), DRAWING, is_open));
     }
 
-    /// Waits, at most for the time `SOON`, for the verdict of a draft. Returns whether the verdict is there. A newer
-    /// draft ends the wait.
-    pub(super) fn is_judged_soon(&self, draft: u64) -> bool {
-        let is_judged = |state: &State| state.outcome.draft == draft && state.outcome.stage == DraftStage::Judged;
-        let is_open = |state: &mut State| state.draft == draft && !is_judged(state);
+    /// Waits for the verdict of a draft for a while. Returns whether the page needs the curves before the verdict: the
+    /// draft is still the newest one and is not judged.
+    pub(super) fn needs_curves(&self, draft: u64) -> bool {
+        let is_open = |state: &mut State| {
+            state.draft == draft && (state.outcome.draft, state.outcome.stage) < (draft, DraftStage::Judged)
+        };
         let waited = self.changed.wait_timeout_while(self.state(), SOON, is_open);
-        is_judged(&waited.unwrap_or_else(PoisonError::into_inner).0)
+        is_open(&mut waited.unwrap_or_else(PoisonError::into_inner).0)
     }
 
     /// The newest results about a draft; `None` if there is a newer draft.

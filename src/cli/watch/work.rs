@@ -29,7 +29,7 @@ const RELOOK: Duration = Duration::from_millis(500);
 /// Largest size of all columns in the first page and in the later pages (bytes). With fewer instants, the browser shows
 /// a page sooner.
 const PICTURE_BYTES: usize = 50_000;
-const PAGE_BYTES: usize = 500_000;
+const LATER_BYTES: usize = 500_000;
 
 /// Follows the file.
 pub(super) fn follow(desk: &Desk) {
@@ -62,10 +62,10 @@ pub(super) fn move_drafts(desk: &Desk) {
             publish(Outcome { stage: DraftStage::Moving, ..first.clone() });
             desk.wait_for_drawing(draft);
             desk.leave(draft, scenario.clone());
-            if desk.is_judged_soon(draft) {
+            if !desk.needs_curves(draft) {
                 return Ok(());
             }
-            let page = moved(&scenario, PAGE_BYTES)?.page;
+            let page = moved(&scenario, LATER_BYTES)?.page;
             publish(Outcome { stage: DraftStage::Solved, page, ..first });
             Ok(())
         };
@@ -114,7 +114,7 @@ fn moved(scenario: &Scenario, bytes: usize) -> Result<Outcome> {
 fn judged(scenario: &Scenario) -> Result<(String, &'static str)> {
     let proof = prove(scenario, &Options::default())?;
     let settings = recorded::metadata(&proof);
-    let beside = Beside { given: &scenario.text, settings: &settings, reduced: reduced(scenario), bytes: PAGE_BYTES };
+    let beside = Beside { given: &scenario.text, settings: &settings, reduced: reduced(scenario), bytes: LATER_BYTES };
     Ok((html::watched(&proof, &beside, None, advice::told), proof.verdict.word()))
 }
 

@@ -61,7 +61,7 @@ fn two_faults_at_once_have_no_single_cause() {
     assert!(report.contains("\n  cause     no"));
 }
 
-/// The search for a cause has a work limit of its own: as much work as the budget allows for the proof.
+/// The search for a cause has a separate work limit: as much work as the budget allows for the proof.
 /// At this limit the search stops.
 /// The report and the JSON then say that the search was stopped early.
 #[test]

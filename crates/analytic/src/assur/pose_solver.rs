@@ -329,7 +329,7 @@ impl<'a> PoseSolver<'a> {
     /// The first drive has this input at `t`.
     /// If the speed of the first drive varies, the state is computed for the top speed of this drive.
     /// Further drives keep their speed ratios to the first drive.
-    /// If the drives have separate laws, every drive has the rates of its own law at `t`.
+    /// If the drives have separate laws, each drive has the rates of its law at `t`.
     pub(crate) fn solve_place(&mut self, t: f64, input: f64, deepest: Stage) -> Result<&State> {
         let drive = self.case.crank();
         if self.by_time {

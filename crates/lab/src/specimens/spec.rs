@@ -287,7 +287,7 @@ impl Spec {
 }
 
 /// A four-bar O-A-B-C whose base, crank, coupler and rocker have the given lengths.
-/// Each moving link lies along the x axis of its own frame.
+/// Each moving link lies along the x axis of its frame.
 /// The pivots are O = (0, 0) and C = (`base`, 0). The links are slender rods of 10 kg/m.
 pub fn four_bar([base, crank, coupler, rocker]: [f64; 4], left: bool) -> Spec {
     let rod = |name: &str, [from, to]: [&str; 2], length: f64| SpecimenLink {

@@ -104,6 +104,12 @@ impl Piecewise {
         &self.knots
     }
 
+    /// Whether the knots and the values at the knots are finite.
+    #[must_use]
+    pub fn is_finite(&self) -> bool {
+        self.knots.iter().all(|&knot| knot.is_finite() && self.at(knot).iter().all(|own| own.is_finite()))
+    }
+
     /// Smallest and largest value of the first derivative, at the knots and between the knots.
     #[must_use]
     pub fn slopes(&self) -> [f64; 2] {

@@ -296,6 +296,6 @@ impl Conditions {
 
 /// Largest residual of a condition in a valid pose, as a fraction of a reference length.
 /// This length is the sum of the size and of the distance from the frame's origin to the base.
-/// The limit is the rounding error, with a margin. A small margin is enough even for double roots: there Newton's method
-/// finds only half the digits of the pose, but the residual is of the order of the square of the pose's error.
+/// The limit is the rounding error, with a margin. A small margin is enough even for double roots: there Newton's
+/// method finds only half the digits of the pose, but the residual is of the order of the square of the pose's error.
 const CLOSED: f64 = 1e-13;
