@@ -23,8 +23,9 @@ use pulp::Arch;
 use wide::f64x8;
 
 use self::anchors::Anchors;
+use self::equations::Reach;
 use self::groups::Groups;
-use self::lanes::{Eight, TILE, Window};
+use self::lanes::{TILE, TileColumn, Window};
 pub use self::many::CaseBatch;
 pub use self::poses::Poses;
 use self::poses::{ALPHA, DIRECTION, Layout, OMEGA};
@@ -52,7 +53,7 @@ pub struct Batch<'a> {
     layout: Layout,
     groups: Option<Groups>,
     anchors: Option<Anchors<'a>>,
-    work: Vec<Eight>,
+    work: Vec<TileColumn>,
     arch: Arch,
     /// Pose solver for the poses that are not vectorised, and for the error messages.
     poses: PoseSolver<'a>,
@@ -80,7 +81,7 @@ impl<'a> Batch<'a> {
         Ok(Batch {
             case,
             layout: Layout::of(case, groups.is_none()),
-            work: vec![Eight([0.0; TILE]); groups.as_ref().map_or(0, |groups| groups.columns)],
+            work: vec![TileColumn([0.0; TILE]); groups.as_ref().map_or(0, |groups| groups.columns)],
             groups,
             anchors,
             arch: Arch::new(),
@@ -131,7 +132,11 @@ impl<'a> Batch<'a> {
         if let Some(groups) = &self.groups {
             let asked = Asked { cranks, omega, alpha, deepest };
             let anchors = &mut self.anchors;
-            dispatch(self.arch, Tiles { case: self.case, groups, anchors, asked, work: &mut self.work, out });
+            let (case, work) = (self.case, &mut self.work[..]);
+            match groups.chains().next() {
+                Some(_) => dispatch(self.arch, Tiles::<false> { case, groups, anchors, asked, work, out }),
+                None => dispatch(self.arch, Tiles::<true> { case, groups, anchors, asked, work, out }),
+            }
         }
         for (row, &crank) in cranks.iter().enumerate() {
             let is_placed = self.is_vectorised() && out.is_placed(row);
@@ -174,19 +179,19 @@ struct Asked<'a> {
     deepest: Stage,
 }
 
-/// All tiles of a batch (eight poses each), solved with the widest instructions of the machine.
-struct Tiles<'a, 'c> {
+/// All tiles of a batch, solved with the widest instructions of the machine.
+struct Tiles<'a, 'c, const IN_PAIRS: bool> {
     case: &'a Case,
     groups: &'a Groups,
     anchors: &'a mut Option<Anchors<'c>>,
     asked: Asked<'a>,
-    work: &'a mut [Eight],
+    work: &'a mut [TileColumn],
     out: &'a mut Poses,
 }
 
 /// Writes the input of one tile: directions, angular velocities and angular accelerations of the driving links.
 #[inline(always)]
-fn drive(case: &Case, groups: &Groups, asked: Asked, own: [f64; TILE], tile: &mut [Eight]) {
+fn drive(case: &Case, groups: &Groups, asked: Asked, own: [f64; TILE], tile: &mut [TileColumn]) {
     for (index, (drive, driver)) in case.drives.iter().zip(&groups.drivers).enumerate() {
         let (mut angles, mut ratios) = (own.map(|crank| case.crank().coordinate(crank)), [1.0; TILE]);
         if index > 0 {
@@ -198,26 +203,32 @@ fn drive(case: &Case, groups: &Groups, asked: Asked, own: [f64; TILE], tile: &mu
         }
         let link = driver.body.link;
         [tile[link + DIRECTION], tile[link + DIRECTION + 1]] = units(angles);
-        tile[link + OMEGA] = Eight(ratios.map(|ratio| asked.omega * ratio));
-        tile[link + ALPHA] = Eight(ratios.map(|ratio| asked.alpha * ratio));
+        tile[link + OMEGA] = TileColumn(ratios.map(|ratio| asked.omega * ratio));
+        tile[link + ALPHA] = TileColumn(ratios.map(|ratio| asked.alpha * ratio));
     }
 }
 
-/// Cosines and sines of eight angles (rad).
+/// Cosines and sines of the angles of a tile (rad).
 #[inline(always)]
-fn units(angles: [f64; TILE]) -> [Eight; 2] {
-    let (sin, cos) = f64x8::from(angles).sin_cos();
-    let (mut sin, mut cos) = (sin.to_array(), cos.to_array());
+fn units(angles: [f64; TILE]) -> [TileColumn; 2] {
+    let [mut sin, mut cos] = [[0.0; TILE]; 2];
+    let (parts, _) = angles.as_chunks();
+    for (part, angles) in parts.iter().enumerate() {
+        let (sines, cosines) = f64x8::from(*angles).sin_cos();
+        let lanes = part * angles.len()..(part + 1) * angles.len();
+        sin[lanes.clone()].copy_from_slice(&sines.to_array());
+        cos[lanes].copy_from_slice(&cosines.to_array());
+    }
     for (row, angle) in angles.into_iter().enumerate() {
         if !(angle.abs() <= FAR) {
             (sin[row], cos[row]) = angle.sin_cos();
         }
     }
-    [Eight(cos), Eight(sin)]
+    [TileColumn(cos), TileColumn(sin)]
 }
 
-impl OnRegisters for Tiles<'_, '_> {
-    const IN_PAIRS: bool = false;
+impl<const IN_PAIRS: bool> OnRegisters for Tiles<'_, '_, IN_PAIRS> {
+    const IN_PAIRS: bool = IN_PAIRS;
     type Output = ();
 
     #[inline(always)]
@@ -231,10 +242,11 @@ impl OnRegisters for Tiles<'_, '_> {
             if let Some(anchors) = anchors {
                 anchors.fill(&own, groups, work);
             }
-            for part in 0..Window::<R>::PARTS {
+            for part in 0..cranks.len().div_ceil(R::LANES) {
                 let mut tile = Window { on, columns: &mut *tile, part };
                 let mut work = Window { on, columns: &mut *work, part };
-                groups.move_links(asked.deepest, &mut tile, &mut work);
+                let reach = groups.move_links(asked.deepest, Reach, &mut tile, &mut work);
+                tile.put(groups.layout.reach(), reach);
                 if asked.deepest >= Stage::Reactions {
                     groups.load_joints(&mut tile, &mut work);
                 }
@@ -269,16 +281,20 @@ mod tests {
         for k in -400_000..400_000 {
             // One angle in ten is a multiple of a quarter turn, where sine or cosine is zero.
             let quarters = f64::from(k) * if k % 10 == 0 { 1.0 } else { 1.600_123_4 };
-            let angles = [1.0, 1e-5, 3.0, 15.0, -1.0, -0.1, 7.3, 0.5].map(|share| quarters * share * PI / 2.0);
+            let shares = [1.0, 1e-5, 3.0, 15.0, -1.0, -0.1, 7.3, 0.5];
+            let angles = std::array::from_fn(|row| quarters * shares[row % shares.len()] * PI / 2.0);
             let [cos, sin] = units(angles);
             for (row, angle) in angles.into_iter().enumerate() {
                 let apart = (cos.0[row] - angle.cos()).abs().larger((sin.0[row] - angle.sin()).abs());
                 assert!(apart <= f64::EPSILON, "{apart:e} at {angle}");
             }
         }
-        let [cos, _] = units([1e300, f64::NAN, 0.0, f64::INFINITY, -1e8, 2.0, 3.0, 4.0]);
-        assert_eq!([cos.0[0], cos.0[4]], [1e300f64.cos(), 1e8f64.cos()]);
-        assert!(cos.0[1].is_nan() && cos.0[3].is_nan());
+        let mut angles = [0.0; TILE];
+        angles[TILE - 4..].copy_from_slice(&[1e300, f64::NAN, f64::INFINITY, -1e8]);
+        let [cos, _] = units(angles);
+        let [huge, nan, infinite, far] = [4, 3, 2, 1].map(|back| cos.0[TILE - back]);
+        assert_eq!([huge, far], [1e300f64.cos(), 1e8f64.cos()]);
+        assert!(nan.is_nan() && infinite.is_nan());
     }
 
     fn with_masses(mechanism: &Mechanism) -> Mechanism {
@@ -304,7 +320,12 @@ mod tests {
                 let (mut batch, mut poses) = (Batch { arch, ..Batch::of(&case).unwrap() }, Poses::new());
                 batch.solve(&cranks, -97.2, 3.0, Stage::BalancingMoment, &mut poses).unwrap();
                 assert_eq!(batch.solved_singly(), 0);
-                poses.tiles().flatten().flat_map(|column| column.0.map(f64::to_bits)).collect::<Vec<_>>()
+                // Some widths leave the unused rows of the last tile as they are.
+                let used = |tile: usize| TILE.min(cranks.len() - tile * TILE);
+                let bits = |(tile, columns): (usize, &mut [TileColumn])| -> Vec<u64> {
+                    columns.iter().flat_map(|column| &column.0[..used(tile)]).map(|own| own.to_bits()).collect()
+                };
+                poses.tiles().enumerate().flat_map(bits).collect::<Vec<_>>()
             };
             let found: Vec<_> = widths().into_iter().map(solve).collect();
             assert!(found.iter().all(|bits| *bits == found[0]));

@@ -9,7 +9,7 @@
 
 use super::chains::OF_START;
 use super::groups::Groups;
-use super::lanes::{Eight, TILE};
+use super::lanes::{TILE, TileColumn};
 use crate::PoseSolver;
 use crate::assur::turns::FOLLOWED_STEP;
 use linkage::case::Case;
@@ -70,7 +70,7 @@ impl<'a> Anchors<'a> {
 
     /// Writes the starting values for the rows of a tile to the working memory; NaN if the interval of a row is not
     /// known.
-    pub(super) fn fill(&mut self, cranks: &[f64; TILE], groups: &Groups, work: &mut [Eight]) {
+    pub(super) fn fill(&mut self, cranks: &[f64; TILE], groups: &Groups, work: &mut [TileColumn]) {
         for (row, crank) in cranks.iter().enumerate() {
             let way = &mut self.ways[usize::from(*crank < self.start)];
             let place = (crank - self.start) / way.step;

@@ -7,8 +7,8 @@
 
 use super::bodies::Body;
 use super::groups::{Arm, Driver, Dyad, Groups, Part};
-use super::lanes::{Lanes, Plane, Window};
-use super::poses::{ACCELERATION, ALPHA, DIRECTION, OMEGA, ORIGIN, VELOCITY};
+use super::lanes::{Lanes, LinkMotion, Plane, Window};
+use super::poses::{DIRECTION, OMEGA, ORIGIN};
 use super::registers::Registers;
 use linkage::case::STANDSTILL;
 use linkage::math::Vec2;
@@ -28,22 +28,28 @@ pub(super) fn swung<R: Registers>(v: Plane<R>, omega: Lanes<R>, alpha: Lanes<R>)
 impl Groups {
     /// Computes the motion of all links up to the stage `deepest`.
     /// Directions and rates of the driving links must already be in their columns.
+    /// Returns the sum of `check` over the dyads; NaN as soon as one group cannot be assembled.
     #[inline(always)]
-    pub(super) fn move_links<R: Registers>(&self, deepest: Stage, tile: &mut Window<R>, work: &mut Window<R>) {
+    pub(super) fn move_links<R: Registers>(
+        &self,
+        deepest: Stage,
+        check: impl DyadCheck,
+        tile: &mut Window<R>,
+        work: &mut Window<R>,
+    ) -> Lanes<R> {
         for driver in &self.drivers {
             driver.turn(deepest, tile);
         }
-        // `reach` becomes NaN as soon as one group cannot be assembled.
-        let mut reach = Lanes::splat(tile.on, 0.0);
+        let mut found = Lanes::splat(tile.on, 0.0);
         for (part, first) in &self.parts {
             let own = match part {
-                Part::Dyad(dyad) => dyad.turn(deepest, tile, work, *first),
+                Part::Dyad(dyad) => check.of(dyad, &dyad.turn(deepest, tile, work, *first)),
                 Part::Chain(chain) if !R::IS_PAIR => chain.turn(deepest, tile, work, *first),
                 Part::Chain(_) => unreachable!("{NO_CHAINS}"),
             };
-            reach = reach + own;
+            found = found + own;
         }
-        tile.put(self.layout.reach(), reach);
+        found
     }
 
     /// Returns NaN for poses in which the angular velocity of a link with a moment of resistance may be a rounding
@@ -85,20 +91,14 @@ impl Groups {
 impl Driver {
     #[inline(always)]
     fn turn<R: Registers>(&self, deepest: Stage, tile: &mut Window<R>) {
-        let link = self.body.link;
+        let mut link = tile.link(self.body.link);
         let zero = Plane::splat(tile.on, Vec2::zeros());
         let (is_plain, ground) = (self.pivot == Vec2::zeros(), Plane::splat(tile.on, self.ground));
-        let arm = tile.vector(link + DIRECTION).rotate(-self.pivot);
-        tile.put_vector(link + ORIGIN, if is_plain { ground } else { arm + self.ground });
-        if deepest >= Stage::Velocities {
-            let velocity = if is_plain { zero } else { arm.turned() * tile.get(link + OMEGA) };
-            tile.put_vector(link + VELOCITY, velocity);
-        }
-        if deepest >= Stage::Accelerations {
-            let (omega, alpha) = (tile.get(link + OMEGA), tile.get(link + ALPHA));
-            let acceleration = if is_plain { zero } else { swung(arm, omega, alpha) };
-            tile.put_vector(link + ACCELERATION, acceleration);
-        }
+        let arm = link.direction.rotate(-self.pivot);
+        link.origin = if is_plain { ground } else { arm + self.ground };
+        link.velocity = if is_plain { zero } else { arm.turned() * link.omega };
+        link.acceleration = if is_plain { zero } else { swung(arm, link.omega, link.alpha) };
+        tile.put_link(self.body.link, deepest, &link);
     }
 
     /// World position of the joint on the ground.
@@ -112,30 +112,95 @@ impl Driver {
 }
 
 impl Arm {
-    /// Position, velocity and acceleration of the outer joint, in world axes. Quantities beyond the stage `deepest` are
-    /// 0.
+    /// Position, velocity and acceleration of the outer joint, in world axes. Quantities beyond the stage that is
+    /// solved are meaningless.
     #[inline(always)]
-    fn base<R: Registers>(&self, deepest: Stage, tile: &Window<R>) -> [Plane<R>; 3] {
+    fn base<R: Registers>(&self, tile: &Window<R>) -> [Plane<R>; 3] {
         let zero = Plane::splat(tile.on, Vec2::zeros());
         let (Some(base), local) = self.base else { return [Plane::splat(tile.on, self.base.1), zero, zero] };
-        let vector = tile.vector(base + DIRECTION).rotate(local);
-        let place = tile.vector(base + ORIGIN) + vector;
-        if deepest < Stage::Velocities {
-            return [place, zero, zero];
+        let link = tile.link(base);
+        link.at(link.direction.rotate(local))
+    }
+
+    /// Writes the motion of the link. `span` is the vector from outer to inner joint, and `[p, v, a]` are position,
+    /// velocity and acceleration of the outer joint, all in world axes.
+    #[inline(always)]
+    fn put<R: Registers>(
+        &self,
+        deepest: Stage,
+        tile: &mut Window<R>,
+        span: Plane<R>,
+        [p, v, a]: [Plane<R>; 3],
+        [omega, alpha]: [Lanes<R>; 2],
+    ) {
+        let own = Plane::splat(tile.on, self.inverse_span);
+        let direction = Plane { x: own.dot(span), y: own.cross(span) };
+        let mut link = LinkMotion { origin: p, direction, velocity: v, acceleration: a, omega, alpha };
+        if self.outer != Vec2::zeros() {
+            let outer = direction.rotate(self.outer);
+            link.origin = p - outer;
+            link.velocity = v - outer.turned() * omega;
+            link.acceleration = a - outer.turned() * alpha + outer * (omega * omega);
         }
-        let omega = tile.get(base + OMEGA);
-        let velocity = tile.vector(base + VELOCITY) + vector.turned() * omega;
-        if deepest < Stage::Accelerations {
-            return [place, velocity, zero];
-        }
-        let alpha = tile.get(base + ALPHA);
-        let acceleration = tile.vector(base + ACCELERATION) + vector.turned() * alpha - vector * (omega * omega);
-        [place, velocity, acceleration]
+        tile.put_link(self.body.link, deepest, &link);
+    }
+}
+
+/// A dyad in its pose.
+pub(super) struct DyadPose<R: Registers> {
+    /// The vectors r1 and r2 from the outer joints to the inner joint, in world axes (m).
+    spans: [Plane<R>; 2],
+    /// r1 x r2 (m^2); NaN for poses that cannot be assembled.
+    product: Lanes<R>,
+    /// Angular velocities of the links (rad/s).
+    omega: [Lanes<R>; 2],
+}
+
+/// A check of every dyad in every pose.
+pub(super) trait DyadCheck: Copy {
+    /// NaN for poses that cannot be assembled.
+    fn of<R: Registers>(self, dyad: &Dyad, pose: &DyadPose<R>) -> Lanes<R>;
+}
+
+/// Only whether the dyad can be assembled.
+#[derive(Clone, Copy)]
+pub(super) struct Reach;
+
+impl DyadCheck for Reach {
+    #[inline(always)]
+    fn of<R: Registers>(self, _: &Dyad, pose: &DyadPose<R>) -> Lanes<R> {
+        pose.product
+    }
+}
+
+/// Whether the pose and the motion to the next pose are clear of dead points.
+/// The sine of the transmission angle is s = (r1 x r2) / (l1 l2).
+/// The rate of s is s' = (r1 . r2) (omega2 - omega1) / (l1 l2).
+#[derive(Clone, Copy)]
+pub(super) struct Clearance {
+    /// Time between two poses (s).
+    pub(super) pace: f64,
+    /// |s| must be larger than this.
+    pub(super) least: f64,
+    /// |s'| times `pace` must be smaller than this share of |s|.
+    pub(super) share: f64,
+}
+
+impl DyadCheck for Clearance {
+    /// 0 where the dyad is clear, elsewhere NaN.
+    #[inline(always)]
+    fn of<R: Registers>(self, dyad: &Dyad, pose: &DyadPose<R>) -> Lanes<R> {
+        let ([r1, r2], [w1, w2]) = (pose.spans, pose.omega);
+        let product = pose.product.abs();
+        let change = (r1.dot(r2) * (w2 - w1)).abs() * (self.pace / self.share);
+        let (clear, unclear) = (Lanes::splat(w1.on, 0.0), Lanes::splat(w1.on, f64::NAN));
+        let far = product.exceeds(Lanes::splat(w1.on, self.least * dyad.product)).of(clear, unclear);
+        product.exceeds(change).of(far, unclear)
     }
 }
 
 impl Dyad {
-    /// Computes the motion of both links. Returns r1 x r2 (m^2), or NaN for poses that cannot be assembled.
+    /// Computes the motion of both links.
     /// The operations and their order are the same as in [`crate::assur::groups::Rrr`], so that the bits are the same.
     #[inline(always)]
     fn turn<R: Registers>(
@@ -144,9 +209,10 @@ impl Dyad {
         tile: &mut Window<R>,
         work: &mut Window<R>,
         column: usize,
-    ) -> Lanes<R> {
+    ) -> DyadPose<R> {
         let [first, second] = &self.arms;
-        let ([p1, v1, a1], [p2, v2, a2]) = (first.base(deepest, tile), second.base(deepest, tile));
+        let (base1, base2) = (first.base(tile), second.base(tile));
+        let ([p1, v1, a1], [p2, v2, a2]) = (base1, base2);
         let d = p2 - p1;
         let d_squared = d.dot(d);
         let along = (d_squared + (first.squared - second.squared)) * 0.5;
@@ -155,62 +221,24 @@ impl Dyad {
         let r1 = (d * along + d.turned() * product) * d_squared.inverse();
         let r2 = r1 - d;
         let inverse = product.inverse();
-        let mut rates = [(Lanes::splat(tile.on, 0.0), Lanes::splat(tile.on, 0.0)); 2];
+        let [mut omega, mut alpha] = [[Lanes::splat(tile.on, 0.0); 2]; 2];
         if deepest >= Stage::Velocities {
             let quotient = (v2 - v1) * inverse;
-            rates = [(quotient.dot(r2), rates[0].1), (quotient.dot(r1), rates[1].1)];
+            omega = [quotient.dot(r2), quotient.dot(r1)];
         }
         if deepest >= Stage::Accelerations {
-            let [w1, w2] = rates.map(|(omega, _)| omega);
+            let [w1, w2] = omega;
             let quotient = ((a2 - r2 * (w2 * w2)) - (a1 - r1 * (w1 * w1))) * inverse;
-            rates = [(w1, quotient.dot(r2)), (w2, quotient.dot(r1))];
+            alpha = [quotient.dot(r2), quotient.dot(r1)];
         }
-        let places = [(r1, p1, v1, a1), (r2, p2, v2, a2)];
-        for ((arm, (omega, alpha)), (r, p, v, a)) in self.arms.iter().zip(rates).zip(places) {
-            let (link, span) = (arm.body.link, Plane::splat(tile.on, arm.inverse_span));
-            let direction = Plane { x: span.dot(r), y: span.cross(r) };
-            tile.put_vector(link + DIRECTION, direction);
-            let is_at_origin = arm.outer == Vec2::zeros();
-            let outer = direction.rotate(arm.outer);
-            tile.put_vector(link + ORIGIN, if is_at_origin { p } else { p - outer });
-            if deepest >= Stage::Velocities {
-                tile.put(link + OMEGA, omega);
-                tile.put_vector(link + VELOCITY, if is_at_origin { v } else { v - outer.turned() * omega });
-            }
-            if deepest >= Stage::Accelerations {
-                tile.put(link + ALPHA, alpha);
-                let square = omega * omega;
-                let moved = a - outer.turned() * alpha + outer * square;
-                tile.put_vector(link + ACCELERATION, if is_at_origin { a } else { moved });
-            }
-        }
+        first.put(deepest, tile, r1, base1, [omega[0], alpha[0]]);
+        second.put(deepest, tile, r2, base2, [omega[1], alpha[1]]);
+        let pole = p1 + r1;
         work.put_vector(column, r1);
         work.put_vector(column + 2, r2);
         work.put(column + 4, inverse);
-        work.put_vector(column + 5, p1 + r1);
-        product
-    }
-
-    /// Returns 0 where the pose and the motion to the next pose are clear of dead points, elsewhere NaN.
-    /// The sine of the transmission angle is s = (r1 x r2) / (l1 l2).
-    /// The rate of s is s' = (r1 . r2) (omega2 - omega1) / (l1 l2), and `pace` (s) is the time between two poses.
-    /// The magnitude |s| must be larger than `least`, and |s'| times `pace` smaller than `share` times |s|.
-    #[inline(always)]
-    pub(super) fn doubt<R: Registers>(
-        &self,
-        pace: f64,
-        [least, share]: [f64; 2],
-        tile: &Window<R>,
-        work: &Window<R>,
-        column: usize,
-    ) -> Lanes<R> {
-        let (r1, r2) = (work.vector(column), work.vector(column + 2));
-        let turn = tile.get(self.arms[1].body.link + OMEGA) - tile.get(self.arms[0].body.link + OMEGA);
-        let product = r1.cross(r2).abs();
-        let change = (r1.dot(r2) * turn).abs() * (pace / share);
-        let (clear, unclear) = (Lanes::splat(tile.on, 0.0), Lanes::splat(tile.on, f64::NAN));
-        let far = product.exceeds(Lanes::splat(tile.on, least * self.product)).of(clear, unclear);
-        product.exceeds(change).of(far, unclear)
+        work.put_vector(column + 5, pole);
+        DyadPose { spans: [r1, r2], product, omega }
     }
 
     /// Computes the reactions in the three joints.
@@ -245,10 +273,10 @@ impl Body {
         pole: Plane<R>,
         tile: &Window<R>,
     ) -> (Plane<R>, Lanes<R>) {
-        let (origin, direction) = (tile.vector(self.link + ORIGIN), tile.vector(self.link + DIRECTION));
-        let (omega, alpha) = (tile.get(self.link + OMEGA), tile.get(self.link + ALPHA));
+        let link = tile.link(self.link);
+        let LinkMotion { origin, direction, omega, alpha, .. } = link;
         let arm = direction.rotate(self.mass_centre);
-        let acceleration = tile.vector(self.link + ACCELERATION) + arm.turned() * alpha - arm * (omega * omega);
+        let [_, _, acceleration] = link.at(arm);
         let mut force = (Plane::splat(tile.on, gravity) - acceleration) * self.mass;
         let mut moment = alpha * -self.inertia;
         if let Some(size) = self.resistance {

@@ -70,6 +70,8 @@ pub(super) struct Groups {
     pub(super) parts: Vec<(Part, usize)>,
     /// Number of columns of the working memory.
     pub(super) columns: usize,
+    /// Whether a link has a moment of resistance.
+    pub(super) is_resisted: bool,
 }
 
 impl Groups {
@@ -124,7 +126,7 @@ impl Groups {
         let parts = parts.into_iter().rev().map(place).collect();
         let reader = Reader { case, layout, settled: &settled };
         let drivers = case.structure.drivers.iter().map(|own| reader.driver(own.link, own.joint)).collect();
-        Some(Groups { layout, gravity: case.gravity, drivers, parts, columns })
+        Some(Groups { layout, gravity: case.gravity, drivers, parts, columns, is_resisted: !case.loads.is_empty() })
     }
 
     /// The driving links and the links of the dyads.

@@ -6,14 +6,16 @@
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use linkage::math::Vec2;
+use linkage::trajectory::Stage;
 
+use super::poses::{ACCELERATION, ALPHA, DIRECTION, OF_LINK, OMEGA, ORIGIN, VELOCITY};
 use super::registers::Registers;
 pub(super) use super::registers::TILE;
 
 /// One column of a tile.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
-pub(super) struct Eight(pub(super) [f64; TILE]);
+pub(super) struct TileColumn(pub(super) [f64; TILE]);
 
 /// One number per pose.
 #[derive(Clone, Copy)]
@@ -73,16 +75,16 @@ impl<R: Registers> Lanes<R> {
         Choice { on: self.on, choices: self.on.exceeds(self.values, other.values) }
     }
 
-    /// The part `part` of a column.
+    /// The part `part` of some adjacent numbers.
     #[inline(always)]
-    pub(super) fn of(on: R, column: &[f64; TILE], part: usize) -> Self {
-        Lanes { on, values: on.read(column, part) }
+    pub(super) fn of(on: R, numbers: &[f64], part: usize) -> Self {
+        Lanes { on, values: on.read(numbers, part) }
     }
 
-    /// Writes the part `part` of a column.
+    /// Writes the part `part` of some adjacent numbers.
     #[inline(always)]
-    pub(super) fn put(self, column: &mut [f64; TILE], part: usize) {
-        self.on.write(column, part, self.values);
+    pub(super) fn put(self, numbers: &mut [f64], part: usize) {
+        self.on.write(numbers, part, self.values);
     }
 
     /// 1 / self.
@@ -197,11 +199,33 @@ impl<R: Registers> Plane<R> {
     }
 }
 
+/// Motion of a link's frame, one per pose.
+#[derive(Clone, Copy)]
+pub(super) struct LinkMotion<R: Registers> {
+    pub(super) origin: Plane<R>,
+    pub(super) direction: Plane<R>,
+    pub(super) velocity: Plane<R>,
+    pub(super) acceleration: Plane<R>,
+    pub(super) omega: Lanes<R>,
+    pub(super) alpha: Lanes<R>,
+}
+
+impl<R: Registers> LinkMotion<R> {
+    /// Position, velocity and acceleration of the tip of `arm`, a vector from the link's origin in world axes.
+    #[inline(always)]
+    pub(super) fn at(&self, arm: Plane<R>) -> [Plane<R>; 3] {
+        let turned = arm.turned();
+        let velocity = self.velocity + turned * self.omega;
+        let acceleration = self.acceleration + turned * self.alpha - arm * (self.omega * self.omega);
+        [self.origin + arm, velocity, acceleration]
+    }
+}
+
 /// View of the poses of one tile that are solved at once.
 #[derive(Debug)]
 pub(super) struct Window<'a, R: Registers> {
     pub(super) on: R,
-    pub(super) columns: &'a mut [Eight],
+    pub(super) columns: &'a mut [TileColumn],
     /// Index of this part of the tile.
     pub(super) part: usize,
 }
@@ -209,6 +233,17 @@ pub(super) struct Window<'a, R: Registers> {
 impl<R: Registers> Window<'_, R> {
     /// Number of parts in a tile.
     pub(super) const PARTS: usize = TILE / R::LANES;
+
+    /// Adjacent columns. The limits are checked once for all of them.
+    #[inline(always)]
+    fn adjacent<const N: usize>(&self, first: usize) -> &[TileColumn; N] {
+        self.columns[first..].first_chunk().expect("the columns exist")
+    }
+
+    #[inline(always)]
+    fn adjacent_mut<const N: usize>(&mut self, first: usize) -> &mut [TileColumn; N] {
+        self.columns[first..].first_chunk_mut().expect("the columns exist")
+    }
 
     #[inline(always)]
     pub(super) fn get(&self, column: usize) -> Lanes<R> {
@@ -229,12 +264,58 @@ impl<R: Registers> Window<'_, R> {
     /// Returns the vector with its components at `column` and the next column.
     #[inline(always)]
     pub(super) fn vector(&self, column: usize) -> Plane<R> {
-        Plane { x: self.get(column), y: self.get(column + 1) }
+        let [x, y] = self.adjacent(column);
+        Plane { x: Lanes::of(self.on, &x.0, self.part), y: Lanes::of(self.on, &y.0, self.part) }
     }
 
     #[inline(always)]
     pub(super) fn put_vector(&mut self, column: usize, v: Plane<R>) {
-        self.put(column, v.x);
-        self.put(column + 1, v.y);
+        let part = self.part;
+        let [x, y] = self.adjacent_mut(column);
+        v.x.put(&mut x.0, part);
+        v.y.put(&mut y.0, part);
+    }
+
+    /// Motion of the link with the first column `first`.
+    #[inline(always)]
+    pub(super) fn link(&self, first: usize) -> LinkMotion<R> {
+        let (on, part, columns) = (self.on, self.part, self.adjacent::<OF_LINK>(first));
+        // A closure would not be vectorised.
+        macro_rules! vector {
+            ($column:expr) => {
+                Plane { x: Lanes::of(on, &columns[$column].0, part), y: Lanes::of(on, &columns[$column + 1].0, part) }
+            };
+        }
+        LinkMotion {
+            origin: vector!(ORIGIN),
+            direction: vector!(DIRECTION),
+            velocity: vector!(VELOCITY),
+            acceleration: vector!(ACCELERATION),
+            omega: Lanes::of(on, &columns[OMEGA].0, part),
+            alpha: Lanes::of(on, &columns[ALPHA].0, part),
+        }
+    }
+
+    /// Writes the motion of a link up to the stage `deepest`.
+    #[inline(always)]
+    pub(super) fn put_link(&mut self, first: usize, deepest: Stage, motion: &LinkMotion<R>) {
+        let part = self.part;
+        let columns = self.adjacent_mut::<OF_LINK>(first);
+        macro_rules! put {
+            ($column:expr, $vector:expr) => {
+                $vector.x.put(&mut columns[$column].0, part);
+                $vector.y.put(&mut columns[$column + 1].0, part);
+            };
+        }
+        put!(ORIGIN, motion.origin);
+        put!(DIRECTION, motion.direction);
+        if deepest >= Stage::Velocities {
+            put!(VELOCITY, motion.velocity);
+            motion.omega.put(&mut columns[OMEGA].0, part);
+        }
+        if deepest >= Stage::Accelerations {
+            put!(ACCELERATION, motion.acceleration);
+            motion.alpha.put(&mut columns[ALPHA].0, part);
+        }
     }
 }

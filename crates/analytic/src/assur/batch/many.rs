@@ -8,8 +8,9 @@ use linkage::trajectory::Stage;
 use pulp::Arch;
 
 use super::STEP;
-use super::groups::{Groups, Part};
-use super::lanes::{Eight, TILE, Window};
+use super::equations::Clearance;
+use super::groups::Groups;
+use super::lanes::{TILE, TileColumn, Window};
 use super::poses::{ALPHA, DIRECTION, Layout, OMEGA};
 use super::registers::{OnRegisters, Registers, dispatch};
 use super::tally::{BLOCK, PoseTally};
@@ -43,16 +44,16 @@ pub struct CaseBatch {
     /// Largest time between two successive instants (s).
     pace: f64,
     /// The tiles of a block, one after the other.
-    tiles: Vec<Eight>,
-    work: Vec<Eight>,
+    tiles: Vec<TileColumn>,
+    work: Vec<TileColumn>,
     pub(super) arch: Arch,
 }
 
 /// The crank in one tile.
 #[derive(Clone, Debug)]
 struct CrankTile {
-    angles: Eight,
-    direction: [Eight; 2],
+    angles: TileColumn,
+    direction: [TileColumn; 2],
 }
 
 impl CrankTile {
@@ -61,8 +62,8 @@ impl CrankTile {
         let angles = std::array::from_fn(|row| angles[row.min(angles.len() - 1)]);
         let directions = angles.map(unit);
         CrankTile {
-            angles: Eight(angles),
-            direction: [Eight(directions.map(|own| own.x)), Eight(directions.map(|own| own.y))],
+            angles: TileColumn(angles),
+            direction: [TileColumn(directions.map(|own| own.x)), TileColumn(directions.map(|own| own.y))],
         }
     }
 }
@@ -104,8 +105,8 @@ impl CaseBatch {
             is_ascending: rows.is_sorted(),
             omega,
             pace: (widest / omega).abs(),
-            tiles: vec![Eight([0.0; TILE]); BLOCK * layout.columns()],
-            work: vec![Eight([0.0; TILE]); groups.columns],
+            tiles: vec![TileColumn([0.0; TILE]); BLOCK * layout.columns()],
+            work: vec![TileColumn([0.0; TILE]); groups.columns],
             groups,
             arch: Arch::new(),
             case: case.clone(),
@@ -147,7 +148,7 @@ struct AllTiles<'a> {
 
 impl CaseBatch {
     /// Solves the tile number `crank` of the grid (`None`: the start pose), and writes it to the place `place` of the
-    /// block. `doubt` becomes NaN where a dead point may be near.
+    /// block. `doubt` becomes NaN where a dead point may be near, or the direction of a resistance is uncertain.
     #[inline(always)]
     fn solve_tile<R: Registers>(
         &mut self,
@@ -155,26 +156,25 @@ impl CaseBatch {
         deepest: Stage,
         crank: Option<usize>,
         place: usize,
-        doubt: &mut Eight,
+        doubt: &mut TileColumn,
     ) {
         let CaseBatch { groups, cranks, start, omega, pace, tiles, work, layout, .. } = self;
         let (link, crank) = (groups.drivers[0].body.link, crank.map_or(&*start, |index| &cranks[index]));
         let tile = &mut tiles[place * layout.columns()..][..layout.columns()];
         [tile[link + DIRECTION], tile[link + DIRECTION + 1]] = crank.direction;
-        tile[link + OMEGA] = Eight([*omega; TILE]);
-        tile[link + ALPHA] = Eight([0.0; TILE]);
+        tile[link + OMEGA] = TileColumn([*omega; TILE]);
+        tile[link + ALPHA] = TileColumn([0.0; TILE]);
+        let check = Clearance { pace: *pace, least: CLEAR_SINE, share: CLEAR_CHANGE };
         for part in 0..Window::<R>::PARTS {
             let mut tile = Window { on, columns: &mut *tile, part };
             let mut work = Window { on, columns: &mut *work, part };
-            groups.move_links(deepest, &mut tile, &mut work);
+            let found = groups.move_links(deepest, check, &mut tile, &mut work);
+            tile.add_to(&mut doubt.0, found);
             if deepest >= Stage::Reactions {
                 groups.load_joints(&mut tile, &mut work);
-                tile.add_to(&mut doubt.0, groups.standstill(&tile));
-            }
-            for (group, first) in &groups.parts {
-                let Part::Dyad(dyad) = group else { unreachable!("a case batch has dyads only") };
-                let own = dyad.doubt(*pace, [CLEAR_SINE, CLEAR_CHANGE], &tile, &work, *first);
-                tile.add_to(&mut doubt.0, own);
+                if groups.is_resisted {
+                    tile.add_to(&mut doubt.0, groups.standstill(&tile));
+                }
             }
         }
     }
@@ -187,27 +187,28 @@ impl OnRegisters for AllTiles<'_> {
     #[inline(always)]
     fn run<R: Registers>(self, on: R) -> bool {
         let AllTiles { batch, deepest, tallies } = self;
-        let mut doubt = Eight([0.0; TILE]);
+        let mut doubt = TileColumn([0.0; TILE]);
         if tallies.iter().any(PoseTally::needs_start) {
-            batch.solve_tile(on, Stage::Positions, None, 0, &mut Eight([0.0; TILE]));
+            batch.solve_tile(on, Stage::Positions, None, 0, &mut TileColumn([0.0; TILE]));
             if !(batch.is_ascending && tallies.iter_mut().all(|own| own.begin(&batch.tiles))) {
                 return false;
             }
         }
         // The check for dead points needs velocities.
         let deepest = if deepest < Stage::Velocities { Stage::Velocities } else { deepest };
+        let rows = batch.case.grid.len();
         for first in (0..batch.cranks.len()).step_by(BLOCK) {
             let block = first..batch.cranks.len().min(first + BLOCK);
             for index in block.clone() {
                 batch.solve_tile(on, deepest, Some(index), index - first, &mut doubt);
             }
             let columns = batch.layout.columns();
+            let block_rows = first * TILE..rows.min(block.end * TILE);
             for own in &mut *tallies {
                 let angles = batch.cranks[block.clone()].iter().map(|crank| &crank.angles);
-                own.add(on, first * TILE, angles, &mut batch.tiles, columns);
+                own.add(on, block_rows.clone(), angles, &mut batch.tiles, columns);
             }
         }
-        let rows = batch.case.grid.len();
         tallies.iter_mut().for_each(|own| own.tally.truncate(rows));
         doubt.0.iter().all(|lane| *lane == 0.0) && tallies.iter().all(PoseTally::is_finite)
     }

@@ -1,7 +1,7 @@
-//! Storage for the poses of a batch. The columns of the storage are divided into tiles of eight rows that are adjacent
-//! in memory.
+//! Storage for the poses of a batch. The columns of the storage are divided into tiles, whose rows are adjacent in
+//! memory.
 
-use super::lanes::{Eight, TILE};
+use super::lanes::{TILE, TileColumn};
 use linkage::case::Case;
 use linkage::math::{Motion, Vec2};
 use linkage::mechanism::{GROUND, JointId, LinkId};
@@ -9,7 +9,7 @@ use linkage::solver::State;
 
 /// Number of columns for one link's motion: origin (2), direction (2), velocity (2), acceleration (2), angular velocity
 /// (1), angular acceleration (1), in this order.
-const OF_LINK: usize = 10;
+pub(super) const OF_LINK: usize = 10;
 /// Offsets of the six quantities of a link's motion from the link's first column.
 pub(super) const ORIGIN: usize = 0;
 pub(super) const DIRECTION: usize = 2;
@@ -74,7 +74,7 @@ impl Layout {
 pub struct Poses {
     layout: Layout,
     rows: usize,
-    tiles: Vec<Eight>,
+    tiles: Vec<TileColumn>,
 }
 
 impl Poses {
@@ -148,7 +148,7 @@ impl Poses {
     pub(super) fn prepare(&mut self, layout: Layout, rows: usize) {
         let tiles = rows.div_ceil(TILE) * layout.columns();
         (self.layout, self.rows) = (layout, rows);
-        self.tiles.resize(tiles, Eight([0.0; TILE]));
+        self.tiles.resize(tiles, TileColumn([0.0; TILE]));
     }
 
     /// Keeps only the first `rows` rows.
@@ -157,7 +157,7 @@ impl Poses {
     }
 
     /// Returns the columns of every tile.
-    pub(super) fn tiles(&mut self) -> impl Iterator<Item = &mut [Eight]> {
+    pub(super) fn tiles(&mut self) -> impl Iterator<Item = &mut [TileColumn]> {
         self.tiles.chunks_exact_mut(self.layout.columns())
     }
 

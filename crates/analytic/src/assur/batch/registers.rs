@@ -5,8 +5,8 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
-/// Number of poses in a tile, which are adjacent in memory.
-pub(super) const TILE: usize = 8;
+/// Number of poses in a tile, which are adjacent in memory. A pair of the widest registers fills a tile.
+pub(super) const TILE: usize = 16;
 
 /// The instructions that poses need, on one or several registers.
 pub(super) trait Registers: Copy {
@@ -14,11 +14,14 @@ pub(super) trait Registers: Copy {
     type Values: Copy;
     /// One choice per pose.
     type Choices: Copy;
+    /// One register.
+    type One: Registers;
     /// Number of poses that are solved at once.
     const LANES: usize;
     /// Whether each value takes a pair of registers.
     const IS_PAIR: bool;
 
+    fn one(self) -> Self::One;
     fn splat(self, value: f64) -> Self::Values;
     fn add(self, a: Self::Values, b: Self::Values) -> Self::Values;
     fn sub(self, a: Self::Values, b: Self::Values) -> Self::Values;
@@ -31,10 +34,10 @@ pub(super) trait Registers: Copy {
     fn exceeds(self, a: Self::Values, b: Self::Values) -> Self::Choices;
     /// `a` where the choice is true, elsewhere `b`.
     fn choose(self, choice: Self::Choices, a: Self::Values, b: Self::Values) -> Self::Values;
-    /// Reads the part `part` of a column.
-    fn read(self, column: &[f64; TILE], part: usize) -> Self::Values;
-    /// Writes the part `part` of a column.
-    fn write(self, column: &mut [f64; TILE], part: usize, values: Self::Values);
+    /// Reads the part `part` of some adjacent numbers.
+    fn read(self, numbers: &[f64], part: usize) -> Self::Values;
+    /// Writes the part `part` of some adjacent numbers.
+    fn write(self, numbers: &mut [f64], part: usize, values: Self::Values);
 }
 
 /// Work that runs on registers of any width.
@@ -109,10 +112,16 @@ macro_rules! arithmetic {
 impl<S: Simd> Registers for Single<S> {
     type Values = S::f64s;
     type Choices = S::m64s;
+    type One = Self;
     const LANES: usize = S::F64_LANES;
     const IS_PAIR: bool = false;
 
     arithmetic! { on_single }
+
+    #[inline(always)]
+    fn one(self) -> Self::One {
+        self
+    }
 
     #[inline(always)]
     fn splat(self, value: f64) -> Self::Values {
@@ -130,23 +139,29 @@ impl<S: Simd> Registers for Single<S> {
     }
 
     #[inline(always)]
-    fn read(self, column: &[f64; TILE], part: usize) -> Self::Values {
-        S::as_simd_f64s(column).0[part]
+    fn read(self, numbers: &[f64], part: usize) -> Self::Values {
+        S::as_simd_f64s(numbers).0[part]
     }
 
     #[inline(always)]
-    fn write(self, column: &mut [f64; TILE], part: usize, values: Self::Values) {
-        S::as_mut_simd_f64s(column).0[part] = values;
+    fn write(self, numbers: &mut [f64], part: usize, values: Self::Values) {
+        S::as_mut_simd_f64s(numbers).0[part] = values;
     }
 }
 
 impl<S: Simd> Registers for Pair<S> {
     type Values = (S::f64s, S::f64s);
     type Choices = (S::m64s, S::m64s);
+    type One = Single<S>;
     const LANES: usize = 2 * S::F64_LANES;
     const IS_PAIR: bool = true;
 
     arithmetic! { on_pair }
+
+    #[inline(always)]
+    fn one(self) -> Self::One {
+        Single(self.0)
+    }
 
     #[inline(always)]
     fn splat(self, value: f64) -> Self::Values {
@@ -164,14 +179,14 @@ impl<S: Simd> Registers for Pair<S> {
     }
 
     #[inline(always)]
-    fn read(self, column: &[f64; TILE], part: usize) -> Self::Values {
-        let registers = S::as_simd_f64s(column).0;
+    fn read(self, numbers: &[f64], part: usize) -> Self::Values {
+        let registers = S::as_simd_f64s(numbers).0;
         (registers[2 * part], registers[2 * part + 1])
     }
 
     #[inline(always)]
-    fn write(self, column: &mut [f64; TILE], part: usize, values: Self::Values) {
-        let registers = S::as_mut_simd_f64s(column).0;
+    fn write(self, numbers: &mut [f64], part: usize, values: Self::Values) {
+        let registers = S::as_mut_simd_f64s(numbers).0;
         (registers[2 * part], registers[2 * part + 1]) = values;
     }
 }

@@ -1,22 +1,23 @@
 //! Quantities of every pose of a case batch, and their statistics.
 
 use std::array;
+use std::ops::Range;
 
-use super::lanes::{Eight, Lanes, TILE, Window};
-use super::poses::{ACCELERATION, ALPHA, DIRECTION, Layout, OMEGA, ORIGIN, VELOCITY};
+use super::lanes::{Lanes, TILE, TileColumn, Window};
+use super::poses::{ALPHA, DIRECTION, Layout, OMEGA};
 use super::registers::Registers;
 use crate::assur::turns::{crossing, principal};
 use linkage::case::Case;
-use linkage::math::tally::{LanePeak, Tally};
+use linkage::math::tally::{LANES, LanePeak, Tally};
 use linkage::math::{Vec2, cross, rotated};
 use linkage::mechanism::{GroupId, JointId, LinkId};
 use linkage::trajectory::OfPoint;
 
 /// Number of tiles that are solved before their statistics are computed. All columns of a block stay in the fastest
 /// cache, and a statistic stays in registers during a block.
-pub(super) const BLOCK: usize = 8;
-/// Numbers of the rows of a tile.
-const COUNT: [f64; TILE] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
+pub(super) const BLOCK: usize = 4;
+/// Numbers of the rows that a statistic takes at once.
+const COUNT: [f64; LANES] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
 
 /// A quantity of every pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -83,29 +84,17 @@ pub struct PoseTally {
     pub tally: Tally,
     reading: Reading,
     /// Zero if all values so far are finite, otherwise NaN.
-    fault: Eight,
-}
-
-/// Replaces every value of a block by an expression of it. A closure would not be vectorised.
-macro_rules! change {
-    ($on:expr, $block:expr, |$value:ident| $changed:expr) => {
-        for values in &mut *$block {
-            for part in 0..Window::<R>::PARTS {
-                let $value = Lanes::of($on, &values.0, part);
-                $changed.put(&mut values.0, part);
-            }
-        }
-    };
+    fault: [f64; TILE],
 }
 
 /// Sums an expression over a block, lane by lane. The variables of the expression are a value and the number of its
-/// tile.
+/// eight rows in the block. A closure would not be vectorised.
 macro_rules! sum {
-    ($on:expr, $sums:expr, $block:expr, |$value:ident, $tile:ident, $part:ident| $summand:expr) => {
-        for $part in 0..Window::<R>::PARTS {
+    ($on:expr, $sums:expr, $block:expr, |$value:ident, $eight:ident, $part:ident| $summand:expr) => {
+        for $part in 0..LANES / R::LANES {
             let mut sum = Lanes::of($on, &$sums, $part);
-            for ($tile, values) in $block.iter().enumerate() {
-                let $value = Lanes::of($on, &values.0, $part);
+            for ($eight, values) in $block.iter().enumerate() {
+                let $value = Lanes::of($on, values, $part);
                 sum = sum + $summand;
             }
             sum.put(&mut $sums, $part);
@@ -133,7 +122,7 @@ impl PoseTally {
     /// A statistic of a quantity in the unit `unit`, a multiple of the SI unit.
     #[must_use]
     pub fn of(quantity: PoseQuantity, unit: f64, tally: Tally) -> PoseTally {
-        PoseTally { quantity, unit, tally, reading: Reading::Given, fault: Eight([0.0; TILE]) }
+        PoseTally { quantity, unit, tally, reading: Reading::Given, fault: [0.0; TILE] }
     }
 
     /// Whether `other` is the same statistic of the same quantity in the same unit.
@@ -145,7 +134,7 @@ impl PoseTally {
     /// Whether all values of the last case are finite.
     #[must_use]
     pub fn is_finite(&self) -> bool {
-        self.fault.0.iter().all(|lane| *lane == 0.0)
+        self.fault.iter().all(|lane| *lane == 0.0)
     }
 
     /// Prepares the statistic for the first row of a case.
@@ -153,7 +142,7 @@ impl PoseTally {
         let link = |link: LinkId| layout.link(link).expect("a moving link");
         let links = case.mechanism.links();
         self.tally.clear();
-        self.fault = Eight([0.0; TILE]);
+        self.fault = [0.0; TILE];
         self.reading = match self.quantity {
             PoseQuantity::Angle(of) if of == case.crank().link => Reading::Given,
             PoseQuantity::Angle(of) => Reading::Angle(link(of), Vec2::zeros(), 0.0),
@@ -181,7 +170,7 @@ impl PoseTally {
 
     /// Reads the start pose. Returns `false` if the link's direction in this pose is nearly -x, because the number of
     /// whole turns is then uncertain.
-    pub(super) fn begin(&mut self, tile: &[Eight]) -> bool {
+    pub(super) fn begin(&mut self, tile: &[TileColumn]) -> bool {
         let Reading::Angle(first, last, _) = &mut self.reading else { return true };
         *last = direction(tile, *first, 0);
         last.x > 0.0 || last.y.abs() > 1e-6
@@ -189,133 +178,200 @@ impl PoseTally {
 
     /// Adds the rows of a block. The values have the same bits as those of the
     /// [sampler](linkage::solver::Sampler).
-    /// `row` is the first row of the block, `angles` are the angles of the crank, and every tile has `columns` columns.
+    /// `rows` are the rows of the block, `angles` are the angles of the crank, and every tile has `columns` columns.
     #[inline(always)]
     pub(super) fn add<'a, R: Registers>(
         &mut self,
         on: R,
-        row: usize,
-        angles: impl ExactSizeIterator<Item = &'a Eight>,
-        tiles: &mut [Eight],
+        rows: Range<usize>,
+        angles: impl Iterator<Item = &'a TileColumn>,
+        tiles: &mut [TileColumn],
         columns: usize,
     ) {
-        let mut block = [Eight([0.0; TILE]); BLOCK];
-        let block = &mut block[..angles.len()];
-        // Reads the values of all rows. A closure would not be vectorised.
-        macro_rules! value {
-            (|$tile:ident| $value:expr) => {
-                for (columns, values) in tiles.chunks_exact_mut(columns).zip(&mut *block) {
-                    for part in 0..Window::<R>::PARTS {
-                        let $tile = Window { on, columns: &mut *columns, part };
-                        let found = $value;
-                        found.put(&mut values.0, part);
+        let mut block = Block([[0.0; TILE]; BLOCK]);
+        let block = &mut block.0[..rows.len().div_ceil(TILE)];
+        let unit = self.unit;
+        // Reads the values of all rows, and adds 0 or NaN to `fault`. A closure would not be vectorised.
+        macro_rules! read {
+            (|$tile:ident, $values:ident| $value:expr) => {
+                for part in 0..Window::<R>::PARTS {
+                    let mut fault = Lanes::of(on, &self.fault, part);
+                    for (place, $values) in block.iter_mut().enumerate() {
+                        let $tile = Window { on, columns: &mut tiles[place * columns..][..columns], part };
+                        let value = $value;
+                        let value = if unit == 1.0 { value } else { value / unit };
+                        fault = fault + value * 0.0;
+                        value.put($values, part);
                     }
+                    fault.put(&mut self.fault, part);
                 }
             };
         }
-        match &mut self.reading {
-            Reading::Given => block.iter_mut().zip(angles).for_each(|(values, own)| *values = *own),
-            Reading::Column(column) => value!(|tile| tile.get(*column)),
-            Reading::Size(column) => value!(|tile| {
-                let force = tile.vector(*column);
+        match self.reading {
+            Reading::Column(column) => read!(|tile, values| tile.get(column)),
+            Reading::Size(column) => read!(|tile, values| {
+                let force = tile.vector(column);
                 force.dot(force).sqrt()
             }),
-            Reading::Square(column) => value!(|tile| {
-                let force = tile.vector(*column);
+            Reading::Square(column) => read!(|tile, values| {
+                let force = tile.vector(column);
                 force.dot(force)
             }),
-            Reading::Angle(first, last, turns) => value!(|tile| with_turns(*first, last, turns, &tile)),
-            Reading::Point(first, local, reading) => value!(|tile| point(*first, *local, *reading, &tile)),
-            Reading::Sine(links, spans, lengths) => value!(|tile| {
+            Reading::Point(first, local, reading) => read!(|tile, values| point(first, local, reading, &tile)),
+            Reading::Sine(links, spans, lengths) => read!(|tile, values| {
                 let a = tile.vector(links[0] + DIRECTION).rotate(spans[0]);
                 let b = tile.vector(links[1] + DIRECTION).rotate(spans[1]);
-                a.cross(b).abs() / *lengths
+                a.cross(b).abs() / lengths
             }),
+            Reading::Given => {
+                block.iter_mut().zip(angles).for_each(|(values, own)| *values = own.0);
+                read!(|tile, values| Lanes::of(tile.on, values, tile.part));
+            }
+            Reading::Angle(first, ref mut last, ref mut turns) => {
+                for (columns, values) in tiles.chunks_exact(columns).zip(&mut *block) {
+                    with_turns(first, last, turns, columns, values);
+                }
+                read!(|tile, values| Lanes::of(tile.on, values, tile.part));
+            }
         }
-        if self.unit != 1.0 {
-            change!(on, block, |value| value / self.unit);
-        }
-        sum!(on, self.fault.0, block, |value, _tile, part| value * 0.0);
-        add(&mut self.tally, on, row, block);
+        let (block, _) = block.as_flattened().as_chunks();
+        count(&mut self.tally, on.one(), rows.start, &block[..rows.len().div_ceil(LANES)]);
     }
 }
+
+/// The values of a quantity in a block of tiles.
+#[repr(align(64))]
+struct Block([[f64; TILE]; BLOCK]);
 
 /// [`Tally::add`] for a block.
 #[inline(always)]
-fn add<R: Registers>(tally: &mut Tally, on: R, row: usize, block: &mut [Eight]) {
+fn count<R: Registers>(tally: &mut Tally, on: R, row: usize, block: &[[f64; LANES]]) {
     match tally {
-        Tally::Max(own) => raise(own, on, row, block),
-        Tally::Min(own) => {
-            change!(on, block, |value| -value);
-            raise(own, on, row, block);
-        }
-        Tally::MaxAbs(own) => {
-            change!(on, block, |value| value.abs());
-            raise(own, on, row, block);
-        }
+        Tally::Max(own) => raise::<R, Plain>(own, on, row, block),
+        Tally::Min(own) => raise::<R, Negated>(own, on, row, block),
+        Tally::MaxAbs(own) => raise::<R, Magnitude>(own, on, row, block),
         Tally::Range([most, least]) => {
-            raise(most, on, row, block);
-            change!(on, block, |value| -value);
-            raise(least, on, row, block);
+            raise::<R, Plain>(most, on, row, block);
+            raise::<R, Negated>(least, on, row, block);
         }
         Tally::Mean(own) => {
-            let weights = &own.weights[row / TILE..];
-            sum!(on, own.sums, block, |value, tile, part| Lanes::of(on, &weights[tile], part) * value);
+            let weights = &own.weights[row / LANES..];
+            sum!(on, own.sums, block, |value, eight, part| Lanes::of(on, &weights[eight], part) * value);
         }
         Tally::Rms(own) => {
-            let weights = &own.weights[row / TILE..];
-            sum!(on, own.sums, block, |value, tile, part| Lanes::of(on, &weights[tile], part) * (value * value));
+            let weights = &own.weights[row / LANES..];
+            sum!(on, own.sums, block, |value, eight, part| Lanes::of(on, &weights[eight], part) * (value * value));
         }
         Tally::At(wanted, value) => {
-            let place = wanted.checked_sub(row).and_then(|own| Some(block.get(own / TILE)?.0[own % TILE]));
+            let place = wanted.checked_sub(row).and_then(|own| Some(block.get(own / LANES)?[own % LANES]));
             *value = place.unwrap_or(*value);
         }
-        Tally::Column(all) => all.extend(block.iter().flat_map(|values| values.0)),
+        Tally::Column(all) => all.extend_from_slice(block.as_flattened()),
+    }
+}
+
+/// The score of a value: the largest score is the wanted extreme.
+trait Score {
+    fn of<R: Registers>(value: Lanes<R>) -> Lanes<R>;
+}
+
+/// For the largest value.
+struct Plain;
+
+/// For the smallest value.
+struct Negated;
+
+/// For the largest absolute value.
+struct Magnitude;
+
+impl Score for Plain {
+    #[inline(always)]
+    fn of<R: Registers>(value: Lanes<R>) -> Lanes<R> {
+        value
+    }
+}
+
+impl Score for Negated {
+    #[inline(always)]
+    fn of<R: Registers>(value: Lanes<R>) -> Lanes<R> {
+        -value
+    }
+}
+
+impl Score for Magnitude {
+    #[inline(always)]
+    fn of<R: Registers>(value: Lanes<R>) -> Lanes<R> {
+        value.abs()
+    }
+}
+
+/// Largest scores so far, and their first rows.
+#[derive(Clone, Copy)]
+struct Peak<R: Registers> {
+    scores: Lanes<R>,
+    rows: Lanes<R>,
+}
+
+impl<R: Registers> Peak<R> {
+    /// Takes a score of a later row.
+    #[inline(always)]
+    fn take(&mut self, score: Lanes<R>, row: Lanes<R>) {
+        let is_better = score.exceeds(self.scores);
+        (self.scores, self.rows) = (is_better.of(score, self.scores), is_better.of(row, self.rows));
+    }
+
+    /// The better of two peaks; of equal scores, the one in the first row.
+    #[inline(always)]
+    fn or(self, other: Self) -> Self {
+        let (is_better, is_worse) = (other.scores.exceeds(self.scores), self.scores.exceeds(other.scores));
+        let first = self.rows.exceeds(other.rows).of(other.rows, self.rows);
+        let rows = is_better.of(other.rows, is_worse.of(self.rows, first));
+        Peak { scores: is_better.of(other.scores, self.scores), rows }
     }
 }
 
 #[inline(always)]
-fn raise<R: Registers>(peak: &mut LanePeak, on: R, row: usize, block: &[Eight]) {
-    for part in 0..Window::<R>::PARTS {
-        let (mut best, mut at) = (Lanes::of(on, &peak.scores, part), Lanes::of(on, &peak.rows, part));
+fn raise<R: Registers, S: Score>(peak: &mut LanePeak, on: R, row: usize, block: &[[f64; LANES]]) {
+    for part in 0..LANES / R::LANES {
+        let mut even = Peak { scores: Lanes::of(on, &peak.scores, part), rows: Lanes::of(on, &peak.rows, part) };
+        let mut odd = Peak { scores: Lanes::splat(on, f64::NEG_INFINITY), rows: even.rows };
         let mut now = Lanes::of(on, &COUNT, part) + row as f64;
-        for scores in block {
-            let scores = Lanes::of(on, &scores.0, part);
-            let is_better = scores.exceeds(best);
-            (best, at) = (is_better.of(scores, best), is_better.of(now, at));
-            now = now + TILE as f64;
+        let (pairs, last) = block.as_chunks();
+        // Each of two peaks takes every second value, so that the comparisons do not wait for each other.
+        for [first, second] in pairs {
+            even.take(S::of(Lanes::of(on, first, part)), now);
+            odd.take(S::of(Lanes::of(on, second, part)), now + LANES as f64);
+            now = now + (2 * LANES) as f64;
         }
-        best.put(&mut peak.scores, part);
-        at.put(&mut peak.rows, part);
+        for values in last {
+            even.take(S::of(Lanes::of(on, values, part)), now);
+        }
+        let best = even.or(odd);
+        best.scores.put(&mut peak.scores, part);
+        best.rows.put(&mut peak.rows, part);
     }
 }
 
 /// Direction of a link in a row of a tile.
-fn direction(tile: &[Eight], first: usize, row: usize) -> Vec2 {
+fn direction(tile: &[TileColumn], first: usize, row: usize) -> Vec2 {
     Vec2::new(tile[first + DIRECTION].0[row], tile[first + DIRECTION + 1].0[row])
 }
 
-/// Angles of a link, as [`Turns`](crate::assur::turns::Turns) counts them.
-fn with_turns<R: Registers>(first: usize, last: &mut Vec2, turns: &mut f64, tile: &Window<R>) -> Lanes<R> {
-    let mut found = [0.0; TILE];
-    for (lane, angle) in found[..R::LANES].iter_mut().enumerate() {
-        let now = direction(tile.columns, first, tile.part * R::LANES + lane);
+/// Angles of a link in a tile, as [`Turns`](crate::assur::turns::Turns) counts them.
+fn with_turns(first: usize, last: &mut Vec2, turns: &mut f64, tile: &[TileColumn], angles: &mut [f64; TILE]) {
+    for (row, angle) in angles.iter_mut().enumerate() {
+        let now = direction(tile, first, row);
         *turns += crossing(*last, now);
         *last = now;
         *angle = principal(now) + std::f64::consts::TAU * *turns;
     }
-    Lanes::of(tile.on, &found, 0)
 }
 
 /// A coordinate of a point, of its velocity or of its acceleration.
 #[inline(always)]
 fn point<R: Registers>(first: usize, local: Vec2, reading: OfPoint, tile: &Window<R>) -> Lanes<R> {
-    let arm = tile.vector(first + DIRECTION).rotate(local);
-    let place = tile.vector(first + ORIGIN) + arm;
-    let omega = tile.get(first + OMEGA);
-    let velocity = tile.vector(first + VELOCITY) + arm.turned() * omega;
-    let turned = tile.vector(first + ACCELERATION) + arm.turned() * tile.get(first + ALPHA);
-    let acceleration = turned - arm * (omega * omega);
+    let link = tile.link(first);
+    let [place, velocity, acceleration] = link.at(link.direction.rotate(local));
     match reading {
         OfPoint::X => place.x,
         OfPoint::Y => place.y,
