@@ -49,7 +49,9 @@ linkage::words! {
         Moving = "moving",
         /// All channels, computed by the first analytic solver (`assur`); not judged yet.
         Solved = "solved",
-        /// The verdict, or the error of the proof.
+        /// The verdict. Its page follows.
+        Proven = "proven",
+        /// The page with the verdict, or the error of the proof.
         Judged = "judged",
         /// Mistakes, and a picture of what can be drawn.
         Wrong = "wrong",
@@ -66,7 +68,7 @@ pub(crate) struct Outcome {
     pub(crate) error: Option<Error>,
     /// The page of the mechanism; empty if nothing can be drawn.
     pub(crate) page: Arc<String>,
-    /// Word of the verdict, if judged.
+    /// Word of the verdict, if proven.
     pub(crate) verdict: Option<&'static str>,
     /// Parameters that are plain numbers, by their keys.
     pub(crate) parameters: Vec<(String, f64)>,

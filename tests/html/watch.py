@@ -77,8 +77,8 @@ class Page:
         self.page.goto(address)
 
     def status(self, words):
-        """Waits until the status begins with these words."""
-        wanted = "(words) => document.getElementById('status').textContent.startsWith(words)"
+        """Waits until the status begins with these words, and the page of a verdict is there."""
+        wanted = "(words) => document.getElementById('status').textContent.startsWith(words) && !['moving', 'solved', 'proven'].includes(state.stage)"
         self.page.wait_for_function(wanted, arg=words, timeout=PATIENCE)
 
     def shown(self, stages, since):
@@ -190,7 +190,7 @@ def main(linkproof, chromium, directory):
         with watched(linkproof, file) as address:
             page = Page(browser, address)
             page.status("AGREE")
-            times = {"moving solved judged": [], "judged": []}
+            times = {"moving solved proven judged": [], "proven judged": []}
             for number in range(11):
                 since = time.time()
                 file.write_text(given + f"# {number}\n")
@@ -199,8 +199,8 @@ def main(linkproof, chromium, directory):
                 time.sleep(0.2)
             page.page.screenshot(path=pictures / "watch_ov7_base.png")
             need(not page.faults, f"messages of the browser: {page.faults[:3]}")
-            for stages, all_times in times.items():
-                print(f"watch: ov7_base from saving to {'the verdict' if stages == 'judged' else 'the new picture'}: median {1e3 * statistics.median(all_times):.0f} ms")
+            for what, all_times in zip(["the new picture", "the verdict"], times.values()):
+                print(f"watch: ov7_base from saving to {what}: median {1e3 * statistics.median(all_times):.0f} ms")
         browser.close()
     print("watch: edit, mistake, slider, drag, keep, 30 saves, missing file, two files and strangers pass")
 

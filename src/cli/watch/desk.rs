@@ -135,7 +135,9 @@ impl Desk {
         let is_news = (outcome.draft, outcome.stage) > (state.outcome.draft, state.outcome.stage);
         if state.draft == outcome.draft && is_news {
             self.change(state, |state| {
-                state.page_since = state.version;
+                if !Arc::ptr_eq(&state.outcome.page, &outcome.page) {
+                    state.page_since = state.version;
+                }
                 state.outcome = outcome;
             });
         }
@@ -149,10 +151,10 @@ impl Desk {
     }
 
     /// Waits for the verdict of a draft for a while. Returns whether the page needs the curves before the verdict: the
-    /// draft is still the newest one and is not judged.
+    /// draft is still the newest one and is not proven.
     pub(super) fn needs_curves(&self, draft: u64) -> bool {
         let is_open = |state: &mut State| {
-            state.draft == draft && (state.outcome.draft, state.outcome.stage) < (draft, DraftStage::Judged)
+            state.draft == draft && (state.outcome.draft, state.outcome.stage) < (draft, DraftStage::Proven)
         };
         let waited = self.changed.wait_timeout_while(self.state(), SOON, is_open);
         is_open(&mut waited.unwrap_or_else(PoisonError::into_inner).0)

@@ -28,7 +28,7 @@ const RELOOK: Duration = Duration::from_millis(500);
 
 /// Largest size of all columns in the first page and in the later pages (bytes). With fewer instants, the browser shows
 /// a page sooner.
-const PICTURE_BYTES: usize = 50_000;
+const PICTURE_BYTES: usize = 25_000;
 const LATER_BYTES: usize = 500_000;
 
 /// Follows the file.
@@ -57,15 +57,15 @@ pub(super) fn move_drafts(desk: &Desk) {
         let publish = |outcome: Outcome| desk.publish(Outcome { draft, ..outcome });
         let moved = || {
             let scenario = Scenario::parse(&text, &desk.file)?;
-            // First the page has positions only, because such a page is small.
-            let first = moved(&scenario.clone().only(&["positions".into()])?, PICTURE_BYTES)?;
+            // First the page has neither the text nor any channels but positions, because such a page is small.
+            let first = moved(&scenario.clone().only(&["positions".into()])?, "", PICTURE_BYTES)?;
             publish(Outcome { stage: DraftStage::Moving, ..first.clone() });
             desk.wait_for_drawing(draft);
             desk.leave(draft, scenario.clone());
             if !desk.needs_curves(draft) {
                 return Ok(());
             }
-            let page = moved(&scenario, LATER_BYTES)?.page;
+            let page = moved(&scenario, &scenario.text, LATER_BYTES)?.page;
             publish(Outcome { stage: DraftStage::Solved, page, ..first });
             Ok(())
         };
@@ -79,13 +79,22 @@ pub(super) fn move_drafts(desk: &Desk) {
 pub(super) fn prove_drafts(desk: &Desk) {
     loop {
         let (draft, scenario) = desk.next_unproven();
-        let judged = stopped(|| judged(&scenario));
-        let Some(before) = desk.outcome(draft) else { continue };
-        let outcome = match judged {
-            Ok((page, verdict)) => Outcome { page: Arc::new(page), verdict: Some(verdict), ..before },
-            Err(error) => Outcome { error: Some(error), ..before },
+        let publish = |stage: DraftStage, add: &dyn Fn(Outcome) -> Outcome| {
+            if let Some(before) = desk.outcome(draft) {
+                desk.publish(Outcome { stage, ..add(before) });
+            }
         };
-        desk.publish(Outcome { stage: DraftStage::Judged, ..outcome });
+        let judged = || {
+            let proof = prove(&scenario, &Options::default())?;
+            let verdict = Some(proof.verdict.word());
+            publish(DraftStage::Proven, &|before| Outcome { verdict, ..before });
+            let page = Arc::new(judged(&proof, &scenario));
+            publish(DraftStage::Judged, &|before| Outcome { page: Arc::clone(&page), ..before });
+            Ok(())
+        };
+        if let Err(error) = stopped(judged) {
+            publish(DraftStage::Judged, &|before| Outcome { error: Some(error.clone()), ..before });
+        }
     }
 }
 
@@ -95,11 +104,11 @@ fn stopped<T>(work: impl FnOnce() -> Result<T>) -> Result<T> {
     guarded(work).unwrap_or_else(|_| Err(internal()))
 }
 
-/// The page of a scenario that is solved analytically.
-fn moved(scenario: &Scenario, bytes: usize) -> Result<Outcome> {
+/// The page of a scenario that is solved analytically, with the text `given`.
+fn moved(scenario: &Scenario, given: &str, bytes: usize) -> Result<Outcome> {
     let proof = Proof::unjudged(scenario)?;
     let reduced = Err(sentences::IT_IS_SHOWN_WITH_THE_VERDICT.into());
-    let beside = Beside { given: &scenario.text, settings: &BTreeMap::new(), reduced, bytes };
+    let beside = Beside { given, settings: &BTreeMap::new(), reduced, bytes };
     let page = html::watched(&proof, &beside, Some(sentences::THE_PROOF_RUNS), advice::told);
     let points = &scenario.case.mechanism.links()[GROUND].points;
     Ok(Outcome {
@@ -110,12 +119,11 @@ fn moved(scenario: &Scenario, bytes: usize) -> Result<Outcome> {
     })
 }
 
-/// The page of a proof, and the word of its verdict.
-fn judged(scenario: &Scenario) -> Result<(String, &'static str)> {
-    let proof = prove(scenario, &Options::default())?;
-    let settings = recorded::metadata(&proof);
+/// The page of a proof.
+fn judged(proof: &Proof, scenario: &Scenario) -> String {
+    let settings = recorded::metadata(proof);
     let beside = Beside { given: &scenario.text, settings: &settings, reduced: reduced(scenario), bytes: LATER_BYTES };
-    Ok((html::watched(&proof, &beside, None, advice::told), proof.verdict.word()))
+    html::watched(proof, &beside, None, advice::told)
 }
 
 /// Mistakes of a file, and a picture of what can be drawn.

@@ -4,7 +4,7 @@
 
 const byId = (id) => document.getElementById(id);
 const [text, status, keep, reload] = ['text', 'status', 'keep', 'reload'].map(byId);
-/** Times (ms) at which pages became visible, by their stage; a test reads them. */
+/** Times (ms) at which stages of drafts became visible; a test reads them. */
 window.linkproofShown = [];
 window.linkproofGround = [];
 
@@ -160,10 +160,8 @@ function showParameters(parameters) {
 /** Longest time (ms) for which the next request waits until a page is painted; hidden tabs paint nothing. */
 const PAINTING = 200;
 
-/** Shows a page, and notes the time after the browser has painted it. */
-async function showPage(text, stage) {
-  const own = await frame;
-  own.linkproofTake(text, stage === 'moving');
+/** Waits until the browser has painted what is known about a draft, and notes the time. */
+async function painted(stage) {
   await new Promise((done) => {
     const painted = () => {
       window.linkproofShown.push({ stage, at: performance.timeOrigin + performance.now() });
@@ -179,7 +177,7 @@ async function show(now) {
   state = now;
   window.linkproofGround = now.ground;
   const isCurrent = now.shown === now.draft;
-  const painted = isCurrent && now.page !== null ? showPage(now.page, now.stage) : null;
+  if (isCurrent && now.page !== null) (await frame).linkproofTake(now.page, now.stage === 'moving');
   if (typeof now.text === 'string') {
     const delay = saved === null ? 0 : LATER;
     const isEdited = saved !== null && text.value !== base;
@@ -202,7 +200,7 @@ async function show(now) {
   }
   numberLines();
   tellKept();
-  await painted;
+  if (isCurrent) await painted(now.stage);
 }
 
 /** Shows every change. The next request tells the program that the last change is painted. */

@@ -44,8 +44,12 @@ function setUpSpeeds() {
 let before = null;
 function frame(now) {
   if (!isPlaying) return;
-  let when = shown.time + (before === null ? 0 : Math.min(now - before, 100) / 1e3 * speedOf());
+  const passed = before === null ? 0 : Math.min(now - before, 100);
   before = now;
+  requestAnimationFrame(frame);
+  // The first picture of a page is drawn already.
+  if (passed === 0) return;
+  let when = shown.time + passed / 1e3 * speedOf();
   if (when > time[last]) {
     if (!byId('loop').checked) {
       goTo(last);
@@ -55,7 +59,6 @@ function frame(now) {
     when = time[0] + (when - time[0]) % duration;
   }
   goToTime(when);
-  requestAnimationFrame(frame);
 }
 
 function setPlaying(isOn) {
