@@ -23,6 +23,11 @@ LIFE, REPLACED = 4 * 3600.0, 60.0
 COPY, PART, MEMORY, PASS = 300e6, 3.4e-3, 7800, 190e-9
 
 
+def usual_part(cases):
+    """Number of cases of a part, as in `linkproof sweep`."""
+    return min(max(cases // 64, 64), max(20_000, min(cases // 10_000, 1_000_000)))
+
+
 def simulated(shares, work, workers, start=START, seed=1):
     """Time (s) until all shares of `work` seconds each are done, and number of workers that died."""
     chance = random.Random(seed)
@@ -44,7 +49,7 @@ def simulated(shares, work, workers, start=START, seed=1):
 
 
 def main(cases, workers, *counts):
-    part = min(max(cases // 64, 64), max(20_000, min(cases // 10_000, 1_000_000)))
+    part = usual_part(cases)
     parts = -(-cases // part)
     print(f"{parts} parts of {part} cases, {part * BYTES / 1e6:.1f} MB each; table {cases * BYTES / 1e9:.1f} GB")
     for kind, case in CASE.items():

@@ -25,7 +25,7 @@ pub(super) struct Args {
     #[command(flatten)]
     outputs: Outputs<Exports>,
     /// Time step stated in the file, in seconds [default: the scenario's time step, else the fastest driving link's
-    /// time for 0.25 deg]
+    /// time for 0.25 deg; in a motion under forces at most a ten-thousandth of the duration]
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = number::positive)]
     dt: Option<f64>,
     #[command(flatten)]

@@ -43,7 +43,7 @@ impl Pages {
                 sentences::THE_PAGE_CANNOT_BE_WRITTEN
             };
             Error::new(ErrorKind::Io, format!("{what} {}: {found}", to.display()))
-                .key("--html")
+                .key("-o")
                 .help(sentences::NAME_A_FILE_FOR_ONE_SCENARIO)
         };
         tried.map_err(wrong)?;

@@ -4,6 +4,7 @@ import doctest
 import inspect
 import json
 import re
+import runpy
 import subprocess
 import sys
 
@@ -36,6 +37,11 @@ def test_the_plan_of_large_sweeps_is_what_its_program_gives():
     [shown] = re.findall(r"^\$ python (examples/python/scale_plan.py) (.*)\n((?:.+\n)*)```", (TOP / "docs/scale.md").read_text(), re.M)
     told = subprocess.run([sys.executable, TOP / shown[0], *shown[1].split()], capture_output=True, encoding="utf-8", check=True)
     assert told.stdout == shown[2]
+    # The plan has the parts of the program; the numbers are those of the program's test.
+    source = (TOP / "crates/sweep/src/plan.rs").read_text()
+    [[cases, parts]] = re.findall(r"let parts = \[(.*)\]\.map\(usual_part\);\n.*\(parts, \[(.*)\]\);", source)
+    plan = runpy.run_path(str(TOP / shown[0]))
+    assert [plan["usual_part"](eval(own)) for own in cases.split(", ")] == [int(own) for own in parts.split(", ")]
 
 
 def test_the_docstring_of_the_package_is_right():

@@ -162,15 +162,15 @@ fn several_pages_go_to_a_directory_that_is_checked_first() {
     assert_eq!(names, ["pendulum-2.html", "pendulum.html"]);
     fs::write(place.path("file"), "old").unwrap();
     for (target, words) in [
-        ("no/page.html", ["--html", "the directory no does not exist"]),
-        ("file/page.html", ["--html", "directory"]),
-        ("-", ["--html", "a page cannot go to standard output"]),
-        ("scenarios/pendulum.toml", ["--html", "scenario file"]),
+        ("no/page.html", ["-o", "the directory no does not exist"]),
+        ("file/page.html", ["-o", "directory"]),
+        ("-", ["-o", "a page cannot go to standard output"]),
+        ("scenarios/pendulum.toml", ["-o", "scenario file"]),
     ] {
         let outcome = place.refused(&format!("run scenarios/pendulum.toml --no-record --html {target}"), &words);
         assert_eq!(outcome.stdout, "", "the refusal comes before the proof");
     }
-    place.refused(&format!("run {files} --no-record --html file"), &["--html", "not a directory"]);
+    place.refused(&format!("run {files} --no-record --html file"), &["-o", "not a directory"]);
     assert_eq!(fs::read_to_string(place.path("file")).unwrap(), "old");
 }
 
