@@ -14,7 +14,7 @@ use prover::run::Proof;
 
 /// Number of names and loads that are listed; further ones are only counted.
 const SHOWN: usize = 12;
-/// Significant digits of numbers of the file.
+/// Number of significant digits with which numbers of the scenario are shown.
 const DIGITS: usize = 4;
 
 /// The mechanism in rows: each row has a subject, such as the links, and its description.

@@ -66,8 +66,8 @@ fn a_slider_lies_ahead_of_the_crank_pin_or_behind_it() {
     assert_at(place(&ahead, "B"), 240.0, 0.0);
     assert_eq!(ahead.case.modes, [AssemblyMode::Ahead]);
     assert_at(place(&slider_crank(FORWARD, &start("mode = \"behind\"")).unwrap(), "B"), -240.0, 0.0);
-    // The same slider-crank with the axis reversed, with the slider as first link, and with an approximate position
-    // instead of a mode.
+    // Three variants, each with one change: the axis is reversed, the slider is the first link, or an approximate
+    // position replaces the mode.
     let backward = FORWARD.replace("axis_deg = 0", "axis_deg = 180");
     assert_at(place(&slider_crank(&backward, &start("mode = \"ahead\"")).unwrap(), "B"), -240.0, 0.0);
     let swapped = "links = [\"slider\", \"ground\"]\npoints = [\"B\", \"G\"]\naxis_deg = 0";

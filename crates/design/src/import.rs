@@ -1,7 +1,7 @@
 //! Mechanisms of other programs as scenarios: share links of PMKS+, models for MuJoCo, files of Linkage.
 //!
 //! A reader converts a source into `Parts`: links in their start pose, joints, drives and loads.
-//! `finish` finds the assembly modes of the start pose and a grid, and `write` writes the text of the scenario.
+//! `finish` chooses a grid and the assembly modes of the start pose, and `write` writes the text of the scenario.
 //! Parts of the source that a reader does not understand are listed by name.
 
 mod finish;

@@ -4,7 +4,7 @@ linkage::sentences! {
     // run.rs
     NOTHING_IS_COMPARED_YET = "nothing is compared yet";
     // accept.rs
-    TOO_LITTLE_IS_KNOWN_NOW_OR_WHEN = "agreement with the accepted figures proves nothing: a bound has changed too much, one of the two proofs does not agree, or the run has no channel";
+    TOO_LITTLE_IS_KNOWN_NOW_OR_WHEN = "agreement with the accepted figures proves nothing: a bound has changed too much, the accepted proof or the present proof does not end in AGREE, or the run has no channel";
     NOT_AS_ACCEPTED = "differs from the accepted figures";
     // check/cause.rs
     THE_SEARCH_ENDED_AT_ITS_LIMIT = "the search reached its work limit before all slips and terms were tried";

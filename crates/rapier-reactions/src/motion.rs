@@ -20,7 +20,7 @@ pub(crate) struct Motion {
 
 impl Motion {
     /// Centred differences of three poses that are `step` (s) apart. The error is of second order in the step.
-    /// The body may turn by less than half a turn per step.
+    /// The body must turn by less than half a turn per step.
     pub(crate) fn of(body: &ModelBody, poses: [Placement; 3], step: f64) -> Motion {
         let [before, centre, after] = poses.map(|pose| pose.point(body.centre));
         let turn = |from: Placement, to: Placement| {

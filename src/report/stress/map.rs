@@ -81,7 +81,7 @@ fn panel(family: &StressFamily, outcomes: &[&StressOutcome], names: &[&str], gro
     let wide = if high > low { (high / low).powf(0.04) } else { 2.0 };
     let along = [low / wide, high * wide];
     let mut chart = Chart::new(PANEL, [along, [ERRORS[0], FAILED[2]]]);
-    // If the parameter spans less than a decade, the axis shows its values.
+    // An axis of less than a decade shows the values of the parameter.
     let numbers = if along[1] / along[0] < 10.0 { distinct(dials()) } else { decades(along, 13) };
     let names_of_axes = [family.dial, sentences::LARGEST_ERROR_OVER_THE_SCALE];
     chart.axes([&numbers, &decades(ERRORS, 7)], group.name(), names_of_axes);

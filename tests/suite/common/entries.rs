@@ -172,7 +172,7 @@ fn mechanism(from: &mut Unstructured) -> Result<std::result::Result<DrawnJoint, 
     })
 }
 
-/// The bytes of a recording: they are refused, or every side is a trajectory.
+/// Reads a recording made from `bytes`. The reader must refuse the file, or every side in it must be a trajectory.
 /// If the first byte is even, the remaining bytes are the file.
 /// If the first byte is odd, the remaining bytes determine topics and messages of a complete file.
 pub fn recording(bytes: &[u8]) -> Result<()> {

@@ -81,7 +81,8 @@ fn gap(case: &Case, state: &State) -> f64 {
 }
 
 /// Opening of a four-bar's loop after a step of `step` (s) with constant velocities, divided by the mechanism's size.
-/// A vector r of a link that rotates by omega h becomes r + omega h n - (omega h)^2 / 2 r.
+/// If a link rotates by omega h, its vector r becomes r + omega h n - (omega h)^2 r / 2 to second order in h. Here n is
+/// r turned by 90 deg.
 /// The terms omega h n add up to zero around the loop, so the loop opens by the last terms: h^2 / 2 |sum of omega^2 r|.
 /// Every step corrects the whole earlier gap (erp = 1), so only the gap of one step remains.
 fn gap_of_a_step(case: &Case, state: &State, step: f64) -> f64 {

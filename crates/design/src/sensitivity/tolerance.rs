@@ -173,7 +173,7 @@ impl Sample<'_> {
         figures(&scenario.case.on(grid)?, self.figures)
     }
 
-    /// Range of linear theory for a figure. `first` is the spread at the tolerances times 1.
+    /// Range of tolerances in which linear theory holds for a figure. `first` is the spread at the tolerances times 1.
     fn limit(&self, figure: usize, parts: &[f64], nominal: f64, first: &Spread) -> LinearLimit {
         let mut unsolved = first.unsolved > 0;
         let mut differs = |multiple: f64| {

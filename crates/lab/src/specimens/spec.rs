@@ -248,7 +248,7 @@ impl Spec {
     }
 
     /// This mechanism with all lengths multiplied by `factor`, and all moments of inertia by the square of `factor`.
-    /// All else is unchanged: the masses, for example, and the numbers in the texts of `other`.
+    /// Nothing else changes; the masses and the numbers in the texts of the field `other` keep their values.
     pub fn larger(&self, factor: f64) -> Spec {
         let mut other = self.with_places(|at| at * factor);
         for (_, _, inertia) in other.links.iter_mut().filter_map(|body| body.mass.as_mut()) {

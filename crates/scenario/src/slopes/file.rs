@@ -128,7 +128,7 @@ impl<'a> SlopeFile<'a> {
         self.found
     }
 
-    /// Stores a number of the case, if the file states it.
+    /// Stores the slope of a number of the case, if the file states the number.
     pub(super) fn put(&mut self, number: CaseNumber, slope: Option<Slope>) {
         if let Some(slope) = slope {
             self.found.numbers.insert(number, slope);

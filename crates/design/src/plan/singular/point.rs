@@ -55,7 +55,7 @@ impl AssurLead {
 pub struct AssurTrial {
     /// Accelerations of the second ends of both leads (m/s^2).
     pub far: [Vec2; 2],
-    /// Ends of the normal parts that are added to `far` (m/s^2).
+    /// For each lead: `far` plus the normal part of the relative acceleration (m/s^2).
     pub feet: [Vec2; 2],
     /// Acceleration of the point (m/s^2).
     pub at: Vec2,
