@@ -45,11 +45,13 @@ pub(super) struct Observed {
     pub(super) torque: Vec<f64>,
     /// Largest relative difference between the shaking from reactions and the shaking from momentum: the larger of two
     /// ratios over the run. The first ratio is the largest difference of the shaking forces divided by the largest
-    /// force in a joint. The second ratio is the largest difference of the shaking moments divided by the largest
-    /// moment of a joint force about the origin.
+    /// force of joints, inertia and loads. The second ratio is the largest difference of the shaking moments divided by
+    /// the largest moment of these forces about the origin.
     pub(super) unbalance: Option<f64>,
     /// Largest moment on the driving link (N m): the balancing moment, or a joint's force times the link's length.
     pub(super) moment: f64,
+    /// Largest summand of the balance of powers of an analytic side, as a moment like those in `power` (N m).
+    pub(super) summand: f64,
     /// Largest condition number of a passage of a side through a change point; 1 if no side passes a change point.
     pub(super) passing: f64,
     /// For every row, whether its pose is a singular change point; empty if the crank may not pass change points.
@@ -91,11 +93,12 @@ impl Observed {
     }
 
     /// Largest difference between the balancing moment of the trajectory and the balancing moment from the balance of
-    /// powers, divided by the largest moment on the driving link.
+    /// powers, divided by the largest moment on the driving link, or by the largest summand of the balance of powers if
+    /// this is larger.
     /// The balancing moment itself is no divisor: where it is zero, the moments on the driving link cancel each other,
     /// and the difference is their rounding error.
     pub(super) fn two_ways(&self) -> f64 {
-        share(largest_size(&self.moment_gap().collect::<Vec<f64>>()), self.moment)
+        share(largest_size(&self.moment_gap().collect::<Vec<f64>>()), self.moment.larger(self.summand))
     }
 
     /// Balancing moment of the trajectory minus the balancing moment of the powers (N m) at every instant.
@@ -141,7 +144,7 @@ pub(super) fn observe(
     let with_sense = case.senses().filter(|senses| *senses != LoadSenses::Nothing);
     let tables: Vec<[f64; 2]> = case.load_jumps().collect();
     let mut senses = Senses::new(with_sense.count() + tables.len(), case.grid.len());
-    let (mut reach, mut moment, mut fastest): (f64, f64, f64) = (0.0, 0.0, 0.0);
+    let (mut reach, mut moment, mut fastest, mut summand): (f64, f64, f64, f64) = (0.0, 0.0, 0.0, 0.0);
     let mut unbalance = Unbalance::default();
     let mut passing: f64 = 1.0;
     let mut singular = if case.crank().passes() { vec![false; case.grid.len()] } else { Vec::new() };
@@ -176,6 +179,7 @@ pub(super) fn observe(
                 .fold(fastest, f64::larger);
             moment = moment.larger(state.largest_moment(case, arm));
             if watch == Watch::Side {
+                summand = summand.larger(power::largest(case, state));
                 unbalance.add(case, state, crank);
             }
         }
@@ -192,12 +196,12 @@ pub(super) fn observe(
         let kept = sampler.so_far(case).map(Box::new);
         return Err(Stopped { error, kept, spent: None });
     }
+    // In a free motion, powers are divided by the larger of two speeds: the largest speed, because the motion may be much
+    // faster than the nominal speed, and the nominal speed, because the speeds of an engine's links at rest are only
+    // rounding errors.
+    let nominal = case.crank().top_speed();
+    let top = if case.is_free() { fastest.larger(nominal.abs()) } else { nominal };
     if !steady {
-        // In a free motion, powers are divided by the larger of two speeds: the largest speed, because the motion may
-        // be much faster than the nominal speed, and the nominal speed, because the speeds of an engine's links at rest
-        // are only rounding errors.
-        let nominal = case.crank().top_speed();
-        let top = if case.is_free() { fastest.larger(nominal.abs()) } else { nominal };
         power.iter_mut().chain(&mut torque).for_each(|power| *power = share(*power, top));
     }
     Ok(Observed {
@@ -209,6 +213,7 @@ pub(super) fn observe(
         torque,
         unbalance: (with_power && watch == Watch::Side).then(|| unbalance.share()),
         moment,
+        summand: share(summand, top.abs()),
         passing,
         singular,
         to_knot,
@@ -299,6 +304,10 @@ impl Unbalance {
             let lever = place.norm().larger(case.mechanism.size());
             self.largest_moment = self.largest_moment.larger(own * lever).larger(state.moments[index].abs());
         }
+        // The reactions may be zero, such as those of a balanced rotor on a spring.
+        let (largest_force, largest_moment) = momentum::largest(case, state);
+        self.largest_force = self.largest_force.larger(largest_force);
+        self.largest_moment = self.largest_moment.larger(largest_moment);
     }
 
     fn share(&self) -> f64 {
