@@ -177,20 +177,10 @@ fn command(args: &Args) -> String {
         match files.iter().position(|file| *file == word) {
             Some(0) if whole => words.push(format!("{}/*.toml", directory.display())),
             Some(_) if whole => {}
-            Some(_) | None => words.push(quoted(&word)),
+            Some(_) | None => words.push(output::quoted(&word)),
         }
     }
     words.join(" ")
-}
-
-/// A word of a command line, quoted for a shell.
-fn quoted(word: &str) -> String {
-    let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:,+".contains(c);
-    if !word.is_empty() && word.chars().all(is_plain) {
-        word.into()
-    } else {
-        format!("'{}'", word.replace('\'', "'\\''"))
-    }
 }
 
 /// Path of the directory `directory` relative to the page `page`, for the links of the page.

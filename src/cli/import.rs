@@ -44,7 +44,7 @@ pub(super) fn import(args: &Args) -> Result<u8> {
         return Ok(exit_code::BAD_INPUT);
     }
     if !output::is_standard(path) {
-        output::print(&sentences::next_after_an_import(&path.display(), &path.with_extension("").display()))?;
+        output::print(&new::next(&path.display().to_string(), path))?;
     }
     Ok(exit_code::AGREE)
 }

@@ -56,10 +56,15 @@ fn list() -> String {
 }
 
 /// Message about the written file and its use.
-fn begun(template: &Template, file: &str) -> String {
-    let stem = Path::new(file).with_extension("");
-    let stem = stem.display();
-    sentences::next_linkproof_draw_svg_linkproof(&file, &template.title(), &stem)
+fn begun(template: &Template, file: &Path) -> String {
+    next(&format!("{}: {}", file.display(), template.title()), file)
+}
+
+/// `what`, and the next commands for the scenario `file`.
+pub(super) fn next(what: &str, file: &Path) -> String {
+    let word = |path: &Path| output::quoted(&path.to_string_lossy());
+    let [svg, html] = ["svg", "html"].map(|ending| word(&file.with_extension(ending)));
+    sentences::next_after_a_file(&what, &word(file), &svg, &html)
 }
 
 /// Refuses to replace an existing file unless `force` is given. The help of the error offers `other` as an alternative
@@ -85,7 +90,7 @@ fn begin(name: &str, args: &Args) -> Result<u8> {
     put(&text, path, args.output.is_some(), args.force)?;
     let code = told(&text, path, template);
     if code == exit_code::AGREE {
-        output::print(&begun(template, &path.display().to_string()))?;
+        output::print(&begun(template, path))?;
     }
     Ok(code)
 }

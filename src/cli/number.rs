@@ -51,6 +51,15 @@ pub(super) fn degree(text: &str) -> Parsed<usize> {
     degree.ok_or_else(|| sentences::expected_a_degree_from_to(&MOST_DEGREE))
 }
 
+/// Longest table of solutions. The time to make the table grows with the square of its length.
+const MOST_ROWS: usize = 1000;
+
+/// A row of a table of solutions.
+pub(super) fn row(text: &str) -> Parsed<usize> {
+    let row = text.trim().parse().ok().filter(|row| (1..=MOST_ROWS).contains(row));
+    row.ok_or_else(|| sentences::expected_a_degree_from_to(&MOST_ROWS))
+}
+
 /// A number of extrapolations.
 pub(super) fn times(text: &str) -> Parsed<usize> {
     let times = text.trim().parse().ok().filter(|times| *times <= MOST_TIMES);

@@ -24,6 +24,18 @@ pub(super) fn target(text: &str) -> std::result::Result<PathBuf, String> {
     writable(path)
 }
 
+/// Path for a scenario that the command makes, or `-` for standard output. An existing file is replaced only if an
+/// earlier `linkproof synthesize` has written it.
+pub(super) fn scenario(text: &str) -> std::result::Result<PathBuf, String> {
+    let path = writable(text.into())?;
+    let old = fs::metadata(&path).is_ok_and(|old| old.is_file()).then(|| fs::read(&path).unwrap_or_default());
+    let head = old.iter().flat_map(|bytes| bytes.split(|byte| *byte == b'\n').take(1)).next().map(String::from_utf8_lossy);
+    match head.is_none_or(|head| head.is_empty() || head.contains("linkproof synthesize")) {
+        true => Ok(path),
+        false => Err(sentences::THIS_FILE_IS_NOT_OF_SYNTHESIZE.into()),
+    }
+}
+
 /// A writable path, or `-` for standard output.
 /// Obstacles to writing are reported before any work is done.
 pub(super) fn writable(path: PathBuf) -> std::result::Result<PathBuf, String> {
@@ -31,6 +43,16 @@ pub(super) fn writable(path: PathBuf) -> std::result::Result<PathBuf, String> {
         files::may_write(&path)?;
     }
     Ok(path)
+}
+
+/// A word of a command line, quoted for a shell.
+pub(super) fn quoted(word: &str) -> String {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:,+".contains(c);
+    if !word.is_empty() && word.chars().all(is_plain) {
+        word.into()
+    } else {
+        format!("'{}'", word.replace('\'', "'\\''"))
+    }
 }
 
 /// Whether a path means standard output: `-`, or `-.ENDING` for a drawing.

@@ -101,7 +101,7 @@ impl Form {
             Form::Html => page_target(text),
             Form::Results => output::directory(text),
             Form::Page => output::page(text),
-            Form::Scenario => output::writable(text.into()),
+            Form::Scenario => output::scenario(text),
             Form::Csv
             | Form::Dxf
             | Form::Json
@@ -270,6 +270,10 @@ impl<R: Results> FromArgMatches for Outputs<R> {
         let all: Vec<(R, PathBuf)> =
             names.filter_map(|name| matches.get_many::<(R, PathBuf)>(name)).flatten().cloned().collect();
         let outputs = Outputs { all };
+        let is_directory = |(own, _): &(R, &Path)| own.form() == Form::Results;
+        if let Some((_, second)) = outputs.each().filter(is_directory).nth(1) {
+            return Err(clap::Error::raw(Wrong::ArgumentConflict, sentences::a_second_directory(&second.display())));
+        }
         match output::apart(&outputs.named()) {
             Ok(()) => Ok(outputs),
             Err(error) => {

@@ -62,6 +62,12 @@ pub(super) fn sensitivity(args: &Args) -> Result<()> {
         let message = sentences::the_tolerance_is_not_above_zero(&key, &limit);
         return Err(Error::new(ErrorKind::Input, message).key("--tolerance").help(sentences::GIVE_A_NUMBER_ABOVE_ZERO));
     }
+    let mut names: Vec<&str> = args.tolerance.iter().map(|(key, _)| key.as_str()).collect();
+    names.sort_unstable();
+    if let Some(twice) = names.windows(2).find(|pair| pair[0] == pair[1]) {
+        let message = sentences::has_two_tolerances(&twice[0]);
+        return Err(Error::new(ErrorKind::Input, message).key("--tolerance").help(sentences::GIVE_ONE_TOLERANCE));
+    }
     let tolerances: Vec<KeyTolerance> =
         args.tolerance.iter().map(|(key, limit)| KeyTolerance { key: key.clone(), limit: *limit }).collect();
     let scenario = args.start.load(&args.file, &args.grid)?;

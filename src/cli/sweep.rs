@@ -144,7 +144,8 @@ pub(super) fn sweep(args: &Args) -> Result<u8> {
         if let Some(case) = tally.disagreement {
             let mut values = vec![0.0; plan.design.axes().len()];
             plan.design.values(case, &mut values);
-            let told = sentences::the_proof_of_a_case_disagrees(&case, &args.file.display(), &sets(&plan, &values));
+            let file = output::quoted(&args.file.to_string_lossy());
+            let told = sentences::the_proof_of_a_case_disagrees(&case, &file, &sets(&plan, &values));
             output::print(&format!("{told}\n"))?;
             return Ok(DISAGREE);
         }
@@ -173,7 +174,7 @@ pub(super) fn told(plan: &SweepPlan, summary: &SweepSummary, goal: Goal, store: 
     let next = summary.best.first().map(|row| {
         // A stored plan, as read by `merge`, has no path of the scenario.
         let file = if plan.path.as_os_str().is_empty() { Path::new("FILE") } else { &plan.path };
-        sentences::repeat_a_case(&file.display(), &sets(plan, &row.values))
+        sentences::repeat_a_case(&output::quoted(&file.to_string_lossy()), &sets(plan, &row.values))
     });
     output::print(&report::text(plan, summary, goal, &store.table(), &next.unwrap_or_default(), output::width()))
 }

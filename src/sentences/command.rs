@@ -179,11 +179,10 @@ linkage::sentences! {
     the_source_cannot_be_read(path, error) = "the source {path} cannot be read: {error}";
     GIVE_AN_ADDRESS_OR_A_FILE = "give the path of a file, or an address in quotes, with its `?` and all that follows";
     the_import_is_to_be_completed(path) = "{path} is written anyway, so that you can complete it; `linkproof draw {path} -o picture.svg` shows what is there";
-    next_after_an_import(file, stem) = "{file}\n\nnext  linkproof draw {file} -o {stem}.svg\n      linkproof run {file} -o {stem}.html\n";
+    next_after_a_file(what, file, svg, html) = "{what}\n\nnext  linkproof draw {file} -o {svg}\n      linkproof run {file} -o {html}\n";
     GIVE_ANOTHER_NAME_WITH_OUTPUT = "give another name with --output";
     or_replace_what_is_there(other) = "{other}, or overwrite it with --force";
     is_there_already(path) = "{path} already exists";
-    next_linkproof_draw_svg_linkproof(file, template, stem) = "{file}: {template}\n\nnext  linkproof draw {file} -o {stem}.svg\n      linkproof run {file} -o {stem}.html\n";
     linkproof_new_template_writes_one_its_dimensions(lines) = "{lines}\nlinkproof new TEMPLATE writes a scenario; set its dimensions in the file, or with --set\n";
     // cli/number.rs
     expected_decimals_take_a_point(such, replacen) = "expected {such}; write decimals with a point: {replacen}";
@@ -203,6 +202,8 @@ linkage::sentences! {
     GIVE_TWO_FILES_OR_LEAVE_ONE_OF_THE_TWO = "give two files, or leave one of the two out";
     two_results_go_to(to) = "two results go to {to}";
     and_both_name(one, other, to) = "{one} and {other} both name {to}";
+    a_second_directory(path) = "a second directory, {path}, is given for the results\n  = help: give one directory\n";
+    THIS_FILE_IS_NOT_OF_SYNTHESIZE = "this file was not written by `linkproof synthesize` and would be overwritten; name another file";
     THIS_IS_A_SCENARIO_FILE_AND_WOULD = "this is a scenario file and would be overwritten; expected a file for the results, or `-`";
     // cli/outputs.rs
     NO_ENDING = "no ending";
@@ -234,6 +235,8 @@ linkage::sentences! {
     NAME_ANOTHER_DIRECTORY_WITH = "name another directory with -o";
     the_manual_cannot_be_written(to, error) = "the manual cannot be written to {to}: {error}";
     // cli/sensitivity.rs
+    has_two_tolerances(key) = "`{key}` has two tolerances";
+    GIVE_ONE_TOLERANCE = "give one tolerance for each key";
     the_tolerance_is_not_above_zero(key, limit) = "the tolerance of `{key}` must be above zero; found {limit}";
     is_left_out_because(key, part) = "`{key}` is left out: `{part}` has no known derivative by this key";
     // cli/solving.rs

@@ -140,6 +140,10 @@ fn rows(sampled: &[(SampledFigure, Vec<f64>)], count: usize) -> Vec<usize> {
 /// Largest allowed difference between the values of the two solutions, divided by the largest value.
 const AGREEMENT: f64 = 1e-6;
 
+/// Largest difference that counts as rounding, in the unit of the figure. Quantities that are zero in exact arithmetic
+/// have such values.
+const ROUNDING: f64 = 1e-9;
+
 /// Checks that the solution in dual numbers has the values of side 1.
 /// If the values differed, the derivatives would belong to another mechanism.
 fn check_agreement(
@@ -150,9 +154,10 @@ fn check_agreement(
     derived: &Derived,
 ) -> Result<()> {
     let scale = values.iter().fold(0.0, |most: f64, own| most.larger(own.abs()));
+    let allowed = (AGREEMENT * scale).larger(ROUNDING);
     for &row in &found.rows {
         let own = derived.at(index, row).value;
-        if own.is_finite() && !((own - values[row]).abs() <= AGREEMENT * scale) && derived.turn(index).is_none() {
+        if own.is_finite() && !((own - values[row]).abs() <= allowed) && derived.turn(index).is_none() {
             let message = sentences::the_two_solutions_differ(&figure, &values[row], &own);
             return Err(Error::new(ErrorKind::Numeric, message).help(sentences::TAKE_ANOTHER_INSTANT));
         }

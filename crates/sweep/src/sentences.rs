@@ -35,7 +35,7 @@ linkage::sentences! {
     // store.rs
     cannot_be_used(path, error) = "{path} cannot be used: {error}";
     CHOOSE_ANOTHER_DIRECTORY = "name another directory, or remove this one";
-    holds_another_sweep(path) = "{path} contains another sweep: its scenario, varied numbers or figures differ";
+    holds_another_sweep(path) = "{path} contains another sweep: its scenario, varied numbers, figures, proofs or part size differ";
     holds_other_files(path, name) = "{path} contains files that do not belong to a sweep, such as {name}";
     a_part_is_missing(part, first, last) = "part {part} is missing: cases {first} to {last}";
     no_sweep_in(path) = "{path} contains no sweep";

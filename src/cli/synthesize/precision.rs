@@ -3,7 +3,6 @@
 use crate::sentences;
 use std::f64::consts::TAU;
 use std::fmt::Display;
-use std::num::NonZeroUsize;
 
 use super::closed_form::{ClosedForms, deliver, named, numbers, pair};
 use crate::cli::outputs::Outputs;
@@ -25,8 +24,8 @@ struct Target {
     #[command(flatten)]
     outputs: Outputs<ClosedForms>,
     /// Table number of the four-bar to write and prove [default: 1, if it has no defect]
-    #[arg(long, value_name = "N")]
-    take: Option<NonZeroUsize>,
+    #[arg(long, value_name = "N", value_parser = number::row)]
+    take: Option<usize>,
     /// Speed of the crank in the scenario, in turns per minute. The sense follows from the order of the positions
     #[arg(long, value_name = "RPM", default_value = "60", allow_hyphen_values = true, value_parser = number::positive)]
     rpm: f64,
@@ -38,17 +37,17 @@ struct Target {
 impl Target {
     /// Number of four-bars in the table.
     fn wanted(&self) -> usize {
-        self.take.map_or(SHOWN, |take| take.get().max(SHOWN))
+        self.take.map_or(SHOWN, |take| take.max(SHOWN))
     }
 
     /// Index of the four-bar to write.
     fn taken(&self, found: &PrecisionSynthesis) -> Result<usize> {
         match self.take {
-            Some(take) if take.get() > found.best.len() => {
+            Some(take) if take > found.best.len() => {
                 let message = sentences::the_table_has_only(&found.best.len(), &take);
                 output::refused("--take", message, sentences::TAKE_A_NUMBER_OF_THE_TABLE)
             }
-            Some(take) => Ok(take.get() - 1),
+            Some(take) => Ok(take - 1),
             None if found.keep_order == 0 => {
                 let message = sentences::four_bars_have_defects(&found.found);
                 Err(Error::new(ErrorKind::Geometry, message).help(sentences::TAKE_ONE_NEVERTHELESS))

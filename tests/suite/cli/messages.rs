@@ -265,6 +265,7 @@ fn a_scenario_is_never_used_as_an_output_file() {
         format!("run --no-record --json {other} {scenario}"),
         format!("solve {scenario} --with assur --csv {other}"),
         format!("inspect {scenario} --json {other}"),
+        format!("synthesize slider-crank --stroke-mm 100 --rod-mm 150 -o {other}"),
     ] {
         place.refused(&command, &[other, "would be overwritten"]);
     }
