@@ -28,9 +28,12 @@ pub(super) fn target(text: &str) -> std::result::Result<PathBuf, String> {
 /// earlier `linkproof synthesize` has written it.
 pub(super) fn scenario(text: &str) -> std::result::Result<PathBuf, String> {
     let path = writable(text.into())?;
-    let old = fs::metadata(&path).is_ok_and(|old| old.is_file()).then(|| fs::read(&path).unwrap_or_default());
-    let head = old.iter().flat_map(|bytes| bytes.split(|byte| *byte == b'\n').take(1)).next().map(String::from_utf8_lossy);
-    match head.is_none_or(|head| head.is_empty() || head.contains("linkproof synthesize")) {
+    let is_new = fs::metadata(&path).map_or(true, |old| !old.is_file() || old.len() == 0);
+    let is_ours = || {
+        let text = scenario::source::text_of(&path).unwrap_or_default();
+        text.lines().next().is_some_and(|head| head.contains("linkproof synthesize"))
+    };
+    match is_new || is_ours() {
         true => Ok(path),
         false => Err(sentences::THIS_FILE_IS_NOT_OF_SYNTHESIZE.into()),
     }

@@ -296,3 +296,36 @@ fn regress_a_motor_s_jump_within_a_step_counts_by_its_share() {
     let proof = proven(&parsed(&own.toml(false)));
     assert_eq!(proof.verdict.word(), "agree", "{:?}", proof.verdict);
 }
+
+/// The coarse steps of a search are longer than the period of this law, so every instant lies beside a reversal.
+/// The search must go on with finer steps.
+#[test]
+fn regress_a_law_that_reverses_often_needs_a_finer_step() {
+    let text =
+        slide("law = \"harmonic\"\nstart_mm = 60\namplitude_mm = 20\nperiod_s = 0.5\nphase_deg = -90", -9.81, "");
+    let proof = proven(&parsed(&text));
+    assert_eq!(proof.verdict.word(), "agree", "{:?}", proof.verdict);
+}
+
+/// Spring or damper and inertia balance each other, so all reactions are zero.
+/// The rounding errors of the sums are then compared with the largest summand.
+#[test]
+fn regress_a_motion_without_reactions_agrees() {
+    let free = "motion = \"free\"\nstart_mm = 60\ninitial_speed_mm_s = -300\nspeed_mm_s = 500";
+    for kind in ["spring\"\nstiffness_N_m = 1200\nfree_slide_mm = 20", "damper\"\ndamping_N_s_m = 18"] {
+        let load = format!("[[loads]]\ntype = \"slide_{kind}\njoint = \"S\"\n");
+        let proof = proven(&parsed(&slide(free, 0.0, &load)));
+        assert_eq!(proof.verdict.word(), "agree", "{kind}: {:?}", proof.verdict);
+    }
+}
+
+/// A mass of 3 kg on a horizontal slide, with this law or motion of the drive, and these loads.
+fn slide(law: &str, gravity: f64, loads: &str) -> String {
+    format!(
+        "format = 1\nname = \"slide\"\ntitle = \"Slide\"\nground.points = {{ O = {{ x_mm = 0, y_mm = 0 }} }}\n\
+         start = {{}}\n[links.m]\npoints = {{ P = {{ x_mm = 0, y_mm = 0 }} }}\nmass_kg = 3\n\
+         mass_centre = {{ x_mm = 0, y_mm = 0 }}\n[[joints]]\nname = \"S\"\ntype = \"prismatic\"\n\
+         links = [\"ground\", \"m\"]\npoints = [\"O\", \"P\"]\naxis_deg = 0\n[drive]\njoint = \"S\"\n{law}\n\
+         [gravity]\nx_m_s2 = 0\ny_m_s2 = {gravity:?}\n{loads}[grid]\nfrom_s = 0\nto_s = 1\nstep_s = 0.02\n"
+    )
+}

@@ -197,7 +197,11 @@ impl<'m, 'a> Turn<'m, 'a> {
         let mut visit = |flow: &OverAngle, step: &Step<3>| {
             let high = here(flow, step[1].0, step[1].1[0]);
             if low.alpha * high.alpha <= 0.0 {
-                extremes.push(extreme(flow, step, low, &here)?);
+                // If a load jumps at the beginning of the step, the sign may have changed there.
+                low = here(flow, step[0].0, step[0].1[0]);
+                if low.alpha * high.alpha <= 0.0 {
+                    extremes.push(extreme(flow, step, low, &here)?);
+                }
             }
             extremes.push(high);
             low = high;

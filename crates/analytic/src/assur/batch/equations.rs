@@ -7,8 +7,8 @@
 
 use super::bodies::Body;
 use super::groups::{Arm, Driver, Dyad, Groups, Part};
-use super::lanes::{Lanes, LinkMotion, Plane, Window};
-use super::poses::{DIRECTION, OMEGA, ORIGIN};
+use super::lanes::{Lanes, Plane, Window};
+use super::poses::{DIRECTION, LinkMotion, OMEGA, ORIGIN};
 use super::registers::Registers;
 use linkage::case::STANDSTILL;
 use linkage::math::Vec2;

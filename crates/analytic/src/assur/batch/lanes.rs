@@ -6,9 +6,7 @@
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use linkage::math::Vec2;
-use linkage::trajectory::Stage;
 
-use super::poses::{ACCELERATION, ALPHA, DIRECTION, OF_LINK, OMEGA, ORIGIN, VELOCITY};
 use super::registers::Registers;
 pub(super) use super::registers::TILE;
 
@@ -199,28 +197,6 @@ impl<R: Registers> Plane<R> {
     }
 }
 
-/// Motion of a link's frame, one per pose.
-#[derive(Clone, Copy)]
-pub(super) struct LinkMotion<R: Registers> {
-    pub(super) origin: Plane<R>,
-    pub(super) direction: Plane<R>,
-    pub(super) velocity: Plane<R>,
-    pub(super) acceleration: Plane<R>,
-    pub(super) omega: Lanes<R>,
-    pub(super) alpha: Lanes<R>,
-}
-
-impl<R: Registers> LinkMotion<R> {
-    /// Position, velocity and acceleration of the tip of `arm`, a vector from the link's origin in world axes.
-    #[inline(always)]
-    pub(super) fn at(&self, arm: Plane<R>) -> [Plane<R>; 3] {
-        let turned = arm.turned();
-        let velocity = self.velocity + turned * self.omega;
-        let acceleration = self.acceleration + turned * self.alpha - arm * (self.omega * self.omega);
-        [self.origin + arm, velocity, acceleration]
-    }
-}
-
 /// View of the poses of one tile that are solved at once.
 #[derive(Debug)]
 pub(super) struct Window<'a, R: Registers> {
@@ -236,12 +212,12 @@ impl<R: Registers> Window<'_, R> {
 
     /// Adjacent columns. The limits are checked once for all of them.
     #[inline(always)]
-    fn adjacent<const N: usize>(&self, first: usize) -> &[TileColumn; N] {
+    pub(super) fn adjacent<const N: usize>(&self, first: usize) -> &[TileColumn; N] {
         self.columns[first..].first_chunk().expect("the columns exist")
     }
 
     #[inline(always)]
-    fn adjacent_mut<const N: usize>(&mut self, first: usize) -> &mut [TileColumn; N] {
+    pub(super) fn adjacent_mut<const N: usize>(&mut self, first: usize) -> &mut [TileColumn; N] {
         self.columns[first..].first_chunk_mut().expect("the columns exist")
     }
 
@@ -274,48 +250,5 @@ impl<R: Registers> Window<'_, R> {
         let [x, y] = self.adjacent_mut(column);
         v.x.put(&mut x.0, part);
         v.y.put(&mut y.0, part);
-    }
-
-    /// Motion of the link with the first column `first`.
-    #[inline(always)]
-    pub(super) fn link(&self, first: usize) -> LinkMotion<R> {
-        let (on, part, columns) = (self.on, self.part, self.adjacent::<OF_LINK>(first));
-        // A closure would not be vectorised.
-        macro_rules! vector {
-            ($column:expr) => {
-                Plane { x: Lanes::of(on, &columns[$column].0, part), y: Lanes::of(on, &columns[$column + 1].0, part) }
-            };
-        }
-        LinkMotion {
-            origin: vector!(ORIGIN),
-            direction: vector!(DIRECTION),
-            velocity: vector!(VELOCITY),
-            acceleration: vector!(ACCELERATION),
-            omega: Lanes::of(on, &columns[OMEGA].0, part),
-            alpha: Lanes::of(on, &columns[ALPHA].0, part),
-        }
-    }
-
-    /// Writes the motion of a link up to the stage `deepest`.
-    #[inline(always)]
-    pub(super) fn put_link(&mut self, first: usize, deepest: Stage, motion: &LinkMotion<R>) {
-        let part = self.part;
-        let columns = self.adjacent_mut::<OF_LINK>(first);
-        macro_rules! put {
-            ($column:expr, $vector:expr) => {
-                $vector.x.put(&mut columns[$column].0, part);
-                $vector.y.put(&mut columns[$column + 1].0, part);
-            };
-        }
-        put!(ORIGIN, motion.origin);
-        put!(DIRECTION, motion.direction);
-        if deepest >= Stage::Velocities {
-            put!(VELOCITY, motion.velocity);
-            motion.omega.put(&mut columns[OMEGA].0, part);
-        }
-        if deepest >= Stage::Accelerations {
-            put!(ACCELERATION, motion.acceleration);
-            motion.alpha.put(&mut columns[ALPHA].0, part);
-        }
     }
 }

@@ -1,15 +1,17 @@
 //! Storage for the poses of a batch. The columns of the storage are divided into tiles, whose rows are adjacent in
 //! memory.
 
-use super::lanes::{TILE, TileColumn};
+use super::lanes::{Lanes, Plane, TILE, TileColumn, Window};
+use super::registers::Registers;
 use linkage::case::Case;
 use linkage::math::{Motion, Vec2};
 use linkage::mechanism::{GROUND, JointId, LinkId};
 use linkage::solver::State;
+use linkage::trajectory::Stage;
 
 /// Number of columns for one link's motion: origin (2), direction (2), velocity (2), acceleration (2), angular velocity
 /// (1), angular acceleration (1), in this order.
-pub(super) const OF_LINK: usize = 10;
+const OF_LINK: usize = 10;
 /// Offsets of the six quantities of a link's motion from the link's first column.
 pub(super) const ORIGIN: usize = 0;
 pub(super) const DIRECTION: usize = 2;
@@ -206,5 +208,72 @@ impl Poses {
     #[inline]
     fn vector(&self, row: usize, column: usize) -> Vec2 {
         Vec2::new(self.get(row, column), self.get(row, column + 1))
+    }
+}
+
+/// Motion of a link's frame, one per pose.
+#[derive(Clone, Copy)]
+pub(super) struct LinkMotion<R: Registers> {
+    pub(super) origin: Plane<R>,
+    pub(super) direction: Plane<R>,
+    pub(super) velocity: Plane<R>,
+    pub(super) acceleration: Plane<R>,
+    pub(super) omega: Lanes<R>,
+    pub(super) alpha: Lanes<R>,
+}
+
+impl<R: Registers> LinkMotion<R> {
+    /// Position, velocity and acceleration of the tip of `arm`, a vector from the link's origin in world axes.
+    #[inline(always)]
+    pub(super) fn at(&self, arm: Plane<R>) -> [Plane<R>; 3] {
+        let turned = arm.turned();
+        let velocity = self.velocity + turned * self.omega;
+        let acceleration = self.acceleration + turned * self.alpha - arm * (self.omega * self.omega);
+        [self.origin + arm, velocity, acceleration]
+    }
+}
+
+impl<R: Registers> Window<'_, R> {
+    /// Motion of the link with the first column `first`.
+    #[inline(always)]
+    pub(super) fn link(&self, first: usize) -> LinkMotion<R> {
+        let (on, part, columns) = (self.on, self.part, self.adjacent::<OF_LINK>(first));
+        // A closure would not be vectorised.
+        macro_rules! vector {
+            ($column:expr) => {
+                Plane { x: Lanes::of(on, &columns[$column].0, part), y: Lanes::of(on, &columns[$column + 1].0, part) }
+            };
+        }
+        LinkMotion {
+            origin: vector!(ORIGIN),
+            direction: vector!(DIRECTION),
+            velocity: vector!(VELOCITY),
+            acceleration: vector!(ACCELERATION),
+            omega: Lanes::of(on, &columns[OMEGA].0, part),
+            alpha: Lanes::of(on, &columns[ALPHA].0, part),
+        }
+    }
+
+    /// Writes the motion of a link up to the stage `deepest`.
+    #[inline(always)]
+    pub(super) fn put_link(&mut self, first: usize, deepest: Stage, motion: &LinkMotion<R>) {
+        let part = self.part;
+        let columns = self.adjacent_mut::<OF_LINK>(first);
+        macro_rules! put {
+            ($column:expr, $vector:expr) => {
+                $vector.x.put(&mut columns[$column].0, part);
+                $vector.y.put(&mut columns[$column + 1].0, part);
+            };
+        }
+        put!(ORIGIN, motion.origin);
+        put!(DIRECTION, motion.direction);
+        if deepest >= Stage::Velocities {
+            put!(VELOCITY, motion.velocity);
+            motion.omega.put(&mut columns[OMEGA].0, part);
+        }
+        if deepest >= Stage::Accelerations {
+            put!(ACCELERATION, motion.acceleration);
+            motion.alpha.put(&mut columns[ALPHA].0, part);
+        }
     }
 }

@@ -192,7 +192,7 @@ impl PoseTally {
         let block = &mut block.0[..rows.len().div_ceil(TILE)];
         let unit = self.unit;
         // Reads the values of all rows, and adds 0 or NaN to `fault`. A closure would not be vectorised.
-        macro_rules! read {
+        macro_rules! each {
             (|$tile:ident, $values:ident| $value:expr) => {
                 for part in 0..Window::<R>::PARTS {
                     let mut fault = Lanes::of(on, &self.fault, part);
@@ -208,30 +208,30 @@ impl PoseTally {
             };
         }
         match self.reading {
-            Reading::Column(column) => read!(|tile, values| tile.get(column)),
-            Reading::Size(column) => read!(|tile, values| {
+            Reading::Column(column) => each!(|tile, values| tile.get(column)),
+            Reading::Size(column) => each!(|tile, values| {
                 let force = tile.vector(column);
                 force.dot(force).sqrt()
             }),
-            Reading::Square(column) => read!(|tile, values| {
+            Reading::Square(column) => each!(|tile, values| {
                 let force = tile.vector(column);
                 force.dot(force)
             }),
-            Reading::Point(first, local, reading) => read!(|tile, values| point(first, local, reading, &tile)),
-            Reading::Sine(links, spans, lengths) => read!(|tile, values| {
+            Reading::Point(first, local, reading) => each!(|tile, values| point(first, local, reading, &tile)),
+            Reading::Sine(links, spans, lengths) => each!(|tile, values| {
                 let a = tile.vector(links[0] + DIRECTION).rotate(spans[0]);
                 let b = tile.vector(links[1] + DIRECTION).rotate(spans[1]);
                 a.cross(b).abs() / lengths
             }),
             Reading::Given => {
                 block.iter_mut().zip(angles).for_each(|(values, own)| *values = own.0);
-                read!(|tile, values| Lanes::of(tile.on, values, tile.part));
+                each!(|tile, values| Lanes::of(tile.on, values, tile.part));
             }
             Reading::Angle(first, ref mut last, ref mut turns) => {
                 for (columns, values) in tiles.chunks_exact(columns).zip(&mut *block) {
                     with_turns(first, last, turns, columns, values);
                 }
-                read!(|tile, values| Lanes::of(tile.on, values, tile.part));
+                each!(|tile, values| Lanes::of(tile.on, values, tile.part));
             }
         }
         let (block, _) = block.as_flattened().as_chunks();
