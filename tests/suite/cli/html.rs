@@ -164,8 +164,8 @@ fn several_pages_go_to_a_directory_that_is_checked_first() {
     for (target, words) in [
         ("no/page.html", ["-o", "the directory no does not exist"]),
         ("file/page.html", ["-o", "directory"]),
-        ("-", ["-o", "a page cannot go to standard output"]),
-        ("scenarios/pendulum.toml", ["-o", "scenario file"]),
+        ("-", ["--html", "a page cannot go to standard output"]),
+        ("scenarios/pendulum.toml", ["--html", "scenario file"]),
     ] {
         let outcome = place.refused(&format!("run scenarios/pendulum.toml --no-record --html {target}"), &words);
         assert_eq!(outcome.stdout, "", "the refusal comes before the proof");
