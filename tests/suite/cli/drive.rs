@@ -135,3 +135,33 @@ fn mistakes_are_reported() {
         assert!(outcome.code == 2 && outcome.stderr.contains(words), "{file}: {}", outcome.stderr);
     }
 }
+
+/// A flywheel under a linear motor, with a load that becomes smaller at once: the crank's acceleration changes its sign
+/// at the jump.
+/// The mean speed is compared with a numerical integration of d(omega)/d(phi) = M / (J omega) over three turns, of which
+/// the last is periodic.
+#[test]
+fn regress_a_jump_of_a_load_does_not_stall_the_motor() {
+    let place = Place::new();
+    let text = "format = 1\nname = \"jump\"\ntitle = \"Jump\"\nground.points = { O = { x_mm = 0, y_mm = 0 } }\n\
+        start = { crank_deg = 0 }\n[links.m]\npoints = { O = { x_mm = 0, y_mm = 0 } }\nmass_kg = 3\n\
+        mass_centre = { x_mm = 0, y_mm = 0 }\ninertia_kg_m2 = 0.05\n[[joints]]\nname = \"O\"\ntype = \"revolute\"\n\
+        links = [\"ground\", \"m\"]\n[drive]\njoint = \"O\"\nspeed_rad_s = 10\nmotion = \"free\"\n[motor]\n\
+        law = \"linear\"\ntorque_at_rest_N_m = 60\nslope_N_m_s = -4\nratio = 1\n[[loads]]\ntype = \"moment\"\n\
+        link = \"m\"\ntable = [{ crank_deg = 0, moment_N_m = -1 }, { crank_deg = 100, moment_N_m = -1 },\n\
+        { crank_deg = 100, moment_N_m = -0.5 }, { crank_deg = 360, moment_N_m = -0.5 }]\n\
+        [grid]\nfrom_s = 0\nto_s = 1\nstep_s = 0.02\n";
+    std::fs::write(place.path("jump.toml"), text).unwrap();
+    let value: Value = serde_json::from_str(&place.ok("drive jump.toml --json -")).unwrap();
+    let step = 0.01f64.to_radians();
+    let (mut omega, mut time) = (14.8, 0.0);
+    for row in 0..3 * 36_000 {
+        let load = if row % 36_000 < 10_000 { 1.0 } else { 0.5 };
+        let rate = |omega: f64| (60.0 - 4.0 * omega - load) / (0.05 * omega);
+        let middle = omega + 0.5 * step * rate(omega);
+        time = if row % 36_000 == 0 { 0.0 } else { time } + step / middle;
+        omega += step * rate(middle);
+    }
+    near(&value["steady"]["mean_rad_s"], std::f64::consts::TAU / time, 1e-6);
+    near(&value["steady"]["at_start_rad_s"], omega, 1e-6);
+}
