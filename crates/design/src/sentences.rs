@@ -252,7 +252,7 @@ linkage::sentences! {
     the_wheels_have_no_carrier(line) = "the axles of the wheels in line {line} are not on one link: the ratio is left out";
     // import/pmks.rs
     THE_SOURCE_HAS_SEVERAL_LINES = "the source has several lines, but it is not XML; a share link has one line";
-    THE_ADDRESS_HAS_NO_QUERY = "the address has nothing after its `?`: it contains no mechanism";
+    THE_ADDRESS_HAS_NO_QUERY = "the source is empty, or the address has nothing after its `?`: there is no mechanism";
     THE_LINK_HAS_ANOTHER_VERSION = "the share link has the newer form `pmks2:` of PMKS+, which this version does not read";
     // import/pmks/classic.rs
     THE_LINK_HAS_NO_UNIT = "the share link has no units and no masses: coordinates are taken as mm, the speed as rpm, or as mm/s for a slide";
