@@ -3,7 +3,7 @@
 linkage::sentences! {
     // reduced/means.rs
     THE_REDUCTION_KNOWS_NO_FRICTION = "quantities reduced to the crank are requested, but the friction of joints depends on their reactions, which the reduction cannot represent";
-    LET_THE_MOTION_BE_FREE = "let forces move the crank with `motion = \"free\"` in [drive] and use `run` or `solve`, or leave out the friction";
+    LET_THE_MOTION_BE_FREE = "let forces move the crank with `motion = \"free\"` in [drive] and solve the motion over time, or leave out the friction";
     the_drive_moves_no_crank(noun) = "quantities reduced to the crank are requested, but the input of the drive is a {noun}";
     DRIVE_THE_MECHANISM_AT_A_CRANK = "drive a link that is hinged to the ground, or claim `drive.reduced_mass_kg` and `drive.reduced_force_N` as formulas";
     // range/tracking.rs

@@ -56,11 +56,11 @@ impl<'a> ScenarioFamily<'a> {
         for key in keys {
             let all = member.formulas.parameters.iter().map(|own| own.key.as_str());
             if self.asked.set.iter().any(|(own, _)| own == key) {
-                let error = Error::new(ErrorKind::Input, sentences::is_varied_and_set(key)).key("--set");
+                let error = Error::new(ErrorKind::Input, sentences::is_varied_and_set(key)).key(*key);
                 return Err(error.help(sentences::VARY_OR_SET));
             }
             if let Some(own) = key.strip_prefix("parameters.") {
-                let error = Error::new(ErrorKind::Input, sentences::is_the_path_of_a_parameter(key)).key("--vary");
+                let error = Error::new(ErrorKind::Input, sentences::is_the_path_of_a_parameter(key)).key(*key);
                 return Err(error.help(sentences::name_the_parameter(&own)));
             }
             if numbers::is_path(key) {

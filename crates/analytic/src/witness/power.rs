@@ -4,33 +4,30 @@ use linkage::case::Case;
 use linkage::math::KeepNan;
 use linkage::solver::State;
 
-/// Calls `put` with the powers whose sum is the power of all known forces (W).
-fn each(case: &Case, state: &State, mut put: impl FnMut(f64)) {
-    for (body, motion) in case.mechanism.links().iter().zip(&state.motions).skip(1) {
+/// Powers of gravity and inertia on each link (W): m (g - a) . v - J alpha omega.
+fn of_links(case: &Case, state: &State) -> impl Iterator<Item = f64> {
+    case.mechanism.links().iter().zip(&state.motions).skip(1).map(|(body, motion)| {
         let force = (case.gravity - motion.point_acceleration(body.mass_centre)) * body.mass;
-        put(force.dot(&motion.point_velocity(body.mass_centre)));
-        put(-body.inertia * motion.alpha * motion.omega);
-    }
-    case.each_load(&state.motions, &state.angles, state.reactions(), |action| {
-        put(action.power(&state.motions[action.link]));
-    });
+        force.dot(&motion.point_velocity(body.mass_centre)) - body.inertia * motion.alpha * motion.omega
+    })
 }
 
 /// Power of gravity, inertia and loads on all links (W): sum of m (g - a) . v - J alpha omega, plus the power of the
 /// loads.
 #[must_use]
 pub fn of_known_forces(case: &Case, state: &State) -> f64 {
-    let mut sum = 0.0;
-    each(case, state, |power| sum += power);
-    sum
+    let own: f64 = of_links(case, state).sum();
+    own + case.load_power(&state.motions, &state.angles, state.reactions())
 }
 
 /// The largest magnitude of the powers that [`of_known_forces`] adds (W). The rounding error of the sum is proportional
 /// to this magnitude.
 #[must_use]
 pub fn largest(case: &Case, state: &State) -> f64 {
-    let mut largest: f64 = 0.0;
-    each(case, state, |power| largest = largest.larger(power.abs()));
+    let mut largest = of_links(case, state).map(f64::abs).fold(0.0, f64::larger);
+    case.each_load(&state.motions, &state.angles, state.reactions(), |action| {
+        largest = largest.larger(action.power(&state.motions[action.link]).abs());
+    });
     largest
 }
 
