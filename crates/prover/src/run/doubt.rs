@@ -41,9 +41,6 @@ const ON_KNOT: f64 = 1e-6;
 /// A drive counts as standing still below this fraction of its top speed. The limit exceeds the rounding error of a
 /// law's formula.
 const STANDSTILL: f64 = 1e-9;
-/// Positions at which the speed is compared, as fractions of the time on either side. A law may reverse twice within
-/// this time.
-const BESIDE: [f64; 9] = [-1.0, -0.7, -0.4, -0.2, 0.0, 0.2, 0.4, 0.7, 1.0];
 /// Number of instants that may be left out, however small the step is: the two ends of a motion.
 const ENDS: usize = 2;
 
@@ -141,9 +138,8 @@ fn drive_turns(case: &Case, t: f64, reach: f64) -> bool {
         DriveMotion::Prescribed { .. } => {
             let jumps = drive.jump().is_some_and(|jump| (t - jump).abs() <= reach);
             let least = STANDSTILL * drive.top_speed().abs();
-            let now = drive.at(t).rate;
-            let speeds = BESIDE.map(|share| drive.at(t + share * reach).rate);
-            jumps || speeds.iter().any(|speed| !(speed.abs() > least && speed * now > 0.0))
+            let speeds = [t - reach, t, t + reach].map(|t| drive.at(t).rate);
+            jumps || speeds.iter().any(|speed| !(speed.abs() > least && speed * speeds[1] > 0.0))
         }
     })
 }

@@ -11,11 +11,11 @@ use crate::tolerance::BoundPart;
 
 /// Largest fraction of the instants that may be left out because, with this step, they are too close to a reversal.
 pub(super) const MOST_LEFT_OUT: f64 = 0.03;
-/// If a step leaves out too many instants, the need is at least this number plus the fraction left out, as if a bound
-/// were this many times as large as the requested bound.
+/// If a step leaves out too many instants, the need is at least this number, as if a bound were this many times as
+/// large as the requested bound.
 const LEFT_OUT: f64 = 2.0;
 /// If a larger fraction of the instants is left out, the remaining instants show neither a bound nor an order of
-/// convergence. Only a finer step then helps.
+/// convergence. Only a finer step then helps, so the need is twice `LEFT_OUT`.
 const TOO_FEW: f64 = 0.5;
 
 /// The item that is farthest from being conclusive.
@@ -87,13 +87,10 @@ pub(super) fn need(judged: &Judged, wanted: f64) -> (Need, Blame) {
     });
     // If a step leaves out too many instants, the run proves nothing about these instants. The need is then at least
     // `LEFT_OUT`.
-    let (least, of) = match judged.too_coarse > MOST_LEFT_OUT {
-        true => (LEFT_OUT + judged.too_coarse, Of::Instants),
-        false => (0.0, Of::Bound),
-    };
+    let (least, of) = if judged.too_coarse > MOST_LEFT_OUT { (LEFT_OUT, Of::Instants) } else { (0.0, Of::Bound) };
     let none = Blame { part: BoundPart::Discretisation, is_shared: false };
     if judged.too_coarse > TOO_FEW {
-        return (Need { is_vague: false, share: least, of }, none);
+        return (Need { is_vague: false, share: 2.0 * least, of }, none);
     }
     let mut worst = (Need { is_vague: false, share: least, of }, none);
     for (parts, scale, convergence, verdict) in channels.chain(checks) {
