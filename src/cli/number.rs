@@ -47,8 +47,7 @@ pub(super) fn count(text: &str) -> Parsed<usize> {
 
 /// A degree of polynomials.
 pub(super) fn degree(text: &str) -> Parsed<usize> {
-    let degree = text.trim().parse().ok().filter(|degree| (1..=MOST_DEGREE).contains(degree));
-    degree.ok_or_else(|| sentences::expected_a_degree_from_to(&MOST_DEGREE))
+    from_one(text, MOST_DEGREE)
 }
 
 /// Longest table of solutions. The time to make the table grows with the square of its length.
@@ -56,8 +55,13 @@ const MOST_ROWS: usize = 1000;
 
 /// A row of a table of solutions.
 pub(super) fn row(text: &str) -> Parsed<usize> {
-    let row = text.trim().parse().ok().filter(|row| (1..=MOST_ROWS).contains(row));
-    row.ok_or_else(|| sentences::expected_a_degree_from_to(&MOST_ROWS))
+    from_one(text, MOST_ROWS)
+}
+
+/// A whole number from 1 to `most`.
+fn from_one(text: &str, most: usize) -> Parsed<usize> {
+    let number = text.trim().parse().ok().filter(|number| (1..=most).contains(number));
+    number.ok_or_else(|| sentences::expected_a_number_from_one_to(&most))
 }
 
 /// A number of extrapolations.

@@ -109,6 +109,10 @@ impl Args {
             (None, None, None) => DesignKind::Grid,
         };
         let design = SweepDesign::of(kind, axes).map_err(|error| error.key("--vary"))?;
+        if let Some(axis) = design.axes().iter().find(|axis| self.set.iter().any(|(key, _)| *key == axis.key)) {
+            let error = Error::new(ErrorKind::Input, sentences::is_varied_and_set(&axis.key)).key("--set");
+            return Err(error.help(sentences::VARY_OR_SET));
+        }
         let file = (text_of(&self.file)?, self.file.as_path());
         SweepPlan::of(file, self.set.clone(), design, &self.figure, self.prove, self.part)
     }

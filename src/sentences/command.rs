@@ -186,7 +186,7 @@ linkage::sentences! {
     linkproof_new_template_writes_one_its_dimensions(lines) = "{lines}\nlinkproof new TEMPLATE writes a scenario; set its dimensions in the file, or with --set\n";
     // cli/number.rs
     expected_decimals_take_a_point(such, replacen) = "expected {such}; write decimals with a point: {replacen}";
-    expected_a_degree_from_to(most) = "expected a whole number from 1 to {most}";
+    expected_a_number_from_one_to(most) = "expected a whole number from 1 to {most}";
     expected_a_whole_number_from_to(most_times) = "expected a whole number from 0 to {most_times}";
     EXPECTED_A_WHOLE_NUMBER_FROM_ON = "expected a whole number of at least 1";
     A_NUMBER_ABOVE_AND_AT_MOST = "a number above 0 and at most 1, such as 0.92";
@@ -300,6 +300,8 @@ linkage::sentences! {
     the_proof_of_a_case_disagrees(case, file, sets) =
         "case {case}: the proof disagrees. The sweep has stopped; its finished parts are stored.\n\
          Repeat the proof of this case: linkproof run {file}{sets}";
+    is_varied_and_set(key) = "`{key}` is varied and has a fixed value too";
+    VARY_OR_SET = "leave out one of the two";
     repeat_a_case(file, sets) = "next  linkproof run {file}{sets}";
     // cli/golden.rs
     is_no_mechanism_of_the_set(name) = "{name} is not a mechanism of the set";

@@ -186,10 +186,7 @@ impl Scenario {
         let inner = self.inner.clone();
         let plan = move || {
             let design = SweepDesign::of(kind, axes).map_err(|error| error.key("vary"))?;
-            // A varied number replaces the number that `Scenario.set` has given.
-            let mut set = asked.set;
-            set.retain(|(key, _)| design.axes().iter().all(|axis| axis.key != *key));
-            SweepPlan::of((inner.text.clone(), &inner.path), set, design, &figures, prove_every, part)
+            SweepPlan::of((inner.text.clone(), &inner.path), asked.set, design, &figures, prove_every, part)
                 .map_err(|error| error.key("figures"))
         };
         let wish = |out| SweepWish { out, shard, jobs: jobs.unwrap_or_else(cores), plan_only };

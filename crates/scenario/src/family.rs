@@ -50,15 +50,11 @@ impl<'a> ScenarioFamily<'a> {
     /// Checks that the file has numbers or parameters with these keys. `member` is a scenario of the family.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] for a key that the file does not have, for a key with a value for the whole family, and for
-    /// a parameter that is not named by its key alone.
+    /// [`ErrorKind::Input`] for a key that the file does not have, and for a parameter that is not named by its key
+    /// alone.
     pub fn check_keys(&self, keys: &[&str], member: &Scenario) -> Result<()> {
         for key in keys {
             let all = member.formulas.parameters.iter().map(|own| own.key.as_str());
-            if self.asked.set.iter().any(|(own, _)| own == key) {
-                let error = Error::new(ErrorKind::Input, sentences::is_varied_and_set(key)).key(*key);
-                return Err(error.help(sentences::VARY_OR_SET));
-            }
             if let Some(own) = key.strip_prefix("parameters.") {
                 let error = Error::new(ErrorKind::Input, sentences::is_the_path_of_a_parameter(key)).key(*key);
                 return Err(error.help(sentences::name_the_parameter(&own)));

@@ -320,8 +320,6 @@ linkage::sentences! {
     KEEP_ONE_OF_THE_TWO_OR_CALL = "keep one of the two parameters, or rename one of them";
     would_stand_for_and_for(name, key, key_2) = "`{name}` would mean both `{key}` and `{key_2}`";
     SET_THE_PARAMETER_WITH_THE_UNIT = "set the parameter with the unit that the file gives it";
-    is_varied_and_set(key) = "`{key}` is varied and has a fixed value too";
-    VARY_OR_SET = "leave out one of the two";
     is_the_path_of_a_parameter(key) = "`{key}` is the path of a parameter";
     name_the_parameter(key) = "name the parameter by its key: `{key}`";
     the_scenario_has_no_parameter(key) = "the scenario has no parameter `{key}`";

@@ -138,8 +138,8 @@ fn mistakes_are_reported() {
 
 /// A flywheel under a linear motor, with a load that becomes smaller at once: the crank's acceleration changes its sign
 /// at the jump.
-/// The mean speed is compared with a numerical integration of d(omega)/d(phi) = M / (J omega) over three turns, of which
-/// the last is periodic.
+/// The mean speed is compared with a numerical integration of d(omega)/d(phi) = M / (J omega) over three turns.
+/// The last turn is periodic.
 #[test]
 fn regress_a_jump_of_a_load_does_not_stall_the_motor() {
     let place = Place::new();

@@ -196,9 +196,9 @@ pub(super) fn observe(
         let kept = sampler.so_far(case).map(Box::new);
         return Err(Stopped { error, kept, spent: None });
     }
-    // In a free motion, powers are divided by the larger of two speeds: the largest speed, because the motion may be much
-    // faster than the nominal speed, and the nominal speed, because the speeds of an engine's links at rest are only
-    // rounding errors.
+    // In a free motion, powers are divided by the larger of two speeds: the largest speed, because the motion may be
+    // much faster than the nominal speed, and the nominal speed, because the speeds of an engine's links at rest are
+    // only rounding errors.
     let nominal = case.crank().top_speed();
     let top = if case.is_free() { fastest.larger(nominal.abs()) } else { nominal };
     if !steady {

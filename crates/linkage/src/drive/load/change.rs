@@ -6,7 +6,8 @@ use crate::math::Vec2;
 use crate::mechanism::{JointId, JointSide, LinkId};
 
 impl Load {
-    /// Numbers of the one or two links on which the load acts. A load that depends on a motion depends on the motion of these links.
+    /// Numbers of the one or two links on which the load acts. A load that depends on a motion depends on the motion of
+    /// these links.
     #[must_use]
     pub fn links(&self) -> Vec<LinkId> {
         match self.nature().on {
