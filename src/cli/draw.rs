@@ -124,6 +124,7 @@ pub(super) fn draw(args: &Args) -> Result<()> {
         seconds: args.seconds,
         keys: Some(["--trace", "--enlarge", "--positions", "--groups"]),
     };
+    load::each_once(&args.set, "--set")?;
     let asked = StartRequest { modes: args.mode.clone(), set: args.set.clone(), ..StartRequest::default() };
     let at_instant = |input: Input| PictureOptions { at: args.instant.of(input), ..wish.clone() };
     let drawn = |file: &PathBuf| match load::as_asked(file, &asked) {

@@ -1,6 +1,6 @@
 //! `linkproof golden`.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::outputs::{Outputs, results};
 use super::{output, progress};
@@ -58,11 +58,19 @@ pub(super) fn golden(args: &Args) -> Result<()> {
     let wanted: Vec<Entry> = entries.into_iter().filter(is_wanted).collect();
     let place = args.outputs.first(GoldenSets::Results).unwrap_or(Path::new("golden"));
     let mut bar = progress::Bar::new("golden");
-    let found = made(&wanted, cores(), |entry| one(entry, place), |done| bar.at(done as f64 / wanted.len() as f64));
-    let set = found.into_iter().collect::<Result<Vec<Golden>>>()?;
+    let found = made(&wanted, cores(), one, |done| bar.at(done as f64 / wanted.len() as f64));
+    let (set, files): (Vec<Golden>, Vec<Vec<File>>) = found.into_iter().collect::<Result<Vec<_>>>()?.into_iter().unzip();
     drop(bar);
-    for (name, text) in [("README.md", readme(&set)), ("check.py", CHECKER.into()), ("manifest.json", manifest(&set))] {
-        put(&place.join(name), text.as_bytes())?;
+    let of_set = [("README.md", readme(&set)), ("check.py", CHECKER.into()), ("manifest.json", manifest(&set))];
+    let of_set = of_set.map(|(name, text)| File { path: name.into(), bytes: text.into_bytes() });
+    let files: Vec<File> = files.into_iter().flatten().chain(of_set).collect();
+    // The set is written completely or not at all.
+    for File { path, bytes } in &files {
+        output::may_make_by(&place.join(path), &|found| found == bytes)
+            .map_err(|error| error.help(sentences::NAME_A_NEW_DIRECTORY_FOR_THE_SET))?;
+    }
+    for File { path, bytes } in &files {
+        output::make_below(bytes, &place.join(path), &|found| found == bytes)?;
     }
     output::print(&sentences::mechanisms_are_in(&set.len(), &place.display()))
 }
@@ -71,44 +79,48 @@ fn name_of(path: &'static str) -> &'static str {
     path.rsplit('/').next().and_then(|file| file.strip_suffix(".toml")).expect("a scenario file")
 }
 
-/// Proves a mechanism and writes its files.
-fn one(&Entry { path, name, sort, bytes }: &Entry, place: &Path) -> Result<Golden> {
+/// A file of the set: its path within the set's directory, and its contents.
+struct File {
+    path: PathBuf,
+    bytes: Vec<u8>,
+}
+
+/// Proves a mechanism and makes its files.
+fn one(&Entry { path, name, sort, bytes }: &Entry) -> Result<(Golden, Vec<File>)> {
     let text = std::str::from_utf8(bytes).expect("a scenario is text");
     let scenario = Scenario::parse(text, Path::new(path))?;
     let proof = prove(&scenario, &Options::default())?;
     if !matches!(proof.verdict, Verdict::Agree { .. }) {
         return Err(Error::new(ErrorKind::Numeric, sentences::has_the_verdict(&name, &proof.verdict.word())));
     }
-    let directory = place.join(name);
-    put(&directory.join(format!("{name}.toml")), bytes)?;
-    for (file, bytes) in tables(&proof)? {
-        put(&directory.join(file), &bytes)?;
-    }
+    let mut files = Vec::new();
+    let mut put = |file: &str, bytes: Vec<u8>| files.push(File { path: Path::new(name).join(file), bytes });
+    put(&format!("{name}.toml"), bytes.to_vec());
+    tables(&proof)?.into_iter().for_each(|(file, bytes)| put(&file, bytes));
     let step = scenario.engine.step.get().unwrap_or_else(|| usual_step(&scenario.case));
     // The JSON contains the case as numbers, so it can describe every mechanism.
     let numbers = case_json::text(&scenario.name, &scenario.case, &first_state(&scenario.case, &AssurSolver)?);
-    put(&directory.join(format!("{name}.json")), numbers.as_bytes())?;
+    put(&format!("{name}.json"), numbers.into_bytes());
     let mut models = vec![("json", None)];
     for format in ModelFormat::ALL {
         let ending = format.ending();
         let why = match format.model(&scenario.case, &AssurSolver, &scenario.name, step) {
-            Ok(text) => put(&directory.join(format!("{name}.{ending}")), text.as_bytes()).map(|()| None)?,
+            Ok(text) => {
+                put(&format!("{name}.{ending}"), text.into_bytes());
+                None
+            }
             Err(error) => Some(error.message().to_string()),
         };
         models.push((ending, why));
     }
     let truth = &proof.reference_trajectory;
-    Ok(Golden {
+    let golden = Golden {
         name: name.into(),
         title: scenario.title,
         sort,
         models,
         size: [truth.times().len(), truth.channels().len()],
         bound: largest_bound(truth, &proof.reference_bounds),
-    })
-}
-
-/// Writes a file, and its directory. A file with other contents is not replaced.
-fn put(path: &Path, bytes: &[u8]) -> Result<()> {
-    output::make_below(bytes, path, &|found| found == bytes)
+    };
+    Ok((golden, files))
 }

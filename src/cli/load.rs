@@ -40,6 +40,7 @@ impl StartArgs {
 
     /// Like `load`, with the additional requests in `besides`.
     pub(super) fn load_as(&self, file: &Path, grid: &GridArgs, besides: StartRequest) -> Result<Scenario> {
+        each_once(&self.set, "--set")?;
         grid.on(as_asked(file, &self.request(grid, besides))?)
     }
 
@@ -65,6 +66,15 @@ pub(super) fn only(scenario: Scenario, words: &[String]) -> Result<Scenario> {
 pub(super) fn setting(text: &str) -> std::result::Result<(String, f64), String> {
     let (key, value) = text.split_once('=').ok_or(sentences::EXPECTED_KEY_NUMBER_SUCH_AS_A_MM)?;
     Ok((key.trim().into(), number::decimal(value, sentences::A_FINITE_NUMBER_BEHIND_THE_SUCH_AS_A_MM)?))
+}
+
+/// Refuses two numbers for the same key.
+pub(super) fn each_once(numbers: &[(String, f64)], option: &str) -> Result<()> {
+    let mut keys: Vec<&str> = numbers.iter().map(|(key, _)| key.as_str()).collect();
+    keys.sort_unstable();
+    let Some(twice) = keys.windows(2).find(|pair| pair[0] == pair[1]) else { return Ok(()) };
+    let error = Error::new(ErrorKind::Input, sentences::has_two_numbers(&twice[0]));
+    Err(error.key(option).help(sentences::GIVE_ONE_NUMBER))
 }
 
 /// Reads a scenario without changes.

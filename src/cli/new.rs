@@ -82,6 +82,7 @@ fn begin(name: &str, args: &Args) -> Result<u8> {
     let own = PathBuf::from(format!("{}.toml", template.scenario_name()));
     let path = args.output.as_ref().unwrap_or(&own);
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    load::each_once(&args.set, "--set")?;
     let text = template.scenario(&stem, &args.set).map_err(|error| error.key("--set"))?;
     if output::is_standard(path) {
         output::data(&text)?;
@@ -95,9 +96,8 @@ fn begin(name: &str, args: &Args) -> Result<u8> {
     Ok(code)
 }
 
-/// Writes a scenario to a file that the caller named, or whose name the program chose. An existing file is replaced
-/// only
-/// with `force`.
+/// Writes a scenario to a file that the caller named, or whose name the program chose.
+/// An existing file is replaced only with `force`.
 pub(super) fn put(text: &str, path: &Path, is_named: bool, force: bool) -> Result<()> {
     free(path, force, sentences::GIVE_ANOTHER_NAME_WITH_OUTPUT)?;
     if is_named { output::write(text, path) } else { output::make_by(text.as_bytes(), path, &|_| force) }

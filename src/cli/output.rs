@@ -149,13 +149,14 @@ pub(super) fn make_below(bytes: &[u8], to: &Path, is_ours: &dyn Fn(&[u8]) -> boo
 /// Checks in advance that [`make`] may write to these paths.
 /// Returns an error if a file exists that [`make`] may not replace.
 pub(super) fn may_make(places: &[PathBuf]) -> Result<()> {
-    for to in places {
-        if let Some(why) = OutputTarget::Made(to, &files::is_sealed).in_the_way() {
-            let error = io::Error::new(io::ErrorKind::AlreadyExists, why);
-            return Err(files::unwritten(&to.display().to_string(), &error, None, ""));
-        }
-    }
-    Ok(())
+    places.iter().try_for_each(|to| may_make_by(to, &files::is_sealed))
+}
+
+/// Checks in advance that [`make_by`] may write to this path.
+pub(super) fn may_make_by(to: &Path, is_ours: &dyn Fn(&[u8]) -> bool) -> Result<()> {
+    let Some(why) = OutputTarget::Made(to, is_ours).in_the_way() else { return Ok(()) };
+    let error = io::Error::new(io::ErrorKind::AlreadyExists, why);
+    Err(files::unwritten(&to.display().to_string(), &error, None, ""))
 }
 
 fn put(

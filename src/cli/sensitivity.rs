@@ -4,7 +4,7 @@ use crate::sentences;
 use std::path::PathBuf;
 
 use super::grid::GridArgs;
-use super::load::{StartArgs, setting};
+use super::load::{StartArgs, each_once, setting};
 use super::output;
 use super::outputs::{Made, Outputs, results};
 use crate::report::sensitivity as report;
@@ -62,12 +62,7 @@ pub(super) fn sensitivity(args: &Args) -> Result<()> {
         let message = sentences::the_tolerance_is_not_above_zero(&key, &limit);
         return Err(Error::new(ErrorKind::Input, message).key("--tolerance").help(sentences::GIVE_A_NUMBER_ABOVE_ZERO));
     }
-    let mut names: Vec<&str> = args.tolerance.iter().map(|(key, _)| key.as_str()).collect();
-    names.sort_unstable();
-    if let Some(twice) = names.windows(2).find(|pair| pair[0] == pair[1]) {
-        let message = sentences::has_two_tolerances(&twice[0]);
-        return Err(Error::new(ErrorKind::Input, message).key("--tolerance").help(sentences::GIVE_ONE_TOLERANCE));
-    }
+    each_once(&args.tolerance, "--tolerance")?;
     let tolerances: Vec<KeyTolerance> =
         args.tolerance.iter().map(|(key, limit)| KeyTolerance { key: key.clone(), limit: *limit }).collect();
     let scenario = args.start.load(&args.file, &args.grid)?;

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use super::exit_code::{AGREE, DISAGREE};
-use super::load::setting;
+use super::load::{each_once, setting};
 use super::number;
 use super::output;
 use super::outputs::{Outputs, results};
@@ -113,6 +113,7 @@ impl Args {
             let error = Error::new(ErrorKind::Input, sentences::is_varied_and_set(&axis.key)).key("--set");
             return Err(error.help(sentences::VARY_OR_SET));
         }
+        each_once(&self.set, "--set")?;
         let file = (text_of(&self.file)?, self.file.as_path());
         SweepPlan::of(file, self.set.clone(), design, &self.figure, self.prove, self.part)
     }

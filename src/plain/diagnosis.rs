@@ -4,7 +4,7 @@ use super::cells::{counted, some};
 use crate::sentences;
 use linkage::trajectory::{Channel, Stage};
 use prover::diagnosis::{
-    Arm, CasePart, Change, DataSlip, Diagnosis, DisagreementCause, ErrorNature, FrameAxis, Over, PartChange,
+    Arm, CasePart, Change, DataSlip, Diagnosis, DisagreementCause, ErrorNature, FrameAxis, LateChannels, Over, PartChange,
     PartyStanding, Plain, Since,
 };
 use prover::numbers::{fixed, input_in, input_told, significant, with_unit};
@@ -128,15 +128,19 @@ fn slip(slip: &DataSlip, channels: &[Channel]) -> String {
             sentences::less_and_more_in_place_of_counted(&first, &second, &amount(*offset, unit), &of)
         }
         DataSlip::Factor(factor) => sentences::times_the_values_of(&number(*factor), &of),
-        DataSlip::Late { by, steps, stage } => {
-            let what = stage.map_or("all channels".to_string(), |stage| stage.name().replace('_', " "));
+        DataSlip::Late { by, steps, of: late } => {
+            let (what, is_one) = match late {
+                LateChannels::All => ("all channels".to_string(), false),
+                LateChannels::OfStage(stage) => (stage.name().replace('_', " "), *stage == Stage::BalancingMoment),
+                LateChannels::Explained => (of, channels.len() == 1),
+            };
             let how = if *by >= 0.0 { "late" } else { "early" };
             let size = duration(by.abs());
             let steps = steps.map_or(String::new(), |(steps, told)| {
                 let several = if steps.abs() > 1.0 { "s" } else { "" };
                 format!(", {} {told}{several}", number(steps.abs()))
             });
-            let are = if *stage == Some(Stage::BalancingMoment) { "is" } else { "are" };
+            let are = if is_one { "is" } else { "are" };
             format!("{what} {are} {size}{steps} too {how}")
         }
     }

@@ -100,7 +100,7 @@ const SIMULATION: &str = sentences::THE_REST_IS_OFF_BY_LESS_THAN_A_FIFTIETH;
 /// found.
 fn looks_like_a_simulation(pair: &SidePair, own: &Compared) -> bool {
     let is_explained = pair.causes.iter().any(|cause| cause.of.contains(&own.claim.text));
-    own.is_derived && own.since.is_some() && !own.is_gross() && !is_explained
+    own.is_derived && own.wrong > 0 && !own.is_gross() && !is_explained
 }
 
 /// Names of the two compared parties.
@@ -157,8 +157,17 @@ fn notes(pair: &SidePair) -> String {
         let count = missing - pair.unshared;
         put!(text, sentences::left_out_up_to_instants_of_a_channel(&count));
     }
+    let undefined: Vec<&Compared> = pair.channels.iter().filter(|own| own.undefined > 0).collect();
     let what = matched_by(pair).rsplit(' ').next().unwrap_or_default();
     let (factor, unit) = if pair.by_crank { (pair.input.shown(1.0), pair.input.shown_in().0) } else { (1.0, "s") };
+    for own in undefined.iter().take(SHOWN) {
+        let first = own.undefined_since.map_or(f64::NAN, |at| if pair.by_crank { at.crank } else { at.time });
+        let first = numbers::significant(factor * first, 6);
+        put!(text, sentences::has_no_number_at(&own.claim.text, &counted(own.undefined, "instant"), &what, &first, &unit));
+    }
+    if undefined.len() > SHOWN {
+        put!(text, sentences::further_channels_have_no_number(&counted(undefined.len() - SHOWN, "channel")));
+    }
     if let Some(Contradiction { rows: [one, other], at, channel, values }) = &pair.contradiction {
         let at = numbers::significant(factor * at, 6);
         let [first, second] = numbers::beside(*values, 0.0);
@@ -251,7 +260,7 @@ pub fn json(paths: [&Path; 2], comparison: &PartyComparison, tell: Tell) -> Stri
         json!({
             "channel": own.claim.text, "unit": own.claim.unit(),
             "verdict": own.verdict.word(), "reason": own.verdict.reason(tell),
-            "instants": own.judged, "missing": own.missing, "scale": own.scale, "rms": own.rms,
+            "instants": own.judged, "missing": own.missing, "undefined": own.undefined, "scale": own.scale, "rms": own.rms,
             "bound_is": if own.is_derived { "derived" } else { "allowed" },
             "largest": own.largest.as_ref().map(instant), "worst": own.worst.as_ref().map(instant),
             "since": own.since.as_ref().map(instant),

@@ -159,6 +159,8 @@ linkage::sentences! {
     // cli/live/viewer.rs
     linkproof_speaks(known) = "linkproof supports {known}\n";
     // cli/load.rs
+    has_two_numbers(key) = "`{key}` is given twice";
+    GIVE_ONE_NUMBER = "give one number for each key";
     settings_cannot_be_written_to(name) = "settings cannot be written to {name}";
     SAVE_THE_SCENARIO_TO_A_FILE = "save the scenario to a file and name that file, or leave out --write: the report lists the settings";
     cannot_be_read(name, error) = "{name} cannot be read: {error}";
@@ -235,8 +237,6 @@ linkage::sentences! {
     NAME_ANOTHER_DIRECTORY_WITH = "name another directory with -o";
     the_manual_cannot_be_written(to, error) = "the manual cannot be written to {to}: {error}";
     // cli/sensitivity.rs
-    has_two_tolerances(key) = "`{key}` has two tolerances";
-    GIVE_ONE_TOLERANCE = "give one tolerance for each key";
     the_tolerance_is_not_above_zero(key, limit) = "the tolerance of `{key}` must be above zero; found {limit}";
     is_left_out_because(key, part) = "`{key}` is left out: `{part}` has no known derivative by this key";
     // cli/solving.rs
@@ -307,5 +307,6 @@ linkage::sentences! {
     is_no_mechanism_of_the_set(name) = "{name} is not a mechanism of the set";
     the_set_has(names) = "the set has {names}";
     has_the_verdict(name, verdict) = "{name} is not proven: the verdict is {verdict}";
+    NAME_A_NEW_DIRECTORY_FOR_THE_SET = "name a new directory with -o DIR; only an equal set is replaced";
     mechanisms_are_in(count, directory) = "{count} mechanisms in {directory}; README.md there has the conventions\n";
 }

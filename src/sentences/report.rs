@@ -570,6 +570,8 @@ found down to: every fault larger than this size is found in every scenario. The
     but_for_the_row_at_which_is_off(numbers) = ", except for the row at t = {numbers} s, which is an outlier";
     FOR_THE_MOST_PART_2 = "for the most part, ";
     at_time(time, at) = "t = {time} s, {at}";
+    has_no_number_at(channel, instants, what, first, unit) = "\n{channel} has no number at {instants}, first at {what} {first} {unit}";
+    further_channels_have_no_number(channels) = "\nnor have {channels} more at some instants";
     only_in_the(which, some) = "\nonly in the {which}: {some}";
     the_jumps_back_in_row_from_to_has_it_begun(what, row, from, to, unit) = "\nthe {what} jumps back in row {row}, from {from} to {to} {unit}: does a second run start there?";
     rows_and_hold_at_the_same(one, other, what, at, unit, channel, first, second) = "\nrows {one} and {other} have the same {what}, {at} {unit}, but different values: {channel} is {first} and {second}";

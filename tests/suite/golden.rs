@@ -72,3 +72,15 @@ fn an_unknown_mechanism_is_refused_with_the_known_ones() {
     assert!(!place.path("golden").exists());
     assert_eq!(place.ok("golden --list").lines().count(), 22);
 }
+
+/// The files of a set belong together, so a set of other mechanisms is refused before anything is written.
+#[test]
+fn regress_a_set_is_written_whole_or_not_at_all() {
+    let place = Place::new();
+    place.ok("golden double_pendulum -o set");
+    let other = place.run("golden swinging_parallelogram -o set");
+    assert_eq!(other.code, 2, "{}", other.stderr);
+    assert!(other.stderr.contains("name a new directory"), "{}", other.stderr);
+    assert!(!place.path("set/swinging_parallelogram").exists());
+    place.ok("golden double_pendulum -o set");
+}

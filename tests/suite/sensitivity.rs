@@ -125,4 +125,8 @@ fn questions_that_mean_nothing_are_refused() {
     refused("--figure max:joint.A.f_N --by links.crank.weight_kg", &["links.crank.weight_kg"]);
     refused("--figure max:joint.A.f_N --tolerance crank_mm=0", &["--tolerance", "crank_mm"]);
     refused("--figure max:joint.A.f_N --tolerance crank_mm=wide", &["wide"]);
+    let twice = "--tolerance crank_mm=0.1 --tolerance crank_mm=0.2";
+    refused(&format!("--figure max:joint.A.f_N {twice}"), &["--tolerance", "`crank_mm` is given twice"]);
+    refused("--figure max:joint.A.f_N --set crank_mm=30 --set crank_mm=31", &["--set", "`crank_mm` is given twice"]);
+    refused("--figure max:joint.A.f_N --by parameters.crank_mm", &["did you mean `crank_mm`?"]);
 }

@@ -281,3 +281,43 @@ fn a_drift_is_not_attributed_to_a_number_of_the_case() {
     let told = "the error grows with time, roughly with the power 2 of time: integration error or time step";
     assert_eq!(words(&found), [(vec![told.to_string()], None)]);
 }
+
+/// Times of a free motion in another unit, or from another clock.
+#[test]
+fn a_wrong_clock_of_a_free_motion_is_named() {
+    let lists: [(fn(&mut Sheet), &str); 3] = [
+        (|sheet| sheet.times.iter_mut().for_each(|time| *time *= 1e-3), "time in another unit: seconds"),
+        (|sheet| sheet.times.iter_mut().for_each(|time| *time *= 2.0), "the clock of all rows is too fast"),
+        (|sheet| sheet.times.iter_mut().for_each(|time| *time /= 10.0), "the clock of all rows is too slow"),
+    ];
+    for (change, named) in lists {
+        let wrong = Wrong {
+            scenario: "double_pendulum",
+            columns: &["link.upper.angle_rad", "link.lower.omega_rad_s", "joint.A.fx_N"],
+            what: named,
+            make: Make::Values(change),
+            named: &[],
+        };
+        let found = words(&wrong.compared());
+        assert!(found.len() == 1 && found[0].0.iter().any(|words| words.starts_with(named)), "{named}: {found:?}");
+    }
+}
+
+/// Two mistakes of units beside the error of a method: values a thousand times too small are small, and not zero.
+#[test]
+fn two_units_beside_the_error_of_a_method_are_named() {
+    let wrong = Wrong {
+        scenario: "crank_rocker",
+        columns: &["point.D.x_m", "joint.B.fy_N", "link.rocker.omega_rad_s"],
+        what: "two wrong units",
+        make: Make::Values(|sheet| {
+            for (name, factor) in [("point.D.x_m", 1e-3), ("joint.B.fy_N", 1e-3), ("link.rocker.omega_rad_s", 1.0)] {
+                sheet.each(name, |row, value| factor * value * (1.0 + 2e-3 * (row as f64).sin()));
+            }
+        }),
+        named: &[],
+    };
+    let found = words(&wrong.compared());
+    let has = |told: &str| found.iter().any(|(words, _)| words.iter().any(|own| own.contains(told)));
+    assert!(has("metres taken for millimetres") && has("a thousand times too small") && !has("zero"), "{found:?}");
+}

@@ -98,6 +98,12 @@ pub struct JudgedColumns {
     pub worst: Option<RowPair>,
     /// Of all rows whose difference exceeds its bound, the row with the earliest instant.
     pub since: Option<RowPair>,
+    /// Number of rows in which both values are numbers and their difference exceeds its bound.
+    pub wrong: usize,
+    /// Number of judged rows in which a party has no number.
+    pub undefined: usize,
+    /// Of these rows, the row with the earliest instant.
+    pub undefined_since: Option<RowPair>,
 }
 
 /// Compares the two columns row by row.
@@ -122,19 +128,25 @@ pub fn judge(both: &Beside) -> JudgedColumns {
         let bound = known + allowance.fixed.larger(allowance.of_value * measured.value.abs());
         let [time, crank] = places.map(|of| of[row]);
         let at = RowPair { row, time, crank, values: [one.value, other.value], difference, bound, known };
+        let is_earlier = |since: RowPair| if time.is_nan() { crank < since.crank } else { time < since.time };
         own.judged += 1;
         if difference.is_finite() {
             numbers += 1;
             squares += difference * difference;
             (own.widest, own.loosest) = (own.widest.larger(known), own.loosest.larger(bound));
+            own.wrong += usize::from(!(at.used() <= 1.0));
             if own.largest.is_none_or(|largest| difference.abs() > largest.difference.abs()) {
                 own.largest = Some(at);
+            }
+        } else {
+            own.undefined += 1;
+            if own.undefined_since.is_none_or(is_earlier) {
+                own.undefined_since = Some(at);
             }
         }
         if own.worst.is_none_or(|worst| at.used() > worst.used()) {
             own.worst = Some(at);
         }
-        let is_earlier = |since: RowPair| if time.is_nan() { crank < since.crank } else { time < since.time };
         if !(at.used() <= 1.0) && own.since.is_none_or(is_earlier) {
             own.since = Some(at);
         }
@@ -194,6 +206,7 @@ mod tests {
         assert_eq!((found.judged, found.missing, found.since), (2, 2, None));
         let found = of(UNDEFINED);
         assert_eq!((found.judged, found.missing, found.since.map(|at| at.row)), (4, 0, Some(1)));
+        assert_eq!((found.wrong, found.undefined, found.undefined_since.map(|at| at.row)), (0, 2, Some(1)));
         assert!(found.largest.unwrap().difference == 0.0 && found.worst.unwrap().used().is_infinite());
         // The analytic side has no number in this row, so the number of the other party is not judged.
         let found = judged(&[right[0], UNDEFINED], &right[..2], [true, false]);

@@ -20,7 +20,7 @@ mod tries;
 mod whole;
 
 pub use alone::{DiagnosedParty, PartyStanding, standing};
-pub use cause::{Arm, CasePart, Change, DataSlip, DisagreementCause, FrameAxis, Over, PartChange, Plain};
+pub use cause::{Arm, CasePart, Change, DataSlip, DisagreementCause, FrameAxis, LateChannels, Over, PartChange, Plain};
 pub use configurations::{others, reassembled};
 pub(crate) use derived::even;
 pub use diagnose::{Diagnosis, Since, diagnose, since};

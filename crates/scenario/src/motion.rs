@@ -162,10 +162,11 @@ fn drive(
         Some(joint) => Drive::of_joint(joint, before, is_free),
         None => (guessed(table), LinkId(1)),
     };
+    let gives_start = table.has("points") || table.has("formula");
     let stated = match first {
-        // A missing angle is set to zero here. The reader of `[start]` reports the mistake.
-        Some((crank, _)) if input == Input::Angle => Some(crank.unwrap_or_default()),
-        Some(_) | None if table.has("points") || table.has("formula") => {
+        // A missing angle is the law's first angle, or zero. The reader of `[start]` reports the mistake.
+        Some((crank, _)) if input == Input::Angle => crank.or((!gives_start).then_some(0.0)),
+        Some(_) | None if gives_start => {
             table.optional_quantity("start", of_input(input), Sign::Any)?
         }
         Some(_) | None => Some(table.quantity("start", of_input(input), Sign::Any)?),
@@ -225,7 +226,7 @@ fn through(table: &mut TomlTable) -> Result<bool> {
         None => Ok(false),
         Some("smooth") => Ok(true),
         Some("jump") => {
-            let help = sentences::WRITE_THROUGH_SMOOTH_FOR_THE_BRANCH_ON_WHICH_THEY;
+            let help = sentences::WRITE_THROUGH_SMOOTH_FOR_THE_BRANCH;
             table.unsupported("through", sentences::ON_THE_OTHER_BRANCH_VELOCITIES, help)
         }
         Some(other) => {

@@ -279,7 +279,6 @@ linkage::sentences! {
     IS_NO_LAW_OF_MOTION = "is not a law of motion";
     is_no_way_through_a_change(other) = "\"{other}\" is not a way to pass a change point";
     WRITE_THROUGH_SMOOTH_FOR_THE_BRANCH = "write `through = \"smooth\"` for the branch with continuous velocities, or remove the key";
-    WRITE_THROUGH_SMOOTH_FOR_THE_BRANCH_ON_WHICH_THEY = "write `through = \"smooth\"` for the branch with continuous velocities, or remove the key";
     ON_THE_OTHER_BRANCH_VELOCITIES = "on the other branch velocities jump at a change point, which needs infinite forces";
     is_no_sort_of_motion(other) = "\"{other}\" is not a kind of motion";
     THE_LINK_IS_GIVEN_A_SPEED = "the link has a speed at t = 0, but its motion is prescribed";
@@ -492,6 +491,8 @@ linkage::sentences! {
     allowed_here_2(choice) = "allowed here: {choice}";
     THERE_IS_NONE_THAT_COULD = "no name is possible here";
     did_you_mean_4(quote, near) = "did you mean {quote}{near}{quote}?";
+    did_you_mean_one_of(names) = "did you mean one of these: {names}?";
+    and_names_more(names, more) = "{names} and {more} more";
     it_is_none_of_more_than_names(most) = "it is not among the more than {most} names that are allowed here";
     // transmissions/cam.rs
     IS_NO_FOLLOWER = "is not a follower of a cam";

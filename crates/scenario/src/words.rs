@@ -8,6 +8,8 @@ use strsim::osa_distance;
 const LONGEST: usize = 100;
 /// Upper limit of the number of candidates. If there are more, none is compared with the wrong word, and none is shown.
 const MOST: usize = 1000;
+/// Largest number of names that a list shows.
+const LISTED: usize = 24;
 
 /// The candidate nearest to `word`, if its edit distance from `word` is small enough.
 #[must_use]
@@ -39,7 +41,8 @@ pub fn choice<'a>(words: impl IntoIterator<Item = &'a str>, quote: &str) -> Stri
 }
 
 /// Returns "did you mean" with the candidate that is nearest to `word`. If no candidate is near enough, returns the
-/// list of all candidates.
+/// candidates with the same end after a dot as `word`, such as `links.crank.mass_kg` for `mass_kg`; if there is none,
+/// all candidates. A long list is cut.
 #[must_use]
 pub fn suggestion<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>, quote: &str) -> String {
     let candidates: Vec<&str> = candidates.into_iter().take(MOST + 1).collect();
@@ -49,7 +52,31 @@ pub fn suggestion<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>,
     match nearest(word, candidates.iter().copied()) {
         Some(near) => sentences::did_you_mean_4(&quote, &near),
         None if candidates.is_empty() => sentences::THERE_IS_NONE_THAT_COULD.into(),
-        None => sentences::allowed_here_2(&choice(candidates, quote)),
+        None => {
+            let related: Vec<&str> = candidates.iter().copied().filter(|own| has_same_end(word, own)).collect();
+            match related[..] {
+                [] => sentences::allowed_here_2(&some_of(&candidates, quote)),
+                [near] => sentences::did_you_mean_4(&quote, &near),
+                _ => sentences::did_you_mean_one_of(&some_of(&related, quote)),
+            }
+        }
+    }
+}
+
+/// Whether one of two names ends with the other name after a dot.
+fn has_same_end(one: &str, other: &str) -> bool {
+    let ends = |long: &str, short: &str| long.strip_suffix(short).is_some_and(|rest| rest.ends_with('.'));
+    ends(one, other) || ends(other, one)
+}
+
+/// A choice of at most `LISTED` names, with the number of further names.
+fn some_of(names: &[&str], quote: &str) -> String {
+    match names.len() > LISTED {
+        true => {
+            let shown: Vec<String> = names[..LISTED].iter().map(|name| format!("{quote}{name}{quote}")).collect();
+            sentences::and_names_more(&shown.join(", "), &(names.len() - LISTED))
+        }
+        false => choice(names.iter().copied(), quote),
     }
 }
 
@@ -89,5 +116,17 @@ mod tests {
         assert_eq!(nearest("B", ["A", "C"]), None);
         assert_eq!(nearest("velocity", ["positions", "velocities"]), Some("velocities"));
         assert_eq!(suggestion("wheel", ["crank", "rocker"], "\""), "allowed here: \"crank\" or \"rocker\"");
+    }
+
+    #[test]
+    fn names_with_the_same_end_are_suggested_and_long_lists_are_cut() {
+        let known = ["L_mm", "links.crank.mass_kg", "links.rod.mass_kg", "links.rod.inertia_kg_m2"];
+        assert_eq!(suggestion("parameters.L_mm", known, "`"), "did you mean `L_mm`?");
+        assert_eq!(suggestion("rod.mass_kg", known, "`"), "did you mean `links.rod.mass_kg`?");
+        let both = "did you mean one of these: `links.crank.mass_kg` or `links.rod.mass_kg`?";
+        assert_eq!(suggestion("mass_kg", known, "`"), both);
+        let many: Vec<String> = (0..30).map(|k| format!("name{k}0")).collect();
+        let told = suggestion("wheel", many.iter().map(String::as_str), "`");
+        assert!(told.ends_with("`name220`, `name230` and 6 more"), "{told}");
     }
 }

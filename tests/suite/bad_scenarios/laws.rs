@@ -46,3 +46,12 @@ fn laws_and_their_grids() {
         assert_refused(GOOD, &Bad { edits: &[("speed_rpm = 130\n", law)], kind: INPUT, at, key, words });
     }
 }
+
+/// If the crank angle of `[start]` is missing, the first angle of the law does not contradict it.
+#[test]
+fn regress_a_missing_start_is_the_only_mistake() {
+    let law = "law = \"table\"\npoints = [{ time_s = 0, angle_deg = -12 }, { time_s = 1, angle_deg = 9 }]\n";
+    let text = GOOD.replace("speed_rpm = 130\n", law).replace("crank_deg = 0\n[[start", "[[start");
+    let found = scenario::Scenario::parse(&text, std::path::Path::new("a.toml")).unwrap_err().to_string();
+    assert!(found.contains("crank_deg") && !found.contains("the law begins"), "{found}");
+}

@@ -93,7 +93,7 @@ impl<'m, 'a> Forces<'m, 'a> {
         (reduced.applied + self.motor_moment(omega) - omega * omega / 2.0 * reduced.slope) / reduced.inertia
     }
 
-    fn take_fault(&self) -> Option<Error> {
+    pub(super) fn take_fault(&self) -> Option<Error> {
         self.fault.borrow_mut().take()
     }
 

@@ -7,9 +7,15 @@ use crate::motion::step::Step;
 use crate::{PoseSolver, sentences};
 use linkage::case::{Case, Grid};
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::input::Input;
 use linkage::math::KeepNan;
 use linkage::solver::{Sampler, Visit};
 use linkage::trajectory::{Channel, Stage, Trajectory};
+
+/// Distance (rad, or a fraction of the mechanism's size for a slide) over which the slope of an acceleration is taken.
+const SLOPE: f64 = 1e-6;
+/// Rounding errors of a crank angle, in units of the last place of the angle plus 1 rad.
+const ROUNDED: f64 = 8.0;
 
 /// The crank at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -100,8 +106,7 @@ impl<'m, 'a> Runner<'m, 'a> {
         let Some(&last) = times.last() else { return Ok(RunUpEnd::Reached) };
         let (mut empty, mut pace) = (0, Pace::default());
         if let Some(end) = self.enter()? {
-            self.held(times, found, end);
-            return Ok(end);
+            return Ok(self.ended(times, found, end));
         }
         if times[0] == 0.0 {
             found.push(instant(&self.flow, 0.0, self.place.y, self.gone, self.is_accelerated));
@@ -126,8 +131,7 @@ impl<'m, 'a> Runner<'m, 'a> {
                 pace.piece(self.place.x, last)?;
                 self.arrive(bound);
                 if let Some(end) = self.enter()? {
-                    self.held(times, found, end);
-                    return Ok(end);
+                    return Ok(self.ended(times, found, end));
                 }
             } else {
                 break;
@@ -176,7 +180,7 @@ impl<'m, 'a> Runner<'m, 'a> {
             forces.way.set(way);
             forces.branch.set(forces.model.branch(omega, way));
             let alpha = forces.acceleration(crank, omega);
-            if omega == 0.0 && !(way * alpha > 0.0) {
+            if omega == 0.0 && !(way * alpha > self.rounding(crank)) {
                 continue;
             }
             if omega == 0.0 && way > 0.0 && self.starts_back(crank) {
@@ -210,15 +214,44 @@ impl<'m, 'a> Runner<'m, 'a> {
         back
     }
 
-    /// Adds the instant at which a motion is held, if this instant is requested.
-    fn held(&self, times: &[f64], found: &mut Vec<CrankState>, end: RunUpEnd) {
-        if let RunUpEnd::Held(t, crank) = end
-            && times.get(found.len()) == Some(&t)
-        {
-            // The shaft transmits the whole moment of the motor. The forces that hold the crank balance this moment.
-            let motor = self.flow.0.motor_moment(0.0);
-            found.push(CrankState { t, crank, within: crank - self.gone, omega: 0.0, alpha: 0.0, motor, shaft: motor });
+    /// The rounding error of the crank's acceleration at rest (rad/s^2, or m/s^2 for a slide): the change of the
+    /// acceleration within the rounding of the crank angle. Zero if the acceleration has no value near the crank angle.
+    fn rounding(&self, crank: f64) -> f64 {
+        let forces = &self.flow.0;
+        let size = if forces.model.case.crank().input == Input::Slide { forces.model.case.mechanism.size() } else { 1.0 };
+        let nudge = SLOPE * size;
+        let [behind, ahead] = [-nudge, nudge].map(|by| forces.acceleration(crank + by, 0.0));
+        // An error beside the crank angle does not concern the motion.
+        let _ = forces.take_fault();
+        let slope = ((ahead - behind) / (2.0 * nudge)).abs();
+        if slope.is_finite() { ROUNDED * f64::EPSILON * (crank.abs() + size) * slope } else { 0.0 }
+    }
+
+    /// Whether no force moves the crank from rest: its acceleration is a rounding error, whatever the sense.
+    fn is_in_equilibrium(&self, crank: f64) -> bool {
+        let forces = &self.flow.0;
+        [1.0, -1.0].iter().all(|&way| {
+            let Some(piece) = forces.model.piece_at(crank, way) else { return false };
+            forces.piece.set(piece);
+            forces.way.set(way);
+            forces.branch.set(forces.model.branch(0.0, way));
+            forces.acceleration(crank, 0.0).abs() <= self.rounding(crank)
+        })
+    }
+
+    /// Adds the instants after the end of a motion. A crank in equilibrium stays at rest at all further instants. If
+    /// resistances hold the crank, only the instant of the standstill is added.
+    fn ended(&self, times: &[f64], found: &mut Vec<CrankState>, end: RunUpEnd) -> RunUpEnd {
+        let RunUpEnd::Held(t, crank) = end else { return end };
+        let within = crank - self.gone;
+        let rests = self.is_in_equilibrium(within);
+        // The shaft transmits the whole moment of the motor. The forces that hold the crank balance this moment.
+        let motor = self.flow.0.motor_moment(0.0);
+        let is_added = |time: &&f64| rests || **time == t;
+        for &t in times[found.len()..].iter().take_while(is_added) {
+            found.push(CrankState { t, crank, within, omega: 0.0, alpha: 0.0, motor, shaft: motor });
         }
+        if rests { RunUpEnd::Reached } else { end }
     }
 }
 

@@ -380,7 +380,9 @@ fn of_numbers(rows: &[Row]) -> Option<FormulaCause> {
         (coefficient.is_finite() && fits).then_some(coefficient)
     };
     let offset = by(&|_| 1.0).map(FormulaCause::Offset);
-    offset.or_else(|| by(&|row| row[3]).map(|more| FormulaCause::Factor(1.0 + more)))
+    // A formula that is zero everywhere is a constant, and not a multiple of the right value.
+    let factor = || by(&|row| row[3]).map(|more| 1.0 + more).filter(|_| largest(2) > slack);
+    offset.or_else(|| factor().map(FormulaCause::Factor))
 }
 
 /// Recognises a formula that is right up to a value of the input and wrong beyond this value.
@@ -422,5 +424,7 @@ mod tests {
         }
         let square = found(&|right| right * right, 0.0);
         assert!(square.is_none(), "{square:?}");
+        let zero = found(&|_| 0.0, 0.0);
+        assert!(zero.is_none(), "{zero:?}");
     }
 }

@@ -67,7 +67,7 @@ pub(super) fn explained(
     both: &Both,
     channels: &[Compared],
 ) -> Result<Vec<Explained>> {
-    let is_wrong = |own: &&Compared| own.since.is_some() && own.is_plain();
+    let is_wrong = |own: &&Compared| own.wrong > 0 && own.is_plain();
     let mut open: Vec<&Compared> = channels.iter().filter(is_wrong).collect();
     let Some(stage) = Stage::of(scenario, which, both, channels)? else { return Ok(Vec::new()) };
     let mut found = Vec::new();
@@ -117,7 +117,7 @@ impl Compared {
     /// Whether the difference is too large for the error of a method.
     #[must_use]
     pub fn is_gross(&self) -> bool {
-        self.since.is_some() && self.largest.is_some_and(|at| at.difference.abs() > GROSS * self.scale)
+        self.wrong > 0 && self.largest.is_some_and(|at| at.difference.abs() > GROSS * self.scale)
     }
 }
 
@@ -208,9 +208,15 @@ impl Stage {
             columns.push(rows.iter().map(|&row| printed.to_si(values[row].value)).collect::<Vec<f64>>());
             // A cause is judged by a single bound for each channel, usually the loosest bound of its numbers. A tighter
             // bound, from numbers with more digits, would reject right causes.
+            let agrees = own.wrong == 0;
             let largest = own.largest.map_or(0.0, |at| at.difference.abs());
-            let bound = if largest > own.loosest { own.loosest } else { own.worst.map_or(0.0, |worst| worst.bound) };
-            bounds.push((own.claim.text.clone(), printed.to_si(bound), own.since.is_none()));
+            // The rounded instants belong to wrong values, which may change faster than the right ones.
+            let loosest = own.loosest + if agrees { 0.0 } else { both.drift_of(values, own.claim.turn()) };
+            let bound = match agrees || largest > loosest {
+                true => loosest,
+                false => own.worst.map_or(0.0, |worst| worst.bound),
+            };
+            bounds.push((own.claim.text.clone(), printed.to_si(bound), agrees));
         }
         let all: Vec<Channel> = scenario.case.all_channels();
         let case = scenario.case.on(Grid { times: times.clone(), inputs: cranks.clone() })?.wanting_only(&all);

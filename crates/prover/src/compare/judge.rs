@@ -107,6 +107,16 @@ impl Both<'_> {
         self.instants.each_ref().map(Vec::as_slice)
     }
 
+    /// The largest uncertainty due to the digits of the instants, if these `values` belong to the rows.
+    pub(super) fn drift_of(&self, values: &[Rounded], turn: Option<f64>) -> f64 {
+        if self.drift.is_empty() {
+            return 0.0;
+        }
+        let (instants, slack): (Vec<f64>, Vec<f64>) = self.at.values.iter().map(|at| (at.value, at.error)).unzip();
+        let drift = columns::drift(values, &instants, &slack, &self.at.ascending(), turn);
+        drift.into_iter().fold(0.0, f64::larger)
+    }
+
     /// The scale of a channel. The scale does not depend on which other channels are compared.
     /// If a party has a complete trajectory, the scale comes from this trajectory.
     /// For tables and for expressions of channels, the scale comes from the numbers alone: half the range of the

@@ -3,6 +3,7 @@
 use std::cell::Cell;
 use std::rc::Rc;
 
+use super::cause::LateChannels;
 use super::question::{DiagnosisInput, SuspectChannel};
 use super::slips::KNOWN;
 use crate::bounds::{differences, magnitudes};
@@ -121,15 +122,20 @@ impl<'a> Bench<'a> {
     /// The differences between the suspect and a changed case. `None` if the case cannot be solved, or if the limit of
     /// solved cases is reached.
     pub(super) fn tried(&self, case: &Case) -> Option<Misfit> {
-        self.tried_in(case, None)
+        self.tried_in(case, LateChannels::All)
     }
 
-    /// The differences between the suspect and a changed case, in which only the channels of `stage` are changed. The
-    /// other channels keep the values of the reference. Without a stage, all channels are changed.
-    pub(super) fn tried_in(&self, case: &Case, stage: Option<Stage>) -> Option<Misfit> {
+    /// The differences between the suspect and a changed case, in which only the channels `of` are changed. The other
+    /// channels keep the values of the reference.
+    pub(super) fn tried_in(&self, case: &Case, of: LateChannels) -> Option<Misfit> {
         self.left.set(self.left.get().checked_sub(1)?);
         let found = self.solver.solve(case).ok()?;
-        self.misfit(|column| match stage.is_none_or(|stage| column.channel.kind.stage == stage) {
+        let is_changed = |column: &Column| match of {
+            LateChannels::All => true,
+            LateChannels::OfStage(stage) => column.channel.kind.stage == stage,
+            LateChannels::Explained => column.disagrees,
+        };
+        self.misfit(|column| match is_changed(column) {
             true => found.column(&column.channel).map(<[f64]>::to_vec),
             false => Some(column.right.clone()),
         })

@@ -117,9 +117,20 @@ pub enum DataSlip {
         /// The delay as a number of steps or rows of the suspect, with the word for step or row; `None` if this number
         /// is not simple.
         steps: Option<(f64, &'static str)>,
-        /// The stage whose channels are late; `None` if all channels are late.
-        stage: Option<Stage>,
+        /// The late channels.
+        of: LateChannels,
     },
+}
+
+/// The channels whose values belong to other instants.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LateChannels {
+    /// All channels.
+    All,
+    /// The channels of one stage.
+    OfStage(Stage),
+    /// Only the disagreeing channels that the cause explains.
+    Explained,
 }
 
 /// The rows whose values are subtracted to obtain a numerical derivative.

@@ -4,7 +4,7 @@ use std::cell::Cell;
 use std::rc::Rc;
 
 use super::bench::{Bench, early, thinned};
-use super::cause::{CasePart, Change, DataSlip, DisagreementCause};
+use super::cause::{CasePart, Change, DataSlip, DisagreementCause, LateChannels};
 use super::knobs;
 use super::late::late;
 use super::numbers::{confirmed, is_sure, numbers};
@@ -63,7 +63,7 @@ pub(super) fn found(question: &DiagnosisInput) -> (Vec<Found>, usize) {
     let Some(full) = Bench::new(question, &whole, confirming) else { return (Vec::new(), solved) };
     let begin = full.start();
     for candidate in candidates.into_iter().take(CONFIRMED) {
-        let misfit = (candidate.make)(&full.case).and_then(|case| full.tried_in(&case, candidate.stage()));
+        let misfit = (candidate.make)(&full.case).and_then(|case| full.tried_in(&case, candidate.changed_channels()));
         let Some(misfit) = misfit else { continue };
         let mut found = Found { explained: full.explained(&begin, &misfit), ..candidate.found };
         if let Some((knob, values)) = candidate.number.filter(|_| !misfit.fits())
@@ -88,7 +88,7 @@ pub(super) fn found(question: &DiagnosisInput) -> (Vec<Found>, usize) {
 fn turned(tries: &Tries, known: &[Candidate], late: &[Candidate]) -> Option<Candidate> {
     let case = &tries.thin.case;
     let by = late.iter().find_map(|one| match one.found.cause {
-        DisagreementCause::Values { slip: DataSlip::Late { by, stage: None, .. }, .. } => Some(by),
+        DisagreementCause::Values { slip: DataSlip::Late { by, of: LateChannels::All, .. }, .. } => Some(by),
         DisagreementCause::Values { .. } | DisagreementCause::Case(_) => None,
     })?;
     let speed = case.crank().constant_speed().filter(|_| case.is_steady() && case.drives.further().is_empty())?;

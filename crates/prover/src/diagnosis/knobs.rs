@@ -8,6 +8,7 @@ use std::f64::consts::PI;
 use super::cause::{CasePart, FrameAxis, PartChange};
 use super::configurations::reassembled;
 use linkage::case::{Case, CaseParts, Grid};
+use linkage::input::Input;
 use linkage::drive::{Drive, DriveMotion, MotionLaw, Motor, ShaftInertia};
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{
@@ -328,9 +329,13 @@ fn of_drive(case: &Case, index: usize, drive: &Drive) -> Vec<Knob> {
         driven(parts, index, |drive| drive.start = value);
         reassembled(parts)
     };
-    let quarter = [PI / 2.0, -PI / 2.0, PI]
-        .map(|by| (drive.start + by, PartChange::Instead { found: drive.start + by, given: drive.start, unit: "rad" }));
-    let angle = Knob::place(CasePart::StartAngle(joint.clone()), drive.start, 1.0, "rad", start).also(quarter);
+    let is_angle = drive.input != Input::Slide;
+    let (unit, rate) = if is_angle { ("rad", "rad/s") } else { ("m", "m/s") };
+    let quarters: &[f64] = if is_angle { &[PI / 2.0, -PI / 2.0, PI] } else { &[] };
+    let quarters = quarters.iter().map(|by| drive.start + by);
+    let quarters = quarters.map(|found| (found, PartChange::Instead { found, given: drive.start, unit }));
+    let natural = if is_angle { 1.0 } else { case.mechanism.size() };
+    let angle = Knob::place(CasePart::StartAngle(joint.clone()), drive.start, natural, unit, start).also(quarters);
     let speed = move |parts: &mut CaseParts, value| {
         driven(parts, index, |drive| match &mut drive.motion {
             DriveMotion::Prescribed { law, .. } => *law = at_speed(law, value),
@@ -343,12 +348,15 @@ fn of_drive(case: &Case, index: usize, drive: &Drive) -> Vec<Knob> {
     }
     let given = if drive.is_free() { drive.initial_speed() } else { drive.top_speed() };
     let part = if drive.is_free() { CasePart::InitialSpeed(joint) } else { CasePart::Speed(joint) };
-    let units = [
-        (30.0 / PI, sentences::AS_RPM_FOR_RAD),
-        (PI / 30.0, sentences::AS_RAD_FOR_RPM),
-        (PI / 180.0, sentences::AS_RAD_FOR_DEG),
-    ];
-    let mut speed = Knob::amount(part, given, "rad/s", speed).moving().times(units);
+    let units: &[(f64, &str)] = match is_angle {
+        true => &[
+            (30.0 / PI, sentences::AS_RPM_FOR_RAD),
+            (PI / 30.0, sentences::AS_RAD_FOR_RPM),
+            (PI / 180.0, sentences::AS_RAD_FOR_DEG),
+        ],
+        false => &[],
+    };
+    let mut speed = Knob::amount(part, given, rate, speed).moving().times(units.iter().copied());
     if given == 0.0 {
         (speed.plain, speed.nudge) = (Vec::new(), 1e-3 * drive.top_speed());
     } else if !drive.is_free() {

@@ -1,16 +1,18 @@
 //! Values of other instants: late values, early values, or values from a clock that is fast or slow.
 
 use crate::sentences;
+use std::cell::Cell;
 use std::ops::RangeInclusive;
+use std::rc::Rc;
 
 use super::bench::{Bench, Column, Misfit};
-use super::cause::{DataSlip, DisagreementCause};
+use super::cause::{DataSlip, DisagreementCause, LateChannels};
 use super::knobs::significant;
 use super::question::{DiagnosisInput, Rank};
 use super::tries::{Candidate, Make};
 use linkage::case::{Case, Grid};
 use linkage::math::KeepNan;
-use linkage::trajectory::Stage;
+use linkage::math::statistics::ascending;
 
 /// Largest number of steps of the search for a delay or a clock factor.
 const STEPS: usize = 6;
@@ -18,29 +20,37 @@ const STEPS: usize = 6;
 const NEAR: f64 = 1e-2;
 /// Simple multiples of a step by which values may be late.
 const PARTS: [f64; 7] = [0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0];
-/// Factors on the time of a row, with their meaning.
-const CLOCKS: [(f64, &str); 4] = [
-    (1e-3, sentences::MILLISECONDS_TAKEN_FOR_SECONDS),
-    (1e3, sentences::SECONDS_TAKEN_FOR_MILLISECONDS),
-    (1.0 / 60.0, sentences::SECONDS_TAKEN_FOR_MINUTES),
-    (60.0, sentences::MINUTES_TAKEN_FOR_SECONDS),
+/// Factors on the time of a row, with the unit that was confused.
+const CLOCKS: [(f64, Option<&str>); 8] = [
+    (1e-3, Some(sentences::MILLISECONDS_TAKEN_FOR_SECONDS)),
+    (1e3, Some(sentences::SECONDS_TAKEN_FOR_MILLISECONDS)),
+    (1.0 / 60.0, Some(sentences::SECONDS_TAKEN_FOR_MINUTES)),
+    (60.0, Some(sentences::MINUTES_TAKEN_FOR_SECONDS)),
+    (0.5, None),
+    (2.0, None),
+    (0.1, None),
+    (10.0, None),
 ];
+/// Number of rows after which a fast clock is tried in a free motion.
+const FIRST_ROWS: usize = 4;
 
-/// Finds values of another instant, in all channels or in the channels of one stage, and values from a fast or slow
-/// clock.
+/// Finds values of another instant, in all channels, in the channels of one stage or in the disagreeing channels, and
+/// values from a fast or slow clock.
 pub(super) fn late(question: &DiagnosisInput, bench: &Bench, start: &Misfit) -> Vec<Candidate> {
-    let mut stages: Vec<Option<Stage>> = vec![None];
-    let stage = |column: &Column| Some(column.channel.kind.stage);
+    let mut limits = vec![LateChannels::All];
+    let of_stage = |column: &Column| LateChannels::OfStage(column.channel.kind.stage);
     for column in bench.columns.iter().filter(|column| column.disagrees) {
-        let is_all = bench.columns.iter().all(|other| stage(other) == stage(column));
-        let stage = stage(column);
-        if !is_all && !stages.contains(&stage) {
-            stages.push(stage);
+        let is_all = bench.columns.iter().all(|other| of_stage(other) == of_stage(column));
+        if !is_all && !limits.contains(&of_stage(column)) {
+            limits.push(of_stage(column));
         }
     }
+    if bench.columns.iter().any(|column| !column.disagrees) {
+        limits.push(LateChannels::Explained);
+    }
     let search = Search { question, bench, start };
-    let mut found: Vec<Candidate> = stages.into_iter().filter_map(|stage| search.late_in(stage)).collect();
-    if found.iter().all(|one| one.stage().is_some()) {
+    let mut found: Vec<Candidate> = limits.into_iter().filter_map(|of| search.late_in(of)).collect();
+    if found.iter().all(|one| one.changed_channels() != LateChannels::All) {
         // Jumps of forces can mislead the search, so the delay found for one stage is also tried for all channels.
         let all = found.iter().find_map(|one| search.late_by(&one.found.cause));
         found.extend(all);
@@ -56,10 +66,10 @@ struct Search<'a, 'b> {
 }
 
 impl Search<'_, '_> {
-    fn late_in(&self, stage: Option<Stage>) -> Option<Candidate> {
+    fn late_in(&self, of_channels: LateChannels) -> Option<Candidate> {
         let bench = self.bench;
         let span = bench.case.grid.times.iter().fold(0.0, |most: f64, t| most.larger(t.abs()));
-        let of = |by: f64| bench.tried_in(&shifted(&bench.case, by)?, stage);
+        let of = |by: f64| bench.tried_in(&shifted(&bench.case, by)?, of_channels);
         let step = self.question.step;
         let (nudge, parts) = match step {
             Some((size, _)) => (size, &PARTS[..]),
@@ -71,30 +81,30 @@ impl Search<'_, '_> {
             let part =
                 parts.iter().flat_map(|part| [*part, -part]).find(|part| (part * size - by).abs() < 0.05 * size)?;
             let misfit = of(part * size)?;
-            self.late_candidate(&misfit, part * size, Some((part, told)), stage)
+            self.late_candidate(&misfit, part * size, Some((part, told)), of_channels)
         };
         let rows = parts.iter().filter(|part| part.fract() == 0.0).flat_map(|part| [*part, -part]);
         let named = rows.filter_map(|part| plain(part * step?.0)).next();
         if named.is_some() {
             return named;
         }
-        let is_enough = |misfit: &Misfit| misfit.fits() || stage.is_some() && self.explains(misfit);
+        let is_enough = |misfit: &Misfit| misfit.fits() || of_channels != LateChannels::All && self.explains(misfit);
         let mut named = None;
         let found = self.secant(0.0, 0.25 * nudge, &of, &mut |by, misfit| {
             named = plain(by).or_else(|| {
                 let (by, misfit) = self.short(by, misfit, 3..=5, &of, &is_enough)?;
-                self.late_candidate(&misfit, by, None, stage)
+                self.late_candidate(&misfit, by, None, of_channels)
             });
             named.is_some() || is_enough(misfit)
         });
-        named.or_else(|| found.and_then(|(by, misfit)| self.late_candidate(&misfit, by, None, stage)))
+        named.or_else(|| found.and_then(|(by, misfit)| self.late_candidate(&misfit, by, None, of_channels)))
     }
 
     /// The hypothesis that all channels are late by the delay found for one stage.
     fn late_by(&self, cause: &DisagreementCause) -> Option<Candidate> {
         let &DisagreementCause::Values { slip: DataSlip::Late { by, steps, .. }, .. } = cause else { return None };
         let misfit = self.bench.tried(&shifted(&self.bench.case, by)?)?;
-        self.late_candidate(&misfit, by, steps, None)
+        self.late_candidate(&misfit, by, steps, LateChannels::All)
     }
 
     /// A number with few digits near the found number, if its misfit satisfies `is_enough`. The found number is the
@@ -120,11 +130,9 @@ impl Search<'_, '_> {
     fn clock(&self) -> Option<Candidate> {
         let bench = self.bench;
         let of = |factor: f64| bench.tried(&on_clock(&bench.case, factor)?);
-        // In a free motion, factors above 1 are not tried, because following the motion for longer would cost too much.
-        let mut clocks = CLOCKS.iter().filter(|(factor, _)| *factor < 1.0 || !bench.case.is_free());
-        let plain = clocks.find_map(|&(factor, told)| {
+        let plain = CLOCKS.iter().filter(|(factor, _)| self.may_be_on_clock(*factor)).find_map(|&(factor, told)| {
             let misfit = of(factor)?;
-            self.clock_candidate(&misfit, factor, Some(told))
+            self.clock_candidate(&misfit, factor, told)
         });
         if plain.is_some() {
             return plain;
@@ -141,6 +149,20 @@ impl Search<'_, '_> {
         });
         let (factor, misfit) = named.or(found)?;
         self.clock_candidate(&misfit, factor, None)
+    }
+
+    /// Whether the whole motion is followed on a clock with this factor. Following a free motion for longer costs more,
+    /// so a factor above 1 must first explain differences of the first rows.
+    fn may_be_on_clock(&self, factor: f64) -> bool {
+        if factor < 1.0 || !self.bench.case.is_free() {
+            return true;
+        }
+        let rows: Vec<usize> = ascending(self.question.reference.times()).into_iter().take(FIRST_ROWS).collect();
+        let bench = Bench::new(self.question, &rows, Rc::new(Cell::new(1)));
+        bench.is_some_and(|bench| {
+            let explains = |case: Case| bench.tried(&case).is_some_and(|misfit| misfit.fits());
+            !bench.start().fits() && on_clock(&bench.case, factor).is_some_and(explains)
+        })
     }
 
     /// A number for which `is_found` is true, by the secant method. The search begins at `origin`, the number that
@@ -182,14 +204,14 @@ impl Search<'_, '_> {
         misfit: &Misfit,
         by: f64,
         steps: Option<(f64, &'static str)>,
-        stage: Option<Stage>,
+        of: LateChannels,
     ) -> Option<Candidate> {
-        let rank = match (steps, stage) {
+        let rank = match (steps, of) {
             (Some(_), _) => Rank::Change,
-            (None, None) => Rank::Number,
-            (None, Some(_)) => Rank::Fitted,
+            (None, LateChannels::All) => Rank::Number,
+            (None, LateChannels::OfStage(_) | LateChannels::Explained) => Rank::Fitted,
         };
-        self.candidate(misfit, rank, DataSlip::Late { by, steps, stage }, Box::new(move |case| shifted(case, by)))
+        self.candidate(misfit, rank, DataSlip::Late { by, steps, of }, Box::new(move |case| shifted(case, by)))
     }
 
     fn clock_candidate(&self, misfit: &Misfit, factor: f64, told: Option<&'static str>) -> Option<Candidate> {

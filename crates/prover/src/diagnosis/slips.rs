@@ -90,12 +90,19 @@ pub(super) struct Wrong<'a> {
 /// fitted to one channel.
 pub(super) fn found(wrong: &[Wrong]) -> Vec<Found> {
     let mut causes = Vec::new();
-    for slip in plain(wrong) {
+    let slips = plain(wrong);
+    // If each channel has a slip without a number, a number that fits all channels adds nothing. An example is the
+    // factor 1/1000 of lengths and of forces, which comes from two mistakes of units.
+    let is_plain = wrong.iter().all(|wrong| slips.iter().any(|slip| wrong.is_explained_by(slip)));
+    for slip in slips {
         let explained: Vec<Channel> =
             wrong.iter().filter(|wrong| wrong.is_explained_by(&slip)).map(|wrong| wrong.channel.clone()).collect();
         if !explained.is_empty() {
             causes.push(Found::of_values(slip, Rank::Slip, explained));
         }
+    }
+    if is_plain {
+        return causes;
     }
     for Fitted { slip, number, is_angle } in fitted(wrong) {
         let explains_all = |number: f64| wrong.iter().all(|wrong| wrong.is_explained_by(&slip(number)));
@@ -222,7 +229,7 @@ impl Wrong<'_> {
             Plain::Sign => self.meets(|value| -value),
             Plain::Twice => self.meets(|value| 2.0 * value),
             Plain::Half => self.meets(|value| value / 2.0),
-            Plain::Zero => self.meets(|_| 0.0),
+            Plain::Zero => self.meets(|_| 0.0) && !self.is_proportional(),
             Plain::Size => self.meets(|value| if is_angle { wrapped(value).abs() } else { value.abs() }),
             Plain::ArcSine => is_angle && self.meets(|value| value.sin().asin()),
             Plain::PerRadian => match (self.speed, self.channel.kind.stage) {
@@ -240,6 +247,14 @@ impl Wrong<'_> {
                 is_angle && changes && parts.iter().all(|(_, over)| *over <= self.bound)
             }
         }
+    }
+
+    /// Whether the values are right up to a factor of at least 1e-4, as after a mistake of units. A tenth of their root
+    /// mean square may differ.
+    fn is_proportional(&self) -> bool {
+        let sum = |of: &dyn Fn(f64, f64) -> f64| self.right.iter().zip(self.found).map(|(a, b)| of(*a, *b)).sum::<f64>();
+        let [right, both, found] = [sum(&|a, _| a * a), sum(&|a, b| a * b), sum(&|_, b| b * b)];
+        found >= 1e-8 * right && both * both >= 0.99 * right * found
     }
 
     /// The suspect's value minus the right value at a row.

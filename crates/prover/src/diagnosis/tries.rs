@@ -3,11 +3,11 @@
 use std::rc::Rc;
 
 use super::bench::{Bench, Misfit};
-use super::cause::{Change, DataSlip, DisagreementCause};
+use super::cause::{Change, DataSlip, DisagreementCause, LateChannels};
 use super::knobs::Knob;
 use super::question::{Found, Rank};
 use linkage::case::Case;
-use linkage::trajectory::{Channel, Stage};
+use linkage::trajectory::Channel;
 
 pub(super) type Make = Box<dyn Fn(&Case) -> Option<Case>>;
 
@@ -38,12 +38,12 @@ impl Candidate {
         is_any.then_some(Candidate { found, make, claim, number: None })
     }
 
-    /// The stage to which the change is limited; `None` for all stages.
-    pub(super) fn stage(&self) -> Option<Stage> {
-        let DisagreementCause::Values { slip: DataSlip::Late { stage, .. }, .. } = &self.found.cause else {
-            return None;
-        };
-        *stage
+    /// The channels to which the change is limited.
+    pub(super) fn changed_channels(&self) -> LateChannels {
+        match &self.found.cause {
+            DisagreementCause::Values { slip: DataSlip::Late { of, .. }, .. } => *of,
+            DisagreementCause::Values { .. } | DisagreementCause::Case(_) => LateChannels::All,
+        }
     }
 }
 
