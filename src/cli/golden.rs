@@ -59,7 +59,8 @@ pub(super) fn golden(args: &Args) -> Result<()> {
     let place = args.outputs.first(GoldenSets::Results).unwrap_or(Path::new("golden"));
     let mut bar = progress::Bar::new("golden");
     let found = made(&wanted, cores(), one, |done| bar.at(done as f64 / wanted.len() as f64));
-    let (set, files): (Vec<Golden>, Vec<Vec<File>>) = found.into_iter().collect::<Result<Vec<_>>>()?.into_iter().unzip();
+    let (set, files): (Vec<Golden>, Vec<Vec<File>>) =
+        found.into_iter().collect::<Result<Vec<_>>>()?.into_iter().unzip();
     drop(bar);
     let of_set = [("README.md", readme(&set)), ("check.py", CHECKER.into()), ("manifest.json", manifest(&set))];
     let of_set = of_set.map(|(name, text)| File { path: name.into(), bytes: text.into_bytes() });

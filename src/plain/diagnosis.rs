@@ -4,8 +4,8 @@ use super::cells::{counted, some};
 use crate::sentences;
 use linkage::trajectory::{Channel, Stage};
 use prover::diagnosis::{
-    Arm, CasePart, Change, DataSlip, Diagnosis, DisagreementCause, ErrorNature, FrameAxis, LateChannels, Over, PartChange,
-    PartyStanding, Plain, Since,
+    Arm, CasePart, Change, DataSlip, Diagnosis, DisagreementCause, ErrorNature, FrameAxis, LateChannels, Over,
+    PartChange, PartyStanding, Plain, Since,
 };
 use prover::numbers::{fixed, input_in, input_told, significant, with_unit};
 
@@ -157,6 +157,7 @@ fn plain(slip: Plain, of: &str) -> String {
         Plain::Size => sentences::the_sign_of_is_lost(&of),
         Plain::ArcSine => sentences::from_its_sine_beyond_a_quarter(&of),
         Plain::PerRadian => sentences::rates_per_radian_of_the_crank(&of),
+        Plain::BeforeReducer => sentences::at_the_motor_shaft(&of),
     }
 }
 
@@ -251,6 +252,7 @@ fn part(part: &CasePart) -> String {
         CasePart::Lift(name) => sentences::lift_of_cam(&name),
         CasePart::Ratio(name) => sentences::ratio_of_transmission(&name),
         CasePart::PressureAngle(name) => sentences::pressure_angle_of_transmission(&name),
+        CasePart::Phase(name) => sentences::start_of_transmission(&name),
         CasePart::MotorMoment => sentences::MOMENT_OF_THE_MOTOR.into(),
         CasePart::RotorInertia => sentences::INERTIA_OF_ROTOR_AND_REDUCER.into(),
         CasePart::Place(joint, link, along) => sentences::place_of_on(&joint, &link, &axis(along)),

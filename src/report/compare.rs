@@ -67,6 +67,9 @@ fn of_pair(pair: &SidePair, all: bool, tell: Tell, width: usize) -> String {
     for explained in &pair.causes {
         say!(text, "\n{}", cause(pair, explained, width));
     }
+    if pair.is_search_cut {
+        paragraph(&mut text, sentences::THE_SEARCH_OF_A_COMPARISON_ENDED);
+    }
     if pair.channels.iter().any(|own| looks_like_a_simulation(pair, own)) {
         paragraph(&mut text, SIMULATION);
     }
@@ -163,7 +166,10 @@ fn notes(pair: &SidePair) -> String {
     for own in undefined.iter().take(SHOWN) {
         let first = own.undefined_since.map_or(f64::NAN, |at| if pair.by_crank { at.crank } else { at.time });
         let first = numbers::significant(factor * first, 6);
-        put!(text, sentences::has_no_number_at(&own.claim.text, &counted(own.undefined, "instant"), &what, &first, &unit));
+        put!(
+            text,
+            sentences::has_no_number_at(&own.claim.text, &counted(own.undefined, "instant"), &what, &first, &unit)
+        );
     }
     if undefined.len() > SHOWN {
         put!(text, sentences::further_channels_have_no_number(&counted(undefined.len() - SHOWN, "channel")));

@@ -92,6 +92,8 @@ linkage::sentences! {
     lift_of_cam(name) = "lift of cam {name}";
     ratio_of_transmission(name) = "ratio of transmission {name}";
     pressure_angle_of_transmission(name) = "pressure angle of transmission {name}";
+    start_of_transmission(name) = "start of transmission {name} at t = 0";
+    at_the_motor_shaft(of) = "{of} at the motor's shaft, before the reducer, instead of at the crank";
     speed_of_the_drive_at(joint) = "speed of the drive at {joint}";
     another_configuration_of(group) = "another configuration of {group}";
     free_length_of_load_spring(number) = "free length of load {number}, spring";
@@ -570,6 +572,7 @@ found down to: every fault larger than this size is found in every scenario. The
     but_for_the_row_at_which_is_off(numbers) = ", except for the row at t = {numbers} s, which is an outlier";
     FOR_THE_MOST_PART_2 = "for the most part, ";
     at_time(time, at) = "t = {time} s, {at}";
+    THE_SEARCH_OF_A_COMPARISON_ENDED = "The search for causes reached its work limit before all causes were tried: compare fewer channels with --only.";
     has_no_number_at(channel, instants, what, first, unit) = "\n{channel} has no number at {instants}, first at {what} {first} {unit}";
     further_channels_have_no_number(channels) = "\nnor have {channels} more at some instants";
     only_in_the(which, some) = "\nonly in the {which}: {some}";

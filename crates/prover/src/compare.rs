@@ -117,8 +117,8 @@ pub fn compare(parties: [ComparedParty; 2], how: &ComparisonRule) -> Result<Part
         sides(other, how)?.into_iter().map(|side| analytic_party::beside(scenario, which, side, how)).collect()
     };
     let pairs = match (first, second) {
-        (one, Holds::Scenario(other)) => beside(&other, Which::Second, one)?,
         (Holds::Scenario(one), other) => beside(&one, Which::First, other)?,
+        (one, Holds::Scenario(other)) => beside(&other, Which::Second, one)?,
         (one, other) => {
             let (ones, others) = (sides(one, how)?, sides(other, how)?);
             let pairs = paired(&ones, &others, &names)?;

@@ -166,9 +166,7 @@ fn drive(
     let stated = match first {
         // A missing angle is the law's first angle, or zero. The reader of `[start]` reports the mistake.
         Some((crank, _)) if input == Input::Angle => crank.or((!gives_start).then_some(0.0)),
-        Some(_) | None if gives_start => {
-            table.optional_quantity("start", of_input(input), Sign::Any)?
-        }
+        Some(_) | None if gives_start => table.optional_quantity("start", of_input(input), Sign::Any)?,
         Some(_) | None => Some(table.quantity("start", of_input(input), Sign::Any)?),
     };
     let asked = first.and_then(|(_, asked)| asked.start(input)).or(stated);

@@ -218,7 +218,8 @@ impl<'m, 'a> Runner<'m, 'a> {
     /// acceleration within the rounding of the crank angle. Zero if the acceleration has no value near the crank angle.
     fn rounding(&self, crank: f64) -> f64 {
         let forces = &self.flow.0;
-        let size = if forces.model.case.crank().input == Input::Slide { forces.model.case.mechanism.size() } else { 1.0 };
+        let size =
+            if forces.model.case.crank().input == Input::Slide { forces.model.case.mechanism.size() } else { 1.0 };
         let nudge = SLOPE * size;
         let [behind, ahead] = [-nudge, nudge].map(|by| forces.acceleration(crank + by, 0.0));
         // An error beside the crank angle does not concern the motion.

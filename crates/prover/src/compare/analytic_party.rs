@@ -75,7 +75,7 @@ pub(super) fn beside(scenario: &Scenario, which: Which, other: Side, how: &Compa
         ..SidePair::of(&both, which.other(), &claims)
     };
     if pair.contradiction.is_none() {
-        pair.causes = cause::explained(scenario, which, &both, &pair.channels)?;
+        (pair.causes, pair.is_search_cut) = cause::explained(scenario, which, &both, &pair.channels)?;
     }
     if let (false, Some(theirs)) = (at.is_crank, &other.at.cranks) {
         let ours = solved.on_course(|course| Ok(rows.iter().map(|&row| course.crank(row)).collect::<Vec<_>>()))?;

@@ -20,6 +20,7 @@ use linkage::math::KeepNan;
 use linkage::math::statistics::half_range;
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Trajectory};
+use linkage::work::limited;
 use scenario::Scenario;
 
 /// A cause, and the difference that remains after the cause is corrected.
@@ -51,6 +52,9 @@ const FEW: usize = 24;
 /// Largest number of instants at which causes are sought, besides the instants with the largest differences.
 const MOST: usize = 2000;
 
+/// Limit of the work of the search, in the unit of budgets.
+const WORK: f64 = 2e6;
+
 /// If a difference exceeds this fraction of a channel's scale, it is a mistake and not the error of a method.
 pub const GROSS: f64 = 0.02;
 
@@ -61,19 +65,27 @@ pub const GROSS: f64 = 0.02;
 /// Third, channels with gross errors are examined, together and one by one. A cause of a gross error may leave a small
 /// remainder.
 /// A small difference without a common cause counts as the error of a method.
+/// Also returns whether the search ended at the limit of its work.
 pub(super) fn explained(
     scenario: &Scenario,
     which: Which,
     both: &Both,
     channels: &[Compared],
-) -> Result<Vec<Explained>> {
+) -> Result<(Vec<Explained>, bool)> {
+    let Some(stage) = Stage::of(scenario, which, both, channels)? else { return Ok((Vec::new(), false)) };
+    Ok(limited(WORK, || sought(&stage, channels)))
+}
+
+fn sought(stage: &Stage, channels: &[Compared]) -> Vec<Explained> {
     let is_wrong = |own: &&Compared| own.wrong > 0 && own.is_plain();
     let mut open: Vec<&Compared> = channels.iter().filter(is_wrong).collect();
-    let Some(stage) = Stage::of(scenario, which, both, channels)? else { return Ok(Vec::new()) };
-    let mut found = Vec::new();
+    let mut found: Vec<Explained> = Vec::new();
     let mut grant = |open: &mut Vec<&Compared>, explained: Explained| {
         open.retain(|own| !explained.of.contains(&own.claim.text));
-        found.push(explained);
+        match found.iter_mut().find(|known| known.has_cause_of(&explained)) {
+            Some(known) => known.include(explained),
+            None => found.push(explained),
+        }
     };
     while let Some(exact) = stage.examined(&open, LEFT[0]).or_else(|| stage.examined_but_one(&open, LEFT[0])) {
         grant(&mut open, exact);
@@ -105,7 +117,34 @@ pub(super) fn explained(
     }
     let seen = stage.unexplained(&little).filter(|own| own.diagnosis.nature.is_some());
     found.extend(seen);
-    Ok(found)
+    found
+}
+
+impl Explained {
+    /// Whether another group of channels has the same cause and the same remainder.
+    fn has_cause_of(&self, other: &Explained) -> bool {
+        let is_same = match (&self.diagnosis.cause, &other.diagnosis.cause) {
+            (
+                Some(DisagreementCause::Values { slip: one, .. }),
+                Some(DisagreementCause::Values { slip: other, .. }),
+            ) => one == other,
+            (one, other) => one.is_some() && one == other,
+        };
+        is_same && self.terms.is_empty() && other.terms.is_empty() && (self.left, self.but) == (other.left, other.but)
+    }
+
+    /// Adds the channels of another group with the same cause. Equally good causes remain if they hold for both groups.
+    fn include(&mut self, other: Explained) {
+        if let (
+            Some(DisagreementCause::Values { channels, .. }),
+            Some(DisagreementCause::Values { channels: more, .. }),
+        ) = (&mut self.diagnosis.cause, &other.diagnosis.cause)
+        {
+            channels.extend_from_slice(more);
+        }
+        self.diagnosis.also.retain(|also| other.diagnosis.also.contains(also));
+        self.of.extend(other.of);
+    }
 }
 
 impl Compared {

@@ -48,6 +48,8 @@ pub struct SidePair {
     pub input: Input,
     /// Simple causes of the disagreements.
     pub causes: Vec<Explained>,
+    /// Whether the search for causes ended at the limit of its work.
+    pub is_search_cut: bool,
 }
 
 impl SidePair {

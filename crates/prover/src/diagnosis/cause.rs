@@ -52,6 +52,8 @@ plain! {
     /// Rates per radian of the crank instead of per second: velocities divided by the crank's speed, accelerations by
     /// its square.
     PerRadian,
+    /// The driving moment at the motor's shaft instead of at the crank: divided by the ratio of the reducer.
+    BeforeReducer,
 }
 
 /// The wrong rule by which right values were changed.
@@ -215,6 +217,8 @@ pub enum CasePart {
     Lift(String),
     /// Pressure angle of a transmission.
     PressureAngle(String),
+    /// Coordinate of a transmission's joint at t = 0.
+    Phase(String),
     /// Moment of the motor on the crank.
     MotorMoment,
     /// Moments of inertia of rotor and reducer.

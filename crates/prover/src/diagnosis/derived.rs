@@ -9,6 +9,9 @@ use linkage::trajectory::{Channel, OfFrame, OfSlider, Reading, Trajectory, Unit}
 
 /// Relative rounding error of a number. Differences magnify it.
 const ROUNDED: f64 = 1e-12;
+/// Values count as differences between rows only if the errors of these differences are at most this fraction of the
+/// largest error of the values.
+const BLURRED: f64 = 0.1;
 /// A central difference uses two rows at equal distances before and after a row. This number is the largest distance
 /// (rows).
 const WIDEST: usize = 3;
@@ -53,7 +56,8 @@ fn differences(question: &DiagnosisInput, one: &Wrong, over: Over) -> Option<(Ch
     if inner.len() < 2 * WIDEST {
         return None;
     }
-    let of_column = |values: &[f64], order: usize| {
+    let largest = largest_size(&one.right.iter().zip(one.found).map(|(a, b)| a - b).collect::<Vec<f64>>());
+    let of_column = |values: &[f64], order: usize, blur: f64| {
         let span = step * margin as f64;
         let rate = |row: usize| match (over, order) {
             (Over::Either(rows), 1) => (values[row + rows] - values[row - rows]) / (2.0 * span),
@@ -61,8 +65,9 @@ fn differences(question: &DiagnosisInput, one: &Wrong, over: Over) -> Option<(Ch
             (Over::Before, _) => (values[row] - values[row - 1]) / step,
             (Over::Behind, _) => (values[row + 1] - values[row]) / step,
         };
-        let known = one.bound + ROUNDED * largest_size(values) / span.powi(order as i32);
-        one.varies(&inner.clone().map(rate).collect::<Vec<f64>>())
+        let known = one.bound + (ROUNDED * largest_size(values) + blur) / span.powi(order as i32);
+        known <= BLURRED * largest
+            && one.varies(&inner.clone().map(rate).collect::<Vec<f64>>())
             && inner.clone().all(|row| (rate(row) - one.found[row]).abs() <= known)
     };
     let orders = if matches!(over, Over::Either(_)) { 1..=2 } else { 1..=1 };
@@ -73,9 +78,12 @@ fn differences(question: &DiagnosisInput, one: &Wrong, over: Over) -> Option<(Ch
             // Takes differences of the reference's values, and also of the suspect's values if the suspect's channel
             // agrees. Differences of wrong positions are not tried, because rates that match wrong positions are not a
             // separate slip.
-            let is_right = question.judged.iter().any(|judged| judged.channel == *channel && !judged.disagrees);
-            let own = question.suspicious.column(channel).filter(|_| is_right);
-            if rate.as_ref() == Some(one.channel) && own.into_iter().chain([values]).any(|own| of_column(own, order)) {
+            let judged = question.judged.iter().find(|judged| judged.channel == *channel);
+            let own = question.suspicious.column(channel).filter(|_| judged.is_some_and(|judged| !judged.disagrees));
+            // The suspect differentiated numbers with all digits, at instants with all digits.
+            let blur = judged.map_or(0.0, |judged| 4.0 * judged.bound);
+            let is_it = || own.into_iter().chain([values]).any(|own| of_column(own, order, blur));
+            if rate.as_ref() == Some(one.channel) && is_it() {
                 return Some((channel.clone(), order));
             }
         }

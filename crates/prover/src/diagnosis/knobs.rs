@@ -8,8 +8,8 @@ use std::f64::consts::PI;
 use super::cause::{CasePart, FrameAxis, PartChange};
 use super::configurations::reassembled;
 use linkage::case::{Case, CaseParts, Grid};
-use linkage::input::Input;
 use linkage::drive::{Drive, DriveMotion, MotionLaw, Motor, ShaftInertia};
+use linkage::input::Input;
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{
     Joint, JointId, Link, LinkId, Mechanism, Transmission, TransmissionDesign, TransmissionId, TransmissionKind,
@@ -176,6 +176,13 @@ fn of_transmission(index: TransmissionId, transmission: &Transmission) -> Vec<Kn
         let turn = move |parts: &mut CaseParts, value: f64| recoupled(parts, index, own.with_pressure_angle(value));
         Knob::amount(CasePart::PressureAngle(name.into()), angle, "rad", turn)
     }));
+    let (own, is_slide) = (transmission.design.clone(), transmission.slide().is_some());
+    let turn = move |parts: &mut CaseParts, start: f64| {
+        recoupled(parts, index, Some(TransmissionDesign { start, ..own.clone() }))?;
+        reassembled(parts)
+    };
+    let (natural, unit) = if is_slide { (transmission.design.start.abs().larger(1e-3), "m") } else { (1.0, "rad") };
+    knobs.push(Knob::place(CasePart::Phase(name.into()), transmission.design.start, natural, unit, turn));
     knobs
 }
 

@@ -14,7 +14,7 @@ const GUESSED: usize = 12;
 /// Number of knobs whose value is searched. The knobs that explain most with their guessed value are chosen.
 const SEARCHED: usize = 5;
 /// Largest number of steps of the search for a value.
-const STEPS: usize = 6;
+const STEPS: usize = 8;
 
 /// A knob with a guess at its value.
 struct Guess {
@@ -112,14 +112,18 @@ pub(super) fn numbers(tries: &Tries) -> Vec<Candidate> {
 
 /// Tries the knob's values with a simple meaning near `value`. The result states for each candidate whether it
 /// explains all differences. `found` is true if `value` comes from a search and is more accurate than a linear
-/// approximation. If `found` is false, distant values are tried too: all values if the knob `is_far`, and, in a free
-/// motion, a missing or reversed part.
+/// approximation. If `found` is false, distant values are tried too: all values if the knob `is_far`, a reversed part,
+/// and, in a free motion, a missing part.
 fn meant(tries: &Tries, knob: &Rc<Knob>, value: f64, found: bool) -> Vec<(Candidate, bool)> {
     let near = |plain: f64| match found {
         true => (plain - value).abs() <= 1e-2 * plain.abs().larger(1e-2 * natural(knob)),
         false => (plain - value).abs() <= 0.05 * plain.abs().larger(0.2 * natural(knob)),
     };
-    let anyway = |how: &PartChange| !found && (knob.is_far || (tries.is_free && is_plain(how)));
+    let is_cheap = |how: &PartChange| match tries.is_free {
+        true => is_plain(how),
+        false => *how == PartChange::Reversed,
+    };
+    let anyway = |how: &PartChange| !found && (knob.is_far || is_cheap(how));
     let plain = knob.plain.iter().filter(|(plain, how)| near(*plain) || anyway(how));
     let tried = plain.filter_map(|(value, how)| {
         let misfit = tries.of(&|case| knob.at(case, *value))?;
@@ -194,8 +198,10 @@ fn search(knob: &Knob, guess: f64, bench: &Bench, start: Option<&Misfit>) -> Opt
             continue;
         }
         let by = -effect.dot(&misfit) / square;
-        // The search fails: it has converged, but differences remain.
-        if by.abs() <= 1e-6 * (value - knob.given).abs() {
+        // The search fails: it has converged, but differences remain. A tiny step that removes most of the misfit is not
+        // the end, because bounds may be many orders of magnitude below the differences.
+        let rest = misfit.plus(by, &effect);
+        if by.abs() <= 1e-6 * (value - knob.given).abs() && !(rest.dot(&rest) < 0.1 * misfit.dot(&misfit)) {
             return None;
         }
         (old, before, value) = (value, misfit, value + by);

@@ -83,6 +83,8 @@ pub(super) struct Wrong<'a> {
     pub(super) times: &'a [f64],
     /// Speed of the crank (rad/s) if it is constant.
     speed: Option<f64>,
+    /// Ratio of the reducer between motor and crank.
+    ratio: Option<f64>,
 }
 
 /// Returns every slip with the channels that it explains.
@@ -119,12 +121,13 @@ pub(super) fn found(wrong: &[Wrong]) -> Vec<Found> {
 pub(super) fn wrong<'a>(question: &'a DiagnosisInput) -> Vec<Wrong<'a>> {
     let sizes = magnitudes(question.reference);
     let speed = question.case.crank().constant_speed().filter(|_| question.case.is_steady());
+    let ratio = question.case.crank().motor().map(|motor| motor.ratio).filter(|ratio| *ratio != 1.0);
     let of = |judged: &'a SuspectChannel| {
         let channel = &judged.channel;
         let place = question.reference.channels().iter().position(|own| own == channel)?;
         let (right, found) = (question.reference.column(channel)?, question.suspicious.column(channel)?);
         let (bound, times) = (judged.bound.larger(KNOWN * sizes[place]), question.reference.times());
-        Some(Wrong { channel, right, found, bound, times, speed })
+        Some(Wrong { channel, right, found, bound, times, speed, ratio })
     };
     question.judged.iter().filter(|judged| judged.disagrees).filter_map(of).collect()
 }
@@ -238,6 +241,11 @@ impl Wrong<'_> {
                 (_, Stage::Positions | Stage::Velocities | Stage::Accelerations) => false,
                 (_, Stage::Reactions | Stage::BalancingMoment) => false,
             },
+            Plain::BeforeReducer => match (self.ratio, self.channel.kind.stage) {
+                (Some(ratio), Stage::BalancingMoment) => self.meets(|value| value / ratio),
+                (_, Stage::Positions | Stage::Velocities | Stage::Accelerations) => false,
+                (_, Stage::Reactions | Stage::BalancingMoment) => false,
+            },
             Plain::Turns => is_angle && parts_of(TAU).iter().all(|(_, over)| *over <= self.bound),
             // A half revolution that is added at all instants is an offset and not this slip.
             Plain::HalfTurns => {
@@ -252,7 +260,8 @@ impl Wrong<'_> {
     /// Whether the values are right up to a factor of at least 1e-4, as after a mistake of units. A tenth of their root
     /// mean square may differ.
     fn is_proportional(&self) -> bool {
-        let sum = |of: &dyn Fn(f64, f64) -> f64| self.right.iter().zip(self.found).map(|(a, b)| of(*a, *b)).sum::<f64>();
+        let sum =
+            |of: &dyn Fn(f64, f64) -> f64| self.right.iter().zip(self.found).map(|(a, b)| of(*a, *b)).sum::<f64>();
         let [right, both, found] = [sum(&|a, _| a * a), sum(&|a, b| a * b), sum(&|_, b| b * b)];
         found >= 1e-8 * right && both * both >= 0.99 * right * found
     }
