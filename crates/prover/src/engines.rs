@@ -60,6 +60,10 @@ const USUAL_TURN: f64 = std::f64::consts::PI / 720.0;
 /// degrees.
 const COARSE_TURN: f64 = std::f64::consts::PI / 90.0;
 
+/// In a step, an oscillating law may proceed by an angle of its period that is sixteen times the angle of the fastest
+/// driving link.
+const OF_PERIOD: f64 = 1.0 / 16.0;
+
 /// A time step (s) at which an engine is accurate to about 1e-4 in most cases.
 /// The fastest driving link rotates by a quarter of a degree per step.
 /// If forces determine the motion, the step is at most a ten-thousandth of the duration.
@@ -75,8 +79,12 @@ pub(crate) fn coarse_step(case: &Case) -> f64 {
 
 fn step(case: &Case, turn: f64, share: f64) -> f64 {
     let last = case.grid.times.iter().fold(0.0f64, |last, t| last.larger(t.abs()));
-    let (by_turn, by_time) =
-        (turn / case.drives.top_speed(case.mechanism.size()), share * if last > 0.0 { last } else { 1.0 });
+    // A law that oscillates about one position with a small amplitude has a short period although its speed is small.
+    let moving = case.drives.iter().filter(|drive| drive.top_speed() != 0.0);
+    let pace = moving.fold(case.drives.top_speed(case.mechanism.size()), |most: f64, drive| {
+        most.larger(OF_PERIOD * drive.largest_acceleration() / drive.top_speed().abs())
+    });
+    let (by_turn, by_time) = (turn / pace, share * if last > 0.0 { last } else { 1.0 });
     // For links at rest, the limit from the rotation is infinite, so the duration limits the step. A motion under
     // forces may become much faster than at its start, so the duration also limits the step of such a motion.
     if case.is_free() || !by_turn.is_finite() { by_turn.smaller(by_time) } else { by_turn }

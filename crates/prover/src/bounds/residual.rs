@@ -194,22 +194,27 @@ struct Sizes {
     of_quantity: BTreeMap<&'static str, f64>,
     /// Largest sizes of coordinates and forces, and the mean speed of the crank.
     largest: Built,
+    /// Largest velocity (m/s) and acceleration (m/s^2) of a point.
+    of_points: [f64; 2],
 }
 
 impl Sizes {
     fn of<'a>(trajectory: &Trajectory, own: impl Iterator<Item = (&'a Channel, f64)>) -> Self {
         let span = half_range(trajectory.times());
         let speed = if span > 0.0 { half_range(trajectory.inputs()) / span } else { 0.0 };
-        let mut sizes = Sizes { of_quantity: BTreeMap::new(), largest: Built { speed, ..Built::default() } };
+        let mut sizes = Sizes { of_quantity: BTreeMap::new(), largest: Built { speed, ..Built::default() }, of_points: [0.0; 2] };
         for (channel, size) in own {
             let of_quantity = sizes.of_quantity.entry(channel.kind.quantity).or_insert(0.0);
             *of_quantity = of_quantity.larger(size);
-            let Built { length, force, .. } = &mut sizes.largest;
-            if channel.kind.unit == Unit::Metre {
-                *length = length.larger(size);
-            } else if channel.kind.unit == Unit::Newton {
-                *force = force.larger(size);
-            }
+            let (Built { length, force, .. }, [velocity, acceleration]) = (&mut sizes.largest, &mut sizes.of_points);
+            let largest = match channel.kind.unit {
+                Unit::Metre => length,
+                Unit::Newton => force,
+                Unit::MetrePerSecond => velocity,
+                Unit::MetrePerSecondSquared => acceleration,
+                Unit::Radian | Unit::RadianPerSecond | Unit::RadianPerSecondSquared | Unit::NewtonMetre => continue,
+            };
+            *largest = largest.larger(size);
         }
         sizes
     }
@@ -222,6 +227,7 @@ impl Sizes {
         }
         self.largest.length = self.largest.length.larger(other.largest.length);
         self.largest.force = self.largest.force.larger(other.largest.force);
+        self.of_points = [0, 1].map(|order| self.of_points[order].larger(other.of_points[order]));
         self
     }
 
@@ -236,8 +242,18 @@ impl Sizes {
     /// The largest size of the channel's quantity.
     /// This size is at least the size that follows from the crank's speed, the crank's rotation `turn` (rad) and the
     /// sizes of coordinates and forces.
+    /// If no link turns, the rates of points divided by the largest coordinate are the sizes of angular rates.
     fn natural(&self, channel: &Channel, turn: f64) -> f64 {
         let own = self.of_quantity.get(channel.kind.quantity).copied().unwrap_or(0.0);
+        let of_points = match channel.kind.unit {
+            Unit::RadianPerSecond => share(self.of_points[0], self.largest.length),
+            Unit::RadianPerSecondSquared => share(self.of_points[1], self.largest.length),
+            Unit::Radian | Unit::Metre | Unit::MetrePerSecond | Unit::MetrePerSecondSquared => 0.0,
+            Unit::Newton | Unit::NewtonMetre => 0.0,
+        };
+        if of_points.is_finite() && own <= VANISHING * of_points {
+            return of_points.larger(self.largest.of(channel.kind.unit, turn));
+        }
         // The size of a force is its largest value. If this value is only rounding error, `largest` gives the size.
         // An example is the shaking force of a balanced mechanism: it is only the rounding error of the joint forces.
         match channel.kind.unit == Unit::Newton && !(own <= VANISHING * self.largest.force) {

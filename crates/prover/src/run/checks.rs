@@ -22,10 +22,14 @@ const CLOSURE: f64 = 1e-13;
 /// largest moment on the driving link, must not exceed this limit.
 const TWO_WAYS: f64 = 1e-11;
 
-/// Returns `TWO_WAYS`, or a larger limit for a side that passes change points. Near change points, forces are known
-/// less accurately.
-fn two_ways(side: &Observed) -> f64 {
-    TWO_WAYS.larger(of_condition(Stage::Reactions, side.passing))
+/// Rounding errors of the difference of two coordinates, in units of the last place of the coordinates.
+const FAR: f64 = 16.0;
+
+/// Returns `TWO_WAYS`, or a larger limit in two cases. Near change points, forces are known less accurately. Far from
+/// the origin, the rounding of coordinates limits the arms of forces; `size` is the size of the mechanism (m).
+fn two_ways(side: &Observed, size: f64) -> f64 {
+    let of_arms = FAR * f64::EPSILON * side.reach / size;
+    TWO_WAYS.larger(of_condition(Stage::Reactions, side.passing)).larger(of_arms)
 }
 
 pub(super) fn rounding(bound: f64, why: &'static str) -> Tolerance {
@@ -43,12 +47,12 @@ pub(super) fn of_sides(case: &Case, sides: EachSide<&Observed>, known: &Known) -
         check(sentences::CLOSURE_OF_ALL_JOINTS_2, side, own.closure() / size.larger(own.reach), rounding(CLOSURE, why))
     };
     let powers = |(side, own): (Reference, &&Observed)| {
-        let tolerance = rounding(two_ways(own), sentences::SUMS_OF_A_FEW_FORCES_AND_POWERS);
+        let tolerance = rounding(two_ways(own, size), sentences::SUMS_OF_A_FEW_FORCES_AND_POWERS);
         let what = sentences::BALANCING_MOMENT_FROM_EQUILIBRIUM_AND_FROM_POWERS;
         (!own.power.is_empty()).then(|| check(what, side, own.two_ways(), tolerance))
     };
     let shaking = |(side, own): (Reference, &&Observed)| {
-        let tolerance = rounding(two_ways(own), sentences::SUMS_OF_AS_MANY_FORCES_AS_THERE);
+        let tolerance = rounding(two_ways(own, size), sentences::SUMS_OF_AS_MANY_FORCES_AS_THERE);
         let what = sentences::SHAKING_FORCE_AND_MOMENT_FROM_REACTIONS;
         own.unbalance.map(|share| check(what, side, share, tolerance))
     };
