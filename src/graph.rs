@@ -73,6 +73,16 @@ pub(crate) fn graphs(sources: &[Source], look: &Look) -> Result<Graphs> {
         panels.extend(joined);
     }
     let several = sources.len() > 1;
+    let is_finite = |curve: &Curve| curve.x.iter().zip(&curve.y).any(|(x, y)| x.is_finite() && y.is_finite());
+    if let Some(empty) = panels.iter().find(|panel| !panel.curves.iter().any(is_finite)) {
+        let name = empty.curves.first().map_or_else(String::new, Curve::key);
+        let error = Error::new(ErrorKind::Input, sentences::has_no_value_at_any_instant(&name));
+        return Err(error.help(sentences::CHOOSE_A_CURVE_WITH_VALUES));
+    }
+    if look.y_labels.len() > panels.len() {
+        let message = sentences::y_labels_are_given_for_charts(&look.y_labels.len(), &panels.len());
+        return Err(Error::new(ErrorKind::Input, message).help(sentences::GIVE_A_LABEL_FOR_EACH_CHART));
+    }
     let count: usize = panels.iter().map(|panel| panel.curves.len()).sum();
     if !look.legend.is_empty() && look.legend.len() != count {
         let message = sentences::names_are_given_for_curves(&look.legend.len(), &count);

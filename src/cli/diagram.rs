@@ -1,11 +1,12 @@
 //! `linkproof diagram`.
 
+use crate::sentences;
 use std::path::PathBuf;
 
 use super::engine_args::{side, word};
 use super::load::plain;
-use super::number;
 use super::outputs::{Made, Outputs, results};
+use super::{number, output};
 use crate::report::diagram as report;
 use analytic::range::explained;
 use design::diagram::{Construction, ConstructionSort, MotionCurve, MotionDiagram};
@@ -43,7 +44,11 @@ results! { DiagramResults {
 } }
 
 pub(super) fn diagram(args: &Args) -> Result<()> {
-    let scenario = plain(&args.file)?.nominal();
+    let scenario = plain(&args.file)?;
+    if scenario.case.is_free() {
+        output::note(sentences::DIAGRAM_OF_A_FREE_MOTION);
+    }
+    let scenario = scenario.nominal();
     let solver = args.with.solver();
     let course = MotionCurve::named(&scenario.case, &args.channel)?;
     let diagram = MotionDiagram::of(&scenario.case, solver, &course, args.divisions)

@@ -1,6 +1,7 @@
 //! `linkproof exercise`.
 
 use crate::sentences;
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::grid::GridArgs;
@@ -142,6 +143,7 @@ pub(super) fn exercise(args: &Args) -> Result<()> {
     files.push((place("teacher", "answers.csv"), report::all_answers(&sheets)?));
     files.push((place("teacher", "answers.html"), report::answers_page(&sheets, &key)));
     files.push((directory.join("key.json"), key.text()));
+    is_of_this_class(directory, &files)?;
     output::may_make(&files.iter().map(|(path, _)| path.clone()).collect::<Vec<_>>())?;
     for (path, text) in &files {
         if let Some(parent) = path.parent() {
@@ -149,7 +151,20 @@ pub(super) fn exercise(args: &Args) -> Result<()> {
         }
         output::make(text, path)?;
     }
-    output::print(&sentences::sheets_are_in(&sheets.len(), &directory.display()))
+    let quoted = output::quoted(&directory.to_string_lossy());
+    output::print(&sentences::sheets_are_in(&sheets.len(), &directory.display(), &quoted))
+}
+
+/// Refuses a directory with sheets of another class, which would otherwise stay beside the new sheets.
+fn is_of_this_class(directory: &Path, files: &[(PathBuf, String)]) -> Result<()> {
+    let tasks = directory.join("tasks");
+    let old = fs::read_dir(&tasks).into_iter().flatten().flatten().map(|entry| entry.path());
+    let mut others = old.filter(|path| files.iter().all(|(own, _)| own != path));
+    let Some(other) = others.find(|path| path.extension().is_some_and(|ending| ending == "html")) else {
+        return Ok(());
+    };
+    let error = Error::new(ErrorKind::Input, sentences::holds_the_sheets_of_another_class(&other.display()));
+    Err(error.key("--output").help(sentences::NAME_ANOTHER_DIRECTORY_FOR_THE_CLASS))
 }
 
 /// The scenarios of all sheets: one for each student, or one for each file.

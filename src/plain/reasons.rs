@@ -12,9 +12,10 @@ use linkage::case::FrictionSeat;
 use linkage::error::Advice;
 use linkage::input::Input;
 use linkage::math::statistics::distinct;
+use linkage::mechanism::{CamContact, Transmission, TransmissionKind};
 use linkage::trajectory::Channel;
 use prover::bounds::{Check, Verdict};
-use prover::numbers::{input_in, quantity};
+use prover::numbers::{input_in, quantity, significant};
 use prover::run::Proof;
 
 /// The reason why something disagrees or is open, and the number of verdicts with that reason.
@@ -168,6 +169,9 @@ fn at_rest(proof: &Proof, width: Option<usize>, text: &mut String) {
         let Some((row, range)) = widest.filter(|(_, range)| range[1] > range[0]) else { continue };
         let unit = if case.crank().input == Input::Slide { "N" } else { "N m" };
         let [least, most] = range.map(|own| quantity(own, unit));
+        if least == most {
+            continue;
+        }
         let at = input_in(reference.told(row), 1);
         let what = if friction.is_mesh() { "Transmission" } else { "Joint" };
         let told = sentences::it_rests(&what, &name, &rows.len(), &count, &at, &least, &most);
@@ -191,14 +195,37 @@ pub fn notes(proof: &Proof, width: Option<usize>, text: &mut String) {
         say!(text, "\n{}", wrapped(&told, width, 2));
     }
     at_rest(proof, width, text);
-    let (reference, mechanism) = (&proof.reference_trajectory, &proof.scene.case.mechanism);
-    for cam in mechanism.transmissions().iter().filter(|own| own.cam.is_some()) {
+    let (reference, case) = (&proof.reference_trajectory, &proof.scene.case);
+    for own in case.mechanism.transmissions().iter() {
+        let Some(cam) = &own.cam else { continue };
+        let found = cam.figures(own.coordinates_in(case.mechanism.joints(), &case.start.motions()));
+        if found.curvature < 0.0 {
+            let undercut = significant(-1e3 * found.curvature, 4);
+            let told = sentences::the_cam_is_undercut(&own.name(), &undercut, &undercut_remedy(own));
+            say!(text, "\n{}", wrapped(&told, width, 2));
+        }
+    }
+    for cam in case.mechanism.transmissions().iter().filter(|own| own.cam.is_some()) {
         let Some(forces) = reference.named(&format!("transmission.{}.force_N", cam.name())) else { continue };
         let is_off = |row: &usize| forces[*row] < 0.0;
         let Some(first) = (0..forces.len()).find(is_off) else { continue };
         let (count, all, at) = ((0..forces.len()).filter(is_off).count(), forces.len(), reference.told(first));
         let told = sentences::the_follower_leaves_the_cam(&cam.name(), &count, &all, &input_in(at, 1));
         say!(text, "\n{}", wrapped(&told, width, 2));
+    }
+}
+
+/// How the profile of an undercut cam becomes possible.
+pub fn undercut_remedy(cam: &Transmission) -> &'static str {
+    match cam.design.kind {
+        TransmissionKind::Cam { contact: CamContact::Roller { radius, .. }, .. } if radius > 0.0 => {
+            sentences::ENLARGE_THE_BASE_CIRCLE_OR_REDUCE_THE_ROLLER
+        }
+        TransmissionKind::Cam { .. }
+        | TransmissionKind::Gears { .. }
+        | TransmissionKind::Rack { .. }
+        | TransmissionKind::Screw { .. }
+        | TransmissionKind::Belt { .. } => sentences::ENLARGE_THE_BASE_CIRCLE,
     }
 }
 

@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 use super::drivers::Drivers;
 use super::pretty::{list, pretty};
 use super::{modes, range};
+use crate::plain::reasons::undercut_remedy;
 use analytic::modes::Modes;
 use analytic::range::Range;
 use linkage::case::CaseParts;
@@ -85,7 +86,7 @@ fn transmission(case: &CaseParts, own: &Transmission) -> String {
         let in_deg = |angle: f64| significant(angle.to_degrees(), SAMPLED);
         let lift = if slides { mm(found.lift) } else { format!("{} deg", in_deg(found.lift)) };
         let curvature = match found.curvature {
-            ..0.0 => sentences::the_profile_is_undercut(&mm(-found.curvature)),
+            ..0.0 => sentences::the_profile_is_undercut(&mm(-found.curvature), &undercut_remedy(own)),
             radius => sentences::least_radius_of_curvature(&mm(radius)),
         };
         let angle = in_deg(found.pressure_angle);

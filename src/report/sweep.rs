@@ -86,6 +86,9 @@ pub(crate) fn text(
     out
 }
 
+/// Width of a letter, and smallest distance of a name from the edge of the picture (px).
+const LETTER: f64 = 7.0;
+const EDGE: f64 = 3.0;
 /// Width and height of the parallel coordinates (px), and their margins.
 const SIZE: [f64; 2] = [1100.0, 420.0];
 const MARGIN: [f64; 2] = [70.0, 60.0];
@@ -182,9 +185,15 @@ fn parallel(plan: &SweepPlan, cases: &[&SweepRow], goal: Goal) -> String {
         let (at, [from, to]) = (x(column), ends[column]);
         let _ = write!(out, "<line x1='{at:.1}' x2='{at:.1}' y1='{:.1}' y2='{:.1}'/>", y(0.0), y(1.0));
         let up = if column % 2 == 0 { 24.0 } else { 40.0 };
-        for (text, height) in
-            [(name.to_string(), up), (shown(to), MARGIN[1] - 6.0), (shown(from), SIZE[1] - MARGIN[1] + 16.0)]
-        {
+        // A long name at the first or last axis begins or ends at the edge of the picture.
+        let half = 0.5 * LETTER * name.chars().count() as f64;
+        let (name_at, anchor) = match (at - half < 0.0, at + half > SIZE[0]) {
+            (true, _) => (EDGE, " style='text-anchor:start'"),
+            (false, true) => (SIZE[0] - EDGE, " style='text-anchor:end'"),
+            (false, false) => (at, ""),
+        };
+        let _ = write!(out, "<text x='{name_at:.1}' y='{up:.1}'{anchor}>{}</text>", escaped(name));
+        for (text, height) in [(shown(to), MARGIN[1] - 6.0), (shown(from), SIZE[1] - MARGIN[1] + 16.0)] {
             let _ = write!(out, "<text x='{at:.1}' y='{height:.1}'>{}</text>", escaped(&text));
         }
     }

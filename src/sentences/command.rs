@@ -288,7 +288,9 @@ linkage::sentences! {
     expected_one_of(words) = "expected {words}";
     EXPECTED_AT_MOST_50_PER_CENT = "expected at most 50 per cent";
     EXPECTED_AN_ANGLE_BELOW_90 = "expected an angle below 90 deg";
-    sheets_are_in(count, directory) = "{count} sheets are in {directory}: give out tasks/ and answers/, keep teacher/.\nnext: linkproof mark {directory}\n";
+    sheets_are_in(count, directory, quoted) = "{count} sheets are in {directory}: give out tasks/ and answers/, keep teacher/.\nnext: linkproof mark {quoted}\n";
+    holds_the_sheets_of_another_class(sheet) = "{sheet} is a sheet of another class";
+    NAME_ANOTHER_DIRECTORY_FOR_THE_CLASS = "name another directory with -o, or remove the old sheets";
     GIVE_EVERY_SCENARIO_A_NAME = "give every scenario a unique name, or leave one of the two out";
     // cli/mark.rs
     NAME_THE_DIRECTORY_OF_THE_EXERCISE = "name the directory that `linkproof exercise` has written, or tables of answers in its directory `answers`";
@@ -303,6 +305,9 @@ linkage::sentences! {
     is_varied_and_set(key) = "`{key}` is varied and has a fixed value too";
     VARY_OR_SET = "leave out one of the two";
     repeat_a_case(file, sets) = "next  linkproof run {file}{sets}";
+    // cli/bearings.rs
+    BEARINGS_OF_A_FREE_MOTION = "the motion is free: these are the loads of the nominal motion, which may be smaller than those of the free motion; `linkproof run FILE` lists the largest forces of the free motion";
+    DIAGRAM_OF_A_FREE_MOTION = "the motion is free: the diagram shows the nominal motion";
     // cli/golden.rs
     is_no_mechanism_of_the_set(name) = "{name} is not a mechanism of the set";
     the_set_has(names) = "the set has {names}";

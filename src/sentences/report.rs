@@ -35,6 +35,10 @@ linkage::sentences! {
     joint_stays_open_by_mm(name, significant) = "joint {name} stays open by {significant} mm";
     // graph.rs
     GIVE_A_NAME_FOR_EACH_CURVE = "give a name for each curve, in the order of the charts, or leave the names out";
+    has_no_value_at_any_instant(curve) = "{curve} has no value at any instant";
+    CHOOSE_A_CURVE_WITH_VALUES = "choose another curve: this one divides by zero, or takes the root of a negative number";
+    y_labels_are_given_for_charts(labels, charts) = "{labels} labels of vertical axes are given, but the number of charts is {charts}";
+    GIVE_A_LABEL_FOR_EACH_CHART = "give at most one label for each chart, in the order of the charts";
     names_are_given_for_curves(names, curves) = "{names} names are given, but {curves} curves are drawn";
     // graph/ask.rs
     is_a_chart_of_its_kind(word) = "the chart \"{word}\" cannot have further curves";
@@ -380,7 +384,10 @@ linkage::sentences! {
     pitch_radii(first, second) = "pitch radii {first} and {second}";
     a_cam(name, kind, first, second, carrier, lift, base, angle, curvature) = "  {name:14} {kind}, {first} - {second} on {carrier}, lift {lift}, base circle {base}, pressure angle up to {angle} deg, {curvature}";
     least_radius_of_curvature(radius) = "least convex radius {radius}";
-    the_profile_is_undercut(radius) = "UNDERCUT by {radius}: enlarge the base circle or reduce the roller";
+    the_profile_is_undercut(radius, remedy) = "UNDERCUT by {radius}: {remedy}";
+    the_cam_is_undercut(name, radius, remedy) = "The profile of cam \"{name}\" is undercut by {radius} mm and cannot be made: {remedy}.";
+    ENLARGE_THE_BASE_CIRCLE = "enlarge the base circle";
+    ENLARGE_THE_BASE_CIRCLE_OR_REDUCE_THE_ROLLER = "enlarge the base circle or reduce the roller";
     pitch_radius(first) = "pitch radius {first}";
     structure_links(structure) = "structure  {structure}\n\nlinks";
     // report/json.rs
@@ -572,7 +579,7 @@ found down to: every fault larger than this size is found in every scenario. The
     but_for_the_row_at_which_is_off(numbers) = ", except for the row at t = {numbers} s, which is an outlier";
     FOR_THE_MOST_PART_2 = "for the most part, ";
     at_time(time, at) = "t = {time} s, {at}";
-    THE_SEARCH_OF_A_COMPARISON_ENDED = "The search for causes reached its work limit before all causes were tried: compare fewer channels with --only.";
+    THE_SEARCH_OF_A_COMPARISON_ENDED = "The search for causes reached its work limit before all causes were tried: compare fewer channels.";
     has_no_number_at(channel, instants, what, first, unit) = "\n{channel} has no number at {instants}, first at {what} {first} {unit}";
     further_channels_have_no_number(channels) = "\nnor have {channels} more at some instants";
     only_in_the(which, some) = "\nonly in the {which}: {some}";

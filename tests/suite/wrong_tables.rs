@@ -287,8 +287,8 @@ fn a_drift_is_not_attributed_to_a_number_of_the_case() {
 fn a_wrong_clock_of_a_free_motion_is_named() {
     let lists: [(fn(&mut Sheet), &str); 3] = [
         (|sheet| sheet.times.iter_mut().for_each(|time| *time *= 1e-3), "time in another unit: seconds"),
-        (|sheet| sheet.times.iter_mut().for_each(|time| *time *= 2.0), "the clock of all rows is too fast"),
-        (|sheet| sheet.times.iter_mut().for_each(|time| *time /= 10.0), "the clock of all rows is too slow"),
+        (|sheet| sheet.times.iter_mut().for_each(|time| *time *= 2.0), "the clock runs too fast"),
+        (|sheet| sheet.times.iter_mut().for_each(|time| *time /= 10.0), "the clock runs too slow"),
     ];
     for (change, named) in lists {
         let wrong = Wrong {

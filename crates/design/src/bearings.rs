@@ -17,6 +17,9 @@ use linkage::trajectory::Stage;
 /// The limit suffices because a reaction has only a few maxima per turn.
 const SAMPLE_STEP: f64 = PI / 360.0;
 
+/// Largest number of samples of one kind.
+const MOST: f64 = 50_000.0;
+
 /// An efficiency exists only if the work of the drives exceeds this multiple of the work of friction.
 /// The factor allows for rounding errors of both sums.
 const ROUNDING: f64 = 1.0 + 1e-9;
@@ -96,9 +99,7 @@ pub fn over_range(case: &Case) -> Result<Peaks> {
         return Err(Error::new(ErrorKind::Unsupported, message).help(Advice::SolutionTable));
     }
     let mut poses = PoseSolver::new(case)?;
-    let [from, to] = ends(case.grid.inputs.iter().copied());
-    let parts = ((to - from) / case.step(SAMPLE_STEP)).ceil().larger(1.0) as usize;
-    let cranks: Vec<f64> = (0..=parts).map(|k| from + (to - from) * (k as f64 / parts as f64)).collect();
+    let cranks = samples_of(case);
     let joints = case.mechanism.joints();
     let reaction = |joint: JointId| Box::new(move |state: &State| state.forces[joint].norm()) as Quantity;
     let mut quantities: Vec<Quantity> = joints.ids().map(reaction).collect();
@@ -122,9 +123,9 @@ pub fn over_range(case: &Case) -> Result<Peaks> {
     for (number, &crank) in cranks.iter().enumerate() {
         let state = poses.solve_at(crank, Stage::BalancingMoment)?;
         // Work by the trapezium rule: power divided by the rate of the input, integrated over the input.
-        let ends = if number == 0 || number == parts { 0.5 } else { 1.0 };
+        let [before, after] = [number.saturating_sub(1), (number + 1).min(cranks.len() - 1)].map(|own| cranks[own]);
         let rate = case.state_in(&state.motions, &state.angles).rate;
-        let span = if rate == 0.0 { 0.0 } else { ends * (to - from) / parts as f64 / rate };
+        let span = if rate == 0.0 { 0.0 } else { (after - before) / 2.0 / rate };
         for (friction, own) in case.frictions().zip(&mut frictions) {
             let (effort, speed) = (friction.effort(&state.motions, state.reactions()), friction.rate(&state.motions));
             let normal = friction.normal(friction.reaction(state.reactions()), speed);
@@ -152,6 +153,35 @@ pub fn over_range(case: &Case) -> Result<Peaks> {
         frictions,
         drive_work,
     })
+}
+
+/// The inputs (rad or m) at which the quantities are computed, ascending: equal steps over the range of the grid, the
+/// breakpoints of the loads' tables, and equal steps in time if the speed varies.
+fn samples_of(case: &Case) -> Vec<f64> {
+    let [from, to] = ends(case.grid.inputs.iter().copied());
+    let steps = |range: f64, step: f64| (range / step).ceil().larger(1.0).smaller(MOST) as usize;
+    let between =
+        |[from, to]: [f64; 2], parts: usize| (0..=parts).map(move |k| from + (to - from) * (k as f64 / parts as f64));
+    let mut found: Vec<f64> = between([from, to], steps(to - from, case.step(SAMPLE_STEP))).collect();
+    for (knots, period) in case.loads.iter().flat_map(|load| load.courses()).filter_map(|course| course.knots()) {
+        for knot in knots {
+            let first = ((from - knot) / period).ceil();
+            let repeated = (0..).map(|k| knot + period * (first + f64::from(k)));
+            found.extend(repeated.take_while(|knot| *knot <= to).take(MOST as usize));
+        }
+    }
+    let crank = case.crank();
+    if crank.constant_speed().is_none() {
+        // The law proceeds by the angle `SAMPLE_STEP` of its shortest oscillation in each step.
+        let times = ends(case.grid.times.iter().copied());
+        let pace = crank.largest_acceleration() / crank.top_speed().abs();
+        let parts = steps((times[1] - times[0]) * pace, SAMPLE_STEP);
+        found.extend(between(times, parts).map(|time| crank.at(time).value));
+    }
+    found.retain(|input| (from..=to).contains(input));
+    found.sort_by(f64::total_cmp);
+    found.dedup();
+    found
 }
 
 /// Quantity whose peak is sought, as a function of the state.

@@ -21,7 +21,9 @@ use std::collections::BTreeMap;
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
-use scenario::{CaseKey, CaseSlopes, Claim, SampledFigure, Scenario, Statistic, TurnFigure};
+use scenario::{
+    CaseKey, CaseSlopes, Claim, SampledFigure, Scenario, ScenarioFamily, StartRequest, Statistic, TurnFigure,
+};
 
 pub use self::answer::{FigureSlopes, Sensitivity, SensitivityQuestion};
 use self::instants::{Derived, derived};
@@ -47,7 +49,7 @@ pub fn sensitivity(scenario: &Scenario, question: &SensitivityQuestion) -> Resul
 /// # Errors
 /// The errors of [`sensitivity`].
 pub fn sensitivity_by(scenario: &Scenario, slopes: &CaseSlopes, question: &SensitivityQuestion) -> Result<Sensitivity> {
-    let (chosen, left_out) = chosen(slopes, question)?;
+    let (chosen, left_out) = chosen(scenario, slopes, question)?;
     let case = &scenario.case;
     let by_input = question.by_input.unwrap_or(slopes.by_input);
     let claims = question.figures.iter().map(|figure| claim(figure, case)).collect::<Result<Vec<_>>>()?;
@@ -83,7 +85,7 @@ pub fn sensitivity_by(scenario: &Scenario, slopes: &CaseSlopes, question: &Sensi
 /// is not known.
 type Chosen = (Vec<usize>, Vec<(String, String)>);
 
-fn chosen(slopes: &CaseSlopes, question: &SensitivityQuestion) -> Result<Chosen> {
+fn chosen(scenario: &Scenario, slopes: &CaseSlopes, question: &SensitivityQuestion) -> Result<Chosen> {
     let untold: BTreeMap<usize, &String> = slopes.untold.iter().map(|(key, part)| (*key, part)).collect();
     let (mut chosen, mut left_out) = (Vec::new(), Vec::new());
     if question.keys.is_empty() {
@@ -96,6 +98,12 @@ fn chosen(slopes: &CaseSlopes, question: &SensitivityQuestion) -> Result<Chosen>
     }
     for name in question.keys.iter().chain(&question.also) {
         let Some(key) = slopes.key(name) else {
+            let asked = StartRequest::default();
+            let family = ScenarioFamily::of(&scenario.text, &scenario.path, asked, false)?;
+            if family.check_keys(&[name], scenario).is_ok() {
+                let error = Error::new(ErrorKind::Input, sentences::is_an_expression(name)).key(name.as_str());
+                return Err(error.help(sentences::NAME_THE_PARAMETERS_OF_THE_EXPRESSION));
+            }
             let names = slopes.keys.iter().map(|key| key.name.as_str());
             let help = scenario::words::suggestion(name, names, "`");
             return Err(Error::new(ErrorKind::Input, sentences::no_number_of_the_file_is_called(&name)).help(help));

@@ -29,6 +29,8 @@ linkage::sentences! {
     // sensitivity.rs
     NAME_A_KEY = "name a number of the file, such as `links.crank.mass_kg`";
     THE_CASE_DEPENDS_ON_NO_KEY = "no parameter, dimension, mass, or number of a law or load has a known effect on the figures";
+    is_an_expression(name) = "`{name}` is given by an expression";
+    NAME_THE_PARAMETERS_OF_THE_EXPRESSION = "name the parameters that the expression contains";
     no_number_of_the_file_is_called(name) = "no number of the file is called `{name}`";
     no_derivative_is_known(name, part) = "no derivative by `{name}` is known: how `{part}` depends on this number is not known";
     COMPARE_WITH_A_SWEEP = "instead, compare two values of the number in a sweep";

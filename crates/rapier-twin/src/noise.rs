@@ -57,13 +57,13 @@ pub(super) fn bound(case: &Case, engine: &Rapier, channel: &ChannelKind) -> f64 
     let reach = case.start.0.iter().fold(size, |max: f64, pose| max.larger(pose.origin.norm() + size));
     let place = epsilon * reach;
     // Gravity changes all speeds in every step, and the constraints then restore them. In a slow motion this change
-    // exceeds the speeds, so its rounding error counts.
+    // exceeds the speeds, so the rounding error of the change counts.
     let change = case.gravity.norm() * step / size;
-    let angle = epsilon * (longest / step * (MEAN_HALF_ULP * turned).larger(1.0) + turned + change * longest);
-    let rate = angle * speed + SPEED_ULPS * epsilon * (speed + change);
+    let angle = epsilon * (longest / step * (MEAN_HALF_ULP * turned).larger(1.0) + turned);
+    let rate = angle * speed + epsilon * (SPEED_ULPS * speed + change);
     let turned = turned.larger(LEAST_TURN);
-    let second = angle * speed * speed
-        + epsilon * (SPEED_ULPS * change / step + DIFFERENCE_ULPS * turned / (step * step));
+    let second =
+        angle * speed * speed + epsilon * (SPEED_ULPS * change / step + DIFFERENCE_ULPS * turned / (step * step));
     let second = second * beginning(case, engine);
     let (rate, rate_of_place) = match case.is_steady() {
         true => (rate, 0.0),

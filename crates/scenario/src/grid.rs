@@ -85,6 +85,10 @@ pub fn read(table: &mut TomlTable, drives: &Drives, is_replaced: bool) -> Result
             let help = sentences::GIVE_EVERY_INSTANT_ONCE_FOR_EXAMPLE;
             (*family, listed(values.clone()).or_else(|message| table.refuse(key, message, help))?)
         }
+        (Some((family, _)), []) if !std::ptr::eq(family, &TIME) && drives.crank().is_free() && has_times(table) => {
+            let message = sentences::A_FREE_MOTION_HAS_NO_GRID_OF_INPUTS;
+            return table.refuse("from", message, sentences::GIVE_THE_GRID_BY_TIME_FROM_TO_STEP);
+        }
         (Some((family, from)), []) => (family, ranged_points(table, family, from)?),
         (None, []) => {
             let keys = ["from_deg", "from_rad", "from_s", "from_ms", "angles_deg", "angles_rad", "times_s", "times_ms"];
@@ -111,6 +115,11 @@ pub fn read(table: &mut TomlTable, drives: &Drives, is_replaced: bool) -> Result
     };
     grid.check(drives).map_err(|message| table.fault(message).help(help))?;
     Ok(grid)
+}
+
+/// Whether end or step of a range is a time.
+fn has_times(table: &TomlTable) -> bool {
+    ["to_s", "to_ms", "step_s", "step_ms"].iter().any(|key| table.has(key))
 }
 
 fn ranged_points(table: &mut TomlTable, family: &'static UnitFamily, from: f64) -> Result<Vec<f64>> {

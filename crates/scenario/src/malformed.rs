@@ -26,9 +26,11 @@ pub(super) fn no_toml(text: &str, place: Places, error: &toml::de::Error) -> Err
             .help(sentences::decimals_take_a_point_write(&(found.replace(',', "."))));
     }
     let message = error.message().trim().replace('\n', ", ");
-    Error::new(ErrorKind::Input, sentences::the_file_is_not_valid_toml(&message))
-        .at(place(span))
-        .help(sentences::A_KEY_IS_WRITTEN_NAME_VALUE)
+    let help = match message.contains("unquoted key") {
+        true => sentences::QUOTE_NAMES_WITH_OTHER_LETTERS,
+        false => sentences::A_KEY_IS_WRITTEN_NAME_VALUE,
+    };
+    Error::new(ErrorKind::Input, sentences::the_file_is_not_valid_toml(&message)).at(place(span)).help(help)
 }
 
 /// The parser's message for a key that occurs twice in its table.
@@ -113,6 +115,11 @@ mod tests {
             assert_eq!(line, second, "{text}: {told}");
             assert!(told.contains(&format!("is given twice, first in line {first}; keep one")), "{text}: {told}");
         }
+    }
+
+    #[test]
+    fn names_with_other_letters_are_to_be_quoted() {
+        assert!(told("О = { x_m = 0 }\n").1.ends_with("such as \"О\" = 1"), "{}", told("О = { x_m = 0 }\n").1);
     }
 
     #[test]

@@ -142,6 +142,7 @@ linkage::sentences! {
     // grid.rs
     CHECK_FROM_TO_AND_THE_SIZE = "check `from`, `to` and the size and sign of `step`";
     CHECK_THE_UNIT_AND_SIZE_OF_THE_GRID = "check the unit and size of the grid, and the law of the drive";
+    A_FREE_MOTION_HAS_NO_GRID_OF_INPUTS = "the grid begins at an input, but the motion is free, so its inputs are not known in advance";
     GIVE_THE_GRID_BY_TIME_FROM_TO_STEP = "give the grid by time (`from_s`, `to_s`, `step_s`, or a list `times_s`)";
     THE_GRID_IS_GIVEN_TWICE = "the grid is given twice";
     KEEP_ONE_OF_A_RANGE_FROM_TO_STEP = "keep one of: a range (`from`, `to`, `step`), a list of crank angles (`angles`), of slides (`slides`) or of times (`times`)";
@@ -238,6 +239,7 @@ linkage::sentences! {
     // malformed.rs
     first_in_line(message, line) = "{message}, first in line {line}";
     the_file_is_not_valid_toml_duplicate(key) = "the file is not valid TOML: duplicate key, `{key}` is given twice";
+    QUOTE_NAMES_WITH_OTHER_LETTERS = "write a name with other signs than a-z, A-Z, 0-9, _ and - in quotes, such as \"О\" = 1";
     A_KEY_IS_WRITTEN_NAME_VALUE = "write a key as `name = value`, a section as `[name]`, and text in \"quotes\"";
     decimals_take_a_point_write(found) = "write decimals with a point: {found}";
     the_file_is_not_valid_toml_has_a_decimal(found) = "the file is not valid TOML: `{found}` has a decimal comma";

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use linkage::error::{Error, ErrorKind, Result};
 use prover::run::{Options, prove};
-use scenario::{CaseFigure, Scenario, ScenarioFamily, StartRequest, unit};
+use scenario::{CaseFigure, FigureGrid, FigureKind, Scenario, ScenarioFamily, StartRequest, unit};
 use serde::{Deserialize, Serialize};
 
 use crate::axis::SweepAxis;
@@ -86,6 +86,15 @@ impl SweepPlan {
             .iter()
             .map(|text| CaseFigure::parse(text, &scenario.case, &scenario.formulas))
             .collect::<Result<Vec<_>>>()?;
+        let varies_grid = design.axes().iter().any(|axis| axis.key.starts_with("grid."));
+        let case = &scenario.case;
+        if !case.is_free() && !varies_grid {
+            // An instant that the grid does not have is reported here, and not for every case.
+            let grid = FigureGrid::of(&case.grid.times, case.crank().input, &case.grid.inputs);
+            let zeros = vec![0.0; case.grid.len()];
+            let turn = |own: &CaseFigure| if let FigureKind::Turn(own) = &own.kind { Some(own.clone()) } else { None };
+            figures.iter().filter_map(turn).try_for_each(|own| own.on(&grid, &zeros).map(|_| ()))?;
+        }
         let units = figures.iter().map(|figure| figure.unit(&scenario.case, &scenario.formulas)).collect();
         let mut names: Vec<&str> = figures.iter().map(|figure| figure.text.as_str()).collect();
         names.extend(design.axes().iter().map(|axis| axis.key.as_str()));

@@ -141,7 +141,7 @@ pub(super) const TABLES: &[Wrong] = &[
         columns: FOUR_BAR,
         what: "moment at the motor, before the reducer",
         make: Make::Values(|sheet| sheet.each("drive.torque_N_m", |_, value| value / 21.115384615384617)),
-        named: &["0.047358"],
+        named: &["at the motor's shaft, before the reducer"],
     },
     Wrong {
         scenario: "norton",

@@ -119,7 +119,9 @@ impl Scheme {
         // At a dead point of its group, a singular point cannot be computed and is not drawn.
         let singular = SingularPoint::all(case, &state.motions).into_iter().flatten().collect();
         let lengths = slides.iter().zip(travels);
-        let travels = lengths.fold(Travels::none(mechanism), |all, (slide, travel)| all.with(slide.joint, *travel));
+        let mut travels = lengths.fold(Travels::none(mechanism), |all, (slide, travel)| all.with(slide.joint, *travel));
+        // The pose shows which side of a cam touches its follower.
+        travels.take_in(mechanism, |link, local| Some(state.motions[link].point(local)));
         let sketch = Sketch::of_case(case, &travels, scale);
         let acting = acting(case, &sketch, &state.motions, &state.angles);
         let pose = |(motion, &angle): (&Motion, &f64)| Here(LinkPose { origin: motion.origin, angle });

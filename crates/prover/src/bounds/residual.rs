@@ -103,6 +103,7 @@ pub(crate) fn scales_beyond(errors: &[f64], trajectory: &Trajectory, built: &Bui
     let of = |(index, channel): (usize, &Channel)| {
         let [half, largest] = own[index];
         let natural = built.unless(sizes.natural(channel, turn), channel.kind.unit);
+        let natural = natural.larger(sizes.of_translation(channel));
         let vanishes = !is_coordinate(channel) && largest <= errors[index];
         let share = if vanishes { share.larger(SMALLEST_OWN_SHARE) } else { share };
         half.larger(SMALLEST_OWN_SHARE * largest).larger(share * natural)
@@ -202,7 +203,8 @@ impl Sizes {
     fn of<'a>(trajectory: &Trajectory, own: impl Iterator<Item = (&'a Channel, f64)>) -> Self {
         let span = half_range(trajectory.times());
         let speed = if span > 0.0 { half_range(trajectory.inputs()) / span } else { 0.0 };
-        let mut sizes = Sizes { of_quantity: BTreeMap::new(), largest: Built { speed, ..Built::default() }, of_points: [0.0; 2] };
+        let mut sizes =
+            Sizes { of_quantity: BTreeMap::new(), largest: Built { speed, ..Built::default() }, of_points: [0.0; 2] };
         for (channel, size) in own {
             let of_quantity = sizes.of_quantity.entry(channel.kind.quantity).or_insert(0.0);
             *of_quantity = of_quantity.larger(size);
@@ -239,21 +241,25 @@ impl Sizes {
         if channel.kind.unit == Unit::Newton { own.larger(self.largest.force) } else { own }
     }
 
+    /// Size of an angular rate in a mechanism in which no link turns: the rates of points divided by the largest
+    /// coordinate. Zero for other channels, and if a link turns.
+    fn of_translation(&self, channel: &Channel) -> f64 {
+        let order = match channel.kind.unit {
+            Unit::RadianPerSecond => 0,
+            Unit::RadianPerSecondSquared => 1,
+            Unit::Radian | Unit::Metre | Unit::MetrePerSecond | Unit::MetrePerSecondSquared => return 0.0,
+            Unit::Newton | Unit::NewtonMetre => return 0.0,
+        };
+        let own = self.of_quantity.get(channel.kind.quantity).copied().unwrap_or(0.0);
+        let size = share(self.of_points[order], self.largest.length);
+        if size.is_finite() && own <= VANISHING * size { size } else { 0.0 }
+    }
+
     /// The largest size of the channel's quantity.
     /// This size is at least the size that follows from the crank's speed, the crank's rotation `turn` (rad) and the
     /// sizes of coordinates and forces.
-    /// If no link turns, the rates of points divided by the largest coordinate are the sizes of angular rates.
     fn natural(&self, channel: &Channel, turn: f64) -> f64 {
         let own = self.of_quantity.get(channel.kind.quantity).copied().unwrap_or(0.0);
-        let of_points = match channel.kind.unit {
-            Unit::RadianPerSecond => share(self.of_points[0], self.largest.length),
-            Unit::RadianPerSecondSquared => share(self.of_points[1], self.largest.length),
-            Unit::Radian | Unit::Metre | Unit::MetrePerSecond | Unit::MetrePerSecondSquared => 0.0,
-            Unit::Newton | Unit::NewtonMetre => 0.0,
-        };
-        if of_points.is_finite() && own <= VANISHING * of_points {
-            return of_points.larger(self.largest.of(channel.kind.unit, turn));
-        }
         // The size of a force is its largest value. If this value is only rounding error, `largest` gives the size.
         // An example is the shaking force of a balanced mechanism: it is only the rounding error of the joint forces.
         match channel.kind.unit == Unit::Newton && !(own <= VANISHING * self.largest.force) {

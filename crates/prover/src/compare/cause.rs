@@ -274,7 +274,13 @@ impl Stage {
     fn examined(&self, of: &[&Compared], left: f64) -> Option<Explained> {
         let mut diagnosis = self.diagnosis(of, left)?;
         let causes = diagnosis.cause.take().into_iter().chain(std::mem::take(&mut diagnosis.also));
-        let mut causes = causes.filter(|cause| left == 0.0 || may_leave(cause));
+        // A wrong row next to rows without numbers is no outlier: a diverging simulation ends in this way.
+        let is_undefined = of.iter().any(|own| own.undefined > 0);
+        let is_outlier =
+            |cause: &DisagreementCause| matches!(cause, DisagreementCause::Values { slip: DataSlip::Outlier(_), .. });
+        let may_be =
+            |cause: &DisagreementCause| (left == 0.0 || may_leave(cause)) && !(is_undefined && is_outlier(cause));
+        let mut causes = causes.filter(may_be);
         (diagnosis.cause, diagnosis.also) = (Some(causes.next()?), causes.collect());
         let is_left = |text: &str| diagnosis.left_over.iter().any(|channel| self.text(channel) == Some(text));
         let explained: Vec<String> =

@@ -11,7 +11,7 @@ use columns::{Beside, JudgedColumns, ScaleColumn, judge};
 use formula::{NodeShape, Rounded};
 use linkage::error::Advice;
 use linkage::input::Input;
-use linkage::math::statistics::half_range;
+use linkage::math::statistics::{half_range, quantile, sorted_sizes};
 use linkage::math::{KeepNan, largest_size};
 use linkage::trajectory::Unit;
 use scenario::Claim;
@@ -73,6 +73,11 @@ impl Which {
     }
 }
 
+/// Fraction of the rows that determine the uncertainty due to rounded instants, and ratio of the largest uncertainty to
+/// the uncertainty that this fraction of the rows does not exceed.
+const MOST_ROWS: f64 = 0.9;
+const STEEPEST: f64 = 3.0;
+
 /// Both parties at the same rows.
 pub(super) struct Both<'a> {
     pub parties: [&'a Held; 2],
@@ -107,14 +112,15 @@ impl Both<'_> {
         self.instants.each_ref().map(Vec::as_slice)
     }
 
-    /// The largest uncertainty due to the digits of the instants, if these `values` belong to the rows.
+    /// The uncertainty of most rows due to the digits of the instants, if these `values` belong to the rows. Rows in
+    /// which a simulation diverges do not count.
     pub(super) fn drift_of(&self, values: &[Rounded], turn: Option<f64>) -> f64 {
         if self.drift.is_empty() {
             return 0.0;
         }
         let (instants, slack): (Vec<f64>, Vec<f64>) = self.at.values.iter().map(|at| (at.value, at.error)).unzip();
         let drift = columns::drift(values, &instants, &slack, &self.at.ascending(), turn);
-        drift.into_iter().fold(0.0, f64::larger)
+        STEEPEST * quantile(&sorted_sizes(&drift), MOST_ROWS)
     }
 
     /// The scale of a channel. The scale does not depend on which other channels are compared.

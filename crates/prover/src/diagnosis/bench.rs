@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use super::cause::LateChannels;
 use super::question::{DiagnosisInput, SuspectChannel};
-use super::slips::KNOWN;
+use super::slips::known;
 use crate::bounds::{differences, magnitudes};
 use linkage::case::{Case, Grid};
 use linkage::math::statistics::ascending;
@@ -94,7 +94,7 @@ impl<'a> Bench<'a> {
             let place = question.reference.channels().iter().position(|own| *own == judged.channel)?;
             Some(Column {
                 channel: judged.channel.clone(),
-                bound: judged.bound.larger(KNOWN * sizes[place]),
+                bound: judged.bound.larger(known(question.case) * sizes[place]),
                 disagrees: judged.disagrees,
                 values: of_rows(question.suspicious.column(&judged.channel)?),
                 right: of_rows(question.reference.column(&judged.channel)?),

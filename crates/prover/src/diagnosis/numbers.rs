@@ -67,15 +67,18 @@ fn is_likely(guess: &Guess) -> bool {
 
 /// Candidates in which a part of the case has another value.
 pub(super) fn numbers(tries: &Tries) -> Vec<Candidate> {
-    let mut candidates = Vec::new();
-    let mut open = Vec::new();
+    let (mut plain, mut open) = (Vec::new(), Vec::new());
     for guess in guesses(tries) {
         let named = meant(tries, &guess.knob, guess.value, false);
-        if open.len() < GUESSED && is_likely(&guess) && !named.iter().any(|one| one.1) {
+        let is_known = named.iter().any(|one| one.1);
+        plain.push((guess.place, named));
+        if open.len() < GUESSED && is_likely(&guess) && !is_known {
             open.push(guess);
         }
-        candidates.extend(named.into_iter().map(|one| one.0));
     }
+    // Of several values that explain equally much, the value of the simplest knob comes first.
+    plain.sort_by_key(|(place, _)| *place);
+    let mut candidates: Vec<Candidate> = plain.into_iter().flat_map(|(_, named)| named).map(|one| one.0).collect();
     // The first approximation may be inaccurate. One solved case improves the guess.
     for guess in &mut open {
         let tried = guess.knob.at(&tries.soon.case, guess.value).and_then(|case| tries.soon.tried(&case));

@@ -7,13 +7,21 @@ use super::cause::{DataSlip, Plain};
 use super::knobs::significant_in;
 use super::question::{DiagnosisInput, Found, Rank, SuspectChannel};
 use crate::bounds::{differences, magnitudes};
+use linkage::case::Case;
 use linkage::math::angle::wrapped;
 use linkage::math::{KeepNan, largest_size};
 use linkage::trajectory::{Channel, Stage, Unit};
 
 /// Smallest bound, as a fraction of the magnitude of the reference's numbers. The reference may have relative errors
 /// up to this fraction.
-pub(super) const KNOWN: f64 = 1e-10;
+const KNOWN: f64 = 1e-10;
+/// As `KNOWN`, for a free motion. Errors of its integration grow with time.
+const KNOWN_OF_FREE: f64 = 1e-8;
+
+/// The fraction of the magnitude of the reference's numbers up to which these numbers may have errors.
+pub(super) fn known(case: &Case) -> f64 {
+    if case.is_free() { KNOWN_OF_FREE } else { KNOWN }
+}
 
 /// A factor on the values of a channel, and the confusion of units that causes it.
 type Mistaken = (f64, &'static str);
@@ -126,7 +134,7 @@ pub(super) fn wrong<'a>(question: &'a DiagnosisInput) -> Vec<Wrong<'a>> {
         let channel = &judged.channel;
         let place = question.reference.channels().iter().position(|own| own == channel)?;
         let (right, found) = (question.reference.column(channel)?, question.suspicious.column(channel)?);
-        let (bound, times) = (judged.bound.larger(KNOWN * sizes[place]), question.reference.times());
+        let (bound, times) = (judged.bound.larger(known(question.case) * sizes[place]), question.reference.times());
         Some(Wrong { channel, right, found, bound, times, speed, ratio })
     };
     question.judged.iter().filter(|judged| judged.disagrees).filter_map(of).collect()
@@ -251,7 +259,9 @@ impl Wrong<'_> {
             Plain::HalfTurns => {
                 let parts = parts_of(PI);
                 let is_odd = |(halves, _): &(f64, f64)| halves.rem_euclid(2.0) == 1.0;
-                let changes = parts.iter().any(is_odd) && !parts.iter().all(is_odd);
+                let odd = parts.iter().filter(|own| is_odd(own)).count();
+                // A single row may lie half a revolution away by chance.
+                let changes = odd > 1 && odd < parts.len();
                 is_angle && changes && parts.iter().all(|(_, over)| *over <= self.bound)
             }
         }

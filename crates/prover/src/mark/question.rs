@@ -100,6 +100,7 @@ pub const ANSWER_WORDS: [Stage; 5] =
 /// accelerations of all links that can turn, except the driving link.
 /// The stages of velocities and accelerations also select the magnitudes of the velocities or accelerations of all
 /// points that join moving links.
+/// If no other link turns, as in a cam with a translating follower, the slides and their rates are selected.
 ///
 /// # Errors
 /// [`ErrorKind::Input`] for a word that selects nothing.
@@ -123,7 +124,7 @@ pub fn columns_of(words: &[String], case: &Case) -> Result<Vec<AskedColumn>> {
             None => vec![name.clone()],
         };
         let own: Vec<AskedColumn> = own.iter().filter_map(|name| AskedColumn::named(name)).filter(has).collect();
-        if own.is_empty() {
+        if own.is_empty() && !words.is_empty() {
             let words = ANSWER_WORDS.iter().map(|stage| stage.name());
             let known: Vec<String> = ANSWER_WORDS.iter().flat_map(|stage| of_stage(*stage, case)).collect();
             let help = suggestion(name, known.iter().map(String::as_str).chain(words), "\"");
@@ -159,10 +160,16 @@ fn of_stage(stage: Stage, case: &Case) -> Vec<String> {
     points.sort_unstable();
     points.dedup();
     let of_points = |ending: &str| points.iter().map(|point| format!("point.{point}.{ending}")).collect::<Vec<_>>();
+    let driven = case.crank().joint;
+    let slides = mechanism.joints().entries().filter(|(index, joint)| joint.slides() && *index != driven);
+    let slides: Vec<&str> = slides.map(|(_, joint)| joint.name.as_str()).filter(|_| links.is_empty()).collect();
+    let of_slides = |ending: &str| slides.iter().map(|joint| format!("joint.{joint}.{ending}")).collect::<Vec<_>>();
     match stage {
-        Stage::Positions => of_links("angle_deg"),
-        Stage::Velocities => [of_links("omega_rad_s"), of_points("v_m_s")].concat(),
-        Stage::Accelerations => [of_links("alpha_rad_s2"), of_points("a_m_s2")].concat(),
+        Stage::Positions => [of_links("angle_deg"), of_slides("slide_mm")].concat(),
+        Stage::Velocities => [of_links("omega_rad_s"), of_points("v_m_s"), of_slides("slide_speed_m_s")].concat(),
+        Stage::Accelerations => {
+            [of_links("alpha_rad_s2"), of_points("a_m_s2"), of_slides("slide_acceleration_m_s2")].concat()
+        }
         Stage::Reactions => mechanism.joints().iter().map(|joint| format!("joint.{}.f_N", joint.name)).collect(),
         Stage::BalancingMoment => vec!["drive.torque_N_m".into(), "drive.force_N".into()],
     }

@@ -50,7 +50,7 @@ pub(super) struct Observed {
     pub(super) unbalance: Option<f64>,
     /// Largest moment on the driving link (N m): the balancing moment, or a joint's force times the link's length.
     pub(super) moment: f64,
-    /// Largest summand of the balance of powers of an analytic side, as a moment like those in `power` (N m).
+    /// Largest summand of the balance of powers, as a moment like those in `power` (N m).
     pub(super) summand: f64,
     /// Largest condition number of a passage of a side through a change point; 1 if no side passes a change point.
     pub(super) passing: f64,
@@ -178,8 +178,8 @@ pub(super) fn observe(
                 .map(|drive| case.drive_state(drive, &state.motions, &state.angles).rate.abs())
                 .fold(fastest, f64::larger);
             moment = moment.larger(state.largest_moment(case, arm));
+            summand = summand.larger(power::largest(case, state));
             if watch == Watch::Side {
-                summand = summand.larger(power::largest(case, state));
                 unbalance.add(case, state, crank);
             }
         }
