@@ -2,6 +2,7 @@
 
 mod accept;
 mod answers;
+mod bearings;
 mod bench;
 mod clearance;
 mod drive;

@@ -488,3 +488,14 @@ fn without_output_the_picture_is_made_beside_its_name() {
     // Angles, angular velocities and accelerations of three links, four reactions, one torque.
     assert_eq!((found.curves.len(), found.upward().len()), (14, 5));
 }
+
+#[test]
+fn curves_without_values_and_surplus_labels_are_refused() {
+    let place = Place::new();
+    let refused = |arguments: &str, words: &[&str]| {
+        place.refused(&format!("graph {ROCKER} {arguments} -o a.svg"), words);
+        assert!(!place.path("a.svg").exists(), "{arguments}");
+    };
+    refused("--show link.rocker.omega_rad_s/0", &["link.rocker.omega_rad_s/0", "no value at any instant"]);
+    refused("--show drive.torque_N_m --y-label a --y-label b", &["2 labels", "charts is 1"]);
+}

@@ -319,6 +319,41 @@ fn regress_a_motion_without_reactions_agrees() {
     }
 }
 
+/// Spring and damper on a slide whose mass has a moment of inertia. The link never turns, so its angular acceleration
+/// must not end the search.
+#[test]
+fn regress_a_link_that_never_turns_does_not_limit_the_step() {
+    let free = "motion = \"free\"\nstart_mm = 10\nspeed_mm_s = 100";
+    let load = "[[loads]]\ntype = \"slide_spring\"\nstiffness_N_m = 1000\nfree_slide_mm = 0\njoint = \"S\"\n\
+                [[loads]]\ntype = \"slide_damper\"\ndamping_N_s_m = 5\njoint = \"S\"\n";
+    let text = slide(free, -9.81, load).replace("mass_kg = 3\n", "mass_kg = 0.1\ninertia_kg_m2 = 0.01\n");
+    let text = text.replace("to_s = 1\nstep_s = 0.02", "to_s = 5\nstep_s = 0.1");
+    let proof = proven(&parsed(&text));
+    assert_eq!(proof.verdict.word(), "agree", "{:?}", proof.verdict);
+}
+
+/// A free pendulum on a cart, which hangs at rest when the cart starts. The same pendulum hangs on the frame.
+#[test]
+fn regress_a_link_at_rest_in_its_equilibrium_agrees() {
+    let rope = "[links.rope]\npoints = { P = { x_mm = 0, y_mm = 0 }, L = { x_mm = 1500, y_mm = 0 } }\nmass_kg = 1\n\
+                inertia_kg_m2 = 0.2\nmass_centre = { x_mm = 750, y_mm = 0 }\n[[joints]]\nname = \"P\"\n\
+                type = \"revolute\"\nlinks = [\"m\", \"rope\"]\n[drive]";
+    let law = "law = \"cycloidal\"\nstart_mm = 0\nto_mm = 2000\ntime_s = 1";
+    let free = "[[drive]]\njoint = \"P\"\nmotion = \"free\"\nstart_deg = -90\nspeed_rad_s = 1\n[gravity]";
+    let cart = slide(law, -9.81, "").replacen("[drive]", rope, 1);
+    let cart = cart.replace("[drive]", "[[drive]]").replacen("[gravity]", free, 1);
+    let hanging = "format = 1\nname = \"hanging\"\ntitle = \"Hanging\"\nground.points = { O = { x_mm = 0, y_mm = 0 } }\n\
+                   start = { crank_deg = -90 }\n[links.bar]\nmass_kg = 2\ninertia_kg_m2 = 0.05\n\
+                   points = { O = { x_mm = 0, y_mm = 0 } }\nmass_centre = { x_mm = 250, y_mm = 0 }\n[[joints]]\n\
+                   name = \"O\"\ntype = \"revolute\"\nlinks = [\"ground\", \"bar\"]\n[drive]\njoint = \"O\"\n\
+                   motion = \"free\"\nspeed_rad_s = 5\n[gravity]\nx_m_s2 = 0\ny_m_s2 = -9.81\n[grid]\nfrom_s = 0\n\
+                   to_s = 3\nstep_s = 0.05\n";
+    for text in [cart.as_str(), hanging] {
+        let proof = proven(&parsed(text));
+        assert_eq!(proof.verdict.word(), "agree", "{:?}\n{text}", proof.verdict);
+    }
+}
+
 /// A mass of 3 kg on a horizontal slide, with this law or motion of the drive, and these loads.
 fn slide(law: &str, gravity: f64, loads: &str) -> String {
     format!(

@@ -283,6 +283,8 @@ fn questions_that_mean_nothing_are_refused() {
     refused(&format!("--vary crank_mm=1:2:3 {figure} {figure}"), &["two columns"]);
     refused(&format!("--vary crank_mm=1:2:3 {figure} --best most:x"), &["most:x"]);
     refused(&format!("--vary crank_mm=1:2:3 {figure} --shard 3/2"), &["shard"]);
+    refused("--vary crank_mm=1:2:3 --figure at=37.1:link.rocker.angle_deg", &["no instant at 37.1 deg"]);
+    refused(&format!("--vary crank_mm=1:2:3 --set coupler_mm=1 --set coupler_mm=2 {figure}"), &["given twice"]);
     fs::create_dir(place.path("mine")).unwrap();
     fs::write(place.path("mine/notes.txt"), "mine").unwrap();
     place.refused(&format!("sweep four_bar.toml --vary crank_mm=30:40:3 {figure} -o mine"), &["notes.txt"]);

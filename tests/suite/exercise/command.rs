@@ -193,3 +193,15 @@ fn exercises_that_cannot_be_made_are_refused() {
         assert!(!place.path("class").exists(), "{arguments}");
     }
 }
+
+/// A translating follower has no angle, so its slide and its rates are asked for.
+/// Sheets of another class are not mixed with the new ones.
+#[test]
+fn a_follower_is_asked_for_its_slide_and_classes_stay_apart() {
+    let place = Place::new();
+    place.ok("exercise scenarios/cam_follower.toml -n 2 -o class");
+    let answers = fs::read_to_string(place.path("class/answers/student_001.csv")).unwrap();
+    assert!(answers.contains("crank_deg,joint.B.slide_mm,joint.B.slide_speed_m_s"), "{answers}");
+    let command = "exercise scenarios/crank_rocker.toml -n 1 -o class";
+    place.refused(command, &["student_002.html", "another class"]);
+}
