@@ -2,6 +2,8 @@
 
 #[cfg(feature = "command")]
 mod command;
+#[cfg(feature = "command")]
+mod draw;
 mod machine;
 mod report;
 #[cfg(feature = "command")]
@@ -11,6 +13,8 @@ mod synthesize;
 
 #[cfg(feature = "command")]
 pub(crate) use command::*;
+#[cfg(feature = "command")]
+pub(crate) use draw::*;
 pub(crate) use machine::*;
 pub(crate) use report::*;
 #[cfg(feature = "command")]

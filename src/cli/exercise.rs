@@ -1,7 +1,6 @@
 //! `linkproof exercise`.
 
 use crate::sentences;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::grid::GridArgs;
@@ -16,6 +15,7 @@ use linkage::case::When;
 use linkage::error::{Error, ErrorKind, Result};
 use prover::mark::{AnswerSheet, columns_of};
 use scenario::Scenario;
+use scenario::source::text_of;
 use scenario::varied::NumberSort;
 use scenario::words::choice;
 
@@ -143,7 +143,7 @@ pub(super) fn exercise(args: &Args) -> Result<()> {
     files.push((place("teacher", "answers.csv"), report::all_answers(&sheets)?));
     files.push((place("teacher", "answers.html"), report::answers_page(&sheets, &key)));
     files.push((directory.join("key.json"), key.text()));
-    is_of_this_class(directory, &files)?;
+    is_of_this_class(directory, &key)?;
     output::may_make(&files.iter().map(|(path, _)| path.clone()).collect::<Vec<_>>())?;
     for (path, text) in &files {
         if let Some(parent) = path.parent() {
@@ -156,15 +156,16 @@ pub(super) fn exercise(args: &Args) -> Result<()> {
 }
 
 /// Refuses a directory with sheets of another class, which would otherwise stay beside the new sheets.
-fn is_of_this_class(directory: &Path, files: &[(PathBuf, String)]) -> Result<()> {
-    let tasks = directory.join("tasks");
-    let old = fs::read_dir(&tasks).into_iter().flatten().flatten().map(|entry| entry.path());
-    let mut others = old.filter(|path| files.iter().all(|(own, _)| own != path));
-    let Some(other) = others.find(|path| path.extension().is_some_and(|ending| ending == "html")) else {
+fn is_of_this_class(directory: &Path, key: &ClassKey) -> Result<()> {
+    let place = directory.join("key.json");
+    // A file that is no key is reported when the key is written.
+    let old = text_of(&place).and_then(|text| ClassKey::parse(&text, &place.display().to_string()));
+    let sheets = old.map(|old| old.sheets).unwrap_or_default();
+    let Some(other) = sheets.iter().find(|old| key.sheets.iter().all(|new| new.name != old.name)) else {
         return Ok(());
     };
-    let error = Error::new(ErrorKind::Input, sentences::holds_the_sheets_of_another_class(&other.display()));
-    Err(error.key("--output").help(sentences::NAME_ANOTHER_DIRECTORY_FOR_THE_CLASS))
+    let message = sentences::holds_the_sheets_of_another_class(&directory.display(), &other.name);
+    Err(Error::new(ErrorKind::Input, message).key("--output").help(sentences::NAME_ANOTHER_DIRECTORY_FOR_THE_CLASS))
 }
 
 /// The scenarios of all sheets: one for each student, or one for each file.

@@ -289,7 +289,7 @@ linkage::sentences! {
     EXPECTED_AT_MOST_50_PER_CENT = "expected at most 50 per cent";
     EXPECTED_AN_ANGLE_BELOW_90 = "expected an angle below 90 deg";
     sheets_are_in(count, directory, quoted) = "{count} sheets are in {directory}: give out tasks/ and answers/, keep teacher/.\nnext: linkproof mark {quoted}\n";
-    holds_the_sheets_of_another_class(sheet) = "{sheet} is a sheet of another class";
+    holds_the_sheets_of_another_class(directory, sheet) = "{directory} contains another class, which has the sheet {sheet}";
     NAME_ANOTHER_DIRECTORY_FOR_THE_CLASS = "name another directory with -o, or remove the old sheets";
     GIVE_EVERY_SCENARIO_A_NAME = "give every scenario a unique name, or leave one of the two out";
     // cli/mark.rs

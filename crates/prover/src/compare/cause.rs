@@ -249,8 +249,10 @@ impl Stage {
             // bound, from numbers with more digits, would reject right causes.
             let agrees = own.wrong == 0;
             let largest = own.largest.map_or(0.0, |at| at.difference.abs());
-            // The rounded instants belong to wrong values, which may change faster than the right ones.
-            let loosest = own.loosest + if agrees { 0.0 } else { both.drift_of(values, own.claim.turn()) };
+            // The rounded instants belong to wrong values, which may change faster than the right ones. In a table of
+            // several runs, differences between rows are no rates, so the uncertainty is limited.
+            let drift = both.drift_of(values, own.claim.turn()).smaller(LEFT[1] * largest);
+            let loosest = own.loosest + if agrees { 0.0 } else { drift };
             let bound = match agrees || largest > loosest {
                 true => loosest,
                 false => own.worst.map_or(0.0, |worst| worst.bound),
