@@ -97,7 +97,7 @@ fn one(&Entry { path, name, sort, bytes }: &Entry) -> Result<(Golden, Vec<File>)
     let mut files = Vec::new();
     let mut put = |file: &str, bytes: Vec<u8>| files.push(File { path: Path::new(name).join(file), bytes });
     put(&format!("{name}.toml"), bytes.to_vec());
-    tables(&proof)?.into_iter().for_each(|(file, bytes)| put(&file, bytes));
+    tables(&proof)?.into_iter().for_each(|(file, bytes)| put(file, bytes));
     let step = scenario.engine.step.get().unwrap_or_else(|| usual_step(&scenario.case));
     // The JSON contains the case as numbers, so it can describe every mechanism.
     let numbers = case_json::text(&scenario.name, &scenario.case, &first_state(&scenario.case, &AssurSolver)?);

@@ -85,6 +85,9 @@ fn names(channels: &[Channel]) -> String {
     some(channels, NAMED)
 }
 
+/// A coordinate of a vector is shown as zero below this fraction of the vector's length.
+const NOTHING: f64 = 1e-9;
+
 /// A cause in words.
 #[must_use]
 pub fn cause(cause: &DisagreementCause) -> String {
@@ -110,7 +113,11 @@ fn slip(slip: &DataSlip, channels: &[Channel]) -> String {
             sentences::differences_of_over_or_such_of_its_like(&order, &other, &over, &of)
         }
         DataSlip::NoCoriolis(joint) => sentences::the_coriolis_acceleration_of_the_block(&joint, &of),
-        DataSlip::About(Arm::Constant([x, y])) => sentences::about_another_point_by_away(&of, &number(*x), &number(*y)),
+        DataSlip::About(Arm::Constant(arm)) => {
+            let least = NOTHING * arm[0].hypot(arm[1]);
+            let [x, y] = arm.map(|own| number(if own.abs() < least { 0.0 } else { own }));
+            sentences::about_another_point_by_away(&of, &x, &y)
+        }
         DataSlip::About(Arm::Between(None, to)) => sentences::about_instead_of_the_origin(&of, &to),
         DataSlip::About(Arm::Between(Some(from), to)) => sentences::about_instead_of(&of, &to, &from),
         DataSlip::Outlier(time) => sentences::one_row_alone_at_in_an_outlier(&number(*time), &of),
@@ -255,6 +262,7 @@ fn part(part: &CasePart) -> String {
         CasePart::Phase(name) => sentences::start_of_transmission(&name),
         CasePart::MotorMoment => sentences::MOMENT_OF_THE_MOTOR.into(),
         CasePart::RotorInertia => sentences::INERTIA_OF_ROTOR_AND_REDUCER.into(),
+        CasePart::Axis(joint, link) => sentences::axis_of_on(joint, link),
         CasePart::Place(joint, link, along) => sentences::place_of_on(&joint, &link, &axis(along)),
     }
 }

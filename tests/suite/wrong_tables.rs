@@ -58,6 +58,11 @@ impl Sheet {
         self.all.named(name).unwrap_or_else(|| panic!("no channel {name}")).to_vec()
     }
 
+    /// Multiplies the times of all rows by a factor.
+    fn clock(&mut self, factor: f64) {
+        self.times.iter_mut().for_each(|time| *time *= factor);
+    }
+
     /// Changes every value of a column, given its row and the value.
     fn each(&mut self, name: &str, change: impl Fn(usize, f64) -> f64) {
         self.of(name).iter_mut().enumerate().for_each(|(row, value)| *value = change(row, *value));
@@ -285,17 +290,17 @@ fn a_drift_is_not_attributed_to_a_number_of_the_case() {
 /// Times of a free motion in another unit, or from another clock.
 #[test]
 fn a_wrong_clock_of_a_free_motion_is_named() {
-    let lists: [(fn(&mut Sheet), &str); 3] = [
-        (|sheet| sheet.times.iter_mut().for_each(|time| *time *= 1e-3), "time in another unit: seconds"),
-        (|sheet| sheet.times.iter_mut().for_each(|time| *time *= 2.0), "the clock runs too fast"),
-        (|sheet| sheet.times.iter_mut().for_each(|time| *time /= 10.0), "the clock runs too slow"),
+    let clocks = [
+        (Make::Values(|sheet| sheet.clock(1e-3)), "time in another unit: seconds"),
+        (Make::Values(|sheet| sheet.clock(2.0)), "the clock runs too fast"),
+        (Make::Values(|sheet| sheet.clock(0.1)), "the clock runs too slow"),
     ];
-    for (change, named) in lists {
+    for (make, named) in clocks {
         let wrong = Wrong {
             scenario: "double_pendulum",
             columns: &["link.upper.angle_rad", "link.lower.omega_rad_s", "joint.A.fx_N"],
             what: named,
-            make: Make::Values(change),
+            make,
             named: &[],
         };
         let found = words(&wrong.compared());
