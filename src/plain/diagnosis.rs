@@ -262,7 +262,6 @@ fn part(part: &CasePart) -> String {
         CasePart::Phase(name) => sentences::start_of_transmission(&name),
         CasePart::MotorMoment => sentences::MOMENT_OF_THE_MOTOR.into(),
         CasePart::RotorInertia => sentences::INERTIA_OF_ROTOR_AND_REDUCER.into(),
-        CasePart::Axis(joint, link) => sentences::axis_of_on(joint, link),
         CasePart::Place(joint, link, along) => sentences::place_of_on(&joint, &link, &axis(along)),
     }
 }

@@ -226,8 +226,6 @@ pub enum CasePart {
     /// Distance of two joints on a link. The fields are the names of the moved joint, of the other joint and of the
     /// link.
     Length(String, String, String),
-    /// Direction of a prismatic joint's axis on its first link. The fields are the joint and the link.
-    Axis(String, String),
     /// One coordinate of a joint's position on a link. The fields are the joint, the link and the axis of the link's
     /// frame.
     Place(String, String, FrameAxis),

@@ -12,8 +12,7 @@ use linkage::drive::{Drive, DriveMotion, MotionLaw, Motor, ShaftInertia};
 use linkage::input::Input;
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{
-    Joint, JointId, JointKind, Link, LinkId, Mechanism, Transmission, TransmissionDesign, TransmissionId,
-    TransmissionKind,
+    Joint, JointId, Link, LinkId, Mechanism, Transmission, TransmissionDesign, TransmissionId, TransmissionKind,
 };
 
 /// Sets a new value in the parts of a case; `None` if the value is impossible.
@@ -152,20 +151,7 @@ pub(super) fn all(case: &Case) -> Vec<Knob> {
         knobs.extend([FrameAxis::X, FrameAxis::Y].map(|axis| place(case, joint, link, axis)));
     }
     knobs.extend(lengths(case));
-    knobs.extend(case.mechanism.joints().entries().filter_map(|(index, joint)| axis(case, index, joint)));
     knobs
-}
-
-/// The direction of a guide on its link. The sliding link turns with the guide.
-fn axis(case: &Case, index: JointId, joint: &Joint) -> Option<Knob> {
-    let JointKind::Prismatic { axes: [on_first, on_second] } = joint.kind else { return None };
-    let turn = move |parts: &mut CaseParts, angle: f64| {
-        let axes = [Vec2::new(angle.cos(), angle.sin()), on_second];
-        changed(parts, |_, joints| joints[index.index()].kind = JointKind::Prismatic { axes })?;
-        reassembled(parts)
-    };
-    let part = CasePart::Axis(joint.name.clone(), case.mechanism.links()[joint.first.link].name.clone());
-    Some(Knob::place(part, on_first.y.atan2(on_first.x), 1.0, "rad", turn))
 }
 
 /// Ratio and pressure angle of a transmission, or the lift of a cam.
