@@ -143,8 +143,8 @@ pub(super) fn exercise(args: &Args) -> Result<()> {
     files.push((place("teacher", "answers.csv"), report::all_answers(&sheets)?));
     files.push((place("teacher", "answers.html"), report::answers_page(&sheets, &key)));
     files.push((directory.join("key.json"), key.text()));
-    is_of_this_class(directory, &key)?;
     output::may_make(&files.iter().map(|(path, _)| path.clone()).collect::<Vec<_>>())?;
+    is_of_this_class(directory, &key)?;
     for (path, text) in &files {
         if let Some(parent) = path.parent() {
             output::make_directory(parent, "--output", sentences::GIVE_A_DIRECTORY_THAT_MAY)?;
@@ -158,7 +158,7 @@ pub(super) fn exercise(args: &Args) -> Result<()> {
 /// Refuses a directory with sheets of another class, which would otherwise stay beside the new sheets.
 fn is_of_this_class(directory: &Path, key: &ClassKey) -> Result<()> {
     let place = directory.join("key.json");
-    // A file that is no key is reported when the key is written.
+    // `may_make` has already refused anything but a regular file with a key.
     let old = text_of(&place).and_then(|text| ClassKey::parse(&text, &place.display().to_string()));
     let sheets = old.map(|old| old.sheets).unwrap_or_default();
     let Some(other) = sheets.iter().find(|old| key.sheets.iter().all(|new| new.name != old.name)) else {
