@@ -3,9 +3,9 @@
 use crate::sentences;
 use std::path::PathBuf;
 
-use super::load::plain;
+use super::load::nominal;
+use super::number;
 use super::outputs::{Outputs, results};
-use super::{number, output};
 use crate::report::bearings::{self as report, Journals};
 use analytic::range::explained;
 use design::bearings;
@@ -38,11 +38,7 @@ pub(super) fn bearings(args: &Args) -> Result<()> {
             return Err(error.help(sentences::GIVE_A_NUMBER_ABOVE_ZERO));
         }
     }
-    let scenario = plain(&args.file)?;
-    if scenario.case.is_free() {
-        output::note(sentences::BEARINGS_OF_A_FREE_MOTION);
-    }
-    let scenario = scenario.nominal();
+    let scenario = nominal(&args.file, sentences::BEARINGS_OF_A_FREE_MOTION)?;
     let peaks = bearings::over_range(&scenario.case).map_err(|error| explained(&scenario.case, error))?;
     let journals = Journals { lever_mm: args.lever_mm, stress_mpa: args.stress_mpa };
     let json = |_| Ok(report::json(journals, &scenario, &peaks));

@@ -4,9 +4,9 @@ use crate::sentences;
 use std::path::PathBuf;
 
 use super::engine_args::{side, word};
-use super::load::plain;
+use super::load::nominal;
+use super::number;
 use super::outputs::{Made, Outputs, results};
-use super::{number, output};
 use crate::report::diagram as report;
 use analytic::range::explained;
 use design::diagram::{Construction, ConstructionSort, MotionCurve, MotionDiagram};
@@ -44,11 +44,7 @@ results! { DiagramResults {
 } }
 
 pub(super) fn diagram(args: &Args) -> Result<()> {
-    let scenario = plain(&args.file)?;
-    if scenario.case.is_free() {
-        output::note(sentences::DIAGRAM_OF_A_FREE_MOTION);
-    }
-    let scenario = scenario.nominal();
+    let scenario = nominal(&args.file, sentences::DIAGRAM_OF_A_FREE_MOTION)?;
     let solver = args.with.solver();
     let course = MotionCurve::named(&scenario.case, &args.channel)?;
     let diagram = MotionDiagram::of(&scenario.case, solver, &course, args.divisions)

@@ -82,6 +82,15 @@ pub(super) fn plain(file: &Path) -> Result<Scenario> {
     as_asked(file, &StartRequest::default())
 }
 
+/// The nominal motion of a scenario. For a free motion, prints `note`.
+pub(super) fn nominal(file: &Path, note: &str) -> Result<Scenario> {
+    let scenario = plain(file)?;
+    if scenario.case.is_free() {
+        output::note(note);
+    }
+    Ok(scenario.nominal())
+}
+
 /// Reads a scenario and starts its groups in the given `modes`.
 pub(super) fn load(file: &Path, modes: &[String]) -> Result<Scenario> {
     as_asked(file, &StartRequest { modes: modes.to_vec(), ..StartRequest::default() })

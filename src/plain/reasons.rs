@@ -8,11 +8,11 @@ use super::style::wrapped;
 use super::{Tell, diagnosis};
 use crate::sentences;
 use analytic::assur::{effort_at_rest, rows_at_rest};
-use linkage::case::FrictionSeat;
+use linkage::case::{CaseParts, FrictionSeat};
 use linkage::error::Advice;
 use linkage::input::Input;
 use linkage::math::statistics::distinct;
-use linkage::mechanism::{CamContact, Transmission, TransmissionKind};
+use linkage::mechanism::{CamContact, CamFigures, Transmission, TransmissionKind};
 use linkage::trajectory::Channel;
 use prover::bounds::{Check, Verdict};
 use prover::numbers::{input_in, quantity, significant};
@@ -197,9 +197,7 @@ pub fn notes(proof: &Proof, width: Option<usize>, text: &mut String) {
     at_rest(proof, width, text);
     let (reference, case) = (&proof.reference_trajectory, &proof.scene.case);
     for own in case.mechanism.transmissions().iter() {
-        let Some(cam) = &own.cam else { continue };
-        let found = cam.figures(own.coordinates_in(case.mechanism.joints(), &case.start.motions()));
-        if found.curvature < 0.0 {
+        if let Some(found) = cam_figures(case, own).filter(|found| found.curvature < 0.0) {
             let undercut = significant(-1e3 * found.curvature, 4);
             let told = sentences::the_cam_is_undercut(&own.name(), &undercut, &undercut_remedy(own));
             say!(text, "\n{}", wrapped(&told, width, 2));
@@ -213,6 +211,12 @@ pub fn notes(proof: &Proof, width: Option<usize>, text: &mut String) {
         let told = sentences::the_follower_leaves_the_cam(&cam.name(), &count, &all, &input_in(at, 1));
         say!(text, "\n{}", wrapped(&told, width, 2));
     }
+}
+
+/// Figures of a cam; `None` for other transmissions.
+pub fn cam_figures(case: &CaseParts, own: &Transmission) -> Option<CamFigures> {
+    let cam = own.cam.as_ref()?;
+    Some(cam.figures(own.coordinates_in(case.mechanism.joints(), &case.start.motions())))
 }
 
 /// How the profile of an undercut cam becomes possible.

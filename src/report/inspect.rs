@@ -6,12 +6,12 @@ use serde_json::{Value, json};
 use super::drivers::Drivers;
 use super::pretty::{list, pretty};
 use super::{modes, range};
-use crate::plain::reasons::undercut_remedy;
+use crate::plain::reasons::{cam_figures, undercut_remedy};
 use analytic::modes::Modes;
 use analytic::range::Range;
 use linkage::case::CaseParts;
 use linkage::mechanism::assembly::{ConfigurationChoice, transmission_sine};
-use linkage::mechanism::{CamFigures, GROUND, Joint, JointId, LinkId, Mechanism, Transmission};
+use linkage::mechanism::{GROUND, Joint, JointId, LinkId, Mechanism, Transmission};
 use prover::numbers::{fixed_in, input_in, significant};
 use scenario::{Scenario, Undecided};
 
@@ -81,7 +81,7 @@ fn transmission(case: &CaseParts, own: &Transmission) -> String {
     let (name, kind) = (own.name(), own.design.kind.name());
     let slides = own.slide().is_some();
     let Some(ratio) = own.ratio() else {
-        let Some(found) = figures(case, own) else { return String::new() };
+        let Some(found) = cam_figures(case, own) else { return String::new() };
         let mm = |length: f64| format!("{} mm", significant(length * 1e3, SAMPLED));
         let in_deg = |angle: f64| significant(angle.to_degrees(), SAMPLED);
         let lift = if slides { mm(found.lift) } else { format!("{} deg", in_deg(found.lift)) };
@@ -98,12 +98,6 @@ fn transmission(case: &CaseParts, own: &Transmission) -> String {
         false => (significant(ratio, SHOWN), sentences::pitch_radii(&pitch, &other)),
     };
     sentences::a_transmission(&name, &kind, &first, &second, &carrier, &ratio, &radii)
-}
-
-/// Figures of a cam; `None` for other transmissions.
-fn figures(case: &CaseParts, own: &Transmission) -> Option<CamFigures> {
-    let cam = own.cam.as_ref()?;
-    Some(cam.figures(own.coordinates_in(case.mechanism.joints(), &case.start.motions())))
 }
 
 /// Distance of the configuration from the approximate positions in the file, and the distance of the next-nearest
@@ -182,7 +176,7 @@ fn structure(scenario: &Scenario) -> Value {
             "start_joint": joint(own.design.joint),
         });
         let slides = own.slide().is_some();
-        if let Some(found) = figures(case, own) {
+        if let Some(found) = cam_figures(case, own) {
             told[if slides { "lift_m" } else { "lift_rad" }] = found.lift.into();
             told["base_radius_m"] = found.base.into();
             told["pressure_angle_rad"] = found.pressure_angle.into();

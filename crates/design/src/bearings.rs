@@ -163,7 +163,7 @@ fn samples_of(case: &Case) -> Vec<f64> {
     let between =
         |[from, to]: [f64; 2], parts: usize| (0..=parts).map(move |k| from + (to - from) * (k as f64 / parts as f64));
     let mut found: Vec<f64> = between([from, to], steps(to - from, case.step(SAMPLE_STEP))).collect();
-    for (knots, period) in case.loads.iter().flat_map(|load| load.courses()).filter_map(|course| course.knots()) {
+    for (knots, period) in case.load_knots() {
         for knot in knots {
             let first = ((from - knot) / period).ceil();
             let repeated = (0..).map(|k| knot + period * (first + f64::from(k)));
@@ -174,8 +174,7 @@ fn samples_of(case: &Case) -> Vec<f64> {
     if crank.constant_speed().is_none() {
         // The law proceeds by the angle `SAMPLE_STEP` of its shortest oscillation in each step.
         let times = ends(case.grid.times.iter().copied());
-        let pace = crank.largest_acceleration() / crank.top_speed().abs();
-        let parts = steps((times[1] - times[0]) * pace, SAMPLE_STEP);
+        let parts = steps((times[1] - times[0]) * crank.pace(), SAMPLE_STEP);
         found.extend(between(times, parts).map(|time| crank.at(time).value));
     }
     found.retain(|input| (from..=to).contains(input));

@@ -399,6 +399,11 @@ impl Case {
         self.loads.iter().flat_map(Load::courses).flat_map(Course::jumps)
     }
 
+    /// Breakpoints (rad or m) of all tables of loads, each list with the period after which it repeats.
+    pub fn load_knots(&self) -> impl Iterator<Item = (&[f64], f64)> {
+        self.loads.iter().flat_map(Load::courses).filter_map(Course::knots)
+    }
+
     /// Whether a link can turn. A slider on the ground and the coupler of a parallelogram only translate.
     #[inline]
     #[must_use]

@@ -80,10 +80,8 @@ pub(crate) fn coarse_step(case: &Case) -> f64 {
 fn step(case: &Case, turn: f64, share: f64) -> f64 {
     let last = case.grid.times.iter().fold(0.0f64, |last, t| last.larger(t.abs()));
     // A law that oscillates about one position with a small amplitude has a short period although its speed is small.
-    let moving = case.drives.iter().filter(|drive| drive.top_speed() != 0.0);
-    let pace = moving.fold(case.drives.top_speed(case.mechanism.size()), |most: f64, drive| {
-        most.larger(OF_PERIOD * drive.largest_acceleration() / drive.top_speed().abs())
-    });
+    let speed = case.drives.top_speed(case.mechanism.size());
+    let pace = case.drives.iter().fold(speed, |most: f64, drive| most.larger(OF_PERIOD * drive.pace()));
     let (by_turn, by_time) = (turn / pace, share * if last > 0.0 { last } else { 1.0 });
     // For links at rest, the limit from the rotation is infinite, so the duration limits the step. A motion under
     // forces may become much faster than at its start, so the duration also limits the step of such a motion.

@@ -119,7 +119,7 @@ pub fn read(table: &mut TomlTable, drives: &Drives, is_replaced: bool) -> Result
 
 /// Whether end or step of a range is a time.
 fn has_times(table: &TomlTable) -> bool {
-    ["to_s", "to_ms", "step_s", "step_ms"].iter().any(|key| table.has(key))
+    ["to", "step"].iter().any(|key| TIME.all_keys(key).iter().any(|spelling| table.has(spelling)))
 }
 
 fn ranged_points(table: &mut TomlTable, family: &'static UnitFamily, from: f64) -> Result<Vec<f64>> {

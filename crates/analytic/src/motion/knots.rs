@@ -17,9 +17,7 @@ pub(super) struct Knots(Vec<(Vec<f64>, f64)>);
 impl Knots {
     /// The knots of all loads of a case.
     pub(super) fn of(case: &Case) -> Self {
-        let courses = case.loads.iter().flat_map(|load| load.courses());
-        let tables = courses.filter_map(|course| course.knots());
-        Knots(tables.map(|(knots, period)| (knots.to_vec(), period)).collect())
+        Knots(case.load_knots().map(|(knots, period)| (knots.to_vec(), period)).collect())
     }
 
     /// Ends of the interval around a crank angle in which all tables are smooth.

@@ -104,7 +104,7 @@ pub(crate) fn march<const N: usize, F: Flow<N>>(
     let h0 = if place.h > 0.0 { place.h.smaller(last - place.x) } else { 0.0 };
     let allowed = (ESTIMATED * accuracy).larger(LEAST_ESTIMATED);
     let method = ExplicitRungeKutta::dop853().rtol(allowed).atol(allowed).max_steps(MOST_STEPS).h0(h0);
-    // Without this limit, the first trial step of a motion from equilibrium would be many times longer than the interval.
+    // Without this limit, the first trial step of a motion from equilibrium would exceed the interval many times.
     let mut method: Method<N> = method.h_max(last - place.x);
     let known = Remembering::new(flow);
     let begun = method.init(&known, place.x, last, &place.y);

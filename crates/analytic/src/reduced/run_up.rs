@@ -7,7 +7,6 @@ use crate::motion::step::Step;
 use crate::{PoseSolver, sentences};
 use linkage::case::{Case, Grid};
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::input::Input;
 use linkage::math::KeepNan;
 use linkage::solver::{Sampler, Visit};
 use linkage::trajectory::{Channel, Stage, Trajectory};
@@ -169,21 +168,17 @@ impl<'m, 'a> Runner<'m, 'a> {
         // The acceleration includes the loads that resist a motion in this direction.
         let ways: &[f64] = if omega == 0.0 { &[1.0, -1.0] } else { &[omega.signum()] };
         for &way in ways {
-            let Some(piece) = self.flow.0.model.piece_at(crank, way) else {
+            let Some(alpha) = self.turned(way) else {
                 if omega == 0.0 {
                     continue;
                 }
                 return Ok(Some(RunUpEnd::Limit(t, crank + self.gone)));
             };
             let forces = &self.flow.0;
-            forces.piece.set(piece);
-            forces.way.set(way);
-            forces.branch.set(forces.model.branch(omega, way));
-            let alpha = forces.acceleration(crank, omega);
             if omega == 0.0 && !(way * alpha > self.rounding(crank)) {
                 continue;
             }
-            if omega == 0.0 && way > 0.0 && self.starts_back(crank) {
+            if omega == 0.0 && way > 0.0 && self.starts_back() {
                 let at = forces.model.case.told(crank + self.gone);
                 return Err(Error::new(ErrorKind::Unsupported, sentences::at_the_crank_may_start_from_rest(&t, &at))
                     .at_time(t)
@@ -198,16 +193,21 @@ impl<'m, 'a> Runner<'m, 'a> {
         Ok(Some(RunUpEnd::Held(t, crank + self.gone)))
     }
 
+    /// Chooses piece, sense and branch for a motion in the sense `way` from the present state. Returns the crank's
+    /// acceleration, or `None` at a limit of the motion in this sense.
+    fn turned(&self, way: f64) -> Option<f64> {
+        let (forces, [crank, omega]) = (&self.flow.0, self.place.y);
+        forces.piece.set(forces.model.piece_at(crank, way)?);
+        forces.way.set(way);
+        forces.branch.set(forces.model.branch(omega, way));
+        Some(forces.acceleration(crank, omega))
+    }
+
     /// Whether the crank could start clockwise from rest. Piece, sense and branch are unchanged afterwards.
-    fn starts_back(&self, crank: f64) -> bool {
+    fn starts_back(&self) -> bool {
         let forces = &self.flow.0;
         let before = (forces.piece.get(), forces.way.get(), forces.branch.get());
-        let back = forces.model.piece_at(crank, -1.0).is_some_and(|piece| {
-            forces.piece.set(piece);
-            forces.way.set(-1.0);
-            forces.branch.set(forces.model.branch(0.0, -1.0));
-            forces.acceleration(crank, 0.0) < 0.0
-        });
+        let back = self.turned(-1.0).is_some_and(|alpha| alpha < 0.0);
         forces.piece.set(before.0);
         forces.way.set(before.1);
         forces.branch.set(before.2);
@@ -218,9 +218,7 @@ impl<'m, 'a> Runner<'m, 'a> {
     /// acceleration within the rounding of the crank angle. Zero if the acceleration has no value near the crank angle.
     fn rounding(&self, crank: f64) -> f64 {
         let forces = &self.flow.0;
-        let size =
-            if forces.model.case.crank().input == Input::Slide { forces.model.case.mechanism.size() } else { 1.0 };
-        let nudge = SLOPE * size;
+        let [nudge, size] = [SLOPE, 1.0].map(|turn| forces.model.case.step(turn));
         let [behind, ahead] = [-nudge, nudge].map(|by| forces.acceleration(crank + by, 0.0));
         // An error beside the crank angle does not concern the motion.
         let _ = forces.take_fault();
@@ -229,23 +227,16 @@ impl<'m, 'a> Runner<'m, 'a> {
     }
 
     /// Whether no force moves the crank from rest: its acceleration is a rounding error, whatever the sense.
-    fn is_in_equilibrium(&self, crank: f64) -> bool {
-        let forces = &self.flow.0;
-        [1.0, -1.0].iter().all(|&way| {
-            let Some(piece) = forces.model.piece_at(crank, way) else { return false };
-            forces.piece.set(piece);
-            forces.way.set(way);
-            forces.branch.set(forces.model.branch(0.0, way));
-            forces.acceleration(crank, 0.0).abs() <= self.rounding(crank)
-        })
+    fn is_in_equilibrium(&self) -> bool {
+        let is_rounding = |alpha: f64| alpha.abs() <= self.rounding(self.place.y[0]);
+        [1.0, -1.0].iter().all(|&way| self.turned(way).is_some_and(is_rounding))
     }
 
     /// Adds the instants after the end of a motion. A crank in equilibrium stays at rest at all further instants. If
     /// resistances hold the crank, only the instant of the standstill is added.
     fn ended(&self, times: &[f64], found: &mut Vec<CrankState>, end: RunUpEnd) -> RunUpEnd {
         let RunUpEnd::Held(t, crank) = end else { return end };
-        let within = crank - self.gone;
-        let rests = self.is_in_equilibrium(within);
+        let (within, rests) = (crank - self.gone, self.is_in_equilibrium());
         // The shaft transmits the whole moment of the motor. The forces that hold the crank balance this moment.
         let motor = self.flow.0.motor_moment(0.0);
         let is_added = |time: &&f64| rests || **time == t;

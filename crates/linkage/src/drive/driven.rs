@@ -2,6 +2,7 @@
 
 use super::{InputState, MotionLaw, Motor};
 use crate::input::{Input, InputValue};
+use crate::math::statistics::share;
 use crate::mechanism::{GROUND, Joint, JointId, LinkId};
 
 /// Kind of motion of a driving link.
@@ -133,6 +134,13 @@ impl Drive {
     #[must_use]
     pub fn largest_acceleration(&self) -> f64 {
         self.by_law(MotionLaw::largest_acceleration)
+    }
+
+    /// How fast the law changes its speed (1/s): the largest acceleration divided by the top speed. For a harmonic law
+    /// this is the angular frequency; zero for a constant speed and for a drive that holds its joint.
+    #[must_use]
+    pub fn pace(&self) -> f64 {
+        share(self.largest_acceleration(), self.top_speed().abs())
     }
 
     /// Sense of rotation of the law: +1 counter-clockwise, -1 clockwise.

@@ -72,13 +72,14 @@ pub(super) fn explained(
     both: &Both,
     channels: &[Compared],
 ) -> Result<(Vec<Explained>, bool)> {
-    let Some(stage) = Stage::of(scenario, which, both, channels)? else { return Ok((Vec::new(), false)) };
-    Ok(limited(WORK, || sought(&stage, channels)))
+    let is_wrong = |own: &&Compared| own.wrong > 0 && own.is_plain();
+    let open: Vec<&Compared> = channels.iter().filter(is_wrong).collect();
+    // Without wrong numbers, the scenario is not solved again.
+    let stage = if open.is_empty() { None } else { Stage::of(scenario, which, both, channels)? };
+    Ok(stage.map_or((Vec::new(), false), |stage| limited(WORK, || sought(&stage, open))))
 }
 
-fn sought(stage: &Stage, channels: &[Compared]) -> Vec<Explained> {
-    let is_wrong = |own: &&Compared| own.wrong > 0 && own.is_plain();
-    let mut open: Vec<&Compared> = channels.iter().filter(is_wrong).collect();
+fn sought(stage: &Stage, mut open: Vec<&Compared>) -> Vec<Explained> {
     let mut found: Vec<Explained> = Vec::new();
     let mut grant = |open: &mut Vec<&Compared>, explained: Explained| {
         open.retain(|own| !explained.of.contains(&own.claim.text));

@@ -341,7 +341,7 @@ fn of_drive(case: &Case, index: usize, drive: &Drive) -> Vec<Knob> {
     let quarters: &[f64] = if is_angle { &[PI / 2.0, -PI / 2.0, PI] } else { &[] };
     let quarters = quarters.iter().map(|by| drive.start + by);
     let quarters = quarters.map(|found| (found, PartChange::Instead { found, given: drive.start, unit }));
-    let natural = if is_angle { 1.0 } else { case.mechanism.size() };
+    let natural = drive.input.span(case.mechanism.size());
     let angle = Knob::place(CasePart::StartAngle(joint.clone()), drive.start, natural, unit, start).also(quarters);
     let speed = move |parts: &mut CaseParts, value| {
         driven(parts, index, |drive| match &mut drive.motion {

@@ -201,8 +201,8 @@ fn search(knob: &Knob, guess: f64, bench: &Bench, start: Option<&Misfit>) -> Opt
             continue;
         }
         let by = -effect.dot(&misfit) / square;
-        // The search fails: it has converged, but differences remain. A tiny step that removes most of the misfit is not
-        // the end, because bounds may be many orders of magnitude below the differences.
+        // The search fails: it has converged, but differences remain.
+        // A tiny step that removes most of the misfit is not the end: bounds may be far below the differences.
         let rest = misfit.plus(by, &effect);
         if by.abs() <= 1e-6 * (value - knob.given).abs() && !(rest.dot(&rest) < 0.1 * misfit.dot(&misfit)) {
             return None;
