@@ -39,6 +39,7 @@ pub fn text(error: &Error, tell: Tell) -> String {
 }
 
 /// The text of an error, as a warning, because the command continued as far as possible.
+#[cfg(feature = "command")]
 pub(crate) fn warning(error: &Error, tell: Tell) -> String {
     all(error, tell, ("warning", Level::WARNING))
 }

@@ -41,6 +41,7 @@ pub(crate) struct Line<'a> {
     pub(crate) grade: Grade,
 }
 
+#[cfg(feature = "command")]
 impl Line<'_> {
     pub(crate) fn name(&self) -> String {
         match self.judged.order {

@@ -68,6 +68,7 @@ pub fn wrapped(text: &str, width: Option<usize>, indent: usize) -> String {
 /// Text in lines of at most `width` columns, if a width is given.
 /// Continuation lines begin at the column of the text in the first line: after `error: `, or after the name of a value.
 /// Lines of a file in a message stay as they are.
+#[cfg(feature = "command")]
 pub(crate) fn within(text: &str, width: Option<usize>) -> String {
     let Some(width) = width else { return text.into() };
     let fit = |line: &str| match textwrap::core::display_width(line) > width && !is_quoted(line) {
@@ -78,12 +79,14 @@ pub(crate) fn within(text: &str, width: Option<usize>) -> String {
 }
 
 /// Whether a line of a message quotes a line of a file, or names its location.
+#[cfg(feature = "command")]
 fn is_quoted(line: &str) -> bool {
     let line = line.trim_start().trim_start_matches(|sign: char| sign.is_ascii_digit()).trim_start();
     ["|", "-->", "..."].iter().any(|sign| line.starts_with(sign))
 }
 
 /// Column of the text in a line.
+#[cfg(feature = "command")]
 fn hanging(line: &str) -> usize {
     const MOST: usize = 30;
     let named = ["error: ", "warning: ", "note: ", "= help: "];
@@ -96,7 +99,7 @@ fn hanging(line: &str) -> usize {
     behind.filter(|behind| *behind <= MOST).unwrap_or(margin + 2)
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "command"))]
 mod tests {
     use super::*;
 

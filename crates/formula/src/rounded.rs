@@ -81,6 +81,7 @@ impl Rounded {
     }
 
     /// Result of an operator on two numbers.
+    #[inline]
     pub fn pair(operator: Operator, a: Self, b: Self) -> Self {
         if !a.value.is_finite() || !b.value.is_finite() {
             return Rounded::UNDEFINED;

@@ -14,7 +14,7 @@ use super::parameters::{Conversion, Parameter, ParameterGraph, Parameters};
 use super::reader::SMALLEST;
 use super::unit::{self, ANGLE, INERTIA, LENGTH, MASS, NamedUnit, UnitFamily};
 use super::{keys, masses};
-use formula::{FormulaTree, Program, Rounded};
+use formula::{FormulaTree, NodeShape, Program, Rounded};
 use linkage::case::Case;
 use linkage::math::{Vec2, unit as direction};
 use linkage::mechanism::{Joint, Link, Mechanism};
@@ -24,7 +24,8 @@ struct Expression {
     /// For each name in the expression: the index of the parameter, and the conversion to the unit of the key.
     names: Vec<(usize, Conversion)>,
     inputs: Vec<Rounded>,
-    program: Program,
+    /// `None` for an expression that is a single name.
+    program: Option<Program>,
 }
 
 impl Expression {
@@ -35,7 +36,9 @@ impl Expression {
         let conversion = |(place, name): (usize, &str)| (place, parameters.list()[place].conversion(name, wanted));
         let names: Vec<_> = names.into_iter().map(conversion).collect();
         let inputs = vec![Rounded::exact(0.0); names.len()];
-        Some(Expression { names, inputs, program: Program::of(&graph, &[node]) })
+        let is_name = names.len() == 1 && matches!(tree.shape, NodeShape::Name(_));
+        let program = (!is_name).then(|| Program::of(&graph, &[node]));
+        Some(Expression { names, inputs, program })
     }
 
     /// The value; `None` if its rounding error is not finite. The reader refuses such a value.
@@ -43,26 +46,43 @@ impl Expression {
         for (input, (place, conversion)) in self.inputs.iter_mut().zip(&self.names) {
             *input = Rounded::exact(conversion.of(parameters[*place].given));
         }
-        let found = self.program.run(&self.inputs)[0];
+        let found = match &mut self.program {
+            None => self.inputs[0],
+            Some(program) => program.run(&self.inputs)[0],
+        };
         found.error.is_finite().then_some(found.value)
     }
 }
 
-/// Where a number comes from.
+/// Where a number comes from, in the unit of its key.
 enum Origin {
-    /// The number of the file, in the unit of its key.
-    Plain(f64),
     /// The varied number with this index.
     Varied(usize),
     Expression(Expression),
 }
 
 /// A number of a link.
-struct LinkNumber {
-    origin: Origin,
+enum LinkNumber {
+    /// The same number in all cases (SI).
+    Fixed(f64),
+    Changing(Origin, LinkQuantity),
+}
+
+/// Unit and limits of a link's number.
+struct LinkQuantity {
     unit: &'static NamedUnit,
     family: &'static UnitFamily,
     sign: Sign,
+}
+
+impl LinkQuantity {
+    /// The number in SI; `None` if it is not allowed.
+    fn checked(&self, number: f64) -> Option<f64> {
+        let si = self.unit.to_si(number);
+        let is_allowed =
+            self.sign.broken_by(number).is_none() && (si == 0.0 || (SMALLEST..=self.family.most).contains(&si.abs()));
+        is_allowed.then_some(si)
+    }
 }
 
 /// A position: coordinates, or the distance and the direction from an earlier point.
@@ -222,15 +242,11 @@ impl Renumbering {
 
 impl LinkNumber {
     fn value(&mut self, values: &[f64], parameters: &[Parameter]) -> Option<f64> {
-        let number = match &mut self.origin {
-            Origin::Plain(number) => *number,
-            Origin::Varied(at) => values[*at],
-            Origin::Expression(expression) => expression.value(parameters)?,
-        };
-        let si = self.unit.to_si(number);
-        let is_allowed =
-            self.sign.broken_by(number).is_none() && (si == 0.0 || (SMALLEST..=self.family.most).contains(&si.abs()));
-        is_allowed.then_some(si)
+        match self {
+            LinkNumber::Fixed(si) => Some(*si),
+            LinkNumber::Changing(Origin::Varied(at), quantity) => quantity.checked(values[*at]),
+            LinkNumber::Changing(Origin::Expression(own), quantity) => quantity.checked(own.value(parameters)?),
+        }
     }
 }
 
@@ -312,17 +328,22 @@ impl Reading<'_> {
     ) -> Option<Option<LinkNumber>> {
         let found = table.iter().find_map(|(key, value)| Some((key, value, family.unit_of(base, key.get_ref())?)));
         let Some((key, value, unit)) = found else { return Some(None) };
-        let origin = match (self.paths.get(format!("{path}.{}", key.get_ref()).as_str()), value.get_ref()) {
+        let quantity = LinkQuantity { unit, family, sign };
+        let number = match (self.paths.get(format!("{path}.{}", key.get_ref()).as_str()), value.get_ref()) {
             (Some(at), _) => {
                 self.found += 1;
-                Origin::Varied(*at)
+                LinkNumber::Changing(Origin::Varied(*at), quantity)
             }
             (None, DeValue::String(text)) => {
-                Origin::Expression(Expression::read(text, key.get_ref(), &self.parameters)?)
+                let mut expression = Expression::read(text, key.get_ref(), &self.parameters)?;
+                match self.is_moved(text) {
+                    true => LinkNumber::Changing(Origin::Expression(expression), quantity),
+                    false => LinkNumber::Fixed(quantity.checked(expression.value(self.parameters.list())?)?),
+                }
             }
-            (None, value) => Origin::Plain(plain_number(value)?),
+            (None, value) => LinkNumber::Fixed(quantity.checked(plain_number(value)?)?),
         };
-        Some(Some(LinkNumber { origin, unit, family, sign }))
+        Some(Some(number))
     }
 
     fn place(&mut self, table: &DeTable, path: &str, before: &[&str]) -> Option<PlaceNumbers> {

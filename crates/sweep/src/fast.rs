@@ -143,7 +143,11 @@ impl Figures<'_> {
             }
             let (early, unit) = if is_late { (1.0, unit) } else { (unit, 1.0) };
             let at = self.place(PoseTally::of(quantity, early, tally));
-            return Some(if is_place { FastFigure::Place(at) } else { FastFigure::Value { at, is_root, unit } });
+            if is_place {
+                self.tallies[at].want_rows();
+                return Some(FastFigure::Place(at));
+            }
+            return Some(FastFigure::Value { at, is_root, unit });
         }
         let of = |(_, printed): &(String, PrintedChannel)| {
             let tally = PoseTally::of(self.quantity(printed)?, printed.to_si(1.0), Tally::Column(Vec::new()));

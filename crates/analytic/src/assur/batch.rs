@@ -203,8 +203,11 @@ fn drive(case: &Case, groups: &Groups, asked: Asked, own: [f64; TILE], tile: &mu
         }
         let link = driver.body.link;
         [tile[link + DIRECTION], tile[link + DIRECTION + 1]] = units(angles);
-        tile[link + OMEGA] = TileColumn(ratios.map(|ratio| asked.omega * ratio));
-        tile[link + ALPHA] = TileColumn(ratios.map(|ratio| asked.alpha * ratio));
+        driver.fix(tile, asked.omega, asked.alpha);
+        if index > 0 {
+            tile[link + OMEGA] = TileColumn(ratios.map(|ratio| asked.omega * ratio));
+            tile[link + ALPHA] = TileColumn(ratios.map(|ratio| asked.alpha * ratio));
+        }
     }
 }
 

@@ -7,36 +7,44 @@ use std::sync::Arc;
 
 /// Number of rows that are added at once.
 pub const LANES: usize = 8;
+/// Number of lanes of an extreme. Successive groups of eight rows take different lanes, so that their comparisons do not
+/// wait for each other.
+pub const PEAK_LANES: usize = 2 * LANES;
 
 /// For every lane: the largest score so far, and the first row that has this score.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(align(64))]
 pub struct LanePeak {
     /// Largest scores.
-    pub scores: [f64; LANES],
+    pub scores: [f64; PEAK_LANES],
     /// Their rows.
-    pub rows: [f64; LANES],
+    pub rows: [f64; PEAK_LANES],
 }
 
 impl LanePeak {
     /// No row yet.
-    pub const NONE: LanePeak = LanePeak { scores: [f64::NEG_INFINITY; LANES], rows: [0.0; LANES] };
+    pub const NONE: LanePeak = LanePeak { scores: [f64::NEG_INFINITY; PEAK_LANES], rows: [0.0; PEAK_LANES] };
 
     fn add(&mut self, row: usize, scores: [f64; LANES]) {
-        for (lane, score) in scores.into_iter().enumerate() {
+        for (row, score) in (row..).zip(scores) {
+            let lane = row % PEAK_LANES;
             if score > self.scores[lane] {
-                (self.scores[lane], self.rows[lane]) = (score, (row + lane) as f64);
+                (self.scores[lane], self.rows[lane]) = (score, row as f64);
             }
         }
     }
 
-    /// The first row with the largest score, and this score.
-    fn first(&self) -> (usize, f64) {
+    /// The largest score. A zero has no sign.
+    fn highest(&self) -> f64 {
+        self.scores.iter().fold(f64::NEG_INFINITY, |best, own| if *own > best { *own } else { best }) + 0.0
+    }
+
+    /// The first row with the largest score.
+    fn first(&self) -> usize {
         let key = |lane: usize| (self.scores[lane], self.rows[lane]);
         let is_better =
             |(score, row): (f64, f64), (best, first): (f64, f64)| score > best || score == best && row < first;
-        let (score, row) = (1..LANES).map(key).fold(key(0), |best, own| if is_better(own, best) { own } else { best });
-        (row as usize, score)
+        (1..PEAK_LANES).map(key).fold(key(0), |best, own| if is_better(own, best) { own } else { best }).1 as usize
     }
 }
 
@@ -143,9 +151,9 @@ impl Tally {
     #[must_use]
     pub fn value_as(&self, shown: impl Fn(f64) -> f64) -> f64 {
         match self {
-            Tally::Max(peak) | Tally::MaxAbs(peak) => shown(peak.first().1),
-            Tally::Min(peak) => shown(-peak.first().1),
-            Tally::Range([most, least]) => shown(most.first().1) - shown(-least.first().1),
+            Tally::Max(peak) | Tally::MaxAbs(peak) => shown(peak.highest()),
+            Tally::Min(peak) => shown(0.0 - peak.highest()),
+            Tally::Range([most, least]) => shown(most.highest()) - shown(0.0 - least.highest()),
             Tally::Mean(own) => own.sum(),
             Tally::Rms(own) => own.sum().sqrt(),
             Tally::At(_, value) => shown(*value),
@@ -158,8 +166,8 @@ impl Tally {
     #[must_use]
     pub fn rows(&self) -> [Option<usize>; 2] {
         match self {
-            Tally::Max(peak) | Tally::Min(peak) | Tally::MaxAbs(peak) => [Some(peak.first().0), None],
-            Tally::Range(peaks) => peaks.map(|peak| Some(peak.first().0)),
+            Tally::Max(peak) | Tally::Min(peak) | Tally::MaxAbs(peak) => [Some(peak.first()), None],
+            Tally::Range(peaks) => peaks.map(|peak| Some(peak.first())),
             Tally::At(row, _) => [Some(*row), None],
             Tally::Mean(_) | Tally::Rms(_) | Tally::Column(_) => [None; 2],
         }

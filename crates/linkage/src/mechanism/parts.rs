@@ -198,9 +198,10 @@ pub struct Joint {
 
 impl Joint {
     /// The joint's position on `link`; `None` if the joint is not on this link.
+    #[inline]
     #[must_use]
     pub fn on(&self, link: LinkId) -> Option<Vec2> {
-        [self.first, self.second].into_iter().find(|side| side.link == link).map(|side| side.local)
+        [&self.first, &self.second].into_iter().find(|side| side.link == link).map(|side| side.local)
     }
 
     /// The side of the joint on the link other than `link`.

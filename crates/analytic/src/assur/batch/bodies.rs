@@ -4,7 +4,7 @@ use super::poses::Layout;
 use linkage::case::Case;
 use linkage::drive::Load;
 use linkage::math::Vec2;
-use linkage::mechanism::{JointId, JointSide, LinkId};
+use linkage::mechanism::{Joint, JointId, LinkId, Mechanism};
 
 /// Action of a joint on one of its links: `sign` times the joint's reaction, applied at `place` in the link's frame.
 #[derive(Clone, Copy, Debug)]
@@ -13,6 +13,19 @@ pub(super) struct Action {
     pub(super) force: usize,
     pub(super) place: Vec2,
     pub(super) sign: f64,
+    joint: JointId,
+    /// Whether the link is the joint's second link.
+    is_second: bool,
+}
+
+impl Action {
+    /// Reads `place` from the mechanism, and returns the joint's position on its other link.
+    pub(super) fn renumber(&mut self, mechanism: &Mechanism) -> Vec2 {
+        let Joint { first, second, .. } = &mechanism.joints()[self.joint];
+        let (own, other) = if self.is_second { (second, first) } else { (first, second) };
+        self.place = own.local;
+        other.local
+    }
 }
 
 /// A link with the actions on it.
@@ -20,6 +33,7 @@ pub(super) struct Action {
 pub(super) struct Body {
     /// First column of the link.
     pub(super) link: usize,
+    of: LinkId,
     pub(super) mass: f64,
     pub(super) mass_centre: Vec2,
     pub(super) inertia: f64,
@@ -27,6 +41,17 @@ pub(super) struct Body {
     pub(super) hanging: Vec<Action>,
     /// Sum of the moments of resistance on the link (N m).
     pub(super) resistance: Option<f64>,
+}
+
+impl Body {
+    /// Reads mass, mass centre and moment of inertia, and the places of the actions, from the mechanism.
+    pub(super) fn renumber(&mut self, mechanism: &Mechanism) {
+        let own = &mechanism.links()[self.of];
+        (self.mass, self.mass_centre, self.inertia) = (own.mass, own.mass_centre, own.inertia);
+        for action in &mut self.hanging {
+            action.renumber(mechanism);
+        }
+    }
 }
 
 /// Reads the constants from a case.
@@ -38,21 +63,20 @@ pub(super) struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    pub(super) fn place(&self, joint: JointId, link: LinkId) -> Vec2 {
-        self.case.mechanism.joints()[joint].on(link).expect("the joint is on the link")
-    }
-
-    pub(super) fn base(&self, joint: JointId, link: LinkId) -> (Option<usize>, Vec2) {
-        let JointSide { link, local } = self.case.mechanism.joints()[joint].other(link);
-        (self.layout.link(link), local)
+    /// First column of the other link of a joint; `None` for the ground.
+    pub(super) fn base(&self, joint: JointId, link: LinkId) -> Option<usize> {
+        self.layout.link(self.case.mechanism.joints()[joint].other(link).link)
     }
 
     pub(super) fn action(&self, joint: JointId, link: LinkId) -> Action {
-        let is_second = self.case.mechanism.joints()[joint].second.link == link;
+        let own = &self.case.mechanism.joints()[joint];
+        let is_second = own.second.link == link;
         Action {
             force: self.layout.force(joint),
-            place: self.place(joint, link),
+            place: own.on(link).expect("the joint is on the link"),
             sign: if is_second { 1.0 } else { -1.0 },
+            joint,
+            is_second,
         }
     }
 
@@ -63,6 +87,7 @@ impl Reader<'_> {
         let resistances = self.case.loads.iter().filter_map(Load::resistance).filter(|(loaded, _)| *loaded == link);
         Body {
             link: self.layout.link(link).expect("the link moves"),
+            of: link,
             mass: body.mass,
             mass_centre: body.mass_centre,
             inertia: body.inertia,

@@ -7,8 +7,8 @@
 
 use super::bodies::Body;
 use super::groups::{Arm, Driver, Dyad, Groups, Part};
-use super::lanes::{Lanes, Plane, Window};
-use super::poses::{DIRECTION, LinkMotion, OMEGA, ORIGIN};
+use super::lanes::{Lanes, Plane, TILE, TileColumn, Window};
+use super::poses::{ACCELERATION, ALPHA, DIRECTION, LinkMotion, OMEGA, ORIGIN, VELOCITY};
 use super::registers::Registers;
 use linkage::case::STANDSTILL;
 use linkage::math::Vec2;
@@ -89,24 +89,45 @@ impl Groups {
 }
 
 impl Driver {
+    /// Whether the link's origin is at the joint on the ground.
+    fn is_plain(&self) -> bool {
+        self.reaction.place == Vec2::zeros()
+    }
+
+    /// Writes the columns that are the same in all rows of a tile: the rates of the link and, if its origin is at
+    /// rest, the motion of the origin.
+    pub(super) fn fix(&self, tile: &mut [TileColumn], omega: f64, alpha: f64) {
+        let mut put = |column: usize, value: f64| tile[self.body.link + column] = TileColumn([value; TILE]);
+        put(OMEGA, omega);
+        put(ALPHA, alpha);
+        if self.is_plain() {
+            put(ORIGIN, self.ground.x);
+            put(ORIGIN + 1, self.ground.y);
+            (0..2).for_each(|axis| put(VELOCITY + axis, 0.0));
+            (0..2).for_each(|axis| put(ACCELERATION + axis, 0.0));
+        }
+    }
+
+    /// Computes the motion of the origin, if it is not at rest.
     #[inline(always)]
     fn turn<R: Registers>(&self, deepest: Stage, tile: &mut Window<R>) {
+        if self.is_plain() {
+            return;
+        }
         let mut link = tile.link(self.body.link);
-        let zero = Plane::splat(tile.on, Vec2::zeros());
-        let (is_plain, ground) = (self.pivot == Vec2::zeros(), Plane::splat(tile.on, self.ground));
-        let arm = link.direction.rotate(-self.pivot);
-        link.origin = if is_plain { ground } else { arm + self.ground };
-        link.velocity = if is_plain { zero } else { arm.turned() * link.omega };
-        link.acceleration = if is_plain { zero } else { swung(arm, link.omega, link.alpha) };
+        let arm = link.direction.rotate(-self.reaction.place);
+        link.origin = arm + self.ground;
+        link.velocity = arm.turned() * link.omega;
+        link.acceleration = swung(arm, link.omega, link.alpha);
         tile.put_link(self.body.link, deepest, &link);
     }
 
     /// World position of the joint on the ground.
     #[inline(always)]
     fn pole<R: Registers>(&self, tile: &Window<R>) -> Plane<R> {
-        match self.pivot == Vec2::zeros() {
+        match self.is_plain() {
             true => tile.vector(self.body.link + ORIGIN),
-            false => self.body.point(self.pivot, tile),
+            false => self.body.point(self.reaction.place, tile),
         }
     }
 }
@@ -136,8 +157,8 @@ impl Arm {
         let own = Plane::splat(tile.on, self.inverse_span);
         let direction = Plane { x: own.dot(span), y: own.cross(span) };
         let mut link = LinkMotion { origin: p, direction, velocity: v, acceleration: a, omega, alpha };
-        if self.outer != Vec2::zeros() {
-            let outer = direction.rotate(self.outer);
+        if self.reaction.place != Vec2::zeros() {
+            let outer = direction.rotate(self.reaction.place);
             link.origin = p - outer;
             link.velocity = v - outer.turned() * omega;
             link.acceleration = a - outer.turned() * alpha + outer * (omega * omega);

@@ -8,7 +8,7 @@ use linkage::case::Case;
 use linkage::drive::Load;
 use linkage::input::Input;
 use linkage::math::Vec2;
-use linkage::mechanism::{AssemblyMode, DrivingLink, GROUND, Group, GroupKind, JointId, LinkId};
+use linkage::mechanism::{AssemblyMode, DrivingLink, GROUND, Group, GroupKind, Mechanism};
 
 /// Number of columns of a dyad in the working memory: two for its span r1, two for r2, one for 1 / (r1 x r2), and two
 /// for the position of the inner joint.
@@ -18,8 +18,8 @@ const OF_DYAD: usize = 7;
 #[derive(Clone, Debug)]
 pub(super) struct Driver {
     pub(super) ground: Vec2,
-    pub(super) pivot: Vec2,
     pub(super) body: Body,
+    /// Action of the joint on the ground.
     pub(super) reaction: Action,
 }
 
@@ -29,12 +29,11 @@ pub(super) struct Arm {
     /// First column of the link at the other side of the outer joint (`None` for the ground), and the position of this
     /// joint on that link.
     pub(super) base: (Option<usize>, Vec2),
-    /// The outer joint in the link's frame.
-    pub(super) outer: Vec2,
     /// Vector from outer to inner joint in the link's frame, divided by the square of its length (1/m).
     pub(super) inverse_span: Vec2,
     pub(super) squared: f64,
     pub(super) body: Body,
+    /// Action of the outer joint on the link.
     pub(super) reaction: Action,
 }
 
@@ -125,8 +124,27 @@ impl Groups {
         };
         let parts = parts.into_iter().rev().map(place).collect();
         let reader = Reader { case, layout, settled: &settled };
-        let drivers = case.structure.drivers.iter().map(|own| reader.driver(own.link, own.joint)).collect();
+        let driver = |own: &DrivingLink| Driver {
+            ground: case.mechanism.joints()[own.joint].other(own.link).local,
+            body: reader.body(own.link),
+            reaction: reader.action(own.joint, own.link),
+        };
+        let drivers = case.structure.drivers.iter().map(driver).collect();
         Some(Groups { layout, gravity: case.gravity, drivers, parts, columns, is_resisted: !case.loads.is_empty() })
+    }
+
+    /// Reads coordinates, masses and moments of inertia from the mechanism, whose structure is unchanged.
+    pub(super) fn renumber(&mut self, mechanism: &Mechanism) {
+        for driver in &mut self.drivers {
+            driver.ground = driver.reaction.renumber(mechanism);
+            driver.body.renumber(mechanism);
+        }
+        for (part, _) in &mut self.parts {
+            match part {
+                Part::Dyad(dyad) => dyad.renumber(mechanism),
+                Part::Chain(_) => unreachable!("a case with a higher group is not renumbered"),
+            }
+        }
     }
 
     /// The driving links and the links of the dyads.
@@ -149,34 +167,37 @@ impl Groups {
 }
 
 impl Reader<'_> {
-    fn driver(&self, link: LinkId, joint: JointId) -> Driver {
-        let pivot = self.place(joint, link);
-        Driver { ground: self.base(joint, link).1, pivot, body: self.body(link), reaction: self.action(joint, link) }
-    }
-
     fn dyad(&self, group: &Group, mode: AssemblyMode) -> Dyad {
         let arm = |k: usize| {
             let (link, joint) = (group.links[k], group.outer[k]);
-            let outer = self.place(joint, link);
-            let span = self.place(group.inner[0], link) - outer;
-            let squared = span.norm_squared();
-            Arm {
-                base: self.base(joint, link),
-                outer,
-                inverse_span: span / squared,
-                squared,
-                body: self.body(link),
-                reaction: self.action(joint, link),
-            }
+            let base = (self.base(joint, link), Vec2::zeros());
+            let (body, reaction) = (self.body(link), self.action(joint, link));
+            Arm { base, inverse_span: Vec2::zeros(), squared: 0.0, body, reaction }
         };
-        let arms = [arm(0), arm(1)];
-        let lengths = [0, 1].map(|k| arms[k].squared.sqrt());
-        Dyad {
-            arms,
-            product: lengths[0] * lengths[1],
-            range: [(lengths[0] - lengths[1]).powi(2), (lengths[0] + lengths[1]).powi(2)],
+        let mut dyad = Dyad {
+            arms: [arm(0), arm(1)],
+            product: 0.0,
+            range: [0.0; 2],
             half: if mode == AssemblyMode::Right { -0.5 } else { 0.5 },
             inner: self.action(group.inner[0], group.links[0]),
+        };
+        dyad.renumber(&self.case.mechanism);
+        dyad
+    }
+}
+
+impl Dyad {
+    fn renumber(&mut self, mechanism: &Mechanism) {
+        let on_second = self.inner.renumber(mechanism);
+        for (arm, inner) in self.arms.iter_mut().zip([self.inner.place, on_second]) {
+            arm.base.1 = arm.reaction.renumber(mechanism);
+            arm.body.renumber(mechanism);
+            let span = inner - arm.reaction.place;
+            arm.squared = span.norm_squared();
+            arm.inverse_span = span / arm.squared;
         }
+        let lengths = [0, 1].map(|k| self.arms[k].squared.sqrt());
+        self.product = lengths[0] * lengths[1];
+        self.range = [(lengths[0] - lengths[1]).powi(2), (lengths[0] + lengths[1]).powi(2)];
     }
 }

@@ -11,9 +11,9 @@ use super::STEP;
 use super::equations::Clearance;
 use super::groups::Groups;
 use super::lanes::{TILE, TileColumn, Window};
-use super::poses::{ALPHA, DIRECTION, Layout, OMEGA};
+use super::poses::{DIRECTION, Layout};
 use super::registers::{OnRegisters, Registers, dispatch};
-use super::tally::{BLOCK, PoseTally};
+use super::tally::{BLOCK, PoseTally, TileBlock};
 use crate::assur::groups::SolutionPlan;
 
 /// Lower limit of the magnitude of the sine of every transmission angle.
@@ -32,7 +32,6 @@ const CLEAR_CHANGE: f64 = 0.25;
 #[derive(Debug)]
 pub struct CaseBatch {
     case: Case,
-    plan: SolutionPlan,
     layout: Layout,
     groups: Groups,
     /// Angles and directions of the crank in each tile of the grid, and at the start pose.
@@ -46,6 +45,7 @@ pub struct CaseBatch {
     /// The tiles of a block, one after the other.
     tiles: Vec<TileColumn>,
     work: Vec<TileColumn>,
+    block: TileBlock,
     pub(super) arch: Arch,
 }
 
@@ -97,8 +97,7 @@ impl CaseBatch {
         }
         let zero = crank.coordinate(0.0);
         let angles: Vec<f64> = grid.inputs.iter().map(|input| zero + input).collect();
-        Some(CaseBatch {
-            plan,
+        let mut batch = CaseBatch {
             layout,
             cranks: angles.chunks(TILE).map(CrankTile::of).collect(),
             start: CrankTile::of(&[zero + crank.start]),
@@ -107,10 +106,13 @@ impl CaseBatch {
             pace: (widest / omega).abs(),
             tiles: vec![TileColumn([0.0; TILE]); BLOCK * layout.columns()],
             work: vec![TileColumn([0.0; TILE]); groups.columns],
+            block: TileBlock([[0.0; TILE]; BLOCK]),
             groups,
             arch: Arch::new(),
             case: case.clone(),
-        })
+        };
+        batch.fix();
+        Some(batch)
     }
 
     /// The case with its present numbers.
@@ -123,7 +125,19 @@ impl CaseBatch {
     /// The names, kinds and order of links and joints must stay unchanged.
     pub fn renumber(&mut self, change: impl FnOnce(&mut [Link], &mut [Joint])) {
         self.case.renumber(change);
-        self.groups = Groups::of(&self.case, &self.plan, self.layout).expect("the structure is that of the first case");
+        let places = |groups: &Groups| (groups.drivers[0].ground, groups.drivers[0].reaction.place);
+        let before = places(&self.groups);
+        self.groups.renumber(&self.case.mechanism);
+        if places(&self.groups) != before {
+            self.fix();
+        }
+    }
+
+    /// Writes the columns of the crank that are the same in all rows.
+    fn fix(&mut self) {
+        for tile in self.tiles.chunks_exact_mut(self.layout.columns()) {
+            self.groups.drivers[0].fix(tile, self.omega, 0.0);
+        }
     }
 
     /// Solves all instants of the grid up to the stage `deepest`, and computes the statistics `tallies`.
@@ -158,12 +172,10 @@ impl CaseBatch {
         place: usize,
         doubt: &mut TileColumn,
     ) {
-        let CaseBatch { groups, cranks, start, omega, pace, tiles, work, layout, .. } = self;
+        let CaseBatch { groups, cranks, start, pace, tiles, work, layout, .. } = self;
         let (link, crank) = (groups.drivers[0].body.link, crank.map_or(&*start, |index| &cranks[index]));
         let tile = &mut tiles[place * layout.columns()..][..layout.columns()];
         [tile[link + DIRECTION], tile[link + DIRECTION + 1]] = crank.direction;
-        tile[link + OMEGA] = TileColumn([*omega; TILE]);
-        tile[link + ALPHA] = TileColumn([0.0; TILE]);
         let check = Clearance { pace: *pace, least: CLEAR_SINE, share: CLEAR_CHANGE };
         for part in 0..Window::<R>::PARTS {
             let mut tile = Window { on, columns: &mut *tile, part };
@@ -202,11 +214,10 @@ impl OnRegisters for AllTiles<'_> {
             for index in block.clone() {
                 batch.solve_tile(on, deepest, Some(index), index - first, &mut doubt);
             }
-            let columns = batch.layout.columns();
             let block_rows = first * TILE..rows.min(block.end * TILE);
             for own in &mut *tallies {
                 let angles = batch.cranks[block.clone()].iter().map(|crank| &crank.angles);
-                own.add(on, block_rows.clone(), angles, &mut batch.tiles, columns);
+                own.add(on, block_rows.clone(), angles, &mut batch.tiles, &mut batch.block);
             }
         }
         tallies.iter_mut().for_each(|own| own.tally.truncate(rows));

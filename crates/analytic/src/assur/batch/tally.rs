@@ -8,7 +8,7 @@ use super::poses::{ALPHA, DIRECTION, Layout, OMEGA};
 use super::registers::Registers;
 use crate::assur::turns::{crossing, principal};
 use linkage::case::Case;
-use linkage::math::tally::{LANES, LanePeak, Tally};
+use linkage::math::tally::{LANES, LanePeak, PEAK_LANES, Tally};
 use linkage::math::{Vec2, cross, rotated};
 use linkage::mechanism::{GroupId, JointId, LinkId};
 use linkage::trajectory::OfPoint;
@@ -16,8 +16,16 @@ use linkage::trajectory::OfPoint;
 /// Number of tiles that are solved before their statistics are computed. All columns of a block stay in the fastest
 /// cache, and a statistic stays in registers during a block.
 pub(super) const BLOCK: usize = 4;
-/// Numbers of the rows that a statistic takes at once.
-const COUNT: [f64; LANES] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
+/// The rows of a tile, counted from its first row.
+const COUNT: [f64; TILE] = {
+    let (mut count, mut row) = ([0.0; TILE], 0);
+    while row < TILE {
+        count[row] = row as f64;
+        row += 1;
+    }
+    count
+};
+const _: () = assert!(PEAK_LANES == TILE);
 
 /// A quantity of every pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -82,8 +90,10 @@ pub struct PoseTally {
     pub unit: f64,
     /// The statistic of the last case.
     pub tally: Tally,
+    /// Whether the rows of an extreme are wanted; if `false`, the statistic has only its value.
+    has_rows: bool,
     reading: Reading,
-    /// Zero if all values so far are finite, otherwise NaN.
+    /// Sums of all values so far. A sum is not finite if one of its values is not.
     fault: [f64; TILE],
 }
 
@@ -91,7 +101,7 @@ pub struct PoseTally {
 /// eight rows in the block. A closure would not be vectorised.
 macro_rules! sum {
     ($on:expr, $sums:expr, $block:expr, |$value:ident, $eight:ident, $part:ident| $summand:expr) => {
-        for $part in 0..LANES / R::LANES {
+        for $part in 0..LANES / R::One::LANES {
             let mut sum = Lanes::of($on, &$sums, $part);
             for ($eight, values) in $block.iter().enumerate() {
                 let $value = Lanes::of($on, values, $part);
@@ -119,10 +129,15 @@ enum Reading {
 }
 
 impl PoseTally {
-    /// A statistic of a quantity in the unit `unit`, a multiple of the SI unit.
+    /// A statistic of a quantity in the unit `unit`, a multiple of the SI unit. Rows of extremes are not wanted.
     #[must_use]
     pub fn of(quantity: PoseQuantity, unit: f64, tally: Tally) -> PoseTally {
-        PoseTally { quantity, unit, tally, reading: Reading::Given, fault: [0.0; TILE] }
+        PoseTally { quantity, unit, tally, has_rows: false, reading: Reading::Given, fault: [0.0; TILE] }
+    }
+
+    /// Asks for the rows of extremes, for [`Tally::rows`].
+    pub fn want_rows(&mut self) {
+        self.has_rows = true;
     }
 
     /// Whether `other` is the same statistic of the same quantity in the same unit.
@@ -131,10 +146,10 @@ impl PoseTally {
         self.quantity == other.quantity && self.unit == other.unit && self.tally == other.tally
     }
 
-    /// Whether all values of the last case are finite.
+    /// Whether all values of the last case are finite. `false` also if a sum of values overflows.
     #[must_use]
     pub fn is_finite(&self) -> bool {
-        self.fault.iter().all(|lane| *lane == 0.0)
+        self.fault.iter().sum::<f64>().is_finite()
     }
 
     /// Prepares the statistic for the first row of a case.
@@ -178,7 +193,8 @@ impl PoseTally {
 
     /// Adds the rows of a block. The values have the same bits as those of the
     /// [sampler](linkage::solver::Sampler).
-    /// `rows` are the rows of the block, `angles` are the angles of the crank, and every tile has `columns` columns.
+    /// `rows` are the rows of the block, `angles` are the angles of the crank, and `tiles` has the columns of one tile
+    /// after the other. `block` is working memory.
     #[inline(always)]
     pub(super) fn add<'a, R: Registers>(
         &mut self,
@@ -186,12 +202,12 @@ impl PoseTally {
         rows: Range<usize>,
         angles: impl Iterator<Item = &'a TileColumn>,
         tiles: &mut [TileColumn],
-        columns: usize,
+        block: &mut TileBlock,
     ) {
-        let mut block = Block([[0.0; TILE]; BLOCK]);
+        let columns = tiles.len() / BLOCK;
         let block = &mut block.0[..rows.len().div_ceil(TILE)];
         let unit = self.unit;
-        // Reads the values of all rows, and adds 0 or NaN to `fault`. A closure would not be vectorised.
+        // Reads the values of all rows, and adds them to `fault`. A closure would not be vectorised.
         macro_rules! each {
             (|$tile:ident, $values:ident| $value:expr) => {
                 for part in 0..Window::<R>::PARTS {
@@ -200,7 +216,7 @@ impl PoseTally {
                         let $tile = Window { on, columns: &mut tiles[place * columns..][..columns], part };
                         let value = $value;
                         let value = if unit == 1.0 { value } else { value / unit };
-                        fault = fault + value * 0.0;
+                        fault = fault + value;
                         value.put($values, part);
                     }
                     fault.put(&mut self.fault, part);
@@ -234,41 +250,48 @@ impl PoseTally {
                 each!(|tile, values| Lanes::of(tile.on, values, tile.part));
             }
         }
-        let (block, _) = block.as_flattened().as_chunks();
-        count(&mut self.tally, on.one(), rows.start, &block[..rows.len().div_ceil(LANES)]);
+        self.count(on, rows, block);
+    }
+
+    /// [`Tally::add`] for a block.
+    #[inline(always)]
+    fn count<R: Registers>(&mut self, on: R, rows: Range<usize>, block: &[[f64; TILE]]) {
+        let (row, has_rows) = (rows.start, self.has_rows);
+        let (eights, _) = block.as_flattened().as_chunks::<LANES>();
+        let eights = &eights[..rows.len().div_ceil(LANES)];
+        match &mut self.tally {
+            Tally::Max(own) => raise::<R, Plain>(own, on, row, has_rows, block),
+            Tally::Min(own) => raise::<R, Negated>(own, on, row, has_rows, block),
+            Tally::MaxAbs(own) => raise::<R, Magnitude>(own, on, row, has_rows, block),
+            Tally::Range([most, least]) => {
+                raise::<R, Plain>(most, on, row, has_rows, block);
+                raise::<R, Negated>(least, on, row, has_rows, block);
+            }
+            Tally::Mean(own) => {
+                let weights = &own.weights[row / LANES..];
+                sum!(on.one(), own.sums, eights, |value, eight, part| {
+                    Lanes::of(on.one(), &weights[eight], part) * value
+                });
+            }
+            Tally::Rms(own) => {
+                let weights = &own.weights[row / LANES..];
+                sum!(on.one(), own.sums, eights, |value, eight, part| {
+                    Lanes::of(on.one(), &weights[eight], part) * (value * value)
+                });
+            }
+            Tally::At(wanted, value) => {
+                let place = wanted.checked_sub(row).and_then(|own| Some(eights.get(own / LANES)?[own % LANES]));
+                *value = place.unwrap_or(*value);
+            }
+            Tally::Column(all) => all.extend_from_slice(eights.as_flattened()),
+        }
     }
 }
 
 /// The values of a quantity in a block of tiles.
+#[derive(Clone, Debug)]
 #[repr(align(64))]
-struct Block([[f64; TILE]; BLOCK]);
-
-/// [`Tally::add`] for a block.
-#[inline(always)]
-fn count<R: Registers>(tally: &mut Tally, on: R, row: usize, block: &[[f64; LANES]]) {
-    match tally {
-        Tally::Max(own) => raise::<R, Plain>(own, on, row, block),
-        Tally::Min(own) => raise::<R, Negated>(own, on, row, block),
-        Tally::MaxAbs(own) => raise::<R, Magnitude>(own, on, row, block),
-        Tally::Range([most, least]) => {
-            raise::<R, Plain>(most, on, row, block);
-            raise::<R, Negated>(least, on, row, block);
-        }
-        Tally::Mean(own) => {
-            let weights = &own.weights[row / LANES..];
-            sum!(on, own.sums, block, |value, eight, part| Lanes::of(on, &weights[eight], part) * value);
-        }
-        Tally::Rms(own) => {
-            let weights = &own.weights[row / LANES..];
-            sum!(on, own.sums, block, |value, eight, part| Lanes::of(on, &weights[eight], part) * (value * value));
-        }
-        Tally::At(wanted, value) => {
-            let place = wanted.checked_sub(row).and_then(|own| Some(block.get(own / LANES)?[own % LANES]));
-            *value = place.unwrap_or(*value);
-        }
-        Tally::Column(all) => all.extend_from_slice(block.as_flattened()),
-    }
-}
+pub(super) struct TileBlock(pub(super) [[f64; TILE]; BLOCK]);
 
 /// The score of a value: the largest score is the wanted extreme.
 trait Score {
@@ -305,50 +328,27 @@ impl Score for Magnitude {
     }
 }
 
-/// Largest scores so far, and their first rows.
-#[derive(Clone, Copy)]
-struct Peak<R: Registers> {
-    scores: Lanes<R>,
-    rows: Lanes<R>,
-}
-
-impl<R: Registers> Peak<R> {
-    /// Takes a score of a later row.
-    #[inline(always)]
-    fn take(&mut self, score: Lanes<R>, row: Lanes<R>) {
-        let is_better = score.exceeds(self.scores);
-        (self.scores, self.rows) = (is_better.of(score, self.scores), is_better.of(row, self.rows));
-    }
-
-    /// The better of two peaks; of equal scores, the one in the first row.
-    #[inline(always)]
-    fn or(self, other: Self) -> Self {
-        let (is_better, is_worse) = (other.scores.exceeds(self.scores), self.scores.exceeds(other.scores));
-        let first = self.rows.exceeds(other.rows).of(other.rows, self.rows);
-        let rows = is_better.of(other.rows, is_worse.of(self.rows, first));
-        Peak { scores: is_better.of(other.scores, self.scores), rows }
-    }
-}
-
 #[inline(always)]
-fn raise<R: Registers, S: Score>(peak: &mut LanePeak, on: R, row: usize, block: &[[f64; LANES]]) {
-    for part in 0..LANES / R::LANES {
-        let mut even = Peak { scores: Lanes::of(on, &peak.scores, part), rows: Lanes::of(on, &peak.rows, part) };
-        let mut odd = Peak { scores: Lanes::splat(on, f64::NEG_INFINITY), rows: even.rows };
-        let mut now = Lanes::of(on, &COUNT, part) + row as f64;
-        let (pairs, last) = block.as_chunks();
-        // Each of two peaks takes every second value, so that the comparisons do not wait for each other.
-        for [first, second] in pairs {
-            even.take(S::of(Lanes::of(on, first, part)), now);
-            odd.take(S::of(Lanes::of(on, second, part)), now + LANES as f64);
-            now = now + (2 * LANES) as f64;
+fn raise<R: Registers, S: Score>(peak: &mut LanePeak, on: R, row: usize, has_rows: bool, block: &[[f64; TILE]]) {
+    for part in 0..Window::<R>::PARTS {
+        let mut scores = Lanes::of(on, &peak.scores, part);
+        if has_rows {
+            let mut rows = Lanes::of(on, &peak.rows, part);
+            let mut now = Lanes::of(on, &COUNT, part) + row as f64;
+            for values in block {
+                let score = S::of(Lanes::of(on, values, part));
+                let is_better = score.exceeds(scores);
+                (scores, rows) = (is_better.of(score, scores), is_better.of(now, rows));
+                now = now + TILE as f64;
+            }
+            rows.put(&mut peak.rows, part);
+        } else {
+            for values in block {
+                let score = S::of(Lanes::of(on, values, part));
+                scores = score.exceeds(scores).of(score, scores);
+            }
         }
-        for values in last {
-            even.take(S::of(Lanes::of(on, values, part)), now);
-        }
-        let best = even.or(odd);
-        best.scores.put(&mut peak.scores, part);
-        best.rows.put(&mut peak.rows, part);
+        scores.put(&mut peak.scores, part);
     }
 }
 
