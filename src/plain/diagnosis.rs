@@ -7,7 +7,7 @@ use prover::diagnosis::{
     Arm, CasePart, Change, DataSlip, Diagnosis, DisagreementCause, ErrorNature, FrameAxis, LateChannels, Over,
     PartChange, PartyStanding, Plain, Since,
 };
-use prover::numbers::{fixed, input_in, input_told, significant, with_unit};
+use prover::numbers::{fixed, input_in, input_told, significant, told_apart, with_unit};
 
 /// Column at which the text of a line begins.
 pub const INDENT: usize = 12;
@@ -262,14 +262,9 @@ fn part(part: &CasePart) -> String {
         CasePart::Phase(name) => sentences::start_of_transmission(&name),
         CasePart::MotorMoment => sentences::MOMENT_OF_THE_MOTOR.into(),
         CasePart::RotorInertia => sentences::INERTIA_OF_ROTOR_AND_REDUCER.into(),
+        CasePart::Axis(joint, link) => sentences::axis_of_on(&joint, &link),
         CasePart::Place(joint, link, along) => sentences::place_of_on(&joint, &link, &axis(along)),
     }
-}
-
-/// A number with enough digits to distinguish it from another number.
-pub fn told_apart(value: f64, other: f64) -> String {
-    let differ = |digits: &usize| significant(value, *digits) != significant(other, *digits);
-    significant(value, (6..15).find(differ).unwrap_or(15))
 }
 
 /// A number with at most six significant digits.

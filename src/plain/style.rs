@@ -99,10 +99,11 @@ fn hanging(line: &str) -> usize {
     behind.filter(|behind| *behind <= MOST).unwrap_or(margin + 2)
 }
 
-#[cfg(all(test, feature = "command"))]
+#[cfg(test)]
 mod tests {
     use super::*;
 
+    #[cfg(feature = "command")]
     #[test]
     fn long_lines_have_a_hanging_indent() {
         for (line, lines) in [

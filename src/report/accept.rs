@@ -9,7 +9,7 @@ use super::json::Failure;
 use super::pretty::{list, pretty};
 use crate::plain::Tell;
 use crate::plain::cells::{counted, table, trimmed};
-use crate::plain::diagnosis::{number, told_apart};
+use crate::plain::diagnosis::number;
 use crate::plain::judged::{Grade, grade};
 use linkage::error::Error;
 use linkage::trajectory::Channel;
@@ -136,7 +136,7 @@ fn changes(comparison: &FigureComparison, text: &mut String) {
     let row = |moved: &&Moved| {
         // The accepted figure and the found figure are shown with enough digits to differ.
         let [accepted, found] = [(moved.accepted, moved.found), (moved.found, moved.accepted)]
-            .map(|(value, other)| told_apart(value, other));
+            .map(|(value, other)| numbers::told_apart(value, other));
         let by = format!("{:+.1e} {}", moved.found - moved.accepted, numbers::shown(unit(&moved.channel)));
         let [bound, bounds] = [moved.bound, moved.bounds()].map(|number| format!("{number:.1e}"));
         let (word, at) = figure(moved.figure);

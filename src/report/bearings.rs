@@ -74,7 +74,7 @@ fn frictions(peaks: &Peaks, width: Option<usize>) -> String {
             numbers::quantity(own.largest, unit),
             numbers::quantity(own.work, "J"),
             numbers::fixed_in(share, 1, "%"),
-            numbers::quantity(own.pressure_speed, "W"),
+            if own.is_mesh { "-".into() } else { numbers::quantity(own.pressure_speed, "W") },
         ]
     });
     let header =
@@ -124,7 +124,7 @@ pub(crate) fn json(journals: Journals, scenario: &Scenario, peaks: &Peaks) -> St
         "drive_work_J": peaks.drive_work, "efficiency": peaks.efficiency(),
         "friction": list(&peaks.frictions, |own| json!({
             (if own.is_mesh { "transmission" } else { "joint" }): own.name, "work_J": own.work,
-            "pressure_speed_W": own.pressure_speed,
+            "pressure_speed_W": (!own.is_mesh).then_some(own.pressure_speed),
             (if own.is_force { "largest_N" } else { "largest_N_m" }): own.largest,
         })),
     }))

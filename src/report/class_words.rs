@@ -46,6 +46,7 @@ in_both! {
     mass_of(mass, inertia, x, y) = "mass {mass} kg, moment of inertia about the mass centre {inertia} kg m², mass centre ({x}; {y}) mm"
         | "маса {mass} кг, момент інерції відносно центра мас {inertia} кг·м², центр мас ({x}; {y}) мм";
     gravity(x, y) = "Acceleration of gravity: ({x}; {y}) m/s²" | "Прискорення вільного падіння: ({x}; {y}) м/с²";
+    transmissions_as_in_the_file = "Transmissions, as in the scenario file" | "Передачі, як у файлі сценарію";
     loads_as_in_the_file = "Loads, as in the scenario file" | "Навантаження, як у файлі сценарію";
     at_the_positions(unit) = "The quantities in the table, at the crank positions (in {unit}) in the head of the table."
         | "Величини таблиці для положень кривошипа ({unit}), указаних у її заголовку.";

@@ -29,6 +29,7 @@ linkage::sentences! {
     lift_of_cam(name) = "lift of cam {name}";
     ratio_of_transmission(name) = "ratio of transmission {name}";
     pressure_angle_of_transmission(name) = "pressure angle of transmission {name}";
+    axis_of_on(joint, link) = "axis of joint {joint} on {link}";
     start_of_transmission(name) = "start of transmission {name} at t = 0";
     at_the_motor_shaft(of) = "{of} at the motor's shaft, before the reducer, instead of at the crank";
     speed_of_the_drive_at(joint) = "speed of the drive at {joint}";

@@ -158,3 +158,8 @@ def test_faults_of_a_built_mechanism_are_told():
     with pytest.raises(linkproof.InputError, match="name"):
         rotor = linkproof.Scenario.builder("Not a name").ground({"O": (0, 0)}).link("rotor", {"O": (0, 0)})
         rotor.pin("O", "ground", "rotor").crank("O", 1.0).build()
+
+
+def test_too_many_instants_are_refused():
+    with pytest.raises(linkproof.UnsupportedError, match="1000000000000 intervals"):
+        four_bar().instants(10**12).build()

@@ -136,3 +136,17 @@ def test_faults_of_tables(crank_rocker, frame):
         crank_rocker.compare(frame, {**MAP, "link.rocker.omega_rad_s": "phi3"})
     with pytest.raises(linkproof.InputError, match="channel"):
         crank_rocker.compare(frame.drop(columns="psi"), {"time_ms": "time [ms]", "link.rocker.psi": "torque"})
+
+
+def test_any_byte_order_masked_values_and_none(crank_rocker):
+    solution = crank_rocker.solve()
+    x = solution["point.B.x_m"]
+    for kind in (">f8", ">f4", "<f4", "longdouble"):
+        assert crank_rocker.compare({"time_s": solution.time, "point.B.x_m": x.astype(kind)}).verdict == "agree", kind
+    row = 3
+    wrong = np.where(np.arange(len(x)) == row, 77.0, x)
+    masked = np.ma.masked_array(wrong, mask=np.arange(len(x)) == row)
+    assert crank_rocker.compare({"time_s": solution.time, "point.B.x_m": masked}).verdict == "agree"
+    gap = [None if at == row else float(value) for at, value in enumerate(x)]
+    assert crank_rocker.compare({"time_s": solution.time, "point.B.x_m": gap}).verdict == "agree"
+    assert crank_rocker.compare({"time_s": solution.time, "point.B.x_m": wrong}).verdict == "disagree"

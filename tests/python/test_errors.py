@@ -78,3 +78,25 @@ def test_wrong_types_are_no_crash(slider_crank):
     ]:
         with pytest.raises((TypeError, OverflowError)):
             call()
+
+
+@pytest.mark.parametrize(
+    ("method", "options"),
+    [
+        ("prove", {"extrapolated": 30}),
+        ("prove", {"budget": -1}),
+        ("prove", {"accuracy": float("nan")}),
+        ("prove", {"step": float("nan")}),
+        ("prove", {"engine": []}),
+        ("draw", {"medium": "gif", "frames": 0}),
+        ("draw", {"medium": "gif", "frames": 10**6}),
+        ("draw", {"medium": "gif", "seconds": -1}),
+        ("draw", {"medium": "png", "width": 50}),
+        ("draw", {"input": 1.0, "time": 0.1}),
+    ],
+)
+def test_options_have_the_limits_of_the_command(slider_crank, method, options):
+    with pytest.raises(linkproof.InputError) as caught:
+        getattr(slider_crank, method)(**options)
+    assert caught.value.key in options
+    assert caught.value.help

@@ -324,3 +324,32 @@ fn numbers_are_set_by_their_paths() {
     place.refused("solve scenarios/crank_rocker.toml --set links.crank.mass_kg=-1", &["-1", "links.crank.mass_kg"]);
     place.refused("solve scenarios/crank_rocker.toml --set joints.Q.axis_deg=1", &["joints.Q.axis_deg"]);
 }
+
+/// Processes that start together share one directory, whether they solve shards or the whole sweep.
+#[test]
+fn regress_processes_that_start_together_share_a_directory() {
+    let place = Place::empty();
+    place.ok(FOUR_BAR);
+    let sweep = format!("sweep four_bar.toml --set grid.step_deg=20 --vary crank_mm=20:40 --sobol 400 {FIGURES}");
+    place.ok(&format!("{sweep} -o alone"));
+    let alone = fs::read(place.path("alone/cases.parquet")).unwrap();
+    let together = |words: &dyn Fn(usize) -> String| {
+        let start = |number: usize| {
+            let mut child = Command::cargo_bin("linkproof").unwrap();
+            child.current_dir(place.path("")).args(sweep.split(' ')).args(words(number).split(' '));
+            child.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
+        };
+        let children: Vec<_> = (1..=4).map(start).collect();
+        for child in children {
+            let output = child.wait_with_output().unwrap();
+            assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        }
+    };
+    for round in 0..3 {
+        together(&|number| format!("--shard {number}/4 -o shards_{round}"));
+        place.ok(&format!("merge shards_{round} -o merged_{round}"));
+        assert_eq!(fs::read(place.path(&format!("merged_{round}/cases.parquet"))).unwrap(), alone);
+        together(&|_| format!("-o whole_{round}"));
+        assert_eq!(fs::read(place.path(&format!("whole_{round}/cases.parquet"))).unwrap(), alone);
+    }
+}

@@ -128,18 +128,30 @@ impl<'a> RigidModel<'a> {
         order
     }
 
-    /// Hinges from the ground to `link`, as indices of branches. The hinge nearest to `link` is last.
-    pub(crate) fn hinges(&self, mut link: LinkId) -> Vec<usize> {
-        let mut hinges = Vec::new();
+    /// Branches from the ground to `link`, as indices. The branch that carries `link` is last.
+    fn way(&self, mut link: LinkId) -> Vec<usize> {
+        let mut way = Vec::new();
         while link != GROUND {
             let branch = self.branch_of(link).expect("every moving link is in the tree");
-            if !self.case.mechanism.joints()[self.tree.branches[branch].joint].keeps_angle() {
-                hinges.push(branch);
-            }
+            way.push(branch);
             link = self.tree.branches[branch].parent;
         }
-        hinges.reverse();
-        hinges
+        way.reverse();
+        way
+    }
+
+    fn is_slide(&self, branch: usize) -> bool {
+        self.case.mechanism.joints()[self.tree.branches[branch].joint].keeps_angle()
+    }
+
+    /// Hinges from the ground to `link`, as indices of branches. The hinge nearest to `link` is last.
+    pub(crate) fn hinges(&self, link: LinkId) -> Vec<usize> {
+        self.way(link).into_iter().filter(|branch| !self.is_slide(*branch)).collect()
+    }
+
+    /// Whether a slide lies between the ground and `link`.
+    pub(crate) fn slides(&self, link: LinkId) -> bool {
+        self.way(link).into_iter().any(|branch| self.is_slide(branch))
     }
 
     /// Branches of the tree whose coordinates a transmission couples, each with a factor.

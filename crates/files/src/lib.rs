@@ -20,6 +20,7 @@ pub use target::{OutputTarget, may_fill, may_write, size, unwritten};
 pub use text::{LARGEST, read_named, read_text, text, text_from, visible, visible_lines, way_out};
 
 use target::Place;
+pub use temporary::is_temporary;
 use temporary::{clear, create, directory_of};
 
 /// Lets `fill` write the content of a target. The file is replaced when the whole content is written.

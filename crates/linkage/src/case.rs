@@ -387,8 +387,12 @@ impl Case {
             }
             Senses::Point(at) if self.moves(setting.motions, at) => load.act(setting, put),
             Senses::Joint(joint) => {
-                let effort = load.moment_in(self.joint_rate(setting.motions, joint), setting.crank);
-                Action::pair(&setting.joints[joint], effort, setting.motions).into_iter().for_each(put);
+                let (mut rate, own) = (self.joint_rate(setting.motions, joint), &setting.joints[joint]);
+                // If forces determine the motion, a load on a joint at rest acts in the sense of the motion that begins.
+                if rate == 0.0 && self.is_free() && self.can_move(joint) {
+                    rate = own.rates(setting.motions)[1];
+                }
+                Action::pair(own, load.moment_in(rate, setting.crank), setting.motions).into_iter().for_each(put);
             }
             Senses::Point(_) => {}
         }

@@ -3,6 +3,8 @@
 crate::sentences! {
     // case/builder.rs
     use_one_of(known) = "use one of: {known}";
+    intervals_are_requested(found, most) = "{found} intervals are requested; the limit is {most}";
+    ASK_FOR_FEWER_INTERVALS = "request fewer instants";
     there_is_no_called(what, asked) = "there is no {what} called \"{asked}\"";
     NOTHING_DRIVES_THE_MECHANISM = "the mechanism has no drive";
     NAME_THE_DRIVEN_JOINT_WITH_CRANK = "name the driven joint with `crank`, `driven` or `free`";
@@ -48,7 +50,7 @@ crate::sentences! {
     the_grid_leads_turns_away(most, value) = "the grid extends to {most} turns from zero; the limit is {value}";
     the_grid_leads_to_but_the_drive(t, name, end) = "the time {t} s is requested, but the drive's law \"{name}\" is defined from 0 to {end} s";
     the_grid_leads_to_but_drive(t, number, name, end) = "the time {t} s is requested, but the law \"{name}\" of drive {number} is defined from 0 to {end} s";
-    the_drive_law_does_not_come(name, drive) = "the drive's law \"{name}\" reaches a requested {drive} never or more than once; expected exactly one time";
+    the_drive_law_does_not_come(name, drive, value) = "the drive's law \"{name}\" reaches the requested {drive} {value} never or more than once; expected exactly one time";
     THE_MOTION_IS_FREE_WHEN_THE_CRANK = "the motion is free: the time at which the input reaches a value depends on the forces";
     // engine/bodies.rs
     GIVE_EVERY_LINK_BOTH = "give every link a mass and a moment of inertia";

@@ -115,6 +115,12 @@ pub fn input_in(at: InputValue, decimals: usize) -> String {
     fixed_in(at.input.shown(at.value), decimals, at.input.shown_in().0)
 }
 
+/// A number with enough digits to distinguish it from another number.
+pub fn told_apart(value: f64, other: f64) -> String {
+    let differ = |digits: &usize| significant(value, *digits) != significant(other, *digits);
+    significant(value, (6..15).find(differ).unwrap_or(15))
+}
+
 /// An input's name, value and unit: `crank angle 41.000 deg`, `slide 300.000 mm`.
 #[must_use]
 pub fn input_told(at: InputValue, decimals: usize) -> String {

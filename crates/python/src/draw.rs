@@ -8,7 +8,7 @@ use linkproof::parts::{Error, Medium, PictureOptions, When};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 
-use crate::errors::{OrRaised, argument};
+use crate::errors::{OrRaised, argument, within};
 use crate::scenario_class::Scenario;
 use crate::task::released;
 use crate::{html, sentences};
@@ -16,6 +16,11 @@ use crate::{html, sentences};
 /// Width (pixels) and number of frames of the moving picture in a notebook.
 const WIDTH: u32 = 560;
 const FRAMES: usize = 36;
+
+/// The number of an option, if one is given; an error outside of `range`.
+fn perhaps(key: &str, value: &Bound<'_, PyAny>, range: [f64; 2]) -> PyResult<Option<f64>> {
+    if value.is_none() { Ok(None) } else { within(key, value, range).map(Some) }
+}
 
 /// A medium and the options of a picture.
 pub(crate) struct Wish {
@@ -32,6 +37,10 @@ impl Wish {
         for (key, value) in given.into_iter().flatten() {
             let key: String = key.extract()?;
             match key.as_str() {
+                "input" | "time" if options.at.is_some() => {
+                    let error = argument(&key, sentences::INSTANTS_ARE_INPUTS_OR_TIMES, sentences::GIVE_INPUT_OR_TIME);
+                    return Err(error).or_raised(py);
+                }
                 "input" => options.at = Some(When::Crank(value.extract()?)),
                 "time" => options.at = Some(When::Time(value.extract()?)),
                 "each_mode" => options.each_mode = value.extract()?,
@@ -42,9 +51,9 @@ impl Wish {
                 "positions" => options.positions = value.extract()?,
                 "enlarged" => options.enlarged = value.extract()?,
                 "groups" => options.groups = value.extract()?,
-                "width" => options.width = value.extract()?,
-                "frames" => options.frames = value.extract()?,
-                "seconds" => options.seconds = value.extract()?,
+                "width" => options.width = perhaps(&key, &value, [100.0, 4000.0])?.map(|own| own as u32),
+                "frames" => options.frames = perhaps(&key, &value, [2.0, 720.0])?.map(|own| own as usize),
+                "seconds" => options.seconds = perhaps(&key, &value, [1e-3, 3600.0])?,
                 _ => {
                     let message = sentences::there_is_no_option(&key);
                     return Err(argument(&key, message, sentences::OPTIONS_OF_PICTURES)).or_raised(py);

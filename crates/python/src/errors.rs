@@ -5,6 +5,8 @@ use linkproof::plain::errors::text;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use crate::sentences;
+
 /// The module of Python in which the exceptions are defined.
 const MODULE: &str = "linkproof.errors";
 
@@ -48,6 +50,20 @@ fn one<'py>(py: Python<'py>, error: &Error, told: &str) -> PyResult<Bound<'py, P
 /// An error of an argument.
 pub(crate) fn argument(key: &str, message: impl Into<String>, help: impl Into<String>) -> Error {
     Error::new(ErrorKind::Input, message).key(key).help(help.into())
+}
+
+/// The number of an argument; an error if it is NaN or outside of `range`.
+pub(crate) fn within(key: &str, value: &Bound<'_, PyAny>, [least, most]: [f64; 2]) -> PyResult<f64> {
+    let number: f64 = value.extract()?;
+    if (least..=most).contains(&number) {
+        return Ok(number);
+    }
+    let help = match least == f64::MIN_POSITIVE {
+        true => sentences::GIVE_A_POSITIVE_NUMBER.to_string(),
+        false => sentences::give_a_number_from(&least, &most),
+    };
+    let message = sentences::found_the_number(&number);
+    Err(raised(value.py(), &argument(key, message, help)))
 }
 
 /// Results of the library as results of Python.

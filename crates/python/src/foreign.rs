@@ -1,11 +1,13 @@
 //! Tables of other Python packages: data frames, Arrow tables, mappings of columns.
 
+use std::sync::Arc;
+
 use arrow_array::cast::AsArray;
 use arrow_array::types::{
     ArrowPrimitiveType, Float32Type, Float64Type, Int8Type, Int16Type, Int32Type, Int64Type, UInt8Type, UInt16Type,
     UInt32Type, UInt64Type,
 };
-use arrow_array::{Array, ArrayRef};
+use arrow_array::{Array, ArrayRef, Float64Array};
 use arrow_schema::DataType;
 use columns::{MISSING, TextTable, Twice, UNDEFINED};
 use formula::Rounded;
@@ -64,17 +66,25 @@ fn mapped(table: &Bound<'_, PyAny>) -> PyResult<Parts> {
     let mut columns = Vec::new();
     for key in table.call_method0("keys")?.try_iter()? {
         let key = key?;
-        let values = numpy.call_method1("asarray", (table.get_item(&key)?,))?;
-        let kind: String = values.getattr("dtype")?.getattr("kind")?.extract()?;
-        if !["f", "i", "u"].contains(&kind.as_str()) {
+        // `asanyarray` keeps the mask of a masked array.
+        let values = numpy.call_method1("asanyarray", (table.get_item(&key)?,))?;
+        let kind = values.getattr("dtype")?;
+        let (word, bytes): (String, usize) = (kind.getattr("kind")?.extract()?, kind.getattr("itemsize")?.extract()?);
+        let is_listed = word == "O" || values.hasattr("mask")?;
+        let array: ArrayRef = if is_listed {
+            // A masked value, and `None`, is a missing value. Other objects count as numbers if Python converts them.
+            match values.call_method0("tolist")?.extract::<Vec<Option<f64>>>() {
+                Ok(numbers) => Arc::new(Float64Array::from(numbers)),
+                Err(_) => continue,
+            }
+        } else if ["f", "i", "u"].contains(&word.as_str()) {
+            // Arrow reads the byte order of this machine, and no half precision.
+            let own = if word == "f" && bytes == 4 { "=f4" } else { "=f8" };
+            let values = numpy.call_method1("ascontiguousarray", (values.call_method1("astype", (own,))?,))?;
+            values.extract::<PyArray>()?.into_inner().0
+        } else {
             continue;
-        }
-        let values = match kind.as_str() {
-            "f" => values,
-            _ => values.call_method1("astype", ("=f8",))?,
         };
-        let values = numpy.call_method1("ascontiguousarray", (values,))?;
-        let (array, _) = values.extract::<PyArray>()?.into_inner();
         columns.push((key.str()?.extract()?, vec![array]));
     }
     Ok(columns)

@@ -10,12 +10,15 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use scenario::words::choice;
 
-use crate::errors::{OrRaised, argument};
+use crate::errors::{OrRaised, argument, within};
 use crate::scenario_class::Scenario;
 use crate::solution::Solution;
 use crate::table::{Table, TableColumn};
 use crate::task::released;
 use crate::{html, sentences};
+
+/// Limits of a positive number.
+const POSITIVE: [f64; 2] = [f64::MIN_POSITIVE, f64::MAX];
 
 /// Options of a proof.
 pub(crate) struct ProofWish {
@@ -46,6 +49,10 @@ impl ProofWish {
                         value.extract::<String>().map(|one| vec![one]).or_else(|_| value.extract())?;
                     let all = names.iter().map(|name| chosen("engine", name, &EngineName::ALL, |own| own.name()));
                     let all: Vec<EngineName> = all.collect::<Result<_, Error>>().or_raised(py)?;
+                    if all.is_empty() {
+                        let error = argument(&key, sentences::NO_ENGINE_IS_NAMED, sentences::OMIT_THE_OPTION);
+                        return Err(error).or_raised(py);
+                    }
                     all.into_iter().fold(options, Options::engine)
                 }
                 "reference" => {
@@ -56,13 +63,13 @@ impl ProofWish {
                     let name: String = value.extract()?;
                     options.route(chosen("route", &name, &Route::ALL, |own| own.name()).or_raised(py)?)
                 }
-                "step" => options.step(value.extract()?),
-                "accuracy" => options.accuracy(value.extract()?),
+                "step" => options.step(within(&key, &value, POSITIVE)?),
+                "accuracy" => options.accuracy(within(&key, &value, POSITIVE)?),
                 "sweeps" => options.sweeps(value.extract()?),
                 "substeps" => options.substeps(value.extract()?),
-                "extrapolated" => options.extrapolated(value.extract()?),
-                "budget" => options.budget(value.extract()?),
-                "memory" => options.memory(value.extract()?),
+                "extrapolated" => options.extrapolated(within(&key, &value, [0.0, 8.0])? as usize),
+                "budget" => options.budget(within(&key, &value, POSITIVE)?),
+                "memory" => options.memory(within(&key, &value, POSITIVE)?),
                 "tolerance" => {
                     wish.tolerance = Some(value.extract()?);
                     options

@@ -18,12 +18,19 @@ linkage::sentences! {
     INSTANTS_ARE_INPUTS_OR_TIMES = "expected instants either as values of the input or as times";
     GIVE_ONE_OF_THE_TWO = "give `input` or `time`, for example `at(time=[0.0, 0.1])`";
     a_scenario_called(name, title) = "<linkproof.Scenario {name}: {title}>";
+    // errors.rs
+    found_the_number(number) = "found {number}";
+    GIVE_A_POSITIVE_NUMBER = "give a positive number";
+    give_a_number_from(least, most) = "give a number from {least} to {most}";
     // draw.rs
+    GIVE_INPUT_OR_TIME = "give `input` or `time`, for example `draw(\"png\", time=0.1)`";
     GIVE_A_MEDIUM = "give \"svg\", \"pdf\", \"png\", \"dxf\", \"gif\" or \"webp\"";
     there_is_no_option(key) = "there is no option \"{key}\"";
     OPTIONS_OF_PICTURES = "use input, time, each_mode, loads, dimensions, all_traces, traces, positions, enlarged, groups, width, frames or seconds";
     a_picture_of(name, kind, bytes) = "<linkproof.Picture of {name}: {kind}, {bytes} bytes>";
     // proof.rs
+    NO_ENGINE_IS_NAMED = "no engine is named";
+    OMIT_THE_OPTION = "name one or several engines, or omit the option";
     OPTIONS_OF_PROOFS = "use engine, reference, route, step, accuracy, sweeps, substeps, extrapolated, budget, memory or tolerance";
     there_is_no_such_choice(word) = "unknown word \"{word}\"";
     it_has(names) = "use {names}";

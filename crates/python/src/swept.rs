@@ -187,14 +187,17 @@ impl Sweep {
         let numbers = |name: &str, of: fn(&FigureSpread) -> f64| {
             TableColumn::perhaps(name, "", all.iter().map(|own| own.as_ref().map(of)).collect())
         };
+        let cases = |name: &str, of: fn(&FigureSpread) -> u64| {
+            TableColumn::perhaps_whole(name, all.iter().map(|own| own.as_ref().map(|own| of(own) as i64)).collect())
+        };
         Ok(Table::of(vec![
             TableColumn::texts("figure", self.plan.figures.iter().map(|own| own.text.clone()).collect()),
             TableColumn::texts("unit", self.plan.units.clone()),
             TableColumn::whole("count", all.iter().map(|own| own.map_or(0, |own| own.count as i64)).collect()),
             numbers("least", |own| own.least.0),
-            numbers("least_case", |own| own.least.1 as f64),
+            cases("least_case", |own| own.least.1),
             numbers("most", |own| own.most.0),
-            numbers("most_case", |own| own.most.1 as f64),
+            cases("most_case", |own| own.most.1),
             numbers("mean", |own| own.mean),
             numbers("deviation", |own| own.deviation),
         ]))

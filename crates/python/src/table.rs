@@ -47,6 +47,11 @@ impl TableColumn {
         TableColumn::of(name, "", Int64Array::from(values), false)
     }
 
+    /// Whole numbers; `None` for a missing number.
+    pub(crate) fn perhaps_whole(name: impl Into<String>, values: Vec<Option<i64>>) -> TableColumn {
+        TableColumn::of(name, "", Int64Array::from(values), true)
+    }
+
     /// Texts.
     pub(crate) fn texts(name: impl Into<String>, values: Vec<String>) -> TableColumn {
         TableColumn::of(name, "", StringArray::from(values), false)
@@ -100,7 +105,13 @@ impl Table {
             };
         }
         if let Some(numbers) = array.as_any().downcast_ref::<Int64Array>() {
-            return shared(py, numbers.values().inner().clone(), "=i8");
+            return match numbers.null_count() {
+                0 => shared(py, numbers.values().inner().clone(), "=i8"),
+                _ => {
+                    let whole = numbers.iter().map(|value| value.map_or(f64::NAN, |value| value as f64));
+                    shared(py, ScalarBuffer::from_iter(whole).into_inner(), "=f8")
+                }
+            };
         }
         let texts = array.as_any().downcast_ref::<StringArray>().expect("columns are numbers or texts");
         Ok(PyList::new(py, texts.iter())?.into_any())

@@ -11,6 +11,7 @@ mod curve;
 mod draft;
 pub mod edit;
 pub mod engine;
+pub mod excerpt;
 mod family;
 mod figure;
 pub mod formula;

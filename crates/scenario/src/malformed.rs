@@ -26,9 +26,12 @@ pub(super) fn no_toml(text: &str, place: Places, error: &toml::de::Error) -> Err
             .help(sentences::decimals_take_a_point_write(&(found.replace(',', "."))));
     }
     let message = error.message().trim().replace('\n', ", ");
-    let help = match message.contains("unquoted key") {
-        true => sentences::QUOTE_NAMES_WITH_OTHER_LETTERS,
-        false => sentences::A_KEY_IS_WRITTEN_NAME_VALUE,
+    let help = if message.contains("unquoted key") {
+        sentences::QUOTE_NAMES_WITH_OTHER_LETTERS
+    } else if message.contains("inline table") {
+        sentences::WRITE_THE_KEYS_INSIDE_THE_BRACES
+    } else {
+        sentences::A_KEY_IS_WRITTEN_NAME_VALUE
     };
     Error::new(ErrorKind::Input, sentences::the_file_is_not_valid_toml(&message)).at(place(span)).help(help)
 }

@@ -135,7 +135,7 @@ struct Reading<'a> {
 const FORMULAS: [&str; 3] = ["channel", "expression", "formula"];
 
 /// Keys whose texts are not expressions, but names, words or sentences.
-fn texts() -> BTreeSet<&'static str> {
+pub(super) fn texts() -> BTreeSet<&'static str> {
     let of = |is_meant: fn(ValueKind) -> bool| -> BTreeSet<&'static str> {
         let rows = keys::sections().flat_map(|section| section.keys);
         rows.filter(|row| is_meant(row.kind)).map(|row| row.name).collect()

@@ -240,6 +240,7 @@ linkage::sentences! {
     first_in_line(message, line) = "{message}, first in line {line}";
     the_file_is_not_valid_toml_duplicate(key) = "the file is not valid TOML: duplicate key, `{key}` is given twice";
     QUOTE_NAMES_WITH_OTHER_LETTERS = "write a name with other signs than a-z, A-Z, 0-9, _ and - in quotes, such as \"О\" = 1";
+    WRITE_THE_KEYS_INSIDE_THE_BRACES = "a table in braces is complete: write its keys inside the braces, or write the table as a section `[name]` without braces";
     A_KEY_IS_WRITTEN_NAME_VALUE = "write a key as `name = value`, a section as `[name]`, and text in \"quotes\"";
     decimals_take_a_point_write(found) = "write decimals with a point: {found}";
     the_file_is_not_valid_toml_has_a_decimal(found) = "the file is not valid TOML: `{found}` has a decimal comma";

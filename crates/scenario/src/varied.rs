@@ -6,7 +6,7 @@
 
 use crate::sentences;
 use std::collections::BTreeMap;
-use toml_edit::{Item, TableLike, value};
+use toml_edit::{DocumentMut, Item, TableLike, value};
 
 use super::edit::{document, number};
 use super::unit::{self, NamedUnit};
@@ -50,7 +50,8 @@ const OWN: [&str; 5] = ["oracle", "formula", "source", "engine", "clearance"];
 /// # Errors
 /// [`ErrorKind::Input`] if the text is not TOML.
 pub fn varied_numbers(text: &str) -> Result<Vec<VariedNumber>> {
-    let document = document(text)?;
+    let mut document = document(text)?;
+    listed(&mut document);
     let root = document.as_item();
     let has_parameters = root.get("parameters").and_then(Item::as_table_like).is_some_and(|own| !own.is_empty());
     let mut found = Vec::new();
@@ -135,6 +136,7 @@ impl VariedNumber {
 pub fn with_numbers(text: &str, name: &str, numbers: &[(VariedNumber, f64)]) -> Result<String> {
     let bare = if numbers.is_empty() { text.to_string() } else { without_comments(text) };
     let mut document = document(&bare)?;
+    listed(&mut document);
     for key in OWN.iter().filter(|key| **key != "engine" || !numbers.is_empty()) {
         document.remove(key);
     }
@@ -189,8 +191,19 @@ pub fn with_numbers(text: &str, name: &str, numbers: &[(VariedNumber, f64)]) -> 
     Ok(document.to_string())
 }
 
+/// Writes the loads and transmissions as `[[loads]]` and `[[transmissions]]` if the file has them as arrays of inline
+/// tables.
+pub(super) fn listed(document: &mut DocumentMut) {
+    for section in ["loads", "transmissions"] {
+        if let Some(item) = document.get_mut(section) {
+            let old = std::mem::take(item);
+            *item = old.into_array_of_tables().map_or_else(|old| old, Item::ArrayOfTables);
+        }
+    }
+}
+
 /// The text without its comments, because a comment may state original numbers.
-fn without_comments(text: &str) -> String {
+pub(super) fn without_comments(text: &str) -> String {
     let line = |line: &str| {
         let quotes = |part: &str| part.matches(['"', '\'']).count() % 2;
         let at = line.match_indices('#').map(|(at, _)| at).find(|&at| quotes(&line[..at]) == 0);

@@ -18,6 +18,9 @@ pub const TABLE: &str = "cases.parquet";
 /// Directory of the parts.
 const PARTS: &str = "parts";
 
+/// Number of further attempts to remove the directory of the parts.
+const REMOVALS: usize = 100;
+
 /// A directory with the results of one sweep.
 #[derive(Clone, Debug)]
 pub struct SweepStore {
@@ -52,9 +55,10 @@ impl SweepStore {
                 return Err(Error::new(ErrorKind::Input, message).help(sentences::CHOOSE_ANOTHER_DIRECTORY));
             }
             Err(error) if error.kind() == io::ErrorKind::NotFound => {
-                let first = fs::read_dir(directory).ok().and_then(|mut entries| entries.next()?.ok());
-                if let Some(first) = first {
-                    let name = first.file_name().to_string_lossy().into_owned();
+                // Another process may write the plan of the same sweep at this moment.
+                let mut names = fs::read_dir(directory).into_iter().flatten().flatten();
+                let mut names = names.by_ref().map(|own| own.file_name().to_string_lossy().into_owned());
+                if let Some(name) = names.find(|name| !files::is_temporary(name)) {
                     let message = sentences::holds_other_files(&directory.display(), &files::visible(&name));
                     return Err(Error::new(ErrorKind::Input, message).help(sentences::CHOOSE_ANOTHER_DIRECTORY));
                 }
@@ -149,8 +153,11 @@ impl SweepStore {
     /// Writes the rows of a part. If a run is killed, unfinished files remain until the parts are joined and removed.
     pub(crate) fn write(&self, plan: &SweepPlan, part: u64, rows: &Rows) -> Result<()> {
         let at = self.part(part);
-        put(&target(&at), |file| table::write(plan, rows, file).map_err(io::Error::other))
-            .map_err(|error| broken(&at, &error))
+        match put(&target(&at), |file| table::write(plan, rows, file).map_err(io::Error::other)) {
+            // Another process of the same sweep was faster: it has joined and removed the parts.
+            Err(_) if self.is_complete() => Ok(()),
+            result => result.map_err(|error| broken(&at, &error)),
+        }
     }
 
     /// Joins all parts to one table, and removes the parts of this directory.
@@ -184,10 +191,24 @@ impl SweepStore {
             fill(&mut table)?;
             Ok(table.close().map_err(io::Error::other)?)
         });
-        if let Err(failed) = filled {
-            return failed.map_or(Ok(()), |error| Err(broken(&at, &error)));
+        match filled {
+            // Another process of the same sweep was faster, and has removed the parts.
+            Err(Some(_)) if self.is_complete() => return Ok(()),
+            Err(Some(error)) => return Err(broken(&at, &error)),
+            Err(None) => return Ok(()),
+            Ok(()) => {}
         }
         let own = self.directory.join(PARTS);
-        fs::remove_dir_all(&own).map_err(|error| broken(&own, &error))
+        // Another process may still write a part, and then the directory is not empty at the end of its removal.
+        let mut removed = fs::remove_dir_all(&own);
+        for _ in 0..REMOVALS {
+            if removed.as_ref().is_err_and(|error| error.kind() == io::ErrorKind::DirectoryNotEmpty) {
+                removed = fs::remove_dir_all(&own);
+            }
+        }
+        match removed {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => Err(broken(&own, &error)),
+            Err(_) | Ok(()) => Ok(()),
+        }
     }
 }

@@ -10,6 +10,7 @@ use linkage::trajectory::Stage;
 use prover::mark::AnswerSheet;
 use prover::numbers::significant;
 use scenario::Scenario;
+use scenario::excerpt::stated_tables;
 use std::fmt::Write;
 
 /// A length in mm, with at most three decimals.
@@ -53,9 +54,15 @@ pub(super) fn given(scenario: &Scenario, sheet: &AnswerSheet, language: SheetLan
         item(words::gravity(language, &case.gravity.x, &case.gravity.y));
     }
     text += "</ul>\n";
-    let loads = loads(&scenario.text);
-    if has_forces && !loads.is_empty() {
-        let _ = writeln!(text, "<p>{}:</p>\n<pre>{}</pre>", words::loads_as_in_the_file(language), escaped(&loads));
+    let mut put = |title: &str, section: &str| {
+        let tables = stated_tables(scenario, section);
+        if !tables.is_empty() {
+            let _ = writeln!(text, "<p>{title}:</p>\n<pre>{}</pre>", escaped(&tables));
+        }
+    };
+    put(&words::transmissions_as_in_the_file(language), "transmissions");
+    if has_forces {
+        put(&words::loads_as_in_the_file(language), "loads");
     }
     let _ = writeln!(text, "<p class=\"small\">{}</p>", words::frame_of_angles(language));
     text
@@ -85,16 +92,4 @@ fn lengths(link: &Link, language: SheetLanguage) -> String {
         }
     }
     if told.is_empty() { String::new() } else { format!("; {}: {}", words::distances(language), told.join(", ")) }
-}
-
-/// The part of a scenario's text that defines the loads.
-fn loads(text: &str) -> String {
-    let mut is_load = false;
-    let own = text.lines().filter(|line| {
-        if line.starts_with('[') {
-            is_load = line.trim() == "[[loads]]" || line.starts_with("[loads");
-        }
-        is_load && !line.trim().is_empty() && !line.trim_start().starts_with('#')
-    });
-    own.collect::<Vec<_>>().join("\n")
 }

@@ -9,7 +9,7 @@ use linkage::case::Grid;
 use linkage::solver::Solver;
 
 use super::{scenario, solved};
-use crate::cli::tools::Place;
+use crate::cli::tools::{Place, Table};
 
 /// A row: instant, angle of the rocker (deg), and its angular velocity.
 type Row = (String, f64, f64);
@@ -157,4 +157,21 @@ fn instants_beyond_a_law_are_refused_except_for_rounding() {
     assert!(outcome.code == 0, "{}{}", outcome.stdout, outcome.stderr);
     let outcome = of(0.01);
     assert!(outcome.code == 2 && outcome.stderr.contains("check the unit of the instants"), "{}", outcome.stderr);
+}
+
+/// A table by crank angle of a mechanism that turns faster. Positions agree, all rates and forces are wrong.
+#[test]
+fn regress_a_wrong_speed_in_a_table_by_crank_angle_is_named() {
+    let place = Place::new();
+    let faster =
+        place.ok("solve scenarios/crank_rocker.toml --set drive.speed_rpm=132.6 --only point.B --only joint.C");
+    let columns = Table::of(&faster);
+    let names = ["crank_rad", "point.B.x_m", "point.B.vx_m_s", "joint.C.fx_N"];
+    let rows: Vec<Vec<f64>> = names.iter().map(|name| columns.column(name)).collect();
+    let line = |row: usize| rows.iter().map(|own| format!("{:.5e}", own[row])).collect::<Vec<_>>().join(",");
+    let lines: Vec<String> = (0..rows[0].len()).map(line).collect();
+    fs::write(place.path("faster.csv"), format!("{}\n{}\n", names.join(","), lines.join("\n"))).unwrap();
+    let outcome = place.run("compare scenarios/crank_rocker.toml faster.csv");
+    assert_eq!(outcome.code, 1, "{}", outcome.stderr);
+    assert!(outcome.stdout.contains("speed of the drive at O: 13.88"), "{}", outcome.stdout);
 }

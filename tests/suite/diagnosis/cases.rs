@@ -70,6 +70,13 @@ const PRESCRIBED: &[Fault] = &[
     ("loaded_slider", "mass_kg = 12.0", "mass_kg = 12000", "mass of ram: 1000 times"),
     ("loaded_slider", "mode = \"ahead\"", "mode = \"behind\"", "another configuration of rod, ram: behind"),
     ("loaded_slider", "B = { x_mm = 320", "B = { x_mm = 321", "position of B on rod, x: 0.321 m"),
+    ("loaded_slider", "axis_deg = -90", "axis_deg = -89", "axis of joint guide on ground: -89 deg"),
+    (
+        "quick_return",
+        "points = [\"O2\", \"A\"]\naxis_deg = 0",
+        "points = [\"O2\", \"A\"]\naxis_deg = 1",
+        "axis of joint slot on guide: 1 deg",
+    ),
     ("quick_return", "mass_kg = 6.0", "mass_kg = 6.5", "mass of ram: 6.5 kg"),
     ("quick_return", "inertia_kg_m2 = 0.09", "inertia_kg_m2 = 0.0", "moment of inertia of guide: missing"),
     ("quick_return", "y_m_s2 = -9.81", "y_m_s2 = -9.8", "gravity: 9.8 m/s²"),

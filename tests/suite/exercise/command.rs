@@ -205,3 +205,26 @@ fn a_follower_is_asked_for_its_slide_and_classes_stay_apart() {
     let command = "exercise scenarios/crank_rocker.toml -n 1 -o class";
     place.refused(command, &["another class", "student_002"]);
 }
+
+/// Loads and transmissions that the file writes in braces are on the sheets, with numbers in place of expressions, and
+/// vary like others.
+#[test]
+fn regress_loads_and_transmissions_in_braces_are_on_the_sheets() {
+    let place = Place::new();
+    let load = "[[loads]]\ntype = \"resistance\"\nlink = \"rocker\"\nmoment_N_m = 100\n";
+    let inline = "loads = [{ type = \"resistance\", link = \"rocker\", moment_N_m = \"2*heavy\" }]\n";
+    let text = fs::read_to_string(place.path("scenarios/crank_rocker.toml")).unwrap();
+    assert!(text.contains(load));
+    let text = text.replace(load, "").replacen("[ground.points]", &format!("{inline}[ground.points]"), 1);
+    fs::write(place.path("named.toml"), format!("{text}\n[parameters]\nheavy_N_m = 50\n")).unwrap();
+    fs::write(place.path("plain.toml"), text.replace("\"2*heavy\"", "100")).unwrap();
+    place.ok("exercise named.toml --ask reactions -o named");
+    let task = fs::read_to_string(place.path("named/tasks/crank_rocker.html")).unwrap();
+    assert!(task.contains("moment_N_m = 100"), "{task}");
+    place.ok("exercise plain.toml -n 1 --vary loads --ask reactions -o plain");
+    let task = fs::read_to_string(place.path("plain/tasks/student_001.html")).unwrap();
+    assert!(task.contains("moment_N_m = ") && !task.contains("moment_N_m = 100"), "{task}");
+    place.ok("exercise scenarios/geared_five_bar.toml -n 1 -o gears");
+    let task = fs::read_to_string(place.path("gears/tasks/student_001.html")).unwrap();
+    assert!(task.contains("[[transmissions]]") && task.contains("teeth"), "{task}");
+}

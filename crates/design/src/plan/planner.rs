@@ -29,6 +29,7 @@ use linkage::case::{Case, Grid, Wanted, When};
 use linkage::drive::Drives;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::input::Input;
+use linkage::math::Vec2;
 use linkage::mechanism::{LinkId, Mechanism};
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
@@ -164,7 +165,11 @@ pub fn grid_at(drives: &Drives, when: When) -> Result<Grid> {
     Ok(grid)
 }
 
-/// Computes the state of `case` at an instant, up to accelerations.
+/// A mechanism is at rest if all its speeds are below this fraction of the speeds at the drives' top speed. Such speeds
+/// are rounding errors of a law that reverses at this instant.
+const REST: f64 = 1e-12;
+
+/// Computes the state of `case` at an instant, up to accelerations. Speeds of a mechanism at rest are exactly zero.
 ///
 /// # Errors
 /// [`ErrorKind::Input`] for an instant too far away to be reached step by step, for a time outside the laws of motion,
@@ -180,5 +185,10 @@ pub fn state_at(case: &Case, solver: &dyn Solver, when: When) -> Result<State> {
         Ok(())
     };
     solver.each(&case, &mut visit)?;
+    let size = case.mechanism.size();
+    let least = REST * case.drives.top_speed(size);
+    if found.motions.iter().all(|own| own.omega.abs() <= least && own.velocity.norm() <= least * size) {
+        found.motions.iter_mut().for_each(|own| (own.omega, own.velocity) = (0.0, Vec2::zeros()));
+    }
     Ok(found)
 }

@@ -12,6 +12,9 @@ use crate::mechanism::{
     TransmissionDesign, TransmissionKind, first_pose,
 };
 
+/// Upper limit of the number of intervals of a turn. The results of more instants would take gigabytes.
+const MOST_INTERVALS: usize = 10_000_000;
+
 /// A joint given by names of links and points.
 #[derive(Clone, Debug)]
 struct Wish {
@@ -263,6 +266,7 @@ impl CaseBuilder {
     /// # Errors
     /// [`ErrorKind::Input`] for an unknown link, point, joint or group, with a list of the known names.
     /// [`ErrorKind::Input`] also for a mechanism without ground or crank.
+    /// [`ErrorKind::Unsupported`] for more than ten million intervals.
     /// The errors of [`Mechanism::new`], [`Mechanism::with_transmissions`], [`Structure::of`], [`first_pose`] and
     /// [`Case::new`] are passed on.
     pub fn build(mut self) -> Result<Case> {
@@ -277,6 +281,12 @@ impl CaseBuilder {
             let index = self.link_of(&name, "masses")?;
             let link = &mut self.links[index];
             (link.mass, link.mass_centre, link.inertia) = (mass, centre, inertia);
+        }
+        if self.times.is_none() && self.instants > MOST_INTERVALS {
+            let message = sentences::intervals_are_requested(&self.instants, &MOST_INTERVALS);
+            return Err(Error::new(ErrorKind::Unsupported, message)
+                .key("instants")
+                .help(sentences::ASK_FOR_FEWER_INTERVALS));
         }
         let joints = self.joints.iter().map(|wish| self.made(wish)).collect::<Result<Vec<Joint>>>()?;
         let couplings = std::mem::take(&mut self.transmissions);

@@ -85,8 +85,11 @@ impl Grid {
         }
         if drive.constant_speed().is_none() {
             let name = drive.law_name();
-            if self.times.iter().any(|t| t.is_nan()) && self.inputs.iter().all(|input| input.is_finite()) {
-                return Err(sentences::the_drive_law_does_not_come(&name, &drive.input.noun()));
+            let unreached = self.times.iter().position(|t| t.is_nan());
+            if let Some(row) = unreached.filter(|_| self.inputs.iter().all(|input| input.is_finite())) {
+                let (input, (unit, _)) = (drive.input, drive.input.shown_in());
+                let value = format_args!("{:.3} {unit}", input.shown(self.inputs[row]));
+                return Err(sentences::the_drive_law_does_not_come(&name, &input.noun(), &value));
             }
             let end = drive.end().unwrap_or(f64::INFINITY);
             if let Some(t) = self.beyond(end) {

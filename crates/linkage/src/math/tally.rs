@@ -50,6 +50,7 @@ impl LanePeak {
 
 /// A statistic of the rows so far.
 #[derive(Clone, Debug, PartialEq)]
+#[expect(clippy::large_enum_variant, reason = "statistics are few, and each is read in every block of rows")]
 pub enum Tally {
     /// Largest value.
     Max(LanePeak),

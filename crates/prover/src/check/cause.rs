@@ -11,7 +11,7 @@ use super::missing::{Missing, missing};
 use super::slips::{self, FormulaMark, FormulaSlip, Mended, SlipKind};
 use super::terms::{self, Term};
 use super::trial::{MOST_LEFT, Trial};
-use crate::numbers::{input_in, input_told, significant};
+use crate::numbers::{input_in, input_told, significant, told_apart};
 use linkage::error::Result;
 use linkage::input::{Input, InputValue};
 use linkage::math::KeepNan;
@@ -78,7 +78,7 @@ impl fmt::Display for FormulaCause {
             }
             FormulaCause::Offset(offset) => write!(f, "{}", sentences::too_much_everywhere(&significant(*offset, 6))),
             FormulaCause::Factor(factor) => {
-                write!(f, "{}", sentences::too_large_by_the_factor_everywhere(&significant(*factor, 6)))
+                write!(f, "{}", sentences::too_large_by_the_factor_everywhere(&told_apart(*factor, 1.0)))
             }
             FormulaCause::Missing(Missing { formula, beside, what, is_factor, .. }) => {
                 let noun = match is_factor {

@@ -229,6 +229,8 @@ pub enum CasePart {
     /// One coordinate of a joint's position on a link. The fields are the joint, the link and the axis of the link's
     /// frame.
     Place(String, String, FrameAxis),
+    /// Direction of sliding of a prismatic joint in the frame of a link. The fields are the joint and the link.
+    Axis(String, String),
 }
 
 /// How a property of a case ([`CasePart`]) differs from the right one.

@@ -10,9 +10,10 @@ use super::configurations::reassembled;
 use linkage::case::{Case, CaseParts, Grid};
 use linkage::drive::{Drive, DriveMotion, MotionLaw, Motor, ShaftInertia};
 use linkage::input::Input;
-use linkage::math::{KeepNan, Vec2};
+use linkage::math::{KeepNan, Vec2, unit};
 use linkage::mechanism::{
-    Joint, JointId, Link, LinkId, Mechanism, Transmission, TransmissionDesign, TransmissionId, TransmissionKind,
+    Joint, JointId, JointKind, Link, LinkId, Mechanism, Transmission, TransmissionDesign, TransmissionId,
+    TransmissionKind,
 };
 
 /// Sets a new value in the parts of a case; `None` if the value is impossible.
@@ -150,8 +151,29 @@ pub(super) fn all(case: &Case) -> Vec<Knob> {
     for (joint, link) in places(case) {
         knobs.extend([FrameAxis::X, FrameAxis::Y].map(|axis| place(case, joint, link, axis)));
     }
+    knobs.extend(case.mechanism.joints().ids().flat_map(|joint| axes(case, joint)));
     knobs.extend(lengths(case));
     knobs
+}
+
+/// The directions of sliding of a joint on its two links.
+fn axes(case: &Case, joint: JointId) -> Vec<Knob> {
+    let own = &case.mechanism.joints()[joint];
+    let Some(axes) = own.kind.axes() else { return Vec::new() };
+    let knob = |side: usize| {
+        let turn = move |parts: &mut CaseParts, angle: f64| {
+            changed(parts, |_, joints| {
+                let mut axes = axes;
+                axes[side] = unit(angle);
+                joints[joint.index()].kind = JointKind::Prismatic { axes };
+            })?;
+            reassembled(parts)
+        };
+        let link = [own.first, own.second][side].link;
+        let part = CasePart::Axis(own.name.clone(), case.mechanism.links()[link].name.clone());
+        Knob::place(part, axes[side].y.atan2(axes[side].x), 1.0, "rad", turn)
+    };
+    vec![knob(0), knob(1)]
 }
 
 /// Ratio and pressure angle of a transmission, or the lift of a cam.
@@ -343,12 +365,18 @@ fn of_drive(case: &Case, index: usize, drive: &Drive) -> Vec<Knob> {
     let quarters = quarters.map(|found| (found, PartChange::Instead { found, given: drive.start, unit }));
     let natural = drive.input.span(case.mechanism.size());
     let angle = Knob::place(CasePart::StartAngle(joint.clone()), drive.start, natural, unit, start).also(quarters);
-    let speed = move |parts: &mut CaseParts, value| {
-        driven(parts, index, |drive| match &mut drive.motion {
-            DriveMotion::Prescribed { law, .. } => *law = at_speed(law, value),
-            DriveMotion::Free { initial_speed, .. } => *initial_speed = value,
-        });
-        Some(())
+    let speed = move |rows: GivenRows| {
+        move |parts: &mut CaseParts, value: f64| {
+            let inputs = parts.grid.inputs.clone();
+            driven(parts, index, |drive| match &mut drive.motion {
+                DriveMotion::Prescribed { law, .. } => *law = at_speed(law, value),
+                DriveMotion::Free { initial_speed, .. } => *initial_speed = value,
+            });
+            if rows == GivenRows::Inputs {
+                parts.grid = Grid::of_inputs(parts.drives.crank(), inputs);
+            }
+            Some(())
+        }
     };
     if matches!(&drive.motion, DriveMotion::Prescribed { law, .. } if law.holds()) {
         return vec![Knob { is_far: true, ..angle }];
@@ -363,16 +391,28 @@ fn of_drive(case: &Case, index: usize, drive: &Drive) -> Vec<Knob> {
         ],
         false => &[],
     };
-    let mut speed = Knob::amount(part, given, rate, speed).moving().times(units.iter().copied());
-    if given == 0.0 {
-        (speed.plain, speed.nudge) = (Vec::new(), 1e-3 * drive.top_speed());
-    } else if !drive.is_free() {
-        // A speed of zero is not tried, because a prescribed motion needs a speed.
-        speed.plain.remove(0);
-    }
+    let knob = |rows: GivenRows| {
+        let mut own = Knob::amount(part.clone(), given, rate, speed(rows)).moving().times(units.iter().copied());
+        if given == 0.0 {
+            (own.plain, own.nudge) = (Vec::new(), 1e-3 * drive.top_speed());
+        } else if !drive.is_free() {
+            // A speed of zero is not tried, because a prescribed motion needs a speed.
+            own.plain.remove(0);
+        }
+        own
+    };
     // The whole motion depends on speed and angle, so a linear approximation is useless for values far from the given
-    // value.
-    vec![Knob { is_far: true, ..speed }, Knob { is_far: true, ..angle }]
+    // value. At given inputs, the speed changes only the rates and the forces.
+    let by_inputs = (index == 0 && drive.constant_speed().is_some()).then(|| knob(GivenRows::Inputs));
+    let by_times = [Knob { is_far: true, ..knob(GivenRows::Times) }, Knob { is_far: true, ..angle }];
+    by_times.into_iter().chain(by_inputs).collect()
+}
+
+/// The columns that identify the rows of a table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum GivenRows {
+    Times,
+    Inputs,
 }
 
 /// Changes one drive, and adapts the crank angles of the grid to the changed drive.

@@ -176,9 +176,10 @@ fn closure(problem: Problem, engine: &dyn Engine, runs: &Runs) -> Check {
 /// Both moments belong to the same motion, so their difference must tend to zero with the step.
 fn power_balance(problem: Problem, engine: &dyn Engine, runs: &Runs) -> Check {
     let kind = Channel::named("drive.torque_N_m").expect("the table has the moment").kind;
-    // Moments may cancel each other, so the largest summand counts too. If all moments are only rounding, the scale is
-    // the natural size of a moment from the mechanism's data.
+    // Moments may cancel each other, so the largest summand counts too. If all moments are only rounding errors of the
+    // engine, the scale is the natural size of a moment from the mechanism's data.
     let largest = runs.single().moment.larger(runs.single().summand);
+    let largest = if largest <= engine.noise(problem.case, kind) { 0.0 } else { largest };
     let scale = built(problem.case).unless(largest, Unit::NewtonMetre);
     let gaps = |run: &Observed| run.moment_gap().collect::<Vec<f64>>();
     let by_differences = engine.settings().route == Route::Differences;

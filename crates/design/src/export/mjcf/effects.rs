@@ -119,9 +119,9 @@ pub(super) fn actuators(xml: &mut Xml, model: &MjcfModel, forces: &Forces) {
             let target = match &actuator.target {
                 Target::Hinge(branch) => format!(r#"joint="{}""#, joint(model, *branch)),
                 Target::Sum(_) => format!(r#"tendon="{name}""#),
-                Target::Place { force, follows, .. } => {
+                Target::Place { force, moment, follows, .. } => {
                     let axes = if *follows { String::new() } else { format!(r#" refsite="{AXES}""#) };
-                    let gear = numbers([force.x, force.y, 0.0, 0.0, 0.0, 0.0]);
+                    let gear = numbers([force.x, force.y, 0.0, 0.0, 0.0, *moment]);
                     format!(r#"site="{}"{axes} gear="{gear}""#, end(&name, 0))
                 }
             };

@@ -17,12 +17,14 @@ pub(super) enum Target {
     Hinge(usize),
     /// A fixed tendon: the sum of the coordinates of these branches, each times its coefficient.
     Sum(Vec<(usize, f64)>),
-    /// A force (N) at a point of a link.
+    /// A force (N) at a point of a link, and a moment (N m) on the link.
     Place {
         /// The point, in the frame of the link.
         at: JointSide,
         /// The force.
         force: Vec2,
+        /// The moment.
+        moment: f64,
         /// Whether the components of the force refer to the axes of the link (`true`) or to the axes of the world
         /// (`false`).
         follows: bool,
@@ -90,11 +92,17 @@ pub(super) fn forces(model: &MjcfModel) -> Result<Forces> {
         };
         // Here, loads become actuators or tendons. Resistances become frictions elsewhere.
         // Loads that MJCF cannot express were refused before.
-        if let Load::Moment { link, moment, .. } = load {
-            put(Target::Sum(turning(&[(*link, 1.0)])), [constant(moment), 0.0, 0.0]);
+        if let &Load::Moment { link, ref moment, .. } = load {
+            if model.slides(link) {
+                // A moment on the hinges before a slide would give the same motion, but another moment in the slide.
+                let (at, moment) = (JointSide { link, local: Vec2::zeros() }, constant(moment));
+                put(Target::Place { at, force: Vec2::zeros(), moment, follows: true }, [1.0, 0.0, 0.0]);
+            } else {
+                put(Target::Sum(turning(&[(link, 1.0)])), [constant(moment), 0.0, 0.0]);
+            }
         } else if let Load::Force { at, force: [x, y], follows } = load {
             let force = Vec2::new(constant(x), constant(y));
-            put(Target::Place { at: *at, force, follows: *follows }, [1.0, 0.0, 0.0]);
+            put(Target::Place { at: *at, force, moment: 0.0, follows: *follows }, [1.0, 0.0, 0.0]);
         } else if let &Load::Spring { ends, stiffness, free_length } = load {
             found.tendons.push(Tendon { name, ends, stiffness, free_length, damping: 0.0 });
         } else if let &Load::Damper { ends, damping } = load {

@@ -114,6 +114,13 @@ impl<'a> Model<'a> {
         };
         if let Some((link, site)) = node.attribute("site").and_then(|site| self.site(site)) {
             let gear = self.file.numbers(node, "gear")?.unwrap_or_default();
+            let about = gear.get(5).copied().unwrap_or_default() * constant;
+            if about != 0.0 {
+                self.load("moment", vec![("link", self.link(link)), ("moment_N_m", number(about))]);
+            }
+            if gear.iter().take(2).all(|part| *part == 0.0) {
+                return Ok(());
+            }
             let place = self.file.flat(site, "pos")?;
             let point = quoted(&self.point(link, place, 0.0, name));
             let [x, y] = [0, 1].map(|k| number(gear.get(k).copied().unwrap_or_default() * constant));

@@ -6,7 +6,7 @@ use crate::mechanism::{Joint, Link, LinkId, LinkPose, PerJoint};
 /// The state on which loads depend. Slices have one entry per link.
 #[derive(Clone, Copy, Debug)]
 pub struct LoadState<'a> {
-    /// Motions of all links. Loads do not use the accelerations.
+    /// Motions of all links. Accelerations only determine the sense of a motion that begins from rest.
     pub motions: &'a [Motion],
     /// Angles of all links (rad), unwrapped. Only torsion springs use the angles.
     pub angles: &'a [f64],
