@@ -135,7 +135,8 @@ impl Scenario {
         released(py, move || Scenario::of_text(&text, path, Changes::default()))
     }
 
-    /// This scenario with other parameters, given by their keys in `[parameters]`, such as `crank_mm=40`.
+    /// This scenario with other numbers, given by their keys in `[parameters]`, such as `crank_mm=40`, or by their
+    /// paths in the file, such as `{"links.crank.mass_kg": 2.5}`.
     ///
     /// Each number is in the unit of its key. Published numbers of the file are left out, because they hold only for
     /// the parameters in the file.
@@ -219,7 +220,7 @@ impl Scenario {
         self.inner.path.display().to_string()
     }
 
-    /// Text of the file; empty for a mechanism that was built in code.
+    /// Text of the file, without later changes by `set`, `start` and `at`; empty for a mechanism that was built in code.
     #[getter]
     fn text(&self) -> &str {
         &self.inner.text
