@@ -22,7 +22,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def _is_scenario(path: Path) -> bool:
-    """Whether a TOML file describes a mechanism. A file that cannot be read counts too, so that the error is reported."""
+    """Whether a TOML file describes a mechanism. An unreadable file counts too, so that its error is reported."""
     try:
         with path.open("rb") as file:
             return {"links", "joints"} <= tomllib.load(file).keys()

@@ -70,6 +70,8 @@ def test_wrong_types_are_no_crash(slider_crank):
         lambda: slider_crank.set(crank_mm="long"),
         lambda: slider_crank.prove(step="small"),
         lambda: slider_crank.prove(sweeps=-1),
+        lambda: slider_crank.prove(extrapolated=1.5),
+        lambda: slider_crank.draw("gif", frames=2.5),
         lambda: slider_crank.at(time=3),
         lambda: linkproof.Scenario.from_file(3),
         lambda: linkproof.Scenario(),

@@ -47,7 +47,8 @@ def test_a_malformed_file_fails(pytester):
 
 
 def test_a_file_in_another_encoding_fails_alone(suite):
-    (suite.path / "scenarios" / "latin.toml").write_bytes(PENDULUM.replace("title", "# \u00fc\ntitle").encode("latin-1"))
+    latin = PENDULUM.replace("title", "# \u00fc\ntitle").encode("latin-1")
+    (suite.path / "scenarios" / "latin.toml").write_bytes(latin)
     result = suite.runpytest_subprocess("--linkproof", "scenarios")
     result.assert_outcomes(passed=1, failed=3)
     assert "latin.toml" in result.stdout.str() and "UTF-8" in result.stdout.str()

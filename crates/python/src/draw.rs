@@ -17,11 +17,6 @@ use crate::{html, sentences};
 const WIDTH: u32 = 560;
 const FRAMES: usize = 36;
 
-/// The number of an option, if one is given; an error outside of `range`.
-fn perhaps(key: &str, value: &Bound<'_, PyAny>, range: [f64; 2]) -> PyResult<Option<f64>> {
-    if value.is_none() { Ok(None) } else { within(key, value, range).map(Some) }
-}
-
 /// A medium and the options of a picture.
 pub(crate) struct Wish {
     medium: Medium,
@@ -37,6 +32,8 @@ impl Wish {
         for (key, value) in given.into_iter().flatten() {
             let key: String = key.extract()?;
             match key.as_str() {
+                // `None` stands for the default.
+                "width" | "frames" | "seconds" if value.is_none() => {}
                 "input" | "time" if options.at.is_some() => {
                     let error = argument(&key, sentences::INSTANTS_ARE_INPUTS_OR_TIMES, sentences::GIVE_INPUT_OR_TIME);
                     return Err(error).or_raised(py);
@@ -51,9 +48,9 @@ impl Wish {
                 "positions" => options.positions = value.extract()?,
                 "enlarged" => options.enlarged = value.extract()?,
                 "groups" => options.groups = value.extract()?,
-                "width" => options.width = perhaps(&key, &value, [100.0, 4000.0])?.map(|own| own as u32),
-                "frames" => options.frames = perhaps(&key, &value, [2.0, 720.0])?.map(|own| own as usize),
-                "seconds" => options.seconds = perhaps(&key, &value, [1e-3, 3600.0])?,
+                "width" => options.width = Some(within(&key, &value, [100, 4000])?),
+                "frames" => options.frames = Some(within::<i64>(&key, &value, [2, 720])? as usize),
+                "seconds" => options.seconds = Some(within(&key, &value, [1e-3, 3600.0])?),
                 _ => {
                     let message = sentences::there_is_no_option(&key);
                     return Err(argument(&key, message, sentences::OPTIONS_OF_PICTURES)).or_raised(py);

@@ -1,5 +1,7 @@
 //! Errors of the library as exceptions of Python.
 
+use std::fmt::Display;
+
 use linkproof::parts::{Advice, Error, ErrorKind};
 use linkproof::plain::errors::text;
 use pyo3::prelude::*;
@@ -53,17 +55,28 @@ pub(crate) fn argument(key: &str, message: impl Into<String>, help: impl Into<St
 }
 
 /// The number of an argument; an error if it is NaN or outside of `range`.
-pub(crate) fn within(key: &str, value: &Bound<'_, PyAny>, [least, most]: [f64; 2]) -> PyResult<f64> {
-    let number: f64 = value.extract()?;
-    if (least..=most).contains(&number) {
-        return Ok(number);
+pub(crate) fn within<T>(key: &str, value: &Bound<'_, PyAny>, [least, most]: [T; 2]) -> PyResult<T>
+where
+    T: for<'a, 'py> FromPyObject<'a, 'py, Error = PyErr> + PartialOrd + Display,
+{
+    let number: T = value.extract()?;
+    match least <= number && number <= most {
+        true => Ok(number),
+        false => Err(refused(key, value, &number, sentences::give_a_number_from(&least, &most))),
     }
-    let help = match least == f64::MIN_POSITIVE {
-        true => sentences::GIVE_A_POSITIVE_NUMBER.to_string(),
-        false => sentences::give_a_number_from(&least, &most),
-    };
-    let message = sentences::found_the_number(&number);
-    Err(raised(value.py(), &argument(key, message, help)))
+}
+
+/// The number of an argument; an error if it is not positive and finite.
+pub(crate) fn positive(key: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
+    let number: f64 = value.extract()?;
+    match number.is_finite() && number > 0.0 {
+        true => Ok(number),
+        false => Err(refused(key, value, &number, sentences::GIVE_A_POSITIVE_NUMBER.into())),
+    }
+}
+
+fn refused(key: &str, value: &Bound<'_, PyAny>, number: &dyn Display, help: String) -> PyErr {
+    raised(value.py(), &argument(key, sentences::found_the_number(number), help))
 }
 
 /// Results of the library as results of Python.

@@ -10,15 +10,12 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use scenario::words::choice;
 
-use crate::errors::{OrRaised, argument, within};
+use crate::errors::{OrRaised, argument, positive, within};
 use crate::scenario_class::Scenario;
 use crate::solution::Solution;
 use crate::table::{Table, TableColumn};
 use crate::task::released;
 use crate::{html, sentences};
-
-/// Limits of a positive number.
-const POSITIVE: [f64; 2] = [f64::MIN_POSITIVE, f64::MAX];
 
 /// Options of a proof.
 pub(crate) struct ProofWish {
@@ -63,13 +60,13 @@ impl ProofWish {
                     let name: String = value.extract()?;
                     options.route(chosen("route", &name, &Route::ALL, |own| own.name()).or_raised(py)?)
                 }
-                "step" => options.step(within(&key, &value, POSITIVE)?),
-                "accuracy" => options.accuracy(within(&key, &value, POSITIVE)?),
+                "step" => options.step(positive(&key, &value)?),
+                "accuracy" => options.accuracy(positive(&key, &value)?),
                 "sweeps" => options.sweeps(value.extract()?),
                 "substeps" => options.substeps(value.extract()?),
-                "extrapolated" => options.extrapolated(within(&key, &value, [0.0, 8.0])? as usize),
-                "budget" => options.budget(within(&key, &value, POSITIVE)?),
-                "memory" => options.memory(within(&key, &value, POSITIVE)?),
+                "extrapolated" => options.extrapolated(within(&key, &value, [0, 8])?),
+                "budget" => options.budget(positive(&key, &value)?),
+                "memory" => options.memory(positive(&key, &value)?),
                 "tolerance" => {
                     wish.tolerance = Some(value.extract()?);
                     options

@@ -97,20 +97,13 @@ impl Table {
         if let Some(numbers) = array.as_any().downcast_ref::<Float64Array>() {
             return match numbers.null_count() {
                 0 => shared(py, numbers.values().inner().clone(), "=f8"),
-                // A missing number is NaN.
-                _ => {
-                    let whole = numbers.iter().map(|value| value.unwrap_or(f64::NAN));
-                    shared(py, ScalarBuffer::from_iter(whole).into_inner(), "=f8")
-                }
+                _ => with_gaps(py, numbers.iter()),
             };
         }
         if let Some(numbers) = array.as_any().downcast_ref::<Int64Array>() {
             return match numbers.null_count() {
                 0 => shared(py, numbers.values().inner().clone(), "=i8"),
-                _ => {
-                    let whole = numbers.iter().map(|value| value.map_or(f64::NAN, |value| value as f64));
-                    shared(py, ScalarBuffer::from_iter(whole).into_inner(), "=f8")
-                }
+                _ => with_gaps(py, numbers.iter().map(|value| value.map(|value| value as f64))),
             };
         }
         let texts = array.as_any().downcast_ref::<StringArray>().expect("columns are numbers or texts");
@@ -141,6 +134,12 @@ impl Table {
         }
         text
     }
+}
+
+/// A NumPy array of numbers. A missing number is NaN.
+fn with_gaps<'py>(py: Python<'py>, numbers: impl Iterator<Item = Option<f64>>) -> PyResult<Bound<'py, PyAny>> {
+    let whole = numbers.map(|value| value.unwrap_or(f64::NAN));
+    shared(py, ScalarBuffer::from_iter(whole).into_inner(), "=f8")
 }
 
 /// A NumPy array that shares the memory of an Arrow buffer.

@@ -1,5 +1,7 @@
 //! Parts of a scenario's text for readers who do not have the file.
 
+use std::collections::BTreeSet;
+
 use toml_edit::{DocumentMut, Item, TableLike, Value, value};
 
 use super::Scenario;
@@ -18,20 +20,20 @@ pub fn stated_tables(scenario: &Scenario, section: &str) -> String {
     let Some(Item::ArrayOfTables(mut tables)) = file.remove(section) else { return String::new() };
     let mut parameters = Parameters::default();
     scenario.formulas.parameters.iter().for_each(|own| parameters.push(own.clone()));
-    tables.iter_mut().for_each(|table| evaluate(table, &parameters));
+    let texts = texts();
+    tables.iter_mut().for_each(|table| evaluate(table, &texts, &parameters));
     let mut own = DocumentMut::new();
     own.insert(section, Item::ArrayOfTables(tables));
     own.to_string().trim().to_string()
 }
 
-/// Replaces the expressions of a table, and of the tables in it, by their values.
-fn evaluate(table: &mut dyn TableLike, parameters: &Parameters) {
-    let texts = texts();
+/// Replaces the expressions of a table, and of the tables in it, by their values. `texts` are the keys of other texts.
+fn evaluate(table: &mut dyn TableLike, texts: &BTreeSet<&str>, parameters: &Parameters) {
     for (key, item) in table.iter_mut() {
         if let Some(inner) = item.as_table_like_mut() {
-            evaluate(inner, parameters);
+            evaluate(inner, texts, parameters);
         } else if let Some(all) = item.as_array_mut() {
-            all.iter_mut().filter_map(Value::as_inline_table_mut).for_each(|inner| evaluate(inner, parameters));
+            all.iter_mut().filter_map(Value::as_inline_table_mut).for_each(|inner| evaluate(inner, texts, parameters));
         } else if let Some(text) = item.as_str().filter(|_| !texts.contains(key.get()))
             && let Ok(number) = arithmetic(text, key.get(), parameters)
         {

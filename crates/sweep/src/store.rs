@@ -56,8 +56,8 @@ impl SweepStore {
             }
             Err(error) if error.kind() == io::ErrorKind::NotFound => {
                 // Another process may write the plan of the same sweep at this moment.
-                let mut names = fs::read_dir(directory).into_iter().flatten().flatten();
-                let mut names = names.by_ref().map(|own| own.file_name().to_string_lossy().into_owned());
+                let entries = fs::read_dir(directory).into_iter().flatten().flatten();
+                let mut names = entries.map(|own| own.file_name().to_string_lossy().into_owned());
                 if let Some(name) = names.find(|name| !files::is_temporary(name)) {
                     let message = sentences::holds_other_files(&directory.display(), &files::visible(&name));
                     return Err(Error::new(ErrorKind::Input, message).help(sentences::CHOOSE_ANOTHER_DIRECTORY));
