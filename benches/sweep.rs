@@ -16,7 +16,7 @@ use lab::outside::processor_time;
 use linkage::math::KeepNan;
 use linkage::trajectory::Stage;
 use scenario::Scenario;
-use sweep::{DesignKind, Goal, SweepAxis, SweepDesign, SweepPlan, SweepStore, SweepSummary};
+use sweep::{DesignKind, Goal, SweepAxis, SweepDesign, SweepPlan, SweepStore};
 
 const AXES: [&str; 3] = ["crank_mm=20:40", "coupler_mm=110:135", "rocker_mm=80:100"];
 /// No two figures use the same quantity, so that each figure adds the cost of its own quantity.
@@ -59,9 +59,10 @@ fn sweep(plan: &SweepPlan, threads: usize) {
     let place = tempfile::tempdir().expect("a directory");
     let done = || {
         let store = SweepStore::open(&place.path().join("sweep"), plan)?;
-        let tally = sweep::run(plan, &store, None, threads, &mut |_| ControlFlow::Continue(()))?;
+        let goal = Goal::default();
+        let (tally, summary) = sweep::run(plan, &store, None, threads, goal, &mut |_| ControlFlow::Continue(()))?;
         assert_eq!(tally.solved, plan.design.cases());
-        SweepSummary::of(plan, &store.table(), Goal { figure: 0, is_largest: false })
+        Ok::<_, linkage::error::Error>(summary.expect("the table is complete"))
     };
     black_box(done().unwrap_or_else(|error| panic!("{error}")));
 }

@@ -121,7 +121,7 @@ impl Args {
 
 /// Reads `min:FIGURE` or `max:FIGURE`.
 pub(super) fn goal(asked: Option<&str>, plan: &SweepPlan) -> Result<Goal> {
-    let Some(asked) = asked else { return Ok(Goal { figure: 0, is_largest: false }) };
+    let Some(asked) = asked else { return Ok(Goal::default()) };
     let found = asked.split_once(':').and_then(|(end, figure)| {
         let is_largest = [("min", false), ("max", true)].into_iter().find(|(own, _)| *own == end)?.1;
         Some(Goal { figure: plan.figures.iter().position(|own| own.text == figure)?, is_largest })
@@ -138,13 +138,15 @@ pub(super) fn sweep(args: &Args) -> Result<u8> {
     let goal = goal(args.best.as_deref(), &plan)?;
     let directory = args.outputs.first(Sweeps::Results).unwrap_or(Path::new("sweep"));
     let store = SweepStore::open(directory, &plan)?;
+    let mut summary = None;
     if !store.is_complete() {
         let cases = args.shard.unwrap_or(Shard::WHOLE).cases(&plan);
         let mut bar = Bar::new(&sentences::cases_of(&cases));
-        let tally = run(&plan, &store, args.shard, args.jobs.unwrap_or(cores()), &mut |tally| {
+        let (tally, found) = run(&plan, &store, args.shard, args.jobs.unwrap_or(cores()), goal, &mut |tally| {
             bar.at(tally.cases() as f64 / cases as f64);
             ControlFlow::Continue(())
         })?;
+        summary = found;
         drop(bar);
         if let Some(case) = tally.disagreement {
             let mut values = vec![0.0; plan.design.axes().len()];
@@ -159,7 +161,7 @@ pub(super) fn sweep(args: &Args) -> Result<u8> {
             return Ok(AGREE);
         }
     }
-    let summary = SweepSummary::of(&plan, &store.table(), goal)?;
+    let summary = summary.map_or_else(|| SweepSummary::of(&plan, &store.table(), goal), Ok)?;
     told(&plan, &summary, goal, &store)?;
     if args.outputs.of(Sweeps::Html).next().is_some() {
         let (title, drawings) = drawn(&plan, &summary)?;

@@ -8,7 +8,7 @@ use linkproof::parts::{Error, ErrorKind};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use scenario::StartRequest;
-use sweep::{DesignKind, Shard, SweepAxis, SweepDesign, SweepPlan, SweepStore, SweepTally, run};
+use sweep::{DesignKind, Goal, Shard, SweepAxis, SweepDesign, SweepPlan, SweepStore, SweepTally, run};
 
 use crate::errors::{OrRaised, argument};
 use crate::scenario_class::Scenario;
@@ -36,7 +36,8 @@ impl SweepWish {
         if store.is_complete() {
             tally.stored = cases;
         } else if !self.plan_only {
-            tally = run(&plan, &store, self.shard, self.jobs, &mut |tally| tell((tally.cases(), cases)))?;
+            let mut progress = |tally: &SweepTally| tell((tally.cases(), cases));
+            (tally, _) = run(&plan, &store, self.shard, self.jobs, Goal::default(), &mut progress)?;
             if let Some(case) = tally.disagreement {
                 let error = Error::new(ErrorKind::Numeric, sentences::the_proof_of_a_case_disagrees(&case));
                 return Err(error

@@ -90,8 +90,6 @@ impl Sweep {
 
 /// A notebook shows the spread of the figures only if the sweep has at most this number of cases.
 const SHOWN: u64 = 1_000_000;
-/// An arbitrary goal, for a summary whose best cases are not used.
-const FIRST: Goal = Goal { figure: 0, is_largest: false };
 
 #[pymethods]
 impl Sweep {
@@ -183,7 +181,7 @@ impl Sweep {
     ///
     /// `least`, `most`, `mean` and `deviation` are in the unit of the row.
     fn spread(&self, py: Python<'_>) -> PyResult<Table> {
-        let all = self.summary(py, FIRST)?.figures;
+        let all = self.summary(py, Goal::default())?.figures;
         let numbers = |name: &str, of: fn(&FigureSpread) -> f64| {
             TableColumn::perhaps(name, "", all.iter().map(|own| own.as_ref().map(of)).collect())
         };
@@ -226,12 +224,12 @@ impl Sweep {
     /// The reasons for which cases were refused, each with its number of cases. Reasons that differ only in numbers
     /// count as one reason.
     fn reasons(&self, py: Python<'_>) -> PyResult<std::collections::BTreeMap<String, u64>> {
-        Ok(self.summary(py, FIRST)?.reasons.into_values().collect())
+        Ok(self.summary(py, Goal::default())?.reasons.into_values().collect())
     }
 
     /// Verdicts of the proven cases, each with its number of cases.
     fn verdicts(&self, py: Python<'_>) -> PyResult<std::collections::BTreeMap<String, u64>> {
-        Ok(self.summary(py, FIRST)?.verdicts)
+        Ok(self.summary(py, Goal::default())?.verdicts)
     }
 
     /// The table as a stream of Arrow, one batch for each part.

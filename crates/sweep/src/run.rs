@@ -1,5 +1,6 @@
 //! Runs a sweep on several threads.
 
+use std::collections::BTreeMap;
 use std::io;
 use std::ops::ControlFlow;
 use std::sync::{Mutex, PoisonError};
@@ -8,10 +9,11 @@ use linkage::error::Result;
 use linkage::quiet::{guarded, panic_text};
 use linkage::threads::side_by_side;
 
+use crate::groups::RowGroup;
 use crate::plan::{CaseResult, CaseSolver, SweepPlan, one_line};
 use crate::sentences;
 use crate::store::SweepStore;
-use crate::table::Rows;
+use crate::summary::{Goal, SweepSummary};
 
 /// One of several shares of a sweep's parts. The sizes of the shares differ by at most one part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,16 +65,18 @@ impl SweepTally {
         self.solved + self.refused + self.stored
     }
 
-    fn add(&mut self, first: u64, results: &[CaseResult]) {
-        for (case, result) in (first..).zip(results) {
-            match &result.refusal {
-                None => self.solved += 1,
-                Some(_) => self.refused += 1,
-            }
-            if result.verdict.as_deref() == Some("disagree") {
-                self.disagreement = Some(self.disagreement.map_or(case, |own| own.min(case)));
-            }
-        }
+    /// The tally of a part.
+    fn of(first: u64, rows: &RowGroup) -> SweepTally {
+        let refused = rows.reasons.iter().flatten().count() as u64;
+        let mut verdicts = (first..).zip(&rows.verdicts);
+        let disagreement = verdicts.find(|(_, own)| own.as_deref() == Some("disagree")).map(|(case, _)| case);
+        SweepTally { solved: rows.reasons.len() as u64 - refused, refused, stored: 0, disagreement }
+    }
+
+    fn add(&mut self, part: &SweepTally) {
+        self.solved += part.solved;
+        self.refused += part.refused;
+        self.disagreement = self.disagreement.into_iter().chain(part.disagreement).min();
     }
 }
 
@@ -81,6 +85,7 @@ impl SweepTally {
 /// If `progress` returns `Break`, the sweep stops.
 /// If the proof of a case disagrees, the sweep stops after the part of this case; finished parts remain stored.
 /// Without `shard`, the parts are joined to one table while further parts are solved.
+/// The summary is that of [`SweepSummary::of`] with the goal `goal`; `None` if the table is not complete.
 ///
 /// # Errors
 /// [`linkage::error::ErrorKind::Io`] if a part or the joined table cannot be written.
@@ -89,79 +94,111 @@ pub fn run(
     store: &SweepStore,
     shard: Option<Shard>,
     threads: usize,
+    goal: Goal,
     progress: &mut dyn FnMut(&SweepTally) -> ControlFlow<()>,
-) -> Result<SweepTally> {
-    if let Some(shard) = shard {
-        return solve_parts(plan, store, shard, threads, progress);
+) -> Result<(SweepTally, Option<SweepSummary>)> {
+    let (stored, open): (Vec<u64>, Vec<u64>) =
+        shard.unwrap_or(Shard::WHOLE).parts(plan).partition(|part| store.has(*part));
+    let parts = Parts { plan, store, stored: cases_of(plan, stored.iter().copied()), open, goal };
+    if shard.is_some() {
+        return Ok((parts.solve(threads, &mut |tally, _| progress(tally))?, None));
     }
-    let mut outcome = Ok(SweepTally::default());
+    let (mut outcome, mut summary) = (Ok(SweepTally::default()), None);
     store.fill(plan, |table| {
-        let mut next = 0;
-        // Parts are appended in their order. A part that is stored before an earlier part waits.
-        let mut append = || {
-            while next < plan.parts() && store.has(next) {
-                table.append(&store.part(next)).map_err(io::Error::other)?;
+        let (mut next, mut all) = (0, SweepSummary::none(plan));
+        // Parts are appended in their order. A part that is solved before an earlier part waits.
+        let mut waiting = BTreeMap::new();
+        let mut append = |solved: Option<SolvedPart>| {
+            waiting.extend(solved);
+            while next < plan.parts() {
+                let part = store.part(next);
+                let summary = match (waiting.remove(&next), stored.binary_search(&next)) {
+                    (Some(summary), _) => summary,
+                    (None, Ok(_)) => SweepSummary::read(plan, &part, all.cases, goal).map_err(io::Error::other)?,
+                    (None, Err(_)) => return Ok(false),
+                };
+                table.append(&part).map_err(io::Error::other)?;
+                all.add(summary, goal);
                 next += 1;
             }
-            Ok::<bool, io::Error>(next == plan.parts())
+            Ok::<bool, io::Error>(true)
         };
         let mut broken = None;
-        outcome = solve_parts(plan, store, Shard::WHOLE, threads, &mut |tally| {
-            broken = append().err();
+        outcome = parts.solve(threads, &mut |tally, solved| {
+            broken = append(solved).err();
             if broken.is_some() { ControlFlow::Break(()) } else { progress(tally) }
         });
         broken.map_or(Ok(()), Err)?;
-        let is_whole = outcome.as_ref().is_ok_and(|tally| tally.disagreement.is_none()) && append()?;
+        let is_whole = outcome.as_ref().is_ok_and(|tally| tally.disagreement.is_none()) && append(None)?;
+        summary = is_whole.then_some(all.finished());
         if is_whole { Ok(()) } else { Err(None) }
     })?;
-    outcome
+    Ok((outcome?, summary))
 }
 
-/// Solves and stores the parts of a shard. `progress` is as in [`run`].
-fn solve_parts(
-    plan: &SweepPlan,
-    store: &SweepStore,
-    shard: Shard,
-    threads: usize,
-    progress: &mut dyn FnMut(&SweepTally) -> ControlFlow<()>,
-) -> Result<SweepTally> {
-    let mut tally = SweepTally::default();
-    let (stored, open): (Vec<u64>, Vec<u64>) = shard.parts(plan).partition(|part| store.has(*part));
-    tally.stored = cases_of(plan, stored.into_iter());
-    let mut failed = None;
-    // Idle solvers. A thread takes an idle solver for its next part, so each thread reads the scenario file only once.
-    let solvers: Mutex<Vec<CaseSolver>> = Mutex::default();
-    let waiting = || solvers.lock().unwrap_or_else(PoisonError::into_inner);
-    let part = |part: u64| {
-        let idle = waiting().pop();
-        let mut solver = idle.map_or_else(|| plan.solver(), Ok)?;
-        let rows = solved(plan, &mut solver, part);
-        waiting().push(solver);
-        store.write(plan, part, &rows)?;
-        Ok((rows.first, rows.results))
-    };
-    let work = |index: usize, tell: &mut dyn FnMut(Result<(u64, Vec<CaseResult>)>)| tell(part(open[index]));
-    side_by_side(open.len(), threads, work, |_, part| {
-        match part {
-            Ok((first, results)) => tally.add(first, &results),
-            Err(error) => failed = failed.take().or(Some(error)),
-        }
-        let go_on = progress(&tally);
-        if failed.is_some() || tally.disagreement.is_some() { ControlFlow::Break(()) } else { go_on }
-    });
-    failed.map_or(Ok(tally), Err)
+/// A part that was solved, and the summary of its cases.
+type SolvedPart = (u64, SweepSummary);
+
+/// The parts of a run.
+struct Parts<'a> {
+    plan: &'a SweepPlan,
+    store: &'a SweepStore,
+    /// Number of cases that an earlier run has stored.
+    stored: u64,
+    /// The parts that must be solved.
+    open: Vec<u64>,
+    goal: Goal,
 }
 
-fn solved(plan: &SweepPlan, solver: &mut CaseSolver, part: u64) -> Rows {
+impl Parts<'_> {
+    /// Solves and stores the open parts. `progress` is as in [`run`], and also gets each part that was solved.
+    fn solve(
+        &self,
+        threads: usize,
+        progress: &mut dyn FnMut(&SweepTally, Option<SolvedPart>) -> ControlFlow<()>,
+    ) -> Result<SweepTally> {
+        let Parts { plan, store, ref open, goal, .. } = *self;
+        let mut tally = SweepTally { stored: self.stored, ..SweepTally::default() };
+        let mut failed = None;
+        // Idle solvers. A thread takes an idle solver for its next part, so each thread reads the scenario file only once.
+        let solvers: Mutex<Vec<CaseSolver>> = Mutex::default();
+        let waiting = || solvers.lock().unwrap_or_else(PoisonError::into_inner);
+        let part = |part: u64| {
+            let idle = waiting().pop();
+            let mut solver = idle.map_or_else(|| plan.solver(), Ok)?;
+            let rows = solved(plan, &mut solver, part);
+            waiting().push(solver);
+            store.write(plan, part, &rows)?;
+            let first = plan.cases_of(part).start;
+            Ok((SweepTally::of(first, &rows), (part, SweepSummary::of_rows(plan, first, &rows, goal))))
+        };
+        let work = |index: usize, tell: &mut dyn FnMut(Result<(SweepTally, SolvedPart)>)| tell(part(open[index]));
+        side_by_side(open.len(), threads, work, |_, part| {
+            let mut solved = None;
+            match part {
+                Ok((of_part, part)) => {
+                    tally.add(&of_part);
+                    solved = Some(part);
+                }
+                Err(error) => failed = failed.take().or(Some(error)),
+            }
+            let go_on = progress(&tally, solved);
+            if failed.is_some() || tally.disagreement.is_some() { ControlFlow::Break(()) } else { go_on }
+        });
+        failed.map_or(Ok(tally), Err)
+    }
+}
+
+fn solved(plan: &SweepPlan, solver: &mut CaseSolver, part: u64) -> RowGroup {
     let cases = plan.cases_of(part);
     let count = (cases.end - cases.start) as usize;
     let columns = |number: usize| -> Vec<Vec<f64>> { (0..number).map(|_| Vec::with_capacity(count)).collect() };
     let (axes, figures) = (plan.design.axes().len(), plan.figures.len());
-    let mut rows = Rows {
-        first: cases.start,
+    let mut rows = RowGroup {
         values: columns(axes),
         figures: columns(figures),
-        results: Vec::with_capacity(count),
+        reasons: Vec::with_capacity(count),
+        verdicts: Vec::new(),
     };
     let (mut values, mut found) = (vec![0.0; axes], vec![0.0; figures]);
     for case in cases {
@@ -171,7 +208,10 @@ fn solved(plan: &SweepPlan, solver: &mut CaseSolver, part: u64) -> Rows {
             let text = one_line(panic_text(panic.as_ref()).unwrap_or_default());
             CaseResult { refusal: Some(sentences::a_case_panicked(&text)), verdict: None }
         });
-        rows.results.push(result);
+        rows.reasons.push(result.refusal);
+        if plan.prove_every.is_some() {
+            rows.verdicts.push(result.verdict);
+        }
         rows.values.iter_mut().zip(&values).for_each(|(column, value)| column.push(*value));
         rows.figures.iter_mut().zip(&found).for_each(|(column, value)| column.push(*value));
     }

@@ -7,9 +7,10 @@ use std::path::{Path, PathBuf};
 use files::{OutputTarget, put, read_text, replace};
 use linkage::error::{Error, ErrorKind, Result};
 
+use crate::groups::RowGroup;
 use crate::plan::SweepPlan;
 use crate::sentences;
-use crate::table::{self, JoinedTable, Rows};
+use crate::table::{self, JoinedTable};
 
 /// Name of the stored plan.
 const PLAN: &str = "sweep.json";
@@ -151,9 +152,9 @@ impl SweepStore {
     }
 
     /// Writes the rows of a part. If a run is killed, unfinished files remain until the parts are joined and removed.
-    pub(crate) fn write(&self, plan: &SweepPlan, part: u64, rows: &Rows) -> Result<()> {
-        let at = self.part(part);
-        match put(&target(&at), |file| table::write(plan, rows, file).map_err(io::Error::other)) {
+    pub(crate) fn write(&self, plan: &SweepPlan, part: u64, rows: &RowGroup) -> Result<()> {
+        let (at, first) = (self.part(part), plan.cases_of(part).start);
+        match put(&target(&at), |file| table::write(plan, first, rows, file).map_err(io::Error::other)) {
             // Another process of the same sweep was faster: it has joined and removed the parts.
             Err(_) if self.is_complete() => Ok(()),
             result => result.map_err(|error| broken(&at, &error)),

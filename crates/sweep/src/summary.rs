@@ -34,8 +34,9 @@ pub struct FigureSpread {
     pub deviation: f64,
 }
 
-/// Figure by which cases are ranked, and whether its smallest or largest values are the best.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// Figure by which cases are ranked, and whether its smallest or largest values are the best. By default the smallest
+/// values of the first figure are the best.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Goal {
     /// Index of the figure.
     pub figure: usize,
@@ -57,11 +58,11 @@ pub type Reasons = BTreeMap<String, (String, u64)>;
 /// Largest number of different reasons that are counted.
 const MOST_REASONS: usize = 100;
 
-/// Counts a reason. Reasons that differ only in numbers are counted together.
-fn count_reason(reasons: &mut Reasons, reason: &str) {
+/// Counts a reason `count` times. Reasons that differ only in numbers are counted together.
+fn count_reason(reasons: &mut Reasons, reason: &str, count: u64) {
     let kind: String = reason.chars().filter(|sign| !sign.is_ascii_digit()).collect();
     if reasons.len() < MOST_REASONS || reasons.contains_key(&kind) {
-        reasons.entry(kind).or_insert_with(|| (reason.to_string(), 0)).1 += 1;
+        reasons.entry(kind).or_insert_with(|| (reason.to_string(), 0)).1 += count;
     }
 }
 
@@ -95,59 +96,97 @@ impl SweepSummary {
     /// # Errors
     /// The errors of [`SweepGroups`].
     pub fn of(plan: &SweepPlan, table: &Path, goal: Goal) -> Result<SweepSummary> {
-        let groups = SweepGroups::of(plan, table)?;
-        let (cases, figures) = (groups.cases(), plan.figures.len());
-        let every = cases.div_ceil(SAMPLE).max(1);
-        let mut summary = SweepSummary {
-            cases,
-            refused: 0,
-            reasons: BTreeMap::new(),
-            verdicts: BTreeMap::new(),
-            figures: vec![None; figures],
-            best: Vec::new(),
-            sample: Vec::new(),
-        };
-        let mut case = 0;
-        for group in groups {
-            let group = group?;
-            for (spread, column) in summary.figures.iter_mut().zip(&group.figures) {
-                *spread = FigureSpread::joined(*spread, FigureSpread::of(column, case));
-            }
-            for row in 0..group.reasons.len() {
-                summary.count(&group, row);
-                let is_solved = group.reasons[row].is_none();
-                let rank = goal.rank(group.figures[goal.figure][row]);
-                let of = |row: usize| SweepRow {
-                    case,
-                    values: group.values.iter().map(|column| column[row]).collect(),
-                    figures: group.figures.iter().map(|column| column[row]).collect(),
-                };
-                if is_solved && case % every == 0 {
-                    summary.sample.push(of(row));
-                }
-                // If two cases have the same figure, the case with the smaller index ranks first.
-                let at = summary.best.partition_point(|own| goal.rank(own.figures[goal.figure]) <= rank);
-                if is_solved && !rank.is_nan() && at < BEST {
-                    summary.best.insert(at, of(row));
-                    summary.best.truncate(BEST);
-                }
-                case += 1;
-            }
-        }
-        for spread in summary.figures.iter_mut().flatten().filter(|spread| spread.count > 1) {
-            spread.deviation = (spread.deviation / (spread.count - 1) as f64).sqrt();
+        Ok(SweepSummary::read(plan, table, 0, goal)?.finished())
+    }
+
+    /// Reads a table whose first row is the case `first`. The summary is not [finished](Self::finished).
+    pub(crate) fn read(plan: &SweepPlan, table: &Path, first: u64, goal: Goal) -> Result<SweepSummary> {
+        let mut summary = SweepSummary::none(plan);
+        for group in SweepGroups::of(plan, table)? {
+            let next = SweepSummary::of_rows(plan, first + summary.cases, &group?, goal);
+            summary.add(next, goal);
         }
         Ok(summary)
     }
 
-    fn count(&mut self, group: &RowGroup, row: usize) {
-        if let Some(reason) = &group.reasons[row] {
-            self.refused += 1;
-            count_reason(&mut self.reasons, reason);
+    /// The summary of no case.
+    pub(crate) fn none(plan: &SweepPlan) -> SweepSummary {
+        SweepSummary {
+            cases: 0,
+            refused: 0,
+            reasons: BTreeMap::new(),
+            verdicts: BTreeMap::new(),
+            figures: vec![None; plan.figures.len()],
+            best: Vec::new(),
+            sample: Vec::new(),
         }
-        if let Some(Some(verdict)) = group.verdicts.get(row) {
-            *self.verdicts.entry(verdict.clone()).or_default() += 1;
+    }
+
+    /// The summary of some rows, before [`finished`](Self::finished). `first` is the index of the first case.
+    pub(crate) fn of_rows(plan: &SweepPlan, first: u64, rows: &RowGroup, goal: Goal) -> SweepSummary {
+        let every = plan.design.cases().div_ceil(SAMPLE).max(1);
+        let mut summary = SweepSummary::none(plan);
+        summary.cases = rows.reasons.len() as u64;
+        summary.figures = rows.figures.iter().map(|column| FigureSpread::of(column, first)).collect();
+        for reason in rows.reasons.iter().flatten() {
+            summary.refused += 1;
+            count_reason(&mut summary.reasons, reason, 1);
         }
+        for verdict in rows.verdicts.iter().flatten() {
+            *summary.verdicts.entry(verdict.clone()).or_default() += 1;
+        }
+        // The rank of the worst of the best cases so far.
+        let mut last = f64::INFINITY;
+        for (row, case) in (0..rows.reasons.len()).zip(first..) {
+            let of = |row: usize| SweepRow {
+                case,
+                values: rows.values.iter().map(|column| column[row]).collect(),
+                figures: rows.figures.iter().map(|column| column[row]).collect(),
+            };
+            let is_solved = || rows.reasons[row].is_none();
+            if case.is_multiple_of(every) && is_solved() {
+                summary.sample.push(of(row));
+            }
+            let rank = goal.rank(rows.figures[goal.figure][row]);
+            if (rank < last || summary.best.len() < BEST) && !rank.is_nan() && is_solved() {
+                let at = summary.best.partition_point(|own| goal.rank(own.figures[goal.figure]) <= rank);
+                summary.best.insert(at, of(row));
+                summary.best.truncate(BEST);
+                last = summary.best.last().map_or(last, |own| goal.rank(own.figures[goal.figure]));
+            }
+        }
+        summary
+    }
+
+    /// Adds the summary of the next cases. Neither summary is [finished](Self::finished).
+    pub(crate) fn add(&mut self, next: SweepSummary, goal: Goal) {
+        self.cases += next.cases;
+        self.refused += next.refused;
+        for (reason, count) in next.reasons.into_values() {
+            count_reason(&mut self.reasons, &reason, count);
+        }
+        for (verdict, count) in next.verdicts {
+            *self.verdicts.entry(verdict).or_default() += count;
+        }
+        for (own, next) in self.figures.iter_mut().zip(next.figures) {
+            *own = FigureSpread::joined(*own, next);
+        }
+        // If two cases have the same figure, the case with the smaller index ranks first: the sort is stable.
+        self.best.extend(next.best);
+        self.best.sort_by(|a, b| {
+            let [a, b] = [a, b].map(|own| goal.rank(own.figures[goal.figure]));
+            a.partial_cmp(&b).expect("the best cases have a figure")
+        });
+        self.best.truncate(BEST);
+        self.sample.extend(next.sample);
+    }
+
+    /// The summary of all cases: the sums of squares become standard deviations.
+    pub(crate) fn finished(mut self) -> SweepSummary {
+        for spread in self.figures.iter_mut().flatten().filter(|spread| spread.count > 1) {
+            spread.deviation = (spread.deviation / (spread.count - 1) as f64).sqrt();
+        }
+        self
     }
 }
 

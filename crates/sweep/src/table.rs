@@ -12,10 +12,11 @@
 //! figures (`linkproof.units`, JSON).
 
 use std::fs::File;
-use std::io::Write;
+use std::io::{BufWriter, Read, Write};
 use std::path::Path;
 use std::sync::Arc;
 
+use bytes::Bytes;
 use parquet::basic::{Compression, Encoding, LogicalType, Repetition, Type as PhysicalType, ZstdLevel};
 use parquet::column::writer::ColumnCloseResult;
 use parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
@@ -27,17 +28,8 @@ use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::types::{ColumnPath, Type, TypePtr};
 
 use crate::design::DesignKind;
-use crate::plan::{CaseResult, SweepPlan};
-
-/// Rows of one part of the table, column by column.
-pub(crate) struct Rows {
-    pub first: u64,
-    /// Values of the varied numbers, by axis.
-    pub values: Vec<Vec<f64>>,
-    /// Figures, by figure.
-    pub figures: Vec<Vec<f64>>,
-    pub results: Vec<CaseResult>,
-}
+use crate::groups::RowGroup;
+use crate::plan::SweepPlan;
 
 /// Number of appended bytes after which the program waits until the storage device has stored the joined table. The
 /// wait after the last part is then short.
@@ -110,14 +102,14 @@ pub(crate) fn column<T: DataType, W: Write + Send>(
     writer.close()
 }
 
-fn numbers(group: &mut SerializedRowGroupWriter<'_, &File>, values: &[f64]) -> Result<(), ParquetError> {
+fn numbers(group: &mut SerializedRowGroupWriter<'_, impl Write + Send>, values: &[f64]) -> Result<(), ParquetError> {
     let present: Vec<i16> = values.iter().map(|value| i16::from(!value.is_nan())).collect();
     let values: Vec<f64> = values.iter().copied().filter(|value| !value.is_nan()).collect();
     column::<DoubleType, _>(group, &values, Some(&present))
 }
 
 fn texts<'r>(
-    group: &mut SerializedRowGroupWriter<'_, &File>,
+    group: &mut SerializedRowGroupWriter<'_, impl Write + Send>,
     texts: impl Iterator<Item = Option<&'r str>>,
 ) -> Result<(), ParquetError> {
     let (mut values, mut present) = (Vec::new(), Vec::new());
@@ -128,11 +120,12 @@ fn texts<'r>(
     column::<ByteArrayType, _>(group, &values, Some(&present))
 }
 
-/// Writes the rows of one part as a table of one row group.
-pub(crate) fn write(plan: &SweepPlan, rows: &Rows, to: &File) -> Result<(), ParquetError> {
+/// Writes the rows of one part as a table of one row group. `first` is the index of the first case.
+pub(crate) fn write(plan: &SweepPlan, first: u64, rows: &RowGroup, to: &File) -> Result<(), ParquetError> {
+    let to = BufWriter::with_capacity(BUFFERED, to);
     let mut writer = SerializedFileWriter::new(to, schema(plan)?, properties(plan, None))?;
     let mut group = writer.next_row_group()?;
-    let cases: Vec<i64> = (rows.first..).take(rows.results.len()).map(|case| case as i64).collect();
+    let cases: Vec<i64> = (first..).take(rows.reasons.len()).map(|case| case as i64).collect();
     column::<Int64Type, _>(&mut group, &cases, None)?;
     for values in &rows.values {
         column::<DoubleType, _>(&mut group, values, None)?;
@@ -141,36 +134,42 @@ pub(crate) fn write(plan: &SweepPlan, rows: &Rows, to: &File) -> Result<(), Parq
         numbers(&mut group, values)?;
     }
     let [solved, refused] = [SOLVED, REFUSED].map(ByteArray::from);
-    let state = |own: &CaseResult| if own.refusal.is_none() { &solved } else { &refused };
-    let states: Vec<ByteArray> = rows.results.iter().map(|own| state(own).clone()).collect();
+    let state = |reason: &Option<String>| if reason.is_none() { &solved } else { &refused };
+    let states: Vec<ByteArray> = rows.reasons.iter().map(|reason| state(reason).clone()).collect();
     column::<ByteArrayType, _>(&mut group, &states, None)?;
-    texts(&mut group, rows.results.iter().map(|own| own.refusal.as_deref()))?;
+    texts(&mut group, rows.reasons.iter().map(Option::as_deref))?;
     if plan.prove_every.is_some() {
-        texts(&mut group, rows.results.iter().map(|own| own.verdict.as_deref()))?;
+        texts(&mut group, rows.verdicts.iter().map(Option::as_deref))?;
     }
     group.close()?;
-    writer.close()?;
-    Ok(())
+    Ok(writer.into_inner()?.flush()?)
 }
+
+/// Capacity of the buffer of a table that is written (bytes). The pages of most columns are smaller.
+const BUFFERED: usize = 1 << 18;
 
 /// The joined table while the tables of the parts are appended to it.
 pub(crate) struct JoinedTable<'f> {
     file: &'f File,
-    writer: SerializedFileWriter<&'f File>,
+    writer: SerializedFileWriter<BufWriter<&'f File>>,
     /// Bytes that the storage device may not have stored yet.
     unsynced: u64,
 }
 
 impl<'f> JoinedTable<'f> {
     pub(crate) fn new(plan: &SweepPlan, file: &'f File) -> Result<JoinedTable<'f>, ParquetError> {
-        let writer = SerializedFileWriter::new(file, schema(plan)?, properties(plan, Some(metadata(plan))))?;
+        let to = BufWriter::with_capacity(BUFFERED, file);
+        let writer = SerializedFileWriter::new(to, schema(plan)?, properties(plan, Some(metadata(plan))))?;
         Ok(JoinedTable { file, writer, unsynced: 0 })
     }
 
     /// Appends the table of a part without decoding it.
     pub(crate) fn append(&mut self, part: &Path) -> Result<(), ParquetError> {
-        let file = File::open(part)?;
-        let reader = SerializedFileReader::new(file.try_clone()?)?;
+        // The part is read at once. Parquet would read each of its columns with several calls of the system.
+        let mut bytes = Vec::new();
+        File::open(part)?.read_to_end(&mut bytes)?;
+        let bytes = Bytes::from(bytes);
+        let reader = SerializedFileReader::new(bytes.clone())?;
         for group in reader.metadata().row_groups() {
             let mut out = self.writer.next_row_group()?;
             for metadata in group.columns() {
@@ -183,7 +182,7 @@ impl<'f> JoinedTable<'f> {
                     offset_index: None,
                 };
                 self.unsynced += close.bytes_written;
-                out.append_column(&file, close)?;
+                out.append_column(&bytes, close)?;
             }
             out.close()?;
         }
@@ -195,6 +194,6 @@ impl<'f> JoinedTable<'f> {
     }
 
     pub(crate) fn close(self) -> Result<(), ParquetError> {
-        self.writer.close().map(drop)
+        Ok(self.writer.into_inner()?.flush()?)
     }
 }

@@ -14,22 +14,20 @@ mod groups;
 mod lanes;
 mod many;
 mod poses;
-mod registers;
 mod tally;
 
 use std::f64::consts::PI;
 
-use pulp::Arch;
+use pulp::{Arch, Simd, WithSimd};
 use wide::f64x8;
 
 use self::anchors::Anchors;
 use self::equations::Reach;
 use self::groups::Groups;
-use self::lanes::{TILE, TileColumn, Window};
+use self::lanes::{AlignedNumbers, TILE, Tile};
 pub use self::many::CaseBatch;
 pub use self::poses::Poses;
 use self::poses::{ALPHA, DIRECTION, Layout, OMEGA};
-use self::registers::{OnRegisters, Registers, dispatch};
 pub use self::tally::{PoseQuantity, PoseTally, rrr_sine, spans};
 use crate::PoseSolver;
 use linkage::case::Case;
@@ -53,7 +51,7 @@ pub struct Batch<'a> {
     layout: Layout,
     groups: Option<Groups>,
     anchors: Option<Anchors<'a>>,
-    work: Vec<TileColumn>,
+    work: AlignedNumbers,
     arch: Arch,
     /// Pose solver for the poses that are not vectorised, and for the error messages.
     poses: PoseSolver<'a>,
@@ -81,7 +79,7 @@ impl<'a> Batch<'a> {
         Ok(Batch {
             case,
             layout: Layout::of(case, groups.is_none()),
-            work: vec![TileColumn([0.0; TILE]); groups.as_ref().map_or(0, |groups| groups.columns)],
+            work: AlignedNumbers::zeros(groups.as_ref().map_or(0, |groups| groups.columns * TILE)),
             groups,
             anchors,
             arch: Arch::new(),
@@ -134,8 +132,8 @@ impl<'a> Batch<'a> {
             let anchors = &mut self.anchors;
             let (case, work) = (self.case, &mut self.work[..]);
             match groups.chains().next() {
-                Some(_) => dispatch(self.arch, Tiles::<false> { case, groups, anchors, asked, work, out }),
-                None => dispatch(self.arch, Tiles::<true> { case, groups, anchors, asked, work, out }),
+                Some(_) => self.arch.dispatch(Tiles::<true> { case, groups, anchors, asked, work, out }),
+                None => self.arch.dispatch(Tiles::<false> { case, groups, anchors, asked, work, out }),
             }
         }
         for (row, &crank) in cranks.iter().enumerate() {
@@ -180,79 +178,73 @@ struct Asked<'a> {
 }
 
 /// All tiles of a batch, solved with the widest instructions of the machine.
-struct Tiles<'a, 'c, const IN_PAIRS: bool> {
+struct Tiles<'a, 'c, const CHAINS: bool> {
     case: &'a Case,
     groups: &'a Groups,
     anchors: &'a mut Option<Anchors<'c>>,
     asked: Asked<'a>,
-    work: &'a mut [TileColumn],
+    work: &'a mut [f64],
     out: &'a mut Poses,
 }
 
 /// Writes the input of one tile: directions, angular velocities and angular accelerations of the driving links.
+/// `cranks` are the crank angles of the tile.
 #[inline(always)]
-fn drive(case: &Case, groups: &Groups, asked: Asked, own: [f64; TILE], tile: &mut [TileColumn]) {
+fn drive(case: &Case, groups: &Groups, asked: Asked, cranks: &[f64; TILE], rows: usize, tile: &mut [f64]) {
     for (index, (drive, driver)) in case.drives.iter().zip(&groups.drivers).enumerate() {
-        let (mut angles, mut ratios) = (own.map(|crank| case.crank().coordinate(crank)), [1.0; TILE]);
+        driver.fix(tile, asked.omega, asked.alpha);
+        let (_, columns) = tile.split_at_mut(driver.body.link * TILE);
+        let mut angles = cranks.map(|crank| case.crank().coordinate(crank));
         if index > 0 {
-            for (row, crank) in own.into_iter().enumerate() {
+            for (row, &crank) in cranks[..rows].iter().enumerate() {
                 let t = case.crank().time_of(crank);
                 angles[row] = drive.coordinate(drive.at(t).value);
-                ratios[row] = case.drives.ratios(t).nth(index).expect("every drive has a ratio");
+                let ratio = case.drives.ratios(t).nth(index).expect("every drive has a ratio");
+                columns[OMEGA * TILE + row] = asked.omega * ratio;
+                columns[ALPHA * TILE + row] = asked.alpha * ratio;
             }
         }
-        let link = driver.body.link;
-        [tile[link + DIRECTION], tile[link + DIRECTION + 1]] = units(angles);
-        driver.fix(tile, asked.omega, asked.alpha);
-        if index > 0 {
-            tile[link + OMEGA] = TileColumn(ratios.map(|ratio| asked.omega * ratio));
-            tile[link + ALPHA] = TileColumn(ratios.map(|ratio| asked.alpha * ratio));
-        }
+        let (cos, sin) = columns[DIRECTION * TILE..][..2 * TILE].split_at_mut(TILE);
+        units(&angles[..rows], cos, sin);
     }
 }
 
-/// Cosines and sines of the angles of a tile (rad).
+/// Writes cosines and sines of angles (rad), up to a multiple of eight.
 #[inline(always)]
-fn units(angles: [f64; TILE]) -> [TileColumn; 2] {
-    let [mut sin, mut cos] = [[0.0; TILE]; 2];
-    let (parts, _) = angles.as_chunks();
-    for (part, angles) in parts.iter().enumerate() {
-        let (sines, cosines) = f64x8::from(*angles).sin_cos();
-        let lanes = part * angles.len()..(part + 1) * angles.len();
-        sin[lanes.clone()].copy_from_slice(&sines.to_array());
-        cos[lanes].copy_from_slice(&cosines.to_array());
-    }
-    for (row, angle) in angles.into_iter().enumerate() {
-        if !(angle.abs() <= FAR) {
-            (sin[row], cos[row]) = angle.sin_cos();
+fn units(angles: &[f64], cos: &mut [f64], sin: &mut [f64]) {
+    let (cosines, _) = cos.as_chunks_mut();
+    let (sines, _) = sin.as_chunks_mut();
+    for ((angles, cos), sin) in angles.chunks(8).zip(cosines).zip(sines) {
+        let eight: [f64; 8] = std::array::from_fn(|row| angles[row.min(angles.len() - 1)]);
+        let (s, c) = f64x8::from(eight).sin_cos();
+        (*sin, *cos) = (s.to_array(), c.to_array());
+        for (row, angle) in eight.into_iter().enumerate() {
+            if !(angle.abs() <= FAR) {
+                (sin[row], cos[row]) = angle.sin_cos();
+            }
         }
     }
-    [TileColumn(cos), TileColumn(sin)]
 }
 
-impl<const IN_PAIRS: bool> OnRegisters for Tiles<'_, '_, IN_PAIRS> {
-    const IN_PAIRS: bool = IN_PAIRS;
+impl<const CHAINS: bool> WithSimd for Tiles<'_, '_, CHAINS> {
     type Output = ();
 
     #[inline(always)]
-    fn run<R: Registers>(self, on: R) {
+    fn with_simd<S: Simd>(self, on: S) {
         let Tiles { case, groups, anchors, asked, work, out } = self;
         for (cranks, tile) in asked.cranks.chunks(TILE).zip(out.tiles()) {
             // Unused rows repeat the last crank angle.
-            let mut own = [cranks[cranks.len() - 1]; TILE];
-            own[..cranks.len()].copy_from_slice(cranks);
-            drive(case, groups, asked, own, tile);
+            let rows = cranks.len();
+            let mut own = [cranks[rows - 1]; TILE];
+            own[..rows].copy_from_slice(cranks);
+            drive(case, groups, asked, &own, rows, tile);
             if let Some(anchors) = anchors {
-                anchors.fill(&own, groups, work);
+                anchors.fill(&own[..rows.next_multiple_of(S::F64_LANES)], groups, work);
             }
-            for part in 0..cranks.len().div_ceil(R::LANES) {
-                let mut tile = Window { on, columns: &mut *tile, part };
-                let mut work = Window { on, columns: &mut *work, part };
-                let reach = groups.move_links(asked.deepest, Reach, &mut tile, &mut work);
-                tile.put(groups.layout.reach(), reach);
-                if asked.deepest >= Stage::Reactions {
-                    groups.load_joints(&mut tile, &mut work);
-                }
+            let (tile, work) = (Tile::of(on, tile, rows), Tile::of(on, work, rows));
+            groups.move_links::<S, CHAINS>(asked.deepest, Reach, tile, work);
+            if asked.deepest >= Stage::Reactions {
+                groups.load_joints::<S, CHAINS>(tile, work);
             }
         }
     }
@@ -285,17 +277,17 @@ mod tests {
             // One angle in ten is a multiple of a quarter turn, where sine or cosine is zero.
             let quarters = f64::from(k) * if k % 10 == 0 { 1.0 } else { 1.600_123_4 };
             let shares = [1.0, 1e-5, 3.0, 15.0, -1.0, -0.1, 7.3, 0.5];
-            let angles = std::array::from_fn(|row| quarters * shares[row % shares.len()] * PI / 2.0);
-            let [cos, sin] = units(angles);
-            for (row, angle) in angles.into_iter().enumerate() {
-                let apart = (cos.0[row] - angle.cos()).abs().larger((sin.0[row] - angle.sin()).abs());
+            let angles = shares.map(|share| quarters * share * PI / 2.0);
+            let [mut cos, mut sin] = [[0.0; 8]; 2];
+            units(&angles, &mut cos, &mut sin);
+            for ((angle, cos), sin) in angles.into_iter().zip(cos).zip(sin) {
+                let apart = (cos - angle.cos()).abs().larger((sin - angle.sin()).abs());
                 assert!(apart <= f64::EPSILON, "{apart:e} at {angle}");
             }
         }
-        let mut angles = [0.0; TILE];
-        angles[TILE - 4..].copy_from_slice(&[1e300, f64::NAN, f64::INFINITY, -1e8]);
-        let [cos, _] = units(angles);
-        let [huge, nan, infinite, far] = [4, 3, 2, 1].map(|back| cos.0[TILE - back]);
+        let mut cos = [0.0; 8];
+        units(&[1e300, f64::NAN, f64::INFINITY, -1e8], &mut cos, &mut [0.0; 8]);
+        let [huge, nan, infinite, far, ..] = cos;
         assert_eq!([huge, far], [1e300f64.cos(), 1e8f64.cos()]);
         assert!(nan.is_nan() && infinite.is_nan());
     }
@@ -325,8 +317,8 @@ mod tests {
                 assert_eq!(batch.solved_singly(), 0);
                 // Some widths leave the unused rows of the last tile as they are.
                 let used = |tile: usize| TILE.min(cranks.len() - tile * TILE);
-                let bits = |(tile, columns): (usize, &mut [TileColumn])| -> Vec<u64> {
-                    columns.iter().flat_map(|column| &column.0[..used(tile)]).map(|own| own.to_bits()).collect()
+                let bits = |(tile, columns): (usize, &mut [f64])| -> Vec<u64> {
+                    columns.chunks(TILE).flat_map(|column| &column[..used(tile)]).map(|own| own.to_bits()).collect()
                 };
                 poses.tiles().enumerate().flat_map(bits).collect::<Vec<_>>()
             };

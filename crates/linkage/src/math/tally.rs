@@ -7,29 +7,25 @@ use std::sync::Arc;
 
 /// Number of rows that are added at once.
 pub const LANES: usize = 8;
-/// Number of lanes of an extreme. Successive groups of eight rows take different lanes, so that their comparisons do not
-/// wait for each other.
-pub const PEAK_LANES: usize = 2 * LANES;
 
 /// For every lane: the largest score so far, and the first row that has this score.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(align(64))]
 pub struct LanePeak {
     /// Largest scores.
-    pub scores: [f64; PEAK_LANES],
+    pub scores: [f64; LANES],
     /// Their rows.
-    pub rows: [f64; PEAK_LANES],
+    pub rows: [f64; LANES],
 }
 
 impl LanePeak {
     /// No row yet.
-    pub const NONE: LanePeak = LanePeak { scores: [f64::NEG_INFINITY; PEAK_LANES], rows: [0.0; PEAK_LANES] };
+    pub const NONE: LanePeak = LanePeak { scores: [f64::NEG_INFINITY; LANES], rows: [0.0; LANES] };
 
     fn add(&mut self, row: usize, scores: [f64; LANES]) {
-        for (row, score) in (row..).zip(scores) {
-            let lane = row % PEAK_LANES;
+        for (lane, score) in scores.into_iter().enumerate() {
             if score > self.scores[lane] {
-                (self.scores[lane], self.rows[lane]) = (score, row as f64);
+                (self.scores[lane], self.rows[lane]) = (score, (row + lane) as f64);
             }
         }
     }
@@ -44,13 +40,12 @@ impl LanePeak {
         let key = |lane: usize| (self.scores[lane], self.rows[lane]);
         let is_better =
             |(score, row): (f64, f64), (best, first): (f64, f64)| score > best || score == best && row < first;
-        (1..PEAK_LANES).map(key).fold(key(0), |best, own| if is_better(own, best) { own } else { best }).1 as usize
+        (1..LANES).map(key).fold(key(0), |best, own| if is_better(own, best) { own } else { best }).1 as usize
     }
 }
 
 /// A statistic of the rows so far.
 #[derive(Clone, Debug, PartialEq)]
-#[expect(clippy::large_enum_variant, reason = "statistics are few, and each is read in every block of rows")]
 pub enum Tally {
     /// Largest value.
     Max(LanePeak),

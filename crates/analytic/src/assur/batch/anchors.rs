@@ -9,7 +9,7 @@
 
 use super::chains::OF_START;
 use super::groups::Groups;
-use super::lanes::{TILE, TileColumn};
+use super::lanes::TILE;
 use crate::PoseSolver;
 use crate::assur::turns::FOLLOWED_STEP;
 use linkage::case::Case;
@@ -70,7 +70,7 @@ impl<'a> Anchors<'a> {
 
     /// Writes the starting values for the rows of a tile to the working memory; NaN if the interval of a row is not
     /// known.
-    pub(super) fn fill(&mut self, cranks: &[f64; TILE], groups: &Groups, work: &mut [TileColumn]) {
+    pub(super) fn fill(&mut self, cranks: &[f64], groups: &Groups, work: &mut [f64]) {
         for (row, crank) in cranks.iter().enumerate() {
             let way = &mut self.ways[usize::from(*crank < self.start)];
             let place = (crank - self.start) / way.step;
@@ -82,16 +82,15 @@ impl<'a> Anchors<'a> {
             let mut of_links = kept.map(|kept| kept.chunks_exact(KEPT));
             for (chain, first) in groups.chains() {
                 for index in 0..chain.links().len() {
-                    let column = &mut work[first + OF_START * index..][..OF_START];
+                    let columns = &mut work[(first + OF_START * index) * TILE..][..OF_START * TILE];
+                    let mut columns = columns.chunks_exact_mut(TILE).map(|column| &mut column[row]);
                     let Some(kept) = of_links.as_mut().and_then(Iterator::next) else {
-                        column.iter_mut().for_each(|column| column.0[row] = f64::NAN);
+                        columns.for_each(|value| *value = f64::NAN);
                         continue;
                     };
-                    (column[0].0[row], column[1].0[row]) = (kept[0], kept[1]);
-                    column[2].0[row] = place - interval as f64;
-                    for (column, coefficient) in column[3..].iter_mut().zip(&kept[2..]) {
-                        column.0[row] = *coefficient;
-                    }
+                    let fraction = place - interval as f64;
+                    let values = [kept[0], kept[1], fraction].into_iter().chain(kept[2..].iter().copied());
+                    columns.by_ref().zip(values).for_each(|(column, value)| *column = value);
                 }
             }
         }

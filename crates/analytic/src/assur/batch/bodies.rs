@@ -6,12 +6,14 @@ use linkage::drive::Load;
 use linkage::math::Vec2;
 use linkage::mechanism::{Joint, JointId, LinkId, Mechanism};
 
-/// Action of a joint on one of its links: `sign` times the joint's reaction, applied at `place` in the link's frame.
+/// Action of a joint on one of its links: the joint's reaction with the sign of `sign`, applied at `place` in the link's
+/// frame.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Action {
     /// Column of the reaction.
     pub(super) force: usize,
     pub(super) place: Vec2,
+    /// Zero with a sign.
     pub(super) sign: f64,
     joint: JointId,
     /// Whether the link is the joint's second link.
@@ -74,7 +76,7 @@ impl Reader<'_> {
         Action {
             force: self.layout.force(joint),
             place: own.on(link).expect("the joint is on the link"),
-            sign: if is_second { 1.0 } else { -1.0 },
+            sign: if is_second { 0.0 } else { -0.0 },
             joint,
             is_second,
         }

@@ -4,17 +4,17 @@
 //! this pose only.
 
 use super::lanes::{Choice, Lanes, Window};
-use super::registers::Registers;
+use pulp::Simd;
 
 /// Factored systems of order `N`.
 #[derive(Clone, Copy)]
-pub(super) struct Factors<R: Registers, const N: usize> {
-    rows: [[Lanes<R>; N]; N],
+pub(super) struct Factors<S: Simd, const N: usize> {
+    rows: [[Lanes<S>; N]; N],
     /// Inverses of the diagonal.
-    inverse: [Lanes<R>; N],
+    inverse: [Lanes<S>; N],
     /// For each step k, in order: the poses in which row k was exchanged with a lower row.
-    exchanges: [[Choice<R>; N]; N],
-    pub(super) determinant: Lanes<R>,
+    exchanges: [[Choice<S>; N]; N],
+    pub(super) determinant: Lanes<S>,
 }
 
 /// Number of columns in the working memory for the factors of a system of order `n`.
@@ -22,10 +22,10 @@ pub(super) const fn columns(n: usize) -> usize {
     n * n + n + n * (n - 1) / 2
 }
 
-impl<R: Registers, const N: usize> Factors<R, N> {
+impl<S: Simd, const N: usize> Factors<S, N> {
     #[inline(always)]
     #[expect(clippy::needless_range_loop, reason = "rows and columns are named as in the formula")]
-    pub(super) fn of(mut rows: [[Lanes<R>; N]; N], one: Lanes<R>) -> Self {
+    pub(super) fn of(mut rows: [[Lanes<S>; N]; N], one: Lanes<S>) -> Self {
         let (mut determinant, mut inverse, mut exchanges) = (one, [one; N], [[one.exceeds(one); N]; N]);
         for k in 0..N {
             for row in k + 1..N {
@@ -51,7 +51,7 @@ impl<R: Registers, const N: usize> Factors<R, N> {
 
     /// Solves A x = b.
     #[inline(always)]
-    pub(super) fn solve(&self, b: [Lanes<R>; N]) -> [Lanes<R>; N] {
+    pub(super) fn solve(&self, b: [Lanes<S>; N]) -> [Lanes<S>; N] {
         let mut x = b;
         for k in 0..N {
             for row in k + 1..N {
@@ -74,7 +74,7 @@ impl<R: Registers, const N: usize> Factors<R, N> {
 
     /// Solves A^T x = b.
     #[inline(always)]
-    pub(super) fn solve_transposed(&self, b: [Lanes<R>; N]) -> [Lanes<R>; N] {
+    pub(super) fn solve_transposed(&self, b: [Lanes<S>; N]) -> [Lanes<S>; N] {
         let mut x = b;
         for row in 0..N {
             x[row] = x[row] * self.inverse[row];
@@ -97,8 +97,8 @@ impl<R: Registers, const N: usize> Factors<R, N> {
 
     /// Writes the factors to the working memory, from `column` on.
     #[inline(always)]
-    pub(super) fn keep(&self, work: &mut Window<R>, mut column: usize) {
-        let mut put = |lanes: Lanes<R>| {
+    pub(super) fn keep(&self, work: Window<S>, mut column: usize) {
+        let mut put = |lanes: Lanes<S>| {
             work.put(column, lanes);
             column += 1;
         };
@@ -115,7 +115,7 @@ impl<R: Registers, const N: usize> Factors<R, N> {
     /// Reads the factors from the working memory. The determinant is not stored, so the determinant of the result has
     /// no meaning.
     #[inline(always)]
-    pub(super) fn kept(work: &Window<R>, mut column: usize) -> Self {
+    pub(super) fn kept(work: Window<S>, mut column: usize) -> Self {
         let (one, zero) = (Lanes::splat(work.on, 1.0), Lanes::splat(work.on, 0.0));
         let none = zero.exceeds(one);
         let mut factors =

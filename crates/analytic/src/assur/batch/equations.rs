@@ -6,57 +6,70 @@
 //! If the motion of the driving links is the same bit for bit, the results equal those of the two modules bit for bit.
 
 use super::bodies::Body;
-use super::groups::{Arm, Driver, Dyad, Groups, Part};
-use super::lanes::{Lanes, Plane, TILE, TileColumn, Window};
-use super::poses::{ACCELERATION, ALPHA, DIRECTION, LinkMotion, OMEGA, ORIGIN, VELOCITY};
-use super::registers::Registers;
+use super::groups::{Arm, Driver, Dyad, Groups, OF_DYAD, Part};
+use super::lanes::{Columns, Lanes, Plane, TILE, Tile, Window};
+use super::poses::{ACCELERATION, ALPHA, DIRECTION, LinkColumns, LinkMotion, OMEGA, ORIGIN, VELOCITY};
 use linkage::case::STANDSTILL;
 use linkage::math::Vec2;
 use linkage::trajectory::Stage;
+use pulp::Simd;
 
-/// Higher groups are not solved on pairs of registers, because compiling their unrolled elimination would then take
-/// minutes.
-const NO_CHAINS: &str = "higher groups are solved on single registers";
+/// Without `CHAINS`, the equations of higher groups are not compiled, because they make the others slower.
+const NO_CHAINS: &str = "cases with higher groups are solved with their equations";
 
 /// Acceleration of the tip of the vector v on a rotating link, relative to the foot of v.
 /// This acceleration is v rotated by 90 degrees, times alpha, minus omega^2 v.
 #[inline(always)]
-pub(super) fn swung<R: Registers>(v: Plane<R>, omega: Lanes<R>, alpha: Lanes<R>) -> Plane<R> {
+pub(super) fn swung<S: Simd>(v: Plane<S>, omega: Lanes<S>, alpha: Lanes<S>) -> Plane<S> {
     v.turned() * alpha - v * (omega * omega)
 }
 
 impl Groups {
     /// Computes the motion of all links up to the stage `deepest`.
     /// Directions and rates of the driving links must already be in their columns.
-    /// Returns the sum of `check` over the dyads; NaN as soon as one group cannot be assembled.
+    /// The column [`Layout::reach`](super::poses::Layout::reach) becomes the sum of `check` over the dyads; NaN as soon
+    /// as one group cannot be assembled.
+    ///
+    /// Every step runs over all poses of the tile before the next step begins, so that the processor can work at
+    /// several poses while it waits for a square root or a division.
+    /// Cases with higher groups need `CHAINS`.
     #[inline(always)]
-    pub(super) fn move_links<R: Registers>(
+    pub(super) fn move_links<S: Simd, const CHAINS: bool>(
         &self,
         deepest: Stage,
         check: impl DyadCheck,
-        tile: &mut Window<R>,
-        work: &mut Window<R>,
-    ) -> Lanes<R> {
+        tile: Tile<S>,
+        work: Tile<S>,
+    ) {
+        let reach = tile.columns.column(self.layout.reach());
+        for part in tile.parts() {
+            reach.put(0, part, Lanes::splat(reach.on, 0.0));
+        }
         for driver in &self.drivers {
             driver.turn(deepest, tile);
         }
-        let mut found = Lanes::splat(tile.on, 0.0);
         for (part, first) in &self.parts {
-            let own = match part {
-                Part::Dyad(dyad) => check.of(dyad, &dyad.turn(deepest, tile, work, *first)),
-                Part::Chain(chain) if !R::IS_PAIR => chain.turn(deepest, tile, work, *first),
+            match part {
+                Part::Dyad(dyad) => {
+                    let work = work.columns.adjacent::<OF_DYAD>(*first);
+                    dyad.move_links(deepest, check, tile, work, reach);
+                }
+                Part::Chain(chain) if CHAINS => {
+                    for part in tile.parts() {
+                        let found = chain.turn(deepest, tile.window(part), work.window(part), *first);
+                        reach.put(0, part, reach.get(0, part) + found);
+                    }
+                }
                 Part::Chain(_) => unreachable!("{NO_CHAINS}"),
-            };
-            found = found + own;
+            }
         }
-        found
     }
 
     /// Returns NaN for poses in which the angular velocity of a link with a moment of resistance may be a rounding
     /// error.
     /// Returns 0 for all other poses.
     #[inline(always)]
-    pub(super) fn standstill<R: Registers>(&self, tile: &Window<R>) -> Lanes<R> {
+    pub(super) fn standstill<S: Simd>(&self, tile: Window<S>) -> Lanes<S> {
         let (zero, doubt) = (Lanes::splat(tile.on, 0.0), Lanes::splat(tile.on, f64::NAN));
         let mut found = zero;
         for loaded in self.bodies().filter(|body| body.resistance.is_some()) {
@@ -70,20 +83,33 @@ impl Groups {
     }
 
     /// Computes the reactions from the last group to the first, then the reactions and balancing moments of the driving
-    /// links.
+    /// links. Cases with higher groups need `CHAINS`.
     #[inline(always)]
-    pub(super) fn load_joints<R: Registers>(&self, tile: &mut Window<R>, work: &mut Window<R>) {
+    pub(super) fn load_joints<S: Simd, const CHAINS: bool>(&self, tile: Tile<S>, work: Tile<S>) {
         for (part, first) in self.parts.iter().rev() {
             match part {
-                Part::Dyad(dyad) => dyad.hold(self.gravity, tile, work, *first),
-                Part::Chain(chain) if !R::IS_PAIR => chain.hold(self.gravity, tile, work, *first),
+                Part::Dyad(dyad) => {
+                    dyad.hold(self.gravity, tile, work.columns.adjacent::<OF_DYAD>(*first));
+                }
+                Part::Chain(chain) if CHAINS => {
+                    for part in tile.parts() {
+                        chain.hold(self.gravity, tile.window(part), work.window(part), *first);
+                    }
+                }
                 Part::Chain(_) => unreachable!("{NO_CHAINS}"),
             }
         }
         for (index, driver) in self.drivers.iter().enumerate() {
-            let (force, moment) = driver.body.resultant(self.gravity, driver.pole(tile), tile);
-            tile.put_vector(driver.reaction.force, force * -driver.reaction.sign);
-            tile.put(self.layout.torque(index), -moment);
+            let link = tile.columns.link(driver.body.link);
+            let reaction = tile.columns.adjacent::<2>(driver.reaction.force);
+            let torque = tile.columns.column(self.layout.torque(index));
+            for part in tile.parts() {
+                let link = link.get(part);
+                let pole = driver.pole(&link);
+                let (force, moment) = driver.body.resultant(self.gravity, pole, &link, tile.window(part));
+                reaction.put_vector(0, part, force.signed(-driver.reaction.sign));
+                torque.put(0, part, -moment);
+            }
         }
     }
 }
@@ -96,8 +122,8 @@ impl Driver {
 
     /// Writes the columns that are the same in all rows of a tile: the rates of the link and, if its origin is at
     /// rest, the motion of the origin.
-    pub(super) fn fix(&self, tile: &mut [TileColumn], omega: f64, alpha: f64) {
-        let mut put = |column: usize, value: f64| tile[self.body.link + column] = TileColumn([value; TILE]);
+    pub(super) fn fix(&self, tile: &mut [f64], omega: f64, alpha: f64) {
+        let mut put = |column: usize, value: f64| tile[(self.body.link + column) * TILE..][..TILE].fill(value);
         put(OMEGA, omega);
         put(ALPHA, alpha);
         if self.is_plain() {
@@ -110,77 +136,132 @@ impl Driver {
 
     /// Computes the motion of the origin, if it is not at rest.
     #[inline(always)]
-    fn turn<R: Registers>(&self, deepest: Stage, tile: &mut Window<R>) {
+    fn turn<S: Simd>(&self, deepest: Stage, tile: Tile<S>) {
         if self.is_plain() {
             return;
         }
-        let mut link = tile.link(self.body.link);
-        let arm = link.direction.rotate(-self.reaction.place);
-        link.origin = arm + self.ground;
-        link.velocity = arm.turned() * link.omega;
-        link.acceleration = swung(arm, link.omega, link.alpha);
-        tile.put_link(self.body.link, deepest, &link);
+        let columns = tile.columns.link(self.body.link);
+        for part in tile.parts() {
+            let mut link = columns.get(part);
+            let arm = link.direction.rotate(-self.reaction.place);
+            link.origin = arm + self.ground;
+            link.velocity = arm.turned() * link.omega;
+            link.acceleration = swung(arm, link.omega, link.alpha);
+            columns.put(deepest, part, &link);
+        }
     }
 
     /// World position of the joint on the ground.
     #[inline(always)]
-    fn pole<R: Registers>(&self, tile: &Window<R>) -> Plane<R> {
+    fn pole<S: Simd>(&self, link: &LinkMotion<S>) -> Plane<S> {
         match self.is_plain() {
-            true => tile.vector(self.body.link + ORIGIN),
-            false => self.body.point(self.reaction.place, tile),
+            true => link.origin,
+            false => link.origin + link.direction.rotate(self.reaction.place),
         }
+    }
+}
+
+/// The outer joint of a dyad, on the link outside the dyad.
+trait OuterJoint<S: Simd>: Copy {
+    /// Position, velocity and acceleration of the joint, in world axes. Quantities beyond the stage that is solved are
+    /// meaningless.
+    fn at(self, part: usize) -> [Plane<S>; 3];
+}
+
+/// A joint on the ground.
+#[derive(Clone, Copy)]
+struct OnGround<S: Simd>(Plane<S>);
+
+/// A joint on a moving link, and its position on the link.
+#[derive(Clone, Copy)]
+struct OnLink<'a, S: Simd>(LinkColumns<'a, S>, Vec2);
+
+impl<S: Simd> OuterJoint<S> for OnGround<S> {
+    #[inline(always)]
+    fn at(self, _: usize) -> [Plane<S>; 3] {
+        let zero = Plane::splat(self.0.x.on, Vec2::zeros());
+        [self.0, zero, zero]
+    }
+}
+
+impl<S: Simd> OuterJoint<S> for OnLink<'_, S> {
+    #[inline(always)]
+    fn at(self, part: usize) -> [Plane<S>; 3] {
+        let link = self.0.get(part);
+        link.at(link.direction.rotate(self.1))
     }
 }
 
 impl Arm {
-    /// Position, velocity and acceleration of the outer joint, in world axes. Quantities beyond the stage that is
-    /// solved are meaningless.
+    /// Motion of the link, if its origin is at the outer joint. `span` is the vector from outer to inner joint, and
+    /// `[p, v, a]` are position, velocity and acceleration of the outer joint, all in world axes.
     #[inline(always)]
-    fn base<R: Registers>(&self, tile: &Window<R>) -> [Plane<R>; 3] {
-        let zero = Plane::splat(tile.on, Vec2::zeros());
-        let (Some(base), local) = self.base else { return [Plane::splat(tile.on, self.base.1), zero, zero] };
-        let link = tile.link(base);
-        link.at(link.direction.rotate(local))
+    fn motion<S: Simd>(
+        &self,
+        span: Plane<S>,
+        [p, v, a]: [Plane<S>; 3],
+        [omega, alpha]: [Lanes<S>; 2],
+    ) -> LinkMotion<S> {
+        let own = Plane::splat(omega.on, self.inverse_span);
+        let direction = Plane { x: own.dot(span), y: own.cross(span) };
+        LinkMotion { origin: p, direction, velocity: v, acceleration: a, omega, alpha }
     }
 
-    /// Writes the motion of the link. `span` is the vector from outer to inner joint, and `[p, v, a]` are position,
-    /// velocity and acceleration of the outer joint, all in world axes.
+    /// Changes the origin of the link from the outer joint to the origin of the link's frame.
     #[inline(always)]
-    fn put<R: Registers>(
-        &self,
-        deepest: Stage,
-        tile: &mut Window<R>,
-        span: Plane<R>,
-        [p, v, a]: [Plane<R>; 3],
-        [omega, alpha]: [Lanes<R>; 2],
-    ) {
-        let own = Plane::splat(tile.on, self.inverse_span);
-        let direction = Plane { x: own.dot(span), y: own.cross(span) };
-        let mut link = LinkMotion { origin: p, direction, velocity: v, acceleration: a, omega, alpha };
-        if self.reaction.place != Vec2::zeros() {
-            let outer = direction.rotate(self.reaction.place);
-            link.origin = p - outer;
-            link.velocity = v - outer.turned() * omega;
-            link.acceleration = a - outer.turned() * alpha + outer * (omega * omega);
+    fn shift<S: Simd>(&self, deepest: Stage, tile: Tile<S>) {
+        if self.reaction.place == Vec2::zeros() {
+            return;
         }
-        tile.put_link(self.body.link, deepest, &link);
+        let columns = tile.columns.link(self.body.link);
+        for part in tile.parts() {
+            let mut link = columns.get(part);
+            let outer = link.direction.rotate(self.reaction.place);
+            link.origin = link.origin - outer;
+            link.velocity = link.velocity - outer.turned() * link.omega;
+            link.acceleration = link.acceleration - outer.turned() * link.alpha + outer * (link.omega * link.omega);
+            columns.put(deepest, part, &link);
+        }
     }
 }
 
 /// A dyad in its pose.
-pub(super) struct DyadPose<R: Registers> {
+pub(super) struct DyadPose<S: Simd> {
     /// The vectors r1 and r2 from the outer joints to the inner joint, in world axes (m).
-    spans: [Plane<R>; 2],
+    spans: [Plane<S>; 2],
     /// r1 x r2 (m^2); NaN for poses that cannot be assembled.
-    product: Lanes<R>,
-    /// Angular velocities of the links (rad/s).
-    omega: [Lanes<R>; 2],
+    product: Lanes<S>,
+    /// 1 / (r1 x r2) (1/m^2).
+    inverse: Lanes<S>,
+    /// World position of the inner joint (m).
+    pole: Plane<S>,
+}
+
+impl<S: Simd> DyadPose<S> {
+    #[inline(always)]
+    fn put(&self, work: Columns<S>, part: usize) {
+        work.put_vector(0, part, self.spans[0]);
+        work.put_vector(2, part, self.spans[1]);
+        work.put(4, part, self.product);
+        work.put(5, part, self.inverse);
+        work.put_vector(6, part, self.pole);
+    }
+
+    #[inline(always)]
+    fn of(work: Columns<S>, part: usize) -> Self {
+        DyadPose {
+            spans: [work.vector(0, part), work.vector(2, part)],
+            product: work.get(4, part),
+            inverse: work.get(5, part),
+            pole: work.vector(6, part),
+        }
+    }
 }
 
 /// A check of every dyad in every pose.
 pub(super) trait DyadCheck: Copy {
-    /// NaN for poses that cannot be assembled.
-    fn of<R: Registers>(self, dyad: &Dyad, pose: &DyadPose<R>) -> Lanes<R>;
+    /// NaN for poses that cannot be assembled. `omega` are the angular velocities of the dyad's links (rad/s).
+    fn of<S: Simd>(self, dyad: &Dyad, pose: &DyadPose<S>, omega: [Lanes<S>; 2]) -> Lanes<S>;
 }
 
 /// Only whether the dyad can be assembled.
@@ -189,7 +270,7 @@ pub(super) struct Reach;
 
 impl DyadCheck for Reach {
     #[inline(always)]
-    fn of<R: Registers>(self, _: &Dyad, pose: &DyadPose<R>) -> Lanes<R> {
+    fn of<S: Simd>(self, _: &Dyad, pose: &DyadPose<S>, _: [Lanes<S>; 2]) -> Lanes<S> {
         pose.product
     }
 }
@@ -210,8 +291,8 @@ pub(super) struct Clearance {
 impl DyadCheck for Clearance {
     /// 0 where the dyad is clear, elsewhere NaN.
     #[inline(always)]
-    fn of<R: Registers>(self, dyad: &Dyad, pose: &DyadPose<R>) -> Lanes<R> {
-        let ([r1, r2], [w1, w2]) = (pose.spans, pose.omega);
+    fn of<S: Simd>(self, dyad: &Dyad, pose: &DyadPose<S>, [w1, w2]: [Lanes<S>; 2]) -> Lanes<S> {
+        let [r1, r2] = pose.spans;
         let product = pose.product.abs();
         let change = (r1.dot(r2) * (w2 - w1)).abs() * (self.pace / self.share);
         let (clear, unclear) = (Lanes::splat(w1.on, 0.0), Lanes::splat(w1.on, f64::NAN));
@@ -221,85 +302,135 @@ impl DyadCheck for Clearance {
 }
 
 impl Dyad {
-    /// Computes the motion of both links.
-    /// The operations and their order are the same as in [`crate::assur::groups::Rrr`], so that the bits are the same.
+    /// Computes the motion of both links, and adds the result of the check to `reach`.
     #[inline(always)]
-    fn turn<R: Registers>(
+    fn move_links<S: Simd>(
         &self,
         deepest: Stage,
-        tile: &mut Window<R>,
-        work: &mut Window<R>,
-        column: usize,
-    ) -> DyadPose<R> {
+        check: impl DyadCheck,
+        tile: Tile<S>,
+        work: Columns<S>,
+        reach: Columns<S>,
+    ) {
         let [first, second] = &self.arms;
-        let (base1, base2) = (first.base(tile), second.base(tile));
-        let ([p1, v1, a1], [p2, v2, a2]) = (base1, base2);
-        let d = p2 - p1;
-        let d_squared = d.dot(d);
-        let along = (d_squared + (first.squared - second.squared)) * 0.5;
-        let square = (Lanes::splat(tile.on, self.range[1]) - d_squared) * (d_squared - self.range[0]);
-        let product = square.sqrt() * self.half;
-        let r1 = (d * along + d.turned() * product) * d_squared.inverse();
-        let r2 = r1 - d;
-        let inverse = product.inverse();
-        let [mut omega, mut alpha] = [[Lanes::splat(tile.on, 0.0); 2]; 2];
-        if deepest >= Stage::Velocities {
-            let quotient = (v2 - v1) * inverse;
-            omega = [quotient.dot(r2), quotient.dot(r1)];
+        // The equations are compiled for every combination, so that a joint at rest costs nothing.
+        macro_rules! solve {
+            ($first:expr, $second:expr) => {{
+                let joints = ($first, $second);
+                self.place(tile, joints, work);
+                self.turn(deepest, check, tile, joints, work, reach);
+            }};
         }
-        if deepest >= Stage::Accelerations {
-            let [w1, w2] = omega;
-            let quotient = ((a2 - r2 * (w2 * w2)) - (a1 - r1 * (w1 * w1))) * inverse;
-            alpha = [quotient.dot(r2), quotient.dot(r1)];
+        let on_link = |link: usize, local: Vec2| OnLink(tile.columns.link(link), local);
+        let on_ground = |place: Vec2| OnGround(Plane::splat(work.on, place));
+        match (first.base, second.base) {
+            ((Some(a), p), (Some(b), q)) => solve!(on_link(a, p), on_link(b, q)),
+            ((Some(a), p), (None, q)) => solve!(on_link(a, p), on_ground(q)),
+            ((None, p), (Some(b), q)) => solve!(on_ground(p), on_link(b, q)),
+            ((None, p), (None, q)) => solve!(on_ground(p), on_ground(q)),
         }
-        first.put(deepest, tile, r1, base1, [omega[0], alpha[0]]);
-        second.put(deepest, tile, r2, base2, [omega[1], alpha[1]]);
-        let pole = p1 + r1;
-        work.put_vector(column, r1);
-        work.put_vector(column + 2, r2);
-        work.put(column + 4, inverse);
-        work.put_vector(column + 5, pole);
-        DyadPose { spans: [r1, r2], product, omega }
+        first.shift(deepest, tile);
+        second.shift(deepest, tile);
+    }
+
+    /// Computes the positions of the joints, and writes them to the working memory of the dyad.
+    /// The operations and their order are the same as in [`crate::assur::groups::Rrr`], so that the bits are the same.
+    #[inline(always)]
+    fn place<S: Simd>(&self, tile: Tile<S>, outer: (impl OuterJoint<S>, impl OuterJoint<S>), work: Columns<S>) {
+        let [first, second] = &self.arms;
+        for part in tile.parts() {
+            let ([p1, ..], [p2, ..]) = (outer.0.at(part), outer.1.at(part));
+            let d = p2 - p1;
+            let d_squared = d.dot(d);
+            let along = (d_squared + (first.squared - second.squared)) * 0.5;
+            let square = (Lanes::splat(work.on, self.range[1]) - d_squared) * (d_squared - self.range[0]);
+            let product = square.sqrt() * self.half;
+            let r1 = (d * along + d.turned() * product) * d_squared.inverse();
+            let pose = DyadPose { spans: [r1, r1 - d], product, inverse: product.inverse(), pole: p1 + r1 };
+            pose.put(work, part);
+        }
+    }
+
+    /// Computes the motion of both links from the positions of the joints. The origins of the links are at the outer
+    /// joints. The operations and their order are the same as in [`crate::assur::groups::Rrr`].
+    #[inline(always)]
+    fn turn<S: Simd>(
+        &self,
+        deepest: Stage,
+        check: impl DyadCheck,
+        tile: Tile<S>,
+        outer: (impl OuterJoint<S>, impl OuterJoint<S>),
+        work: Columns<S>,
+        reach: Columns<S>,
+    ) {
+        let [first, second] = &self.arms;
+        let (link1, link2) = (tile.columns.link(first.body.link), tile.columns.link(second.body.link));
+        for part in tile.parts() {
+            let (base1, base2) = (outer.0.at(part), outer.1.at(part));
+            let ([_, v1, a1], [_, v2, a2]) = (base1, base2);
+            let pose = DyadPose::of(work, part);
+            let [r1, r2] = pose.spans;
+            let [mut omega, mut alpha] = [[Lanes::splat(work.on, 0.0); 2]; 2];
+            if deepest >= Stage::Velocities {
+                let quotient = (v2 - v1) * pose.inverse;
+                omega = [quotient.dot(r2), quotient.dot(r1)];
+            }
+            if deepest >= Stage::Accelerations {
+                let [w1, w2] = omega;
+                let quotient = ((a2 - r2 * (w2 * w2)) - (a1 - r1 * (w1 * w1))) * pose.inverse;
+                alpha = [quotient.dot(r2), quotient.dot(r1)];
+            }
+            link1.put(deepest, part, &first.motion(r1, base1, [omega[0], alpha[0]]));
+            link2.put(deepest, part, &second.motion(r2, base2, [omega[1], alpha[1]]));
+            reach.put(0, part, reach.get(0, part) + check.of(self, &pose, omega));
+        }
     }
 
     /// Computes the reactions in the three joints.
     #[inline(always)]
-    fn hold<R: Registers>(&self, gravity: Vec2, tile: &mut Window<R>, work: &Window<R>, column: usize) {
+    fn hold<S: Simd>(&self, gravity: Vec2, tile: Tile<S>, work: Columns<S>) {
         let [first, second] = &self.arms;
-        let (r1, r2, inverse) = (work.vector(column), work.vector(column + 2), work.get(column + 4));
-        let pole = work.vector(column + 5);
-        let (force_a, moment_a) = first.body.resultant(gravity, pole, tile);
-        let (force_b, moment_b) = second.body.resultant(gravity, pole, tile);
-        let total = force_a + force_b;
-        let reaction = (r1 * (moment_b + r2.cross(total)) + r2 * moment_a) * inverse;
-        tile.put_vector(first.reaction.force, reaction * first.reaction.sign);
-        tile.put_vector(second.reaction.force, (reaction + total) * -second.reaction.sign);
-        tile.put_vector(self.inner.force, (reaction + force_a) * -self.inner.sign);
+        let (link1, link2) = (tile.columns.link(first.body.link), tile.columns.link(second.body.link));
+        let reaction = |force: usize| tile.columns.adjacent::<2>(force);
+        let (outer1, outer2) = (reaction(first.reaction.force), reaction(second.reaction.force));
+        let inner = reaction(self.inner.force);
+        for part in tile.parts() {
+            let DyadPose { spans: [r1, r2], inverse, pole, .. } = DyadPose::of(work, part);
+            let window = tile.window(part);
+            let (force_a, moment_a) = first.body.resultant(gravity, pole, &link1.get(part), window);
+            let (force_b, moment_b) = second.body.resultant(gravity, pole, &link2.get(part), window);
+            let total = force_a + force_b;
+            let reaction = (r1 * (moment_b + r2.cross(total)) + r2 * moment_a) * inverse;
+            outer1.put_vector(0, part, reaction.signed(first.reaction.sign));
+            outer2.put_vector(0, part, (reaction + total).signed(-second.reaction.sign));
+            inner.put_vector(0, part, (reaction + force_a).signed(-self.inner.sign));
+        }
     }
 }
 
 impl Body {
     /// World position of a point of the link.
     #[inline(always)]
-    pub(super) fn point<R: Registers>(&self, local: Vec2, tile: &Window<R>) -> Plane<R> {
+    pub(super) fn point<S: Simd>(&self, local: Vec2, tile: Window<S>) -> Plane<S> {
         tile.vector(self.link + ORIGIN) + tile.vector(self.link + DIRECTION).rotate(local)
     }
 
     /// Returns the resultant of all known forces on the link and their moment about the world point `pole`.
+    /// `link` is the motion of the link.
     /// The operations and their order are the same as in the module `assur::forces`.
     #[inline(always)]
-    pub(super) fn resultant<R: Registers>(
+    pub(super) fn resultant<S: Simd>(
         &self,
         gravity: Vec2,
-        pole: Plane<R>,
-        tile: &Window<R>,
-    ) -> (Plane<R>, Lanes<R>) {
-        let link = tile.link(self.link);
-        let LinkMotion { origin, direction, omega, alpha, .. } = link;
+        pole: Plane<S>,
+        link: &LinkMotion<S>,
+        tile: Window<S>,
+    ) -> (Plane<S>, Lanes<S>) {
+        let LinkMotion { origin, direction, omega, alpha, .. } = *link;
         let arm = direction.rotate(self.mass_centre);
         let [_, _, acceleration] = link.at(arm);
         let mut force = (Plane::splat(tile.on, gravity) - acceleration) * self.mass;
-        let mut moment = alpha * -self.inertia;
+        let mut moment = -(alpha * self.inertia);
         if let Some(size) = self.resistance {
             let zero = Lanes::splat(tile.on, 0.0);
             let backwards = zero.exceeds(omega).of(zero + size, zero);
@@ -308,7 +439,7 @@ impl Body {
         }
         moment = moment + (origin + arm - pole).cross(force);
         for action in &self.hanging {
-            let hung = tile.vector(action.force) * action.sign;
+            let hung = tile.vector(action.force).signed(action.sign);
             force = force + hung;
             let place = if action.place == Vec2::zeros() { origin } else { origin + direction.rotate(action.place) };
             moment = moment + (place - pole).cross(hung);

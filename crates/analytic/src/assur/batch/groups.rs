@@ -10,9 +10,9 @@ use linkage::input::Input;
 use linkage::math::Vec2;
 use linkage::mechanism::{AssemblyMode, DrivingLink, GROUND, Group, GroupKind, Mechanism};
 
-/// Number of columns of a dyad in the working memory: two for its span r1, two for r2, one for 1 / (r1 x r2), and two
-/// for the position of the inner joint.
-const OF_DYAD: usize = 7;
+/// Number of columns of a dyad in the working memory: two for its span r1, two for r2, one for r1 x r2, one for the
+/// inverse of this product, and two for the position of the inner joint.
+pub(super) const OF_DYAD: usize = 8;
 
 /// A driving link, which turns about a joint on the ground.
 #[derive(Clone, Debug)]

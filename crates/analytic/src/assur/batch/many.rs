@@ -5,15 +5,14 @@ use linkage::input::Input;
 use linkage::math::{KeepNan, unit};
 use linkage::mechanism::{Joint, Link};
 use linkage::trajectory::Stage;
-use pulp::Arch;
+use pulp::{Arch, Simd, WithSimd};
 
 use super::STEP;
 use super::equations::Clearance;
 use super::groups::Groups;
-use super::lanes::{TILE, TileColumn, Window};
+use super::lanes::{AlignedNumbers, Columns, TILE, Tile, TileColumn};
 use super::poses::{DIRECTION, Layout};
-use super::registers::{OnRegisters, Registers, dispatch};
-use super::tally::{BLOCK, PoseTally, TileBlock};
+use super::tally::PoseTally;
 use crate::assur::groups::SolutionPlan;
 
 /// Lower limit of the magnitude of the sine of every transmission angle.
@@ -42,16 +41,18 @@ pub struct CaseBatch {
     omega: f64,
     /// Largest time between two successive instants (s).
     pace: f64,
-    /// The tiles of a block, one after the other.
-    tiles: Vec<TileColumn>,
-    work: Vec<TileColumn>,
-    block: TileBlock,
+    /// The columns of the present tile.
+    tile: AlignedNumbers,
+    work: AlignedNumbers,
+    /// The values of a quantity in the present tile.
+    values: TileColumn,
     pub(super) arch: Arch,
 }
 
 /// The crank in one tile.
 #[derive(Clone, Debug)]
 struct CrankTile {
+    rows: usize,
     angles: TileColumn,
     direction: [TileColumn; 2],
 }
@@ -59,9 +60,11 @@ struct CrankTile {
 impl CrankTile {
     /// Unused rows repeat the last angle.
     fn of(angles: &[f64]) -> CrankTile {
-        let angles = std::array::from_fn(|row| angles[row.min(angles.len() - 1)]);
+        let rows = angles.len();
+        let angles = std::array::from_fn(|row| angles[row.min(rows - 1)]);
         let directions = angles.map(unit);
         CrankTile {
+            rows,
             angles: TileColumn(angles),
             direction: [TileColumn(directions.map(|own| own.x)), TileColumn(directions.map(|own| own.y))],
         }
@@ -104,9 +107,9 @@ impl CaseBatch {
             is_ascending: rows.is_sorted(),
             omega,
             pace: (widest / omega).abs(),
-            tiles: vec![TileColumn([0.0; TILE]); BLOCK * layout.columns()],
-            work: vec![TileColumn([0.0; TILE]); groups.columns],
-            block: TileBlock([[0.0; TILE]; BLOCK]),
+            tile: AlignedNumbers::zeros(layout.columns() * TILE),
+            work: AlignedNumbers::zeros(groups.columns * TILE),
+            values: TileColumn([0.0; TILE]),
             groups,
             arch: Arch::new(),
             case: case.clone(),
@@ -135,9 +138,7 @@ impl CaseBatch {
 
     /// Writes the columns of the crank that are the same in all rows.
     fn fix(&mut self) {
-        for tile in self.tiles.chunks_exact_mut(self.layout.columns()) {
-            self.groups.drivers[0].fix(tile, self.omega, 0.0);
-        }
+        self.groups.drivers[0].fix(&mut self.tile, self.omega, 0.0);
     }
 
     /// Solves all instants of the grid up to the stage `deepest`, and computes the statistics `tallies`.
@@ -149,7 +150,7 @@ impl CaseBatch {
     pub fn solve(&mut self, deepest: Stage, tallies: &mut [PoseTally]) -> bool {
         tallies.iter_mut().for_each(|own| own.start(&self.case, self.layout));
         let arch = self.arch;
-        dispatch(arch, AllTiles { batch: self, deepest, tallies })
+        arch.dispatch(AllTiles { batch: self, deepest, tallies })
     }
 }
 
@@ -161,65 +162,60 @@ struct AllTiles<'a> {
 }
 
 impl CaseBatch {
-    /// Solves the tile number `crank` of the grid (`None`: the start pose), and writes it to the place `place` of the
-    /// block. `doubt` becomes NaN where a dead point may be near, or the direction of a resistance is uncertain.
+    /// Solves the tile number `crank` of the grid (`None`: the start pose). `doubt` becomes NaN where a dead point may
+    /// be near, or the direction of a resistance is uncertain.
     #[inline(always)]
-    fn solve_tile<R: Registers>(
-        &mut self,
-        on: R,
-        deepest: Stage,
-        crank: Option<usize>,
-        place: usize,
-        doubt: &mut TileColumn,
-    ) {
-        let CaseBatch { groups, cranks, start, pace, tiles, work, layout, .. } = self;
-        let (link, crank) = (groups.drivers[0].body.link, crank.map_or(&*start, |index| &cranks[index]));
-        let tile = &mut tiles[place * layout.columns()..][..layout.columns()];
-        [tile[link + DIRECTION], tile[link + DIRECTION + 1]] = crank.direction;
+    fn solve_tile<S: Simd>(&mut self, on: S, deepest: Stage, crank: Option<usize>, doubt: &mut TileColumn) {
+        let CaseBatch { groups, cranks, start, pace, tile, work, layout, .. } = self;
+        let crank = crank.map_or(&*start, |index| &cranks[index]);
+        let direction = (groups.drivers[0].body.link + DIRECTION) * TILE;
+        for (column, values) in tile[direction..].chunks_exact_mut(TILE).zip(&crank.direction) {
+            column.copy_from_slice(&values.0);
+        }
+        let (tile, work) = (Tile::of(on, tile, crank.rows), Tile::of(on, work, crank.rows));
         let check = Clearance { pace: *pace, least: CLEAR_SINE, share: CLEAR_CHANGE };
-        for part in 0..Window::<R>::PARTS {
-            let mut tile = Window { on, columns: &mut *tile, part };
-            let mut work = Window { on, columns: &mut *work, part };
-            let found = groups.move_links(deepest, check, &mut tile, &mut work);
-            tile.add_to(&mut doubt.0, found);
-            if deepest >= Stage::Reactions {
-                groups.load_joints(&mut tile, &mut work);
-                if groups.is_resisted {
-                    tile.add_to(&mut doubt.0, groups.standstill(&tile));
-                }
+        groups.move_links::<S, false>(deepest, check, tile, work);
+        if deepest >= Stage::Reactions {
+            groups.load_joints::<S, false>(tile, work);
+        }
+        let (doubt, reach) = (Columns::of(on, &mut doubt.0), tile.columns.column(layout.reach()));
+        let mut sum = doubt.get(0, 0);
+        for part in tile.parts() {
+            sum = sum + reach.get(0, part);
+        }
+        if deepest >= Stage::Reactions && groups.is_resisted {
+            for part in tile.parts() {
+                sum = sum + groups.standstill(tile.window(part));
             }
         }
+        doubt.put(0, 0, sum);
     }
 }
 
-impl OnRegisters for AllTiles<'_> {
-    const IN_PAIRS: bool = true;
+impl WithSimd for AllTiles<'_> {
     type Output = bool;
 
     #[inline(always)]
-    fn run<R: Registers>(self, on: R) -> bool {
+    fn with_simd<S: Simd>(self, on: S) -> bool {
         let AllTiles { batch, deepest, tallies } = self;
         let mut doubt = TileColumn([0.0; TILE]);
         if tallies.iter().any(PoseTally::needs_start) {
-            batch.solve_tile(on, Stage::Positions, None, 0, &mut TileColumn([0.0; TILE]));
-            if !(batch.is_ascending && tallies.iter_mut().all(|own| own.begin(&batch.tiles))) {
+            batch.solve_tile(on, Stage::Positions, None, &mut TileColumn([0.0; TILE]));
+            if !(batch.is_ascending && tallies.iter_mut().all(|own| own.begin(&batch.tile))) {
                 return false;
             }
         }
         // The check for dead points needs velocities.
         let deepest = if deepest < Stage::Velocities { Stage::Velocities } else { deepest };
-        let rows = batch.case.grid.len();
-        for first in (0..batch.cranks.len()).step_by(BLOCK) {
-            let block = first..batch.cranks.len().min(first + BLOCK);
-            for index in block.clone() {
-                batch.solve_tile(on, deepest, Some(index), index - first, &mut doubt);
-            }
-            let block_rows = first * TILE..rows.min(block.end * TILE);
+        for index in 0..batch.cranks.len() {
+            batch.solve_tile(on, deepest, Some(index), &mut doubt);
+            let crank = &batch.cranks[index];
+            let rows = index * TILE..index * TILE + crank.rows;
             for own in &mut *tallies {
-                let angles = batch.cranks[block.clone()].iter().map(|crank| &crank.angles);
-                own.add(on, block_rows.clone(), angles, &mut batch.tiles, &mut batch.block);
+                own.add(on, rows.clone(), &crank.angles, &mut batch.tile, &mut batch.values);
             }
         }
+        let rows = batch.case.grid.len();
         tallies.iter_mut().for_each(|own| own.tally.truncate(rows));
         doubt.0.iter().all(|lane| *lane == 0.0) && tallies.iter().all(PoseTally::is_finite)
     }

@@ -1,13 +1,13 @@
 //! Storage for the poses of a batch. The columns of the storage are divided into tiles, whose rows are adjacent in
 //! memory.
 
-use super::lanes::{Lanes, Plane, TILE, TileColumn, Window};
-use super::registers::Registers;
+use super::lanes::{AlignedNumbers, Columns, Lanes, Plane, TILE, Window};
 use linkage::case::Case;
 use linkage::math::{Motion, Vec2};
 use linkage::mechanism::{GROUND, JointId, LinkId};
 use linkage::solver::State;
 use linkage::trajectory::Stage;
+use pulp::Simd;
 
 /// Number of columns for one link's motion: origin (2), direction (2), velocity (2), acceleration (2), angular velocity
 /// (1), angular acceleration (1), in this order.
@@ -76,7 +76,7 @@ impl Layout {
 pub struct Poses {
     layout: Layout,
     rows: usize,
-    tiles: Vec<TileColumn>,
+    tiles: AlignedNumbers,
 }
 
 impl Poses {
@@ -148,9 +148,8 @@ impl Poses {
 
     /// Reserves space for `rows` rows.
     pub(super) fn prepare(&mut self, layout: Layout, rows: usize) {
-        let tiles = rows.div_ceil(TILE) * layout.columns();
         (self.layout, self.rows) = (layout, rows);
-        self.tiles.resize(tiles, TileColumn([0.0; TILE]));
+        self.tiles.resize(rows.div_ceil(TILE) * TILE * layout.columns());
     }
 
     /// Keeps only the first `rows` rows.
@@ -159,8 +158,13 @@ impl Poses {
     }
 
     /// Returns the columns of every tile.
-    pub(super) fn tiles(&mut self) -> impl Iterator<Item = &mut [TileColumn]> {
-        self.tiles.chunks_exact_mut(self.layout.columns())
+    pub(super) fn tiles(&mut self) -> impl Iterator<Item = &mut [f64]> {
+        self.tiles.chunks_exact_mut(self.layout.columns() * TILE)
+    }
+
+    /// Index of a value in the storage.
+    fn index(&self, row: usize, column: usize) -> usize {
+        (row / TILE * self.layout.columns() + column) * TILE + row % TILE
     }
 
     /// Whether the pose in a row can be assembled.
@@ -173,7 +177,8 @@ impl Poses {
     pub(super) fn put(&mut self, row: usize, state: &State) {
         let layout = self.layout;
         let mut put = |column: usize, value: f64| {
-            self.tiles[row / TILE * layout.columns() + column].0[row % TILE] = value;
+            let at = self.index(row, column);
+            self.tiles[at] = value;
         };
         let vectors = |column: usize, v: Vec2| [(column, v.x), (column + 1, v.y)];
         for (link, motion) in state.motions.iter().enumerate() {
@@ -202,7 +207,7 @@ impl Poses {
     #[inline]
     fn get(&self, row: usize, column: usize) -> f64 {
         assert!(row < self.rows, "row {row} of {}", self.rows);
-        self.tiles[row / TILE * self.layout.columns() + column].0[row % TILE]
+        self.tiles[self.index(row, column)]
     }
 
     #[inline]
@@ -213,19 +218,19 @@ impl Poses {
 
 /// Motion of a link's frame, one per pose.
 #[derive(Clone, Copy)]
-pub(super) struct LinkMotion<R: Registers> {
-    pub(super) origin: Plane<R>,
-    pub(super) direction: Plane<R>,
-    pub(super) velocity: Plane<R>,
-    pub(super) acceleration: Plane<R>,
-    pub(super) omega: Lanes<R>,
-    pub(super) alpha: Lanes<R>,
+pub(super) struct LinkMotion<S: Simd> {
+    pub(super) origin: Plane<S>,
+    pub(super) direction: Plane<S>,
+    pub(super) velocity: Plane<S>,
+    pub(super) acceleration: Plane<S>,
+    pub(super) omega: Lanes<S>,
+    pub(super) alpha: Lanes<S>,
 }
 
-impl<R: Registers> LinkMotion<R> {
+impl<S: Simd> LinkMotion<S> {
     /// Position, velocity and acceleration of the tip of `arm`, a vector from the link's origin in world axes.
     #[inline(always)]
-    pub(super) fn at(&self, arm: Plane<R>) -> [Plane<R>; 3] {
+    pub(super) fn at(&self, arm: Plane<S>) -> [Plane<S>; 3] {
         let turned = arm.turned();
         let velocity = self.velocity + turned * self.omega;
         let acceleration = self.acceleration + turned * self.alpha - arm * (self.omega * self.omega);
@@ -233,47 +238,51 @@ impl<R: Registers> LinkMotion<R> {
     }
 }
 
-impl<R: Registers> Window<'_, R> {
-    /// Motion of the link with the first column `first`.
+/// The columns of a link's motion.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LinkColumns<'a, S: Simd>(Columns<'a, S>);
+
+impl<S: Simd> LinkColumns<'_, S> {
     #[inline(always)]
-    pub(super) fn link(&self, first: usize) -> LinkMotion<R> {
-        let (on, part, columns) = (self.on, self.part, self.adjacent::<OF_LINK>(first));
-        // A closure would not be vectorised.
-        macro_rules! vector {
-            ($column:expr) => {
-                Plane { x: Lanes::of(on, &columns[$column].0, part), y: Lanes::of(on, &columns[$column + 1].0, part) }
-            };
-        }
+    pub(super) fn get(self, part: usize) -> LinkMotion<S> {
         LinkMotion {
-            origin: vector!(ORIGIN),
-            direction: vector!(DIRECTION),
-            velocity: vector!(VELOCITY),
-            acceleration: vector!(ACCELERATION),
-            omega: Lanes::of(on, &columns[OMEGA].0, part),
-            alpha: Lanes::of(on, &columns[ALPHA].0, part),
+            origin: self.0.vector(ORIGIN, part),
+            direction: self.0.vector(DIRECTION, part),
+            velocity: self.0.vector(VELOCITY, part),
+            acceleration: self.0.vector(ACCELERATION, part),
+            omega: self.0.get(OMEGA, part),
+            alpha: self.0.get(ALPHA, part),
         }
     }
 
-    /// Writes the motion of a link up to the stage `deepest`.
+    /// Writes a motion up to the stage `deepest`.
     #[inline(always)]
-    pub(super) fn put_link(&mut self, first: usize, deepest: Stage, motion: &LinkMotion<R>) {
-        let part = self.part;
-        let columns = self.adjacent_mut::<OF_LINK>(first);
-        macro_rules! put {
-            ($column:expr, $vector:expr) => {
-                $vector.x.put(&mut columns[$column].0, part);
-                $vector.y.put(&mut columns[$column + 1].0, part);
-            };
-        }
-        put!(ORIGIN, motion.origin);
-        put!(DIRECTION, motion.direction);
+    pub(super) fn put(self, deepest: Stage, part: usize, motion: &LinkMotion<S>) {
+        self.0.put_vector(ORIGIN, part, motion.origin);
+        self.0.put_vector(DIRECTION, part, motion.direction);
         if deepest >= Stage::Velocities {
-            put!(VELOCITY, motion.velocity);
-            motion.omega.put(&mut columns[OMEGA].0, part);
+            self.0.put_vector(VELOCITY, part, motion.velocity);
+            self.0.put(OMEGA, part, motion.omega);
         }
         if deepest >= Stage::Accelerations {
-            put!(ACCELERATION, motion.acceleration);
-            motion.alpha.put(&mut columns[ALPHA].0, part);
+            self.0.put_vector(ACCELERATION, part, motion.acceleration);
+            self.0.put(ALPHA, part, motion.alpha);
         }
+    }
+}
+
+impl<'a, S: Simd> Columns<'a, S> {
+    /// The motion of the link with the first column `first`.
+    #[inline(always)]
+    pub(super) fn link(self, first: usize) -> LinkColumns<'a, S> {
+        LinkColumns(self.adjacent::<OF_LINK>(first))
+    }
+}
+
+impl<S: Simd> Window<'_, S> {
+    /// The motion of the link with the first column `first`.
+    #[inline(always)]
+    pub(super) fn link(self, first: usize) -> LinkMotion<S> {
+        self.columns.link(first).get(self.part)
     }
 }

@@ -3,29 +3,25 @@
 use std::array;
 use std::ops::Range;
 
-use super::lanes::{Lanes, TILE, TileColumn, Window};
+use super::lanes::{Columns, Lanes, TILE, Tile, TileColumn};
 use super::poses::{ALPHA, DIRECTION, Layout, OMEGA};
-use super::registers::Registers;
 use crate::assur::turns::{crossing, principal};
 use linkage::case::Case;
-use linkage::math::tally::{LANES, LanePeak, PEAK_LANES, Tally};
+use linkage::math::tally::{LANES, LanePeak, Tally};
 use linkage::math::{Vec2, cross, rotated};
 use linkage::mechanism::{GroupId, JointId, LinkId};
 use linkage::trajectory::OfPoint;
+use pulp::Simd;
 
-/// Number of tiles that are solved before their statistics are computed. All columns of a block stay in the fastest
-/// cache, and a statistic stays in registers during a block.
-pub(super) const BLOCK: usize = 4;
-/// The rows of a tile, counted from its first row.
-const COUNT: [f64; TILE] = {
-    let (mut count, mut row) = ([0.0; TILE], 0);
-    while row < TILE {
+/// The rows of the lanes of an extreme, counted from the first lane.
+const COUNT: [f64; LANES] = {
+    let (mut count, mut row) = ([0.0; LANES], 0);
+    while row < LANES {
         count[row] = row as f64;
         row += 1;
     }
     count
 };
-const _: () = assert!(PEAK_LANES == TILE);
 
 /// A quantity of every pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -93,23 +89,9 @@ pub struct PoseTally {
     /// Whether the rows of an extreme are wanted; if `false`, the statistic has only its value.
     has_rows: bool,
     reading: Reading,
-    /// Sums of all values so far. A sum is not finite if one of its values is not.
-    fault: [f64; TILE],
-}
-
-/// Sums an expression over a block, lane by lane. The variables of the expression are a value and the number of its
-/// eight rows in the block. A closure would not be vectorised.
-macro_rules! sum {
-    ($on:expr, $sums:expr, $block:expr, |$value:ident, $eight:ident, $part:ident| $summand:expr) => {
-        for $part in 0..LANES / R::One::LANES {
-            let mut sum = Lanes::of($on, &$sums, $part);
-            for ($eight, values) in $block.iter().enumerate() {
-                let $value = Lanes::of($on, values, $part);
-                sum = sum + $summand;
-            }
-            sum.put(&mut $sums, $part);
-        }
-    };
+    /// Sums of all values so far, by lane, unless the statistic is such a sum itself. A sum is not finite if one of its
+    /// values is not.
+    fault: [f64; LANES],
 }
 
 /// How a quantity is read from the columns of a tile.
@@ -132,7 +114,7 @@ impl PoseTally {
     /// A statistic of a quantity in the unit `unit`, a multiple of the SI unit. Rows of extremes are not wanted.
     #[must_use]
     pub fn of(quantity: PoseQuantity, unit: f64, tally: Tally) -> PoseTally {
-        PoseTally { quantity, unit, tally, has_rows: false, reading: Reading::Given, fault: [0.0; TILE] }
+        PoseTally { quantity, unit, tally, has_rows: false, reading: Reading::Given, fault: [0.0; LANES] }
     }
 
     /// Asks for the rows of extremes, for [`Tally::rows`].
@@ -149,7 +131,8 @@ impl PoseTally {
     /// Whether all values of the last case are finite. `false` also if a sum of values overflows.
     #[must_use]
     pub fn is_finite(&self) -> bool {
-        self.fault.iter().sum::<f64>().is_finite()
+        let sums = if let Tally::Mean(own) | Tally::Rms(own) = &self.tally { &own.sums } else { &self.fault };
+        sums.iter().sum::<f64>().is_finite()
     }
 
     /// Prepares the statistic for the first row of a case.
@@ -157,7 +140,7 @@ impl PoseTally {
         let link = |link: LinkId| layout.link(link).expect("a moving link");
         let links = case.mechanism.links();
         self.tally.clear();
-        self.fault = [0.0; TILE];
+        self.fault = [0.0; LANES];
         self.reading = match self.quantity {
             PoseQuantity::Angle(of) if of == case.crank().link => Reading::Given,
             PoseQuantity::Angle(of) => Reading::Angle(link(of), Vec2::zeros(), 0.0),
@@ -185,117 +168,196 @@ impl PoseTally {
 
     /// Reads the start pose. Returns `false` if the link's direction in this pose is nearly -x, because the number of
     /// whole turns is then uncertain.
-    pub(super) fn begin(&mut self, tile: &[TileColumn]) -> bool {
+    pub(super) fn begin(&mut self, tile: &[f64]) -> bool {
         let Reading::Angle(first, last, _) = &mut self.reading else { return true };
         *last = direction(tile, *first, 0);
         last.x > 0.0 || last.y.abs() > 1e-6
     }
 
-    /// Adds the rows of a block. The values have the same bits as those of the
-    /// [sampler](linkage::solver::Sampler).
-    /// `rows` are the rows of the block, `angles` are the angles of the crank, and `tiles` has the columns of one tile
-    /// after the other. `block` is working memory.
+    /// Adds the rows of a tile. The values have the same bits as those of the [sampler](linkage::solver::Sampler).
+    /// `angles` are the angles of the crank, `tile` has the columns of the tile, and `values` is working memory.
     #[inline(always)]
-    pub(super) fn add<'a, R: Registers>(
+    pub(super) fn add<S: Simd>(
         &mut self,
-        on: R,
+        on: S,
         rows: Range<usize>,
-        angles: impl Iterator<Item = &'a TileColumn>,
-        tiles: &mut [TileColumn],
-        block: &mut TileBlock,
+        angles: &TileColumn,
+        tile: &mut [f64],
+        values: &mut TileColumn,
     ) {
-        let columns = tiles.len() / BLOCK;
-        let block = &mut block.0[..rows.len().div_ceil(TILE)];
+        if let Reading::Angle(first, last, turns) = &mut self.reading {
+            with_turns(*first, last, turns, tile, &mut values.0[..rows.len()]);
+            // Unused rows repeat the last value.
+            let (last, unused) = (values.0[rows.len() - 1], rows.len()..rows.len().next_multiple_of(LANES));
+            values.0[unused].fill(last);
+        } else if let Reading::Given = self.reading {
+            *values = *angles;
+        }
+        let (tile, values) = (Tile::of(on, tile, rows.len()), Columns::of(on, &mut values.0));
         let unit = self.unit;
-        // Reads the values of all rows, and adds them to `fault`. A closure would not be vectorised.
+        // Writes the values of all rows. A closure would not be vectorised.
         macro_rules! each {
-            (|$tile:ident, $values:ident| $value:expr) => {
-                for part in 0..Window::<R>::PARTS {
-                    let mut fault = Lanes::of(on, &self.fault, part);
-                    for (place, $values) in block.iter_mut().enumerate() {
-                        let $tile = Window { on, columns: &mut tiles[place * columns..][..columns], part };
-                        let value = $value;
-                        let value = if unit == 1.0 { value } else { value / unit };
-                        fault = fault + value;
-                        value.put($values, part);
-                    }
-                    fault.put(&mut self.fault, part);
+            (|$part:ident| $value:expr) => {
+                for $part in tile.parts() {
+                    values.put(0, $part, $value);
                 }
             };
         }
         match self.reading {
-            Reading::Column(column) => each!(|tile, values| tile.get(column)),
-            Reading::Size(column) => each!(|tile, values| {
-                let force = tile.vector(column);
-                force.dot(force).sqrt()
-            }),
-            Reading::Square(column) => each!(|tile, values| {
-                let force = tile.vector(column);
-                force.dot(force)
-            }),
-            Reading::Point(first, local, reading) => each!(|tile, values| point(first, local, reading, &tile)),
-            Reading::Sine(links, spans, lengths) => each!(|tile, values| {
-                let a = tile.vector(links[0] + DIRECTION).rotate(spans[0]);
-                let b = tile.vector(links[1] + DIRECTION).rotate(spans[1]);
-                a.cross(b).abs() / lengths
-            }),
-            Reading::Given => {
-                block.iter_mut().zip(angles).for_each(|(values, own)| *values = own.0);
-                each!(|tile, values| Lanes::of(tile.on, values, tile.part));
+            Reading::Column(column) if unit == 1.0 => {
+                return self.count(rows, First(tile.columns.column(column)));
             }
-            Reading::Angle(first, ref mut last, ref mut turns) => {
-                for (columns, values) in tiles.chunks_exact(columns).zip(&mut *block) {
-                    with_turns(first, last, turns, columns, values);
-                }
-                each!(|tile, values| Lanes::of(tile.on, values, tile.part));
+            Reading::Column(column) => {
+                let column = tile.columns.column(column);
+                each!(|part| column.get(0, part));
             }
-        }
-        self.count(on, rows, block);
-    }
-
-    /// [`Tally::add`] for a block.
-    #[inline(always)]
-    fn count<R: Registers>(&mut self, on: R, rows: Range<usize>, block: &[[f64; TILE]]) {
-        let (row, has_rows) = (rows.start, self.has_rows);
-        let (eights, _) = block.as_flattened().as_chunks::<LANES>();
-        let eights = &eights[..rows.len().div_ceil(LANES)];
-        match &mut self.tally {
-            Tally::Max(own) => raise::<R, Plain>(own, on, row, has_rows, block),
-            Tally::Min(own) => raise::<R, Negated>(own, on, row, has_rows, block),
-            Tally::MaxAbs(own) => raise::<R, Magnitude>(own, on, row, has_rows, block),
-            Tally::Range([most, least]) => {
-                raise::<R, Plain>(most, on, row, has_rows, block);
-                raise::<R, Negated>(least, on, row, has_rows, block);
-            }
-            Tally::Mean(own) => {
-                let weights = &own.weights[row / LANES..];
-                sum!(on.one(), own.sums, eights, |value, eight, part| {
-                    Lanes::of(on.one(), &weights[eight], part) * value
+            Reading::Size(column) => {
+                let force = tile.columns.adjacent::<2>(column);
+                each!(|part| {
+                    let force = force.vector(0, part);
+                    force.dot(force).sqrt()
                 });
             }
+            Reading::Square(column) if unit == 1.0 => {
+                return self.count(rows, Square(tile.columns.adjacent::<2>(column)));
+            }
+            Reading::Square(column) => {
+                let square = Square(tile.columns.adjacent::<2>(column));
+                each!(|part| square.at(part));
+            }
+            Reading::Point(first, local, reading) => {
+                let link = tile.columns.link(first);
+                macro_rules! coordinate {
+                    ($of:expr, $axis:ident) => {
+                        each!(|part| {
+                            let link = link.get(part);
+                            link.at(link.direction.rotate(local))[$of].$axis
+                        })
+                    };
+                }
+                match reading {
+                    OfPoint::X => coordinate!(0, x),
+                    OfPoint::Y => coordinate!(0, y),
+                    OfPoint::VelocityX => coordinate!(1, x),
+                    OfPoint::VelocityY => coordinate!(1, y),
+                    OfPoint::AccelerationX => coordinate!(2, x),
+                    OfPoint::AccelerationY => coordinate!(2, y),
+                }
+            }
+            Reading::Sine(links, spans, lengths) => {
+                let [a, b] = links.map(|link| tile.columns.link(link));
+                each!(|part| {
+                    let (a, b) = (a.get(part).direction.rotate(spans[0]), b.get(part).direction.rotate(spans[1]));
+                    a.cross(b).abs() / lengths
+                });
+            }
+            Reading::Given | Reading::Angle(..) => {}
+        }
+        if unit != 1.0 {
+            each!(|part| values.get(0, part) / unit);
+        }
+        self.count(rows, First(values.column(0)));
+    }
+
+    /// [`Tally::add`] for the rows of a tile.
+    #[inline(always)]
+    fn count<S: Simd>(&mut self, rows: Range<usize>, values: impl PoseValues<S>) {
+        let (on, row, has_rows) = (values.on(), rows.start, self.has_rows);
+        let parts = rows.len().div_ceil(S::F64_LANES).min(Columns::<S>::PARTS);
+        let number = |row: usize| values.at(row / S::F64_LANES).number(row % S::F64_LANES);
+        // Adds an expression of the values to sums, lane by lane. A closure would not be vectorised.
+        macro_rules! sum {
+            ($sums:expr, |$part:ident| $summand:expr) => {
+                let lanes = LANES / S::F64_LANES;
+                let sums = Columns::of(on, &mut $sums);
+                for lane in 0..lanes {
+                    let (mut sum, mut $part) = (sums.get(0, lane), lane);
+                    while $part < parts {
+                        sum = sum + $summand;
+                        $part += lanes;
+                    }
+                    sums.put(0, lane, sum);
+                }
+            };
+        }
+        let fault = Columns::of(on, &mut self.fault);
+        match &mut self.tally {
+            Tally::Max(own) => raise::<S, Plain, _>(own, fault, row, has_rows, parts, values),
+            Tally::Min(own) => raise::<S, Negated, _>(own, fault, row, has_rows, parts, values),
+            Tally::MaxAbs(own) => raise::<S, Magnitude, _>(own, fault, row, has_rows, parts, values),
+            Tally::Range([most, least]) => {
+                raise::<S, Plain, _>(most, fault, row, has_rows, parts, values);
+                raise::<S, Negated, _>(least, fault, row, has_rows, parts, values);
+            }
+            Tally::Mean(own) => {
+                let weights = own.weights[row / LANES..].as_flattened();
+                sum!(own.sums, |part| Lanes::of(on, weights, part) * values.at(part));
+            }
             Tally::Rms(own) => {
-                let weights = &own.weights[row / LANES..];
-                sum!(on.one(), own.sums, eights, |value, eight, part| {
-                    Lanes::of(on.one(), &weights[eight], part) * (value * value)
+                let weights = own.weights[row / LANES..].as_flattened();
+                sum!(own.sums, |part| {
+                    let value = values.at(part);
+                    Lanes::of(on, weights, part) * (value * value)
                 });
             }
             Tally::At(wanted, value) => {
-                let place = wanted.checked_sub(row).and_then(|own| Some(eights.get(own / LANES)?[own % LANES]));
-                *value = place.unwrap_or(*value);
+                sum!(self.fault, |part| values.at(part));
+                if rows.contains(wanted) {
+                    *value = number(*wanted - row);
+                }
             }
-            Tally::Column(all) => all.extend_from_slice(eights.as_flattened()),
+            Tally::Column(all) => {
+                sum!(self.fault, |part| values.at(part));
+                all.extend((0..rows.len()).map(number));
+            }
         }
     }
 }
 
-/// The values of a quantity in a block of tiles.
-#[derive(Clone, Debug)]
-#[repr(align(64))]
-pub(super) struct TileBlock(pub(super) [[f64; TILE]; BLOCK]);
+/// The values of a quantity in the poses of a tile.
+trait PoseValues<S: Simd>: Copy {
+    fn on(self) -> S;
+
+    /// The values in the poses `part`.
+    fn at(self, part: usize) -> Lanes<S>;
+}
+
+/// The values of a column.
+#[derive(Clone, Copy)]
+struct First<'a, S: Simd>(Columns<'a, S>);
+
+/// The squares of the vectors in two columns.
+#[derive(Clone, Copy)]
+struct Square<'a, S: Simd>(Columns<'a, S>);
+
+impl<S: Simd> PoseValues<S> for First<'_, S> {
+    #[inline(always)]
+    fn on(self) -> S {
+        self.0.on
+    }
+
+    #[inline(always)]
+    fn at(self, part: usize) -> Lanes<S> {
+        self.0.get(0, part)
+    }
+}
+
+impl<S: Simd> PoseValues<S> for Square<'_, S> {
+    #[inline(always)]
+    fn on(self) -> S {
+        self.0.on
+    }
+
+    #[inline(always)]
+    fn at(self, part: usize) -> Lanes<S> {
+        let vector = self.0.vector(0, part);
+        vector.dot(vector)
+    }
+}
 
 /// The score of a value: the largest score is the wanted extreme.
 trait Score {
-    fn of<R: Registers>(value: Lanes<R>) -> Lanes<R>;
+    fn of<S: Simd>(value: Lanes<S>) -> Lanes<S>;
 }
 
 /// For the largest value.
@@ -309,75 +371,75 @@ struct Magnitude;
 
 impl Score for Plain {
     #[inline(always)]
-    fn of<R: Registers>(value: Lanes<R>) -> Lanes<R> {
+    fn of<S: Simd>(value: Lanes<S>) -> Lanes<S> {
         value
     }
 }
 
 impl Score for Negated {
     #[inline(always)]
-    fn of<R: Registers>(value: Lanes<R>) -> Lanes<R> {
+    fn of<S: Simd>(value: Lanes<S>) -> Lanes<S> {
         -value
     }
 }
 
 impl Score for Magnitude {
     #[inline(always)]
-    fn of<R: Registers>(value: Lanes<R>) -> Lanes<R> {
+    fn of<S: Simd>(value: Lanes<S>) -> Lanes<S> {
         value.abs()
     }
 }
 
+/// Adds the values of a tile to an extreme, and to the sums `fault`.
 #[inline(always)]
-fn raise<R: Registers, S: Score>(peak: &mut LanePeak, on: R, row: usize, has_rows: bool, block: &[[f64; TILE]]) {
-    for part in 0..Window::<R>::PARTS {
-        let mut scores = Lanes::of(on, &peak.scores, part);
+fn raise<S: Simd, Of: Score, V: PoseValues<S>>(
+    peak: &mut LanePeak,
+    fault: Columns<S>,
+    row: usize,
+    has_rows: bool,
+    parts: usize,
+    values: V,
+) {
+    let on = values.on();
+    let lanes = LANES / S::F64_LANES;
+    let (scores, rows) = (Columns::of(on, &mut peak.scores), Columns::of(on, &mut peak.rows));
+    for lane in 0..lanes {
+        let (mut best, mut sum, mut part) = (scores.get(0, lane), fault.get(0, lane), lane);
         if has_rows {
-            let mut rows = Lanes::of(on, &peak.rows, part);
-            let mut now = Lanes::of(on, &COUNT, part) + row as f64;
-            for values in block {
-                let score = S::of(Lanes::of(on, values, part));
-                let is_better = score.exceeds(scores);
-                (scores, rows) = (is_better.of(score, scores), is_better.of(now, rows));
-                now = now + TILE as f64;
+            let mut first = rows.get(0, lane);
+            let mut now = Lanes::of(on, &COUNT, lane) + row as f64;
+            while part < parts {
+                let value = values.at(part);
+                let score = Of::of(value);
+                let is_better = score.exceeds(best);
+                (best, first) = (is_better.of(score, best), is_better.of(now, first));
+                (sum, now, part) = (sum + value, now + LANES as f64, part + lanes);
             }
-            rows.put(&mut peak.rows, part);
+            rows.put(0, lane, first);
         } else {
-            for values in block {
-                let score = S::of(Lanes::of(on, values, part));
-                scores = score.exceeds(scores).of(score, scores);
+            while part < parts {
+                let value = values.at(part);
+                let score = Of::of(value);
+                (best, sum, part) = (score.exceeds(best).of(score, best), sum + value, part + lanes);
             }
         }
-        scores.put(&mut peak.scores, part);
+        scores.put(0, lane, best);
+        fault.put(0, lane, sum);
     }
 }
 
 /// Direction of a link in a row of a tile.
-fn direction(tile: &[TileColumn], first: usize, row: usize) -> Vec2 {
-    Vec2::new(tile[first + DIRECTION].0[row], tile[first + DIRECTION + 1].0[row])
+fn direction(tile: &[f64], first: usize, row: usize) -> Vec2 {
+    let at = |column: usize| tile[(first + column) * TILE + row];
+    Vec2::new(at(DIRECTION), at(DIRECTION + 1))
 }
 
 /// Angles of a link in a tile, as [`Turns`](crate::assur::turns::Turns) counts them.
-fn with_turns(first: usize, last: &mut Vec2, turns: &mut f64, tile: &[TileColumn], angles: &mut [f64; TILE]) {
+fn with_turns(first: usize, last: &mut Vec2, turns: &mut f64, tile: &[f64], angles: &mut [f64]) {
     for (row, angle) in angles.iter_mut().enumerate() {
         let now = direction(tile, first, row);
         *turns += crossing(*last, now);
         *last = now;
         *angle = principal(now) + std::f64::consts::TAU * *turns;
-    }
-}
-
-/// A coordinate of a point, of its velocity or of its acceleration.
-#[inline(always)]
-fn point<R: Registers>(first: usize, local: Vec2, reading: OfPoint, tile: &Window<R>) -> Lanes<R> {
-    let link = tile.link(first);
-    let [place, velocity, acceleration] = link.at(link.direction.rotate(local));
-    match reading {
-        OfPoint::X => place.x,
-        OfPoint::Y => place.y,
-        OfPoint::VelocityX => velocity.x,
-        OfPoint::VelocityY => velocity.y,
-        OfPoint::AccelerationX => acceleration.x,
-        OfPoint::AccelerationY => acceleration.y,
     }
 }

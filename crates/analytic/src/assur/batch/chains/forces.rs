@@ -3,39 +3,27 @@
 use super::Chain;
 use crate::assur::batch::elimination::Factors;
 use crate::assur::batch::lanes::{Lanes, Plane, Window};
-use crate::assur::batch::registers::Registers;
 use crate::assur::groups::Hangs;
 use linkage::math::Vec2;
+use pulp::Simd;
 
 impl Chain {
     /// Computes the reactions in all joints.
     #[inline(always)]
-    pub(in crate::assur::batch) fn hold<R: Registers>(
-        &self,
-        gravity: Vec2,
-        tile: &mut Window<R>,
-        work: &mut Window<R>,
-        first: usize,
-    ) {
+    pub(in crate::assur::batch) fn hold<S: Simd>(&self, gravity: Vec2, tile: Window<S>, work: Window<S>, first: usize) {
         match self.nodes.len() {
-            4 => self.hold_by::<R, 4>(gravity, tile, work, first),
-            _ => self.hold_by::<R, 6>(gravity, tile, work, first),
+            4 => self.hold_by::<S, 4>(gravity, tile, work, first),
+            _ => self.hold_by::<S, 6>(gravity, tile, work, first),
         }
     }
 
     #[inline(always)]
-    fn hold_by<R: Registers, const N: usize>(
-        &self,
-        gravity: Vec2,
-        tile: &mut Window<R>,
-        work: &mut Window<R>,
-        first: usize,
-    ) {
+    fn hold_by<S: Simd, const N: usize>(&self, gravity: Vec2, tile: Window<S>, work: Window<S>, first: usize) {
         let (zero, none) = (Lanes::splat(tile.on, 0.0), Plane::splat(tile.on, Vec2::zeros()));
         let (mut forces, mut moments) = ([none; N], [zero; N]);
         for (index, node) in self.nodes.iter().enumerate() {
             let pole = node.body.point(node.own, tile);
-            (forces[index], moments[index]) = node.body.resultant(gravity, pole, tile);
+            (forces[index], moments[index]) = node.body.resultant(gravity, pole, &tile.link(node.body.link), tile);
         }
         self.gather(&mut forces);
         // Adds the moments of the forces at the arrows' ends. Each moment is about the pole of the link that carries
@@ -46,7 +34,7 @@ impl Chain {
                 moments[parent] = moments[parent] + work.vector(self.arrow(first, arrow)).cross(forces[index]);
             }
         }
-        let factors = Factors::<R, N>::kept(work, self.first_factor(first));
+        let factors = Factors::<S, N>::kept(work, self.first_factor(first));
         let multipliers = factors.solve_transposed(moments.map(|moment| -moment));
         let mut cut = [none; N];
         for (index, closing) in self.closings.iter().enumerate() {
@@ -60,14 +48,14 @@ impl Chain {
         }
         self.gather(&mut cut);
         for (index, node) in self.nodes.iter().enumerate() {
-            tile.put_vector(node.reaction.force, (forces[index] + cut[index]) * -node.reaction.sign);
+            tile.put_vector(node.reaction.force, (forces[index] + cut[index]).signed(-node.reaction.sign));
         }
     }
 
     /// Sums the forces from the outermost link inwards. Moments are not passed on, because a pin transmits only a
     /// force.
     #[inline(always)]
-    fn gather<R: Registers>(&self, forces: &mut [Plane<R>]) {
+    fn gather<S: Simd>(&self, forces: &mut [Plane<S>]) {
         for (index, node) in self.nodes.iter().enumerate().rev() {
             if let Hangs::Arrow(arrow) = node.hangs {
                 let parent = self.arrows[arrow].node;

@@ -8,10 +8,10 @@ use crate::assur::batch::elimination::Factors;
 use crate::assur::batch::equations::swung;
 use crate::assur::batch::lanes::{Lanes, Plane, Window};
 use crate::assur::batch::poses::{ACCELERATION, ALPHA, DIRECTION, OMEGA, ORIGIN, VELOCITY};
-use crate::assur::batch::registers::Registers;
 use crate::assur::groups::Hangs;
 use linkage::math::Vec2;
 use linkage::trajectory::Stage;
+use pulp::Simd;
 
 /// If the corrections of a group's interpolated directions sum up to at most this angle (rad), one correction is
 /// enough: the square of the sum is below rounding error.
@@ -21,27 +21,27 @@ impl Chain {
     /// Computes the motion of all links. Returns NaN for poses that one Newton correction does not reach on the branch,
     /// and 0 for all other poses.
     #[inline(always)]
-    pub(in crate::assur::batch) fn turn<R: Registers>(
+    pub(in crate::assur::batch) fn turn<S: Simd>(
         &self,
         deepest: Stage,
-        tile: &mut Window<R>,
-        work: &mut Window<R>,
+        tile: Window<S>,
+        work: Window<S>,
         first: usize,
-    ) -> Lanes<R> {
+    ) -> Lanes<S> {
         match self.nodes.len() {
-            4 => self.turn_by::<R, 4>(deepest, tile, work, first),
-            _ => self.turn_by::<R, 6>(deepest, tile, work, first),
+            4 => self.turn_by::<S, 4>(deepest, tile, work, first),
+            _ => self.turn_by::<S, 6>(deepest, tile, work, first),
         }
     }
 
     #[inline(always)]
-    fn turn_by<R: Registers, const N: usize>(
+    fn turn_by<S: Simd, const N: usize>(
         &self,
         deepest: Stage,
-        tile: &mut Window<R>,
-        work: &mut Window<R>,
+        tile: Window<S>,
+        work: Window<S>,
         first: usize,
-    ) -> Lanes<R> {
+    ) -> Lanes<S> {
         let one = Lanes::splat(tile.on, 1.0);
         for (index, node) in self.nodes.iter().enumerate() {
             tile.put_vector(node.body.link + DIRECTION, start(work, first + OF_START * index));
@@ -57,7 +57,7 @@ impl Chain {
             work.put_vector(self.root(first, index), arm);
             work.put_vector(self.root(first, index) + 2, place);
         }
-        let (jacobian, gaps) = self.assembled::<R, N>(tile, work, first);
+        let (jacobian, gaps) = self.assembled::<S, N>(tile, work, first);
         let changes = Factors::of(jacobian, one).solve(gaps);
         let mut largest = Lanes::splat(tile.on, 0.0);
         for (node, change) in self.nodes.iter().zip(changes) {
@@ -66,7 +66,7 @@ impl Chain {
             // The sum of all changes is tested, not the maximum, because a sum keeps NaN.
             largest = largest + change.abs();
         }
-        let (jacobian, _) = self.assembled::<R, N>(tile, work, first);
+        let (jacobian, _) = self.assembled::<S, N>(tile, work, first);
         let factors = Factors::of(jacobian, one);
         self.put_links(tile, work, first);
         if deepest >= Stage::Velocities {
@@ -86,12 +86,12 @@ impl Chain {
 
     /// From the link directions, computes the arrows, the gaps of the contours and the Jacobian of these gaps.
     #[inline(always)]
-    fn assembled<R: Registers, const N: usize>(
+    fn assembled<S: Simd, const N: usize>(
         &self,
-        tile: &Window<R>,
-        work: &mut Window<R>,
+        tile: Window<S>,
+        work: Window<S>,
         first: usize,
-    ) -> ([[Lanes<R>; N]; N], [Lanes<R>; N]) {
+    ) -> ([[Lanes<S>; N]; N], [Lanes<S>; N]) {
         for (index, arrow) in self.arrows.iter().enumerate() {
             work.put_vector(self.arrow(first, index), tile.vector(arrow.link + DIRECTION).rotate(arrow.local));
         }
@@ -115,7 +115,7 @@ impl Chain {
 
     /// Computes the origins of all links.
     #[inline(always)]
-    fn put_links<R: Registers>(&self, tile: &mut Window<R>, work: &mut Window<R>, first: usize) {
+    fn put_links<S: Simd>(&self, tile: Window<S>, work: Window<S>, first: usize) {
         for (index, node) in self.nodes.iter().enumerate() {
             let place = match node.hangs {
                 Hangs::Root(root) => work.vector(self.root(first, root) + 2),
@@ -131,11 +131,11 @@ impl Chain {
     }
 
     #[inline(always)]
-    fn put_velocities<R: Registers, const N: usize>(
+    fn put_velocities<S: Simd, const N: usize>(
         &self,
-        factors: &Factors<R, N>,
-        tile: &mut Window<R>,
-        work: &mut Window<R>,
+        factors: &Factors<S, N>,
+        tile: Window<S>,
+        work: Window<S>,
         first: usize,
     ) {
         for (index, &(base, _)) in self.roots.iter().enumerate() {
@@ -172,11 +172,11 @@ impl Chain {
     }
 
     #[inline(always)]
-    fn put_accelerations<R: Registers, const N: usize>(
+    fn put_accelerations<S: Simd, const N: usize>(
         &self,
-        factors: &Factors<R, N>,
-        tile: &mut Window<R>,
-        work: &mut Window<R>,
+        factors: &Factors<S, N>,
+        tile: Window<S>,
+        work: Window<S>,
         first: usize,
     ) {
         for (index, &(base, _)) in self.roots.iter().enumerate() {
@@ -224,7 +224,7 @@ impl Chain {
 
 /// Start direction of a link: its direction at the anchor, rotated by the interpolating polynomial.
 #[inline(always)]
-fn start<R: Registers>(work: &Window<R>, column: usize) -> Plane<R> {
+fn start<S: Simd>(work: Window<S>, column: usize) -> Plane<S> {
     let way = work.get(column + 2);
     let mut angle = work.get(column + 7);
     for power in (3..7).rev() {
