@@ -2,8 +2,10 @@
 
 use std::path::PathBuf;
 
+use super::exit_code::{AGREE, DISAGREE};
+use super::output;
 use super::outputs::{Outputs, results};
-use super::sweep::{goal, told};
+use super::sweep::{disagreement, goal, told};
 use linkage::error::Result;
 use sweep::{SweepStore, SweepSummary};
 
@@ -21,10 +23,13 @@ results! { Merged {
     Results = "directory of the joined table [default: the first DIR]",
 } }
 
-pub(super) fn merge(args: &Args) -> Result<()> {
+pub(super) fn merge(args: &Args) -> Result<u8> {
     let to = args.outputs.first(Merged::Results).unwrap_or(&args.directories[0]);
     let (store, plan) = SweepStore::merged(&args.directories, to)?;
     let goal = goal(None, &plan)?;
     let summary = SweepSummary::of(&plan, &store.table(), goal)?;
-    told(&plan, &summary, goal, &store)
+    told(&plan, &summary, goal, &store)?;
+    let Some(case) = summary.disagreement else { return Ok(AGREE) };
+    output::print(&format!("{}\n", disagreement(&plan, case)))?;
+    Ok(DISAGREE)
 }

@@ -149,11 +149,7 @@ pub(super) fn sweep(args: &Args) -> Result<u8> {
         summary = found;
         drop(bar);
         if let Some(case) = tally.disagreement {
-            let mut values = vec![0.0; plan.design.axes().len()];
-            plan.design.values(case, &mut values);
-            let file = output::quoted(&args.file.to_string_lossy());
-            let told = sentences::the_proof_of_a_case_disagrees(&case, &file, &sets(&plan, &values));
-            output::print(&format!("{told}\n"))?;
+            output::print(&format!("{}\n", disagreement(&plan, case)))?;
             return Ok(DISAGREE);
         }
         if let Some(shard) = args.shard {
@@ -171,6 +167,19 @@ pub(super) fn sweep(args: &Args) -> Result<u8> {
     Ok(AGREE)
 }
 
+/// What is told of a case whose proof disagrees.
+pub(super) fn disagreement(plan: &SweepPlan, case: u64) -> String {
+    let mut values = vec![0.0; plan.design.axes().len()];
+    plan.design.values(case, &mut values);
+    sentences::the_proof_of_a_case_disagrees(&case, &file(plan), &sets(plan, &values))
+}
+
+/// The file of the scenario. A stored plan, as read by `merge`, has no path of the scenario.
+fn file(plan: &SweepPlan) -> String {
+    let path = if plan.path.as_os_str().is_empty() { Path::new("FILE") } else { &plan.path };
+    output::quoted(&path.to_string_lossy())
+}
+
 /// The `--set` options that give another command the numbers of a case.
 fn sets(plan: &SweepPlan, values: &[f64]) -> String {
     let set = plan.set.iter().cloned().chain(plan.setting(values));
@@ -178,11 +187,7 @@ fn sets(plan: &SweepPlan, values: &[f64]) -> String {
 }
 
 pub(super) fn told(plan: &SweepPlan, summary: &SweepSummary, goal: Goal, store: &SweepStore) -> Result<()> {
-    let next = summary.best.first().map(|row| {
-        // A stored plan, as read by `merge`, has no path of the scenario.
-        let file = if plan.path.as_os_str().is_empty() { Path::new("FILE") } else { &plan.path };
-        sentences::repeat_a_case(&output::quoted(&file.to_string_lossy()), &sets(plan, &row.values))
-    });
+    let next = summary.best.first().map(|row| sentences::repeat_a_case(&file(plan), &sets(plan, &row.values)));
     output::print(&report::text(plan, summary, goal, &store.table(), &next.unwrap_or_default(), output::width()))
 }
 

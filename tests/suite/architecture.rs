@@ -61,7 +61,7 @@ const CRATES: &[(&str, &str, &str, &str)] = &[
         "sweep",
         "crates/sweep",
         "analytic files formula linkage prover scenario",
-        "chacha20 parquet serde serde_json statrs",
+        "bytes chacha20 parquet serde serde_json statrs",
     ),
     ("linkproof_simbody", "crates/simbody", "", ""),
     ("simbody_twin", "crates/simbody-twin", "linkage simbody", ""),

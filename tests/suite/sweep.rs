@@ -262,6 +262,9 @@ fn proofs_are_taken_as_asked_and_stop_the_sweep_if_they_disagree() {
     let outcome = place.run(&format!("sweep wrong.toml {sweep} -o wrong"));
     assert_eq!(outcome.code, 1, "{}", outcome.stderr);
     assert!(outcome.stdout.contains("linkproof run wrong.toml --set crank_mm=30"), "{}", outcome.stdout);
+    // The stored case still disagrees when the sweep is continued.
+    let again = place.run(&format!("sweep wrong.toml {sweep} -o wrong"));
+    assert_eq!((again.code, again.stdout), (1, outcome.stdout));
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! Reads the joined table one row group at a time, so that memory does not grow with the table.
+//! Reads a table of cases one row group at a time, so that memory does not grow with the table.
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -13,20 +13,7 @@ use parquet::file::reader::{FileReader, SerializedFileReader};
 use crate::plan::SweepPlan;
 use crate::sentences;
 use crate::store::broken;
-
-/// Columns of a row group.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RowGroup {
-    /// Values of the varied numbers, by axis.
-    pub values: Vec<Vec<f64>>,
-    /// Values of the figures: one list for each figure, with one value for each case. NaN if the figure does not exist
-    /// in that case.
-    pub figures: Vec<Vec<f64>>,
-    /// Why a case was refused; `None` for a solved case.
-    pub reasons: Vec<Option<String>>,
-    /// Verdict of the proof of each case, if the case is proven. The list is empty if the sweep proves no case.
-    pub verdicts: Vec<Option<String>>,
-}
+use crate::table::RowGroup;
 
 /// Reads the row groups of the table of a sweep, in the order of the table.
 pub struct SweepGroups {
@@ -60,12 +47,6 @@ impl SweepGroups {
             is_proven: plan.prove_every.is_some(),
             next: 0,
         })
-    }
-
-    /// Number of cases in the table.
-    #[must_use]
-    pub fn cases(&self) -> u64 {
-        self.reader.metadata().file_metadata().num_rows() as u64
     }
 }
 

@@ -9,11 +9,11 @@ use linkage::error::Result;
 use linkage::quiet::{guarded, panic_text};
 use linkage::threads::side_by_side;
 
-use crate::groups::RowGroup;
 use crate::plan::{CaseResult, CaseSolver, SweepPlan, one_line};
 use crate::sentences;
 use crate::store::SweepStore;
 use crate::summary::{Goal, SweepSummary};
+use crate::table::RowGroup;
 
 /// One of several shares of a sweep's parts. The sizes of the shares differ by at most one part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,16 +65,8 @@ impl SweepTally {
         self.solved + self.refused + self.stored
     }
 
-    /// The tally of a part.
-    fn of(first: u64, rows: &RowGroup) -> SweepTally {
-        let refused = rows.reasons.iter().flatten().count() as u64;
-        let mut verdicts = (first..).zip(&rows.verdicts);
-        let disagreement = verdicts.find(|(_, own)| own.as_deref() == Some("disagree")).map(|(case, _)| case);
-        SweepTally { solved: rows.reasons.len() as u64 - refused, refused, stored: 0, disagreement }
-    }
-
-    fn add(&mut self, part: &SweepTally) {
-        self.solved += part.solved;
+    fn add(&mut self, part: &SweepSummary) {
+        self.solved += part.cases - part.refused;
         self.refused += part.refused;
         self.disagreement = self.disagreement.into_iter().chain(part.disagreement).min();
     }
@@ -84,11 +76,13 @@ impl SweepTally {
 /// After every part, `progress` is called with the numbers of finished cases.
 /// If `progress` returns `Break`, the sweep stops.
 /// If the proof of a case disagrees, the sweep stops after the part of this case; finished parts remain stored.
+/// If the proof of a stored case disagrees, no further case is solved.
 /// Without `shard`, the parts are joined to one table while further parts are solved.
-/// The summary is that of [`SweepSummary::of`] with the goal `goal`; `None` if the table is not complete.
+/// The summary is that of [`SweepSummary::of`] with the goal `goal`. It is `None` unless this call has solved all cases
+/// and joined them.
 ///
 /// # Errors
-/// [`linkage::error::ErrorKind::Io`] if a part or the joined table cannot be written.
+/// [`linkage::error::ErrorKind::Io`] if a part or the joined table cannot be read or written.
 pub fn run(
     plan: &SweepPlan,
     store: &SweepStore,
@@ -99,9 +93,19 @@ pub fn run(
 ) -> Result<(SweepTally, Option<SweepSummary>)> {
     let (stored, open): (Vec<u64>, Vec<u64>) =
         shard.unwrap_or(Shard::WHOLE).parts(plan).partition(|part| store.has(*part));
-    let parts = Parts { plan, store, stored: cases_of(plan, stored.iter().copied()), open, goal };
+    let mut tally = SweepTally { stored: cases_of(plan, stored.iter().copied()), ..SweepTally::default() };
+    if plan.prove_every.is_some() {
+        for part in &stored {
+            let of_part = SweepSummary::read(plan, &store.part(*part), plan.cases_of(*part).start, goal)?;
+            tally.disagreement = tally.disagreement.or(of_part.disagreement);
+        }
+    }
+    if tally.disagreement.is_some() {
+        return Ok((tally, None));
+    }
+    let parts = Parts { plan, store, open, goal };
     if shard.is_some() {
-        return Ok((parts.solve(threads, &mut |tally, _| progress(tally))?, None));
+        return Ok((parts.solve(tally, threads, &mut |tally, _| progress(tally))?, None));
     }
     let (mut outcome, mut summary) = (Ok(SweepTally::default()), None);
     store.fill(plan, |table| {
@@ -111,26 +115,24 @@ pub fn run(
         let mut append = |solved: Option<SolvedPart>| {
             waiting.extend(solved);
             while next < plan.parts() {
-                let part = store.part(next);
-                let summary = match (waiting.remove(&next), stored.binary_search(&next)) {
-                    (Some(summary), _) => summary,
-                    (None, Ok(_)) => SweepSummary::read(plan, &part, all.cases, goal).map_err(io::Error::other)?,
-                    (None, Err(_)) => return Ok(false),
-                };
-                table.append(&part).map_err(io::Error::other)?;
-                all.add(summary, goal);
+                match waiting.remove(&next) {
+                    Some(summary) => all.add(summary, goal),
+                    None if stored.binary_search(&next).is_ok() => {}
+                    None => return Ok(false),
+                }
+                table.append(&store.part(next)).map_err(io::Error::other)?;
                 next += 1;
             }
             Ok::<bool, io::Error>(true)
         };
         let mut broken = None;
-        outcome = parts.solve(threads, &mut |tally, solved| {
+        outcome = parts.solve(tally, threads, &mut |tally, solved| {
             broken = append(solved).err();
             if broken.is_some() { ControlFlow::Break(()) } else { progress(tally) }
         });
         broken.map_or(Ok(()), Err)?;
         let is_whole = outcome.as_ref().is_ok_and(|tally| tally.disagreement.is_none()) && append(None)?;
-        summary = is_whole.then_some(all.finished());
+        summary = (is_whole && stored.is_empty()).then_some(all.finished());
         if is_whole { Ok(()) } else { Err(None) }
     })?;
     Ok((outcome?, summary))
@@ -139,56 +141,50 @@ pub fn run(
 /// A part that was solved, and the summary of its cases.
 type SolvedPart = (u64, SweepSummary);
 
-/// The parts of a run.
+/// The parts of a run that must be solved.
 struct Parts<'a> {
     plan: &'a SweepPlan,
     store: &'a SweepStore,
-    /// Number of cases that an earlier run has stored.
-    stored: u64,
-    /// The parts that must be solved.
     open: Vec<u64>,
     goal: Goal,
 }
 
 impl Parts<'_> {
-    /// Solves and stores the open parts. `progress` is as in [`run`], and also gets each part that was solved.
+    /// Solves and stores the parts, and adds their cases to `tally`. `progress` is as in [`run`], and also gets each
+    /// part that was solved.
     fn solve(
         &self,
+        mut tally: SweepTally,
         threads: usize,
         progress: &mut dyn FnMut(&SweepTally, Option<SolvedPart>) -> ControlFlow<()>,
     ) -> Result<SweepTally> {
         let Parts { plan, store, ref open, goal, .. } = *self;
-        let mut tally = SweepTally { stored: self.stored, ..SweepTally::default() };
         let mut failed = None;
-        // Idle solvers. A thread takes an idle solver for its next part, so each thread reads the scenario file only once.
+        // A thread takes an idle solver for its next part, so each thread reads the scenario file only once.
         let solvers: Mutex<Vec<CaseSolver>> = Mutex::default();
-        let waiting = || solvers.lock().unwrap_or_else(PoisonError::into_inner);
-        let part = |part: u64| {
-            let idle = waiting().pop();
-            let mut solver = idle.map_or_else(|| plan.solver(), Ok)?;
+        let idle = || solvers.lock().unwrap_or_else(PoisonError::into_inner);
+        let solve_part = |part: u64| {
+            let taken = idle().pop();
+            let mut solver = taken.map_or_else(|| plan.solver(), Ok)?;
             let rows = solved(plan, &mut solver, part);
-            waiting().push(solver);
+            idle().push(solver);
             store.write(plan, part, &rows)?;
-            let first = plan.cases_of(part).start;
-            Ok((SweepTally::of(first, &rows), (part, SweepSummary::of_rows(plan, first, &rows, goal))))
+            Ok((part, SweepSummary::of_rows(plan, plan.cases_of(part).start, &rows, goal)))
         };
-        let work = |index: usize, tell: &mut dyn FnMut(Result<(SweepTally, SolvedPart)>)| tell(part(open[index]));
-        side_by_side(open.len(), threads, work, |_, part| {
-            let mut solved = None;
-            match part {
-                Ok((of_part, part)) => {
-                    tally.add(&of_part);
-                    solved = Some(part);
-                }
-                Err(error) => failed = failed.take().or(Some(error)),
+        let work = |index: usize, tell: &mut dyn FnMut(Result<SolvedPart>)| tell(solve_part(open[index]));
+        side_by_side(open.len(), threads, work, |_, found| {
+            let found = found.map_err(|error| failed = failed.take().or(Some(error))).ok();
+            if let Some((_, summary)) = &found {
+                tally.add(summary);
             }
-            let go_on = progress(&tally, solved);
+            let go_on = progress(&tally, found);
             if failed.is_some() || tally.disagreement.is_some() { ControlFlow::Break(()) } else { go_on }
         });
         failed.map_or(Ok(tally), Err)
     }
 }
 
+/// Solves the cases of a part.
 fn solved(plan: &SweepPlan, solver: &mut CaseSolver, part: u64) -> RowGroup {
     let cases = plan.cases_of(part);
     let count = (cases.end - cases.start) as usize;

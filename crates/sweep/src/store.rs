@@ -7,10 +7,9 @@ use std::path::{Path, PathBuf};
 use files::{OutputTarget, put, read_text, replace};
 use linkage::error::{Error, ErrorKind, Result};
 
-use crate::groups::RowGroup;
 use crate::plan::SweepPlan;
 use crate::sentences;
-use crate::table::{self, JoinedTable};
+use crate::table::{self, JoinedTable, RowGroup};
 
 /// Name of the stored plan.
 const PLAN: &str = "sweep.json";

@@ -5,8 +5,9 @@ use std::path::Path;
 
 use linkage::error::Result;
 
-use crate::groups::{RowGroup, SweepGroups};
+use crate::groups::SweepGroups;
 use crate::plan::SweepPlan;
+use crate::table::RowGroup;
 
 /// A solved case.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,9 +59,8 @@ pub type Reasons = BTreeMap<String, (String, u64)>;
 /// Largest number of different reasons that are counted.
 const MOST_REASONS: usize = 100;
 
-/// Counts a reason `count` times. Reasons that differ only in numbers are counted together.
-fn count_reason(reasons: &mut Reasons, reason: &str, count: u64) {
-    let kind: String = reason.chars().filter(|sign| !sign.is_ascii_digit()).collect();
+/// Counts a reason `count` times. Reasons that differ only in numbers have the same `kind`, and are counted together.
+fn count_reason(reasons: &mut Reasons, kind: String, reason: &str, count: u64) {
     if reasons.len() < MOST_REASONS || reasons.contains_key(&kind) {
         reasons.entry(kind).or_insert_with(|| (reason.to_string(), 0)).1 += count;
     }
@@ -75,6 +75,8 @@ pub struct SweepSummary {
     pub refused: u64,
     /// Reasons of refusals.
     pub reasons: Reasons,
+    /// Index of the first case whose proof disagrees.
+    pub disagreement: Option<u64>,
     /// Number of proven cases for each verdict.
     pub verdicts: BTreeMap<String, u64>,
     /// Statistics of every figure; `None` if the figure exists in no case.
@@ -115,6 +117,7 @@ impl SweepSummary {
             cases: 0,
             refused: 0,
             reasons: BTreeMap::new(),
+            disagreement: None,
             verdicts: BTreeMap::new(),
             figures: vec![None; plan.figures.len()],
             best: Vec::new(),
@@ -130,29 +133,34 @@ impl SweepSummary {
         summary.figures = rows.figures.iter().map(|column| FigureSpread::of(column, first)).collect();
         for reason in rows.reasons.iter().flatten() {
             summary.refused += 1;
-            count_reason(&mut summary.reasons, reason, 1);
+            let kind = reason.chars().filter(|sign| !sign.is_ascii_digit()).collect();
+            count_reason(&mut summary.reasons, kind, reason, 1);
         }
-        for verdict in rows.verdicts.iter().flatten() {
+        for (case, verdict) in (first..).zip(&rows.verdicts) {
+            let Some(verdict) = verdict else { continue };
             *summary.verdicts.entry(verdict.clone()).or_default() += 1;
+            if verdict == "disagree" {
+                summary.disagreement = summary.disagreement.or(Some(case));
+            }
         }
         // The rank of the worst of the best cases so far.
         let mut last = f64::INFINITY;
         for (row, case) in (0..rows.reasons.len()).zip(first..) {
-            let of = |row: usize| SweepRow {
+            let this = || SweepRow {
                 case,
                 values: rows.values.iter().map(|column| column[row]).collect(),
                 figures: rows.figures.iter().map(|column| column[row]).collect(),
             };
             let is_solved = || rows.reasons[row].is_none();
             if case.is_multiple_of(every) && is_solved() {
-                summary.sample.push(of(row));
+                summary.sample.push(this());
             }
             let rank = goal.rank(rows.figures[goal.figure][row]);
             if (rank < last || summary.best.len() < BEST) && !rank.is_nan() && is_solved() {
                 let at = summary.best.partition_point(|own| goal.rank(own.figures[goal.figure]) <= rank);
-                summary.best.insert(at, of(row));
+                summary.best.insert(at, this());
                 summary.best.truncate(BEST);
-                last = summary.best.last().map_or(last, |own| goal.rank(own.figures[goal.figure]));
+                last = goal.rank(summary.best[summary.best.len() - 1].figures[goal.figure]);
             }
         }
         summary
@@ -162,8 +170,9 @@ impl SweepSummary {
     pub(crate) fn add(&mut self, next: SweepSummary, goal: Goal) {
         self.cases += next.cases;
         self.refused += next.refused;
-        for (reason, count) in next.reasons.into_values() {
-            count_reason(&mut self.reasons, &reason, count);
+        self.disagreement = self.disagreement.or(next.disagreement);
+        for (kind, (reason, count)) in next.reasons {
+            count_reason(&mut self.reasons, kind, &reason, count);
         }
         for (verdict, count) in next.verdicts {
             *self.verdicts.entry(verdict).or_default() += count;
@@ -208,9 +217,8 @@ impl FigureSpread {
         Some(FigureSpread { count, least, most, mean, deviation })
     }
 
-    /// The statistics of two columns. The sums of squares about the joint mean follow from those about the two means,
-    /// as
-    /// moments of inertia about another axis do (Steiner's theorem).
+    /// The statistics of two columns. The sums of squares about the joint mean follow from those about the two means by
+    /// Steiner's theorem.
     fn joined(one: Option<FigureSpread>, other: Option<FigureSpread>) -> Option<FigureSpread> {
         let (Some(one), Some(other)) = (one, other) else { return one.or(other) };
         let count = one.count + other.count;

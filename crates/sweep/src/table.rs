@@ -28,12 +28,27 @@ use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::types::{ColumnPath, Type, TypePtr};
 
 use crate::design::DesignKind;
-use crate::groups::RowGroup;
 use crate::plan::SweepPlan;
+
+/// Rows of the table, column by column.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RowGroup {
+    /// Values of the varied numbers, by axis.
+    pub values: Vec<Vec<f64>>,
+    /// Values of the figures: one list for each figure, with one value for each case. NaN if the figure does not exist
+    /// in that case.
+    pub figures: Vec<Vec<f64>>,
+    /// Why a case was refused; `None` for a solved case.
+    pub reasons: Vec<Option<String>>,
+    /// Verdict of the proof of each case, if the case is proven. The list is empty if the sweep proves no case.
+    pub verdicts: Vec<Option<String>>,
+}
 
 /// Number of appended bytes after which the program waits until the storage device has stored the joined table. The
 /// wait after the last part is then short.
 const SYNCED: u64 = 2 << 20;
+/// Capacity of the buffer of a table that is written (bytes). The pages of most columns are smaller.
+const BUFFERED: usize = 1 << 18;
 
 /// State of a solved case.
 pub const SOLVED: &str = "solved";
@@ -145,14 +160,11 @@ pub(crate) fn write(plan: &SweepPlan, first: u64, rows: &RowGroup, to: &File) ->
     Ok(writer.into_inner()?.flush()?)
 }
 
-/// Capacity of the buffer of a table that is written (bytes). The pages of most columns are smaller.
-const BUFFERED: usize = 1 << 18;
-
 /// The joined table while the tables of the parts are appended to it.
 pub(crate) struct JoinedTable<'f> {
     file: &'f File,
     writer: SerializedFileWriter<BufWriter<&'f File>>,
-    /// Bytes that the storage device may not have stored yet.
+    /// Roughly the number of bytes that the storage device may not have stored yet.
     unsynced: u64,
 }
 
@@ -165,11 +177,12 @@ impl<'f> JoinedTable<'f> {
 
     /// Appends the table of a part without decoding it.
     pub(crate) fn append(&mut self, part: &Path) -> Result<(), ParquetError> {
+        let named = |error: &dyn std::fmt::Display| ParquetError::General(format!("{}: {error}", part.display()));
         // The part is read at once. Parquet would read each of its columns with several calls of the system.
         let mut bytes = Vec::new();
-        File::open(part)?.read_to_end(&mut bytes)?;
+        File::open(part).and_then(|mut file| file.read_to_end(&mut bytes)).map_err(|error| named(&error))?;
         let bytes = Bytes::from(bytes);
-        let reader = SerializedFileReader::new(bytes.clone())?;
+        let reader = SerializedFileReader::new(bytes.clone()).map_err(|error| named(&error))?;
         for group in reader.metadata().row_groups() {
             let mut out = self.writer.next_row_group()?;
             for metadata in group.columns() {

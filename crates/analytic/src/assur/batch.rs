@@ -190,13 +190,14 @@ struct Tiles<'a, 'c, const CHAINS: bool> {
 /// Writes the input of one tile: directions, angular velocities and angular accelerations of the driving links.
 /// `cranks` are the crank angles of the tile.
 #[inline(always)]
-fn drive(case: &Case, groups: &Groups, asked: Asked, cranks: &[f64; TILE], rows: usize, tile: &mut [f64]) {
+fn drive(case: &Case, groups: &Groups, asked: Asked, cranks: &[f64], tile: &mut [f64]) {
     for (index, (drive, driver)) in case.drives.iter().zip(&groups.drivers).enumerate() {
         driver.fix(tile, asked.omega, asked.alpha);
-        let (_, columns) = tile.split_at_mut(driver.body.link * TILE);
-        let mut angles = cranks.map(|crank| case.crank().coordinate(crank));
-        if index > 0 {
-            for (row, &crank) in cranks[..rows].iter().enumerate() {
+        let columns = &mut tile[driver.body.link * TILE..];
+        let mut angles = [0.0; TILE];
+        for (row, &crank) in cranks.iter().enumerate() {
+            angles[row] = case.crank().coordinate(crank);
+            if index > 0 {
                 let t = case.crank().time_of(crank);
                 angles[row] = drive.coordinate(drive.at(t).value);
                 let ratio = case.drives.ratios(t).nth(index).expect("every drive has a ratio");
@@ -205,11 +206,11 @@ fn drive(case: &Case, groups: &Groups, asked: Asked, cranks: &[f64; TILE], rows:
             }
         }
         let (cos, sin) = columns[DIRECTION * TILE..][..2 * TILE].split_at_mut(TILE);
-        units(&angles[..rows], cos, sin);
+        units(&angles[..cranks.len()], cos, sin);
     }
 }
 
-/// Writes cosines and sines of angles (rad), up to a multiple of eight.
+/// Writes cosines and sines of angles (rad), in groups of eight. The last group repeats the last angle.
 #[inline(always)]
 fn units(angles: &[f64], cos: &mut [f64], sin: &mut [f64]) {
     let (cosines, _) = cos.as_chunks_mut();
@@ -233,15 +234,11 @@ impl<const CHAINS: bool> WithSimd for Tiles<'_, '_, CHAINS> {
     fn with_simd<S: Simd>(self, on: S) {
         let Tiles { case, groups, anchors, asked, work, out } = self;
         for (cranks, tile) in asked.cranks.chunks(TILE).zip(out.tiles()) {
-            // Unused rows repeat the last crank angle.
-            let rows = cranks.len();
-            let mut own = [cranks[rows - 1]; TILE];
-            own[..rows].copy_from_slice(cranks);
-            drive(case, groups, asked, &own, rows, tile);
+            drive(case, groups, asked, cranks, tile);
             if let Some(anchors) = anchors {
-                anchors.fill(&own[..rows.next_multiple_of(S::F64_LANES)], groups, work);
+                anchors.fill(cranks, groups, work);
             }
-            let (tile, work) = (Tile::of(on, tile, rows), Tile::of(on, work, rows));
+            let (tile, work) = (Tile::of(on, tile, cranks.len()), Tile::of(on, work, cranks.len()));
             groups.move_links::<S, CHAINS>(asked.deepest, Reach, tile, work);
             if asked.deepest >= Stage::Reactions {
                 groups.load_joints::<S, CHAINS>(tile, work);
@@ -339,11 +336,17 @@ mod tests {
             let mut tallies = [
                 PoseTally::of(PoseQuantity::Force(JointId(2)), 1.0, Tally::Column(Vec::new())),
                 PoseTally::of(PoseQuantity::Torque(0), 1e-3, Tally::Range([LanePeak::NONE; 2])),
-                PoseTally::of(PoseQuantity::Angle(LinkId(3)), 1.0, Tally::Rms(weights)),
+                PoseTally::of(PoseQuantity::Angle(LinkId(3)), 1.0, Tally::Rms(weights.clone())),
                 PoseTally::of(PoseQuantity::Alpha(LinkId(2)), 1.0, Tally::At(170, f64::NAN)),
+                PoseTally::of(PoseQuantity::ForceSquare(JointId(1)), 1.0, Tally::Max(LanePeak::NONE)),
+                PoseTally::of(PoseQuantity::Omega(LinkId(2)), 1.0, Tally::Mean(weights)),
             ];
+            tallies[4].want_rows();
             assert!(batch.solve(Stage::BalancingMoment, &mut tallies));
-            tallies.map(|own| format!("{:?}", own.tally))
+            // Values of all columns in full, and rows of the extreme.
+            let rows = tallies[4].tally.rows();
+            let columns = tallies[0].tally.clone();
+            (tallies.map(|own| own.tally.value().to_bits()), rows, columns)
         };
         let found: Vec<_> = widths().into_iter().map(solve).collect();
         assert!(found.iter().all(|own| *own == found[0]));

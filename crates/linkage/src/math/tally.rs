@@ -128,13 +128,6 @@ impl Tally {
         }
     }
 
-    /// Shortens a column to its first `rows` values.
-    pub fn truncate(&mut self, rows: usize) {
-        if let Tally::Column(values) = self {
-            values.truncate(rows);
-        }
-    }
-
     /// The value of the statistic. For a column, the last value of the column.
     #[must_use]
     pub fn value(&self) -> f64 {

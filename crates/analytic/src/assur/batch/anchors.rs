@@ -83,14 +83,14 @@ impl<'a> Anchors<'a> {
             for (chain, first) in groups.chains() {
                 for index in 0..chain.links().len() {
                     let columns = &mut work[(first + OF_START * index) * TILE..][..OF_START * TILE];
-                    let mut columns = columns.chunks_exact_mut(TILE).map(|column| &mut column[row]);
+                    let columns = columns.chunks_exact_mut(TILE).map(|column| &mut column[row]);
                     let Some(kept) = of_links.as_mut().and_then(Iterator::next) else {
                         columns.for_each(|value| *value = f64::NAN);
                         continue;
                     };
                     let fraction = place - interval as f64;
                     let values = [kept[0], kept[1], fraction].into_iter().chain(kept[2..].iter().copied());
-                    columns.by_ref().zip(values).for_each(|(column, value)| *column = value);
+                    columns.zip(values).for_each(|(column, value)| *column = value);
                 }
             }
         }

@@ -6,12 +6,12 @@ use linkage::drive::Load;
 use linkage::math::Vec2;
 use linkage::mechanism::{Joint, JointId, LinkId, Mechanism};
 
-/// Action of a joint on one of its links: the joint's reaction with the sign of `sign`, applied at `place` in the link's
-/// frame.
+/// Action of a joint on one of its links: the joint's reaction with the sign of `sign`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Action {
     /// Column of the reaction.
     pub(super) force: usize,
+    /// Point of action, in the link's frame.
     pub(super) place: Vec2,
     /// Zero with a sign.
     pub(super) sign: f64,

@@ -8,7 +8,8 @@
 use super::bodies::Body;
 use super::groups::{Arm, Driver, Dyad, Groups, OF_DYAD, Part};
 use super::lanes::{Columns, Lanes, Plane, TILE, Tile, Window};
-use super::poses::{ACCELERATION, ALPHA, DIRECTION, LinkColumns, LinkMotion, OMEGA, ORIGIN, VELOCITY};
+use super::poses::{ACCELERATION, ALPHA, LinkColumns, LinkMotion, OMEGA, ORIGIN, VELOCITY};
+use crate::assur::groups::SINGULAR;
 use linkage::case::STANDSTILL;
 use linkage::math::Vec2;
 use linkage::trajectory::Stage;
@@ -27,8 +28,8 @@ pub(super) fn swung<S: Simd>(v: Plane<S>, omega: Lanes<S>, alpha: Lanes<S>) -> P
 impl Groups {
     /// Computes the motion of all links up to the stage `deepest`.
     /// Directions and rates of the driving links must already be in their columns.
-    /// The column [`Layout::reach`](super::poses::Layout::reach) becomes the sum of `check` over the dyads; NaN as soon
-    /// as one group cannot be assembled.
+    /// The column [`Layout::reach`](super::poses::Layout::reach) becomes 0, or NaN for poses in which a group fails its
+    /// check.
     ///
     /// Every step runs over all poses of the tile before the next step begins, so that the processor can work at
     /// several poses while it waits for a square root or a division.
@@ -48,8 +49,8 @@ impl Groups {
         for driver in &self.drivers {
             driver.turn(deepest, tile);
         }
-        for (part, first) in &self.parts {
-            match part {
+        for (group, first) in &self.parts {
+            match group {
                 Part::Dyad(dyad) => {
                     let work = work.columns.adjacent::<OF_DYAD>(*first);
                     dyad.move_links(deepest, check, tile, work, reach);
@@ -86,8 +87,8 @@ impl Groups {
     /// links. Cases with higher groups need `CHAINS`.
     #[inline(always)]
     pub(super) fn load_joints<S: Simd, const CHAINS: bool>(&self, tile: Tile<S>, work: Tile<S>) {
-        for (part, first) in self.parts.iter().rev() {
-            match part {
+        for (group, first) in self.parts.iter().rev() {
+            match group {
                 Part::Dyad(dyad) => {
                     dyad.hold(self.gravity, tile, work.columns.adjacent::<OF_DYAD>(*first));
                 }
@@ -105,7 +106,7 @@ impl Groups {
             let torque = tile.columns.column(self.layout.torque(index));
             for part in tile.parts() {
                 let link = link.get(part);
-                let pole = driver.pole(&link);
+                let pole = link.point(driver.reaction.place);
                 let (force, moment) = driver.body.resultant(self.gravity, pole, &link, tile.window(part));
                 reaction.put_vector(0, part, force.signed(-driver.reaction.sign));
                 torque.put(0, part, -moment);
@@ -148,15 +149,6 @@ impl Driver {
             link.velocity = arm.turned() * link.omega;
             link.acceleration = swung(arm, link.omega, link.alpha);
             columns.put(deepest, part, &link);
-        }
-    }
-
-    /// World position of the joint on the ground.
-    #[inline(always)]
-    fn pole<S: Simd>(&self, link: &LinkMotion<S>) -> Plane<S> {
-        match self.is_plain() {
-            true => link.origin,
-            false => link.origin + link.direction.rotate(self.reaction.place),
         }
     }
 }
@@ -260,18 +252,19 @@ impl<S: Simd> DyadPose<S> {
 
 /// A check of every dyad in every pose.
 pub(super) trait DyadCheck: Copy {
-    /// NaN for poses that cannot be assembled. `omega` are the angular velocities of the dyad's links (rad/s).
+    /// 0, or NaN for poses that fail the check. `omega` are the angular velocities of the dyad's links (rad/s).
     fn of<S: Simd>(self, dyad: &Dyad, pose: &DyadPose<S>, omega: [Lanes<S>; 2]) -> Lanes<S>;
 }
 
-/// Only whether the dyad can be assembled.
+/// Only whether the dyad can be assembled, and is not singular.
 #[derive(Clone, Copy)]
 pub(super) struct Reach;
 
 impl DyadCheck for Reach {
     #[inline(always)]
-    fn of<S: Simd>(self, _: &Dyad, pose: &DyadPose<S>, _: [Lanes<S>; 2]) -> Lanes<S> {
-        pose.product
+    fn of<S: Simd>(self, dyad: &Dyad, pose: &DyadPose<S>, [w1, _]: [Lanes<S>; 2]) -> Lanes<S> {
+        let (regular, singular) = (Lanes::splat(w1.on, 0.0), Lanes::splat(w1.on, f64::NAN));
+        pose.product.abs().exceeds(Lanes::splat(w1.on, SINGULAR * dyad.product)).of(regular, singular)
     }
 }
 
@@ -409,12 +402,6 @@ impl Dyad {
 }
 
 impl Body {
-    /// World position of a point of the link.
-    #[inline(always)]
-    pub(super) fn point<S: Simd>(&self, local: Vec2, tile: Window<S>) -> Plane<S> {
-        tile.vector(self.link + ORIGIN) + tile.vector(self.link + DIRECTION).rotate(local)
-    }
-
     /// Returns the resultant of all known forces on the link and their moment about the world point `pole`.
     /// `link` is the motion of the link.
     /// The operations and their order are the same as in the module `assur::forces`.
@@ -441,8 +428,7 @@ impl Body {
         for action in &self.hanging {
             let hung = tile.vector(action.force).signed(action.sign);
             force = force + hung;
-            let place = if action.place == Vec2::zeros() { origin } else { origin + direction.rotate(action.place) };
-            moment = moment + (place - pole).cross(hung);
+            moment = moment + (link.point(action.place) - pole).cross(hung);
         }
         (force, moment)
     }

@@ -9,8 +9,8 @@ use std::ops::{Add, Deref, DerefMut, Div, Mul, Neg, Range, Sub};
 use linkage::math::Vec2;
 use pulp::Simd;
 
-/// Number of poses in a tile, whose values of a column are adjacent in memory. All columns of a tile stay in the fastest
-/// cache.
+/// Number of poses in a tile, whose values of a column are adjacent in memory.
+/// All columns of a tile stay in the fastest cache.
 pub(super) const TILE: usize = 64;
 
 /// One column of a tile.
@@ -232,7 +232,7 @@ impl<'a, S: Simd> Columns<'a, S> {
         Columns { on, cells: Cell::from_mut(S::as_mut_simd_f64s(numbers).0).as_slice_of_cells() }
     }
 
-    /// `COUNT` columns, beginning with the column `first`. The limits are checked here, once for all registers of the columns.
+    /// `COUNT` columns, beginning with the column `first`. The limits are checked here, once for all registers.
     #[inline(always)]
     pub(super) fn adjacent<const COUNT: usize>(self, first: usize) -> Self {
         Columns { cells: &self.cells[first * Self::PARTS..][..COUNT * Self::PARTS], ..self }
@@ -286,6 +286,7 @@ impl<'a, S: Simd> Tile<'a, S> {
     /// The parts of the tile. Each part fills a register.
     #[inline(always)]
     pub(super) fn parts(self) -> Range<usize> {
+        // With this limit, the compiler removes the checks of indices.
         0..self.parts.min(Columns::<S>::PARTS)
     }
 
@@ -331,7 +332,9 @@ impl<S: Simd> Window<'_, S> {
 #[derive(Debug, Default)]
 pub(super) struct AlignedNumbers {
     numbers: Vec<f64>,
+    /// Index of the first number at a cache line.
     first: usize,
+    /// Number of numbers.
     count: usize,
 }
 
@@ -343,7 +346,7 @@ impl AlignedNumbers {
         AlignedNumbers { numbers, first, count }
     }
 
-    /// Keeps the first `count` numbers. If there are fewer, all become zeros.
+    /// Changes the number of numbers. Their values have no meaning afterwards.
     pub(super) fn resize(&mut self, count: usize) {
         match count + 8 <= self.numbers.len() {
             true => self.count = count,

@@ -10,7 +10,7 @@ use pulp::{Arch, Simd, WithSimd};
 use super::STEP;
 use super::equations::Clearance;
 use super::groups::Groups;
-use super::lanes::{AlignedNumbers, Columns, TILE, Tile, TileColumn};
+use super::lanes::{AlignedNumbers, Lanes, TILE, Tile, TileColumn};
 use super::poses::{DIRECTION, Layout};
 use super::tally::PoseTally;
 use crate::assur::groups::SolutionPlan;
@@ -162,10 +162,10 @@ struct AllTiles<'a> {
 }
 
 impl CaseBatch {
-    /// Solves the tile number `crank` of the grid (`None`: the start pose). `doubt` becomes NaN where a dead point may
-    /// be near, or the direction of a resistance is uncertain.
+    /// Solves the tile number `crank` of the grid (`None`: the start pose). Returns NaN where a dead point may be near, or
+    /// the direction of a resistance is uncertain; 0 elsewhere.
     #[inline(always)]
-    fn solve_tile<S: Simd>(&mut self, on: S, deepest: Stage, crank: Option<usize>, doubt: &mut TileColumn) {
+    fn solve_tile<S: Simd>(&mut self, on: S, deepest: Stage, crank: Option<usize>) -> Lanes<S> {
         let CaseBatch { groups, cranks, start, pace, tile, work, layout, .. } = self;
         let crank = crank.map_or(&*start, |index| &cranks[index]);
         let direction = (groups.drivers[0].body.link + DIRECTION) * TILE;
@@ -178,17 +178,17 @@ impl CaseBatch {
         if deepest >= Stage::Reactions {
             groups.load_joints::<S, false>(tile, work);
         }
-        let (doubt, reach) = (Columns::of(on, &mut doubt.0), tile.columns.column(layout.reach()));
-        let mut sum = doubt.get(0, 0);
+        let reach = tile.columns.column(layout.reach());
+        let mut doubt = Lanes::splat(on, 0.0);
         for part in tile.parts() {
-            sum = sum + reach.get(0, part);
+            doubt = doubt + reach.get(0, part);
         }
         if deepest >= Stage::Reactions && groups.is_resisted {
             for part in tile.parts() {
-                sum = sum + groups.standstill(tile.window(part));
+                doubt = doubt + groups.standstill(tile.window(part));
             }
         }
-        doubt.put(0, 0, sum);
+        doubt
     }
 }
 
@@ -198,25 +198,23 @@ impl WithSimd for AllTiles<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, on: S) -> bool {
         let AllTiles { batch, deepest, tallies } = self;
-        let mut doubt = TileColumn([0.0; TILE]);
         if tallies.iter().any(PoseTally::needs_start) {
-            batch.solve_tile(on, Stage::Positions, None, &mut TileColumn([0.0; TILE]));
+            batch.solve_tile(on, Stage::Positions, None);
             if !(batch.is_ascending && tallies.iter_mut().all(|own| own.begin(&batch.tile))) {
                 return false;
             }
         }
         // The check for dead points needs velocities.
         let deepest = if deepest < Stage::Velocities { Stage::Velocities } else { deepest };
+        let mut doubt = Lanes::splat(on, 0.0);
         for index in 0..batch.cranks.len() {
-            batch.solve_tile(on, deepest, Some(index), &mut doubt);
+            doubt = doubt + batch.solve_tile(on, deepest, Some(index));
             let crank = &batch.cranks[index];
             let rows = index * TILE..index * TILE + crank.rows;
             for own in &mut *tallies {
                 own.add(on, rows.clone(), &crank.angles, &mut batch.tile, &mut batch.values);
             }
         }
-        let rows = batch.case.grid.len();
-        tallies.iter_mut().for_each(|own| own.tally.truncate(rows));
-        doubt.0.iter().all(|lane| *lane == 0.0) && tallies.iter().all(PoseTally::is_finite)
+        (0..S::F64_LANES).all(|lane| doubt.number(lane) == 0.0) && tallies.iter().all(PoseTally::is_finite)
     }
 }

@@ -54,7 +54,7 @@ impl Layout {
         self.force(JointId(self.joints)) + drive
     }
 
-    /// Column that is NaN if the pose cannot be assembled.
+    /// Column that is 0, or NaN if a group fails its check.
     #[inline(always)]
     pub(super) fn reach(&self) -> usize {
         self.torque(self.drives)
@@ -228,6 +228,12 @@ pub(super) struct LinkMotion<S: Simd> {
 }
 
 impl<S: Simd> LinkMotion<S> {
+    /// World position of a point of the link.
+    #[inline(always)]
+    pub(super) fn point(&self, local: Vec2) -> Plane<S> {
+        if local == Vec2::zeros() { self.origin } else { self.origin + self.direction.rotate(local) }
+    }
+
     /// Position, velocity and acceleration of the tip of `arm`, a vector from the link's origin in world axes.
     #[inline(always)]
     pub(super) fn at(&self, arm: Plane<S>) -> [Plane<S>; 3] {

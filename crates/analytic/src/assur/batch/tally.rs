@@ -13,15 +13,8 @@ use linkage::mechanism::{GroupId, JointId, LinkId};
 use linkage::trajectory::OfPoint;
 use pulp::Simd;
 
-/// The rows of the lanes of an extreme, counted from the first lane.
-const COUNT: [f64; LANES] = {
-    let (mut count, mut row) = ([0.0; LANES], 0);
-    while row < LANES {
-        count[row] = row as f64;
-        row += 1;
-    }
-    count
-};
+/// The number of each lane.
+const COUNT: [f64; LANES] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
 
 /// A quantity of every pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -194,7 +187,7 @@ impl PoseTally {
             *values = *angles;
         }
         let (tile, values) = (Tile::of(on, tile, rows.len()), Columns::of(on, &mut values.0));
-        let unit = self.unit;
+        let (unit, parts) = (self.unit, tile.parts().end);
         // Writes the values of all rows. A closure would not be vectorised.
         macro_rules! each {
             (|$part:ident| $value:expr) => {
@@ -205,7 +198,7 @@ impl PoseTally {
         }
         match self.reading {
             Reading::Column(column) if unit == 1.0 => {
-                return self.count(rows, First(tile.columns.column(column)));
+                return self.count(on, rows, parts, OneColumn(tile.columns.column(column)));
             }
             Reading::Column(column) => {
                 let column = tile.columns.column(column);
@@ -219,10 +212,10 @@ impl PoseTally {
                 });
             }
             Reading::Square(column) if unit == 1.0 => {
-                return self.count(rows, Square(tile.columns.adjacent::<2>(column)));
+                return self.count(on, rows, parts, Squares(tile.columns.adjacent::<2>(column)));
             }
             Reading::Square(column) => {
-                let square = Square(tile.columns.adjacent::<2>(column));
+                let square = Squares(tile.columns.adjacent::<2>(column));
                 each!(|part| square.at(part));
             }
             Reading::Point(first, local, reading) => {
@@ -256,16 +249,15 @@ impl PoseTally {
         if unit != 1.0 {
             each!(|part| values.get(0, part) / unit);
         }
-        self.count(rows, First(values.column(0)));
+        self.count(on, rows, parts, OneColumn(values.column(0)));
     }
 
-    /// [`Tally::add`] for the rows of a tile.
+    /// [`Tally::add`] for the rows of a tile, which take `parts` registers.
     #[inline(always)]
-    fn count<S: Simd>(&mut self, rows: Range<usize>, values: impl PoseValues<S>) {
-        let (on, row, has_rows) = (values.on(), rows.start, self.has_rows);
-        let parts = rows.len().div_ceil(S::F64_LANES).min(Columns::<S>::PARTS);
+    fn count<S: Simd>(&mut self, on: S, rows: Range<usize>, parts: usize, values: impl PoseValues<S>) {
+        let (row, has_rows) = (rows.start, self.has_rows);
         let number = |row: usize| values.at(row / S::F64_LANES).number(row % S::F64_LANES);
-        // Adds an expression of the values to sums, lane by lane. A closure would not be vectorised.
+        // Adds an expression of the values to sums, lane by lane.
         macro_rules! sum {
             ($sums:expr, |$part:ident| $summand:expr) => {
                 let lanes = LANES / S::F64_LANES;
@@ -316,38 +308,26 @@ impl PoseTally {
 
 /// The values of a quantity in the poses of a tile.
 trait PoseValues<S: Simd>: Copy {
-    fn on(self) -> S;
-
     /// The values in the poses `part`.
     fn at(self, part: usize) -> Lanes<S>;
 }
 
 /// The values of a column.
 #[derive(Clone, Copy)]
-struct First<'a, S: Simd>(Columns<'a, S>);
+struct OneColumn<'a, S: Simd>(Columns<'a, S>);
 
 /// The squares of the vectors in two columns.
 #[derive(Clone, Copy)]
-struct Square<'a, S: Simd>(Columns<'a, S>);
+struct Squares<'a, S: Simd>(Columns<'a, S>);
 
-impl<S: Simd> PoseValues<S> for First<'_, S> {
-    #[inline(always)]
-    fn on(self) -> S {
-        self.0.on
-    }
-
+impl<S: Simd> PoseValues<S> for OneColumn<'_, S> {
     #[inline(always)]
     fn at(self, part: usize) -> Lanes<S> {
         self.0.get(0, part)
     }
 }
 
-impl<S: Simd> PoseValues<S> for Square<'_, S> {
-    #[inline(always)]
-    fn on(self) -> S {
-        self.0.on
-    }
-
+impl<S: Simd> PoseValues<S> for Squares<'_, S> {
     #[inline(always)]
     fn at(self, part: usize) -> Lanes<S> {
         let vector = self.0.vector(0, part);
@@ -400,7 +380,7 @@ fn raise<S: Simd, Of: Score, V: PoseValues<S>>(
     parts: usize,
     values: V,
 ) {
-    let on = values.on();
+    let on = fault.on;
     let lanes = LANES / S::F64_LANES;
     let (scores, rows) = (Columns::of(on, &mut peak.scores), Columns::of(on, &mut peak.rows));
     for lane in 0..lanes {

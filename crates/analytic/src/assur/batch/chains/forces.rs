@@ -22,8 +22,8 @@ impl Chain {
         let (zero, none) = (Lanes::splat(tile.on, 0.0), Plane::splat(tile.on, Vec2::zeros()));
         let (mut forces, mut moments) = ([none; N], [zero; N]);
         for (index, node) in self.nodes.iter().enumerate() {
-            let pole = node.body.point(node.own, tile);
-            (forces[index], moments[index]) = node.body.resultant(gravity, pole, &tile.link(node.body.link), tile);
+            let link = tile.link(node.body.link);
+            (forces[index], moments[index]) = node.body.resultant(gravity, link.point(node.own), &link, tile);
         }
         self.gather(&mut forces);
         // Adds the moments of the forces at the arrows' ends. Each moment is about the pole of the link that carries
