@@ -136,7 +136,7 @@ pub(super) fn named(path: &Path) -> &Path {
 }
 
 /// The text of a file, or of standard input, which is read once.
-fn text(file: &Path) -> Result<Cow<'static, str>> {
+pub(super) fn text(file: &Path) -> Result<Cow<'static, str>> {
     if !is_standard_input(file) {
         return text_of(file).map(Cow::Owned);
     }

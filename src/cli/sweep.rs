@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use super::exit_code::{AGREE, DISAGREE};
-use super::load::{each_once, setting};
+use super::load::{each_once, named, setting, text};
 use super::number;
 use super::output;
 use super::outputs::{Outputs, results};
@@ -15,7 +15,6 @@ use crate::report::sweep as report;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::threads::cores;
 use scenario::Scenario;
-use scenario::source::text_of;
 use sweep::{DesignKind, Goal, Shard, SweepAxis, SweepDesign, SweepPlan, SweepStore, SweepSummary, run};
 
 #[derive(Debug, clap::Args)]
@@ -114,7 +113,7 @@ impl Args {
             return Err(error.help(sentences::VARY_OR_SET));
         }
         each_once(&self.set, "--set")?;
-        let file = (text_of(&self.file)?, self.file.as_path());
+        let file = (text(&self.file)?.into_owned(), named(&self.file));
         SweepPlan::of(file, self.set.clone(), design, &self.figure, self.prove, self.part)
     }
 }
@@ -176,7 +175,12 @@ pub(super) fn disagreement(plan: &SweepPlan, case: u64) -> String {
 
 /// The file of the scenario. A stored plan, as read by `merge`, has no path of the scenario.
 fn file(plan: &SweepPlan) -> String {
-    let path = if plan.path.as_os_str().is_empty() { Path::new("FILE") } else { &plan.path };
+    let standard = Path::new("-");
+    let path = match plan.path.as_path() {
+        path if path.as_os_str().is_empty() => Path::new("FILE"),
+        path if path == named(standard) => standard,
+        path => path,
+    };
     output::quoted(&path.to_string_lossy())
 }
 

@@ -33,10 +33,10 @@ pub(crate) fn broken(path: &Path, error: &dyn std::fmt::Display) -> Error {
         .help(sentences::CHOOSE_ANOTHER_DIRECTORY)
 }
 
-/// Where a table is written: at `at`, in place of an earlier table of this program. An empty file is replaced too: it
-/// remains if the computer lost power while the file was written.
+/// Where a table is written: at `at`, in place of an earlier table of this program. A file without content, or with zeros
+/// alone, is replaced too: it remains if the computer lost power while the file was written.
 fn target(at: &Path) -> OutputTarget<'_> {
-    OutputTarget::Made(at, &|bytes| bytes.is_empty() || bytes.starts_with(b"PAR1"))
+    OutputTarget::Made(at, &|bytes| bytes.starts_with(b"PAR1") || bytes.iter().all(|byte| *byte == 0))
 }
 
 impl SweepStore {
@@ -76,8 +76,10 @@ impl SweepStore {
             Err(error) => return Err(broken(&at, &error)),
         }
         let parts = store.directory.join(PARTS);
-        if !store.is_complete() {
-            fs::create_dir_all(&parts).map_err(|error| broken(&parts, &error))?;
+        match store.is_complete() {
+            // A run that was killed after joining may have left parts.
+            true => store.remove_parts()?,
+            false => fs::create_dir_all(&parts).map_err(|error| broken(&parts, &error))?,
         }
         Ok(store)
     }
@@ -94,7 +96,8 @@ impl SweepStore {
         Ok((SweepStore { directory: directory.into() }, SweepPlan::of_stored(&text)?))
     }
 
-    /// Joins the shards in some directories to one table in the directory `to`, if it is not there yet.
+    /// Joins the shards in some directories to one table in the directory `to`, if it is not there yet. If one of the
+    /// directories already has the joined table, this table is copied.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] if the directories are of different sweeps. The errors of [`SweepStore::found`],
@@ -109,8 +112,15 @@ impl SweepStore {
         }
         let plan = plans.swap_remove(0);
         let store = SweepStore::open(to, &plan)?;
-        if !store.is_complete() {
-            store.join(&plan, &stores)?;
+        match stores.iter().find(|own| own.is_complete()) {
+            _ if store.is_complete() => {}
+            Some(done) => {
+                let at = store.table();
+                let copy = |mut file: &File| io::copy(&mut File::open(done.table())?, &mut file).map(drop);
+                replace::<io::Error>(&target(&at), copy).map_err(|error| broken(&at, &error))?;
+                store.remove_parts()?;
+            }
+            None => store.join(&plan, &stores)?,
         }
         Ok((store, plan))
     }
@@ -193,11 +203,15 @@ impl SweepStore {
         });
         match filled {
             // Another process of the same sweep was faster, and has removed the parts.
-            Err(Some(_)) if self.is_complete() => return Ok(()),
-            Err(Some(error)) => return Err(broken(&at, &error)),
-            Err(None) => return Ok(()),
-            Ok(()) => {}
+            Err(Some(_)) if self.is_complete() => Ok(()),
+            Err(Some(error)) => Err(broken(&at, &error)),
+            Err(None) => Ok(()),
+            Ok(()) => self.remove_parts(),
         }
+    }
+
+    /// Removes the directory of the parts, if it exists.
+    fn remove_parts(&self) -> Result<()> {
         let own = self.directory.join(PARTS);
         // Another process may still write a part, and then the directory is not empty at the end of its removal.
         let mut removed = fs::remove_dir_all(&own);
