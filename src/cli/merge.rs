@@ -2,10 +2,8 @@
 
 use std::path::PathBuf;
 
-use super::exit_code::{AGREE, DISAGREE};
-use super::output;
 use super::outputs::{Outputs, results};
-use super::sweep::{disagreement, goal, told};
+use super::sweep::{goal, told};
 use linkage::error::Result;
 use sweep::{SweepStore, SweepSummary};
 
@@ -28,8 +26,5 @@ pub(super) fn merge(args: &Args) -> Result<u8> {
     let (store, plan) = SweepStore::merged(&args.directories, to)?;
     let goal = goal(None, &plan)?;
     let summary = SweepSummary::of(&plan, &store.table(), goal)?;
-    told(&plan, &summary, goal, &store)?;
-    let Some(case) = summary.disagreement else { return Ok(AGREE) };
-    output::print(&format!("{}\n", disagreement(&plan, case)))?;
-    Ok(DISAGREE)
+    told(&plan, &summary, goal, &store)
 }

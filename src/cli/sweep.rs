@@ -147,9 +147,8 @@ pub(super) fn sweep(args: &Args) -> Result<u8> {
         })?;
         summary = found;
         drop(bar);
-        if let Some(case) = tally.disagreement {
-            output::print(&format!("{}\n", disagreement(&plan, case)))?;
-            return Ok(DISAGREE);
+        if tally.disagreement.is_some() {
+            return verdict(&plan, tally.disagreement);
         }
         if let Some(shard) = args.shard {
             output::print(&report::of_shard(&tally, shard, directory))?;
@@ -157,20 +156,23 @@ pub(super) fn sweep(args: &Args) -> Result<u8> {
         }
     }
     let summary = summary.map_or_else(|| SweepSummary::of(&plan, &store.table(), goal), Ok)?;
-    told(&plan, &summary, goal, &store)?;
+    let code = told(&plan, &summary, goal, &store)?;
     if args.outputs.of(Sweeps::Html).next().is_some() {
         let (title, drawings) = drawn(&plan, &summary)?;
         let page = report::page(&plan, &summary, goal, &title, &drawings);
         args.outputs.of(Sweeps::Html).try_for_each(|to| output::write(&page, to))?;
     }
-    Ok(AGREE)
+    Ok(code)
 }
 
-/// What is told of a case whose proof disagrees.
-pub(super) fn disagreement(plan: &SweepPlan, case: u64) -> String {
+/// The exit code of a sweep. Names the case whose proof disagrees, if there is one.
+fn verdict(plan: &SweepPlan, disagreement: Option<u64>) -> Result<u8> {
+    let Some(case) = disagreement else { return Ok(AGREE) };
     let mut values = vec![0.0; plan.design.axes().len()];
     plan.design.values(case, &mut values);
-    sentences::the_proof_of_a_case_disagrees(&case, &file(plan), &sets(plan, &values))
+    let message = sentences::the_proof_of_a_case_disagrees(&case, &file(plan), &sets(plan, &values));
+    output::print(&format!("{message}\n"))?;
+    Ok(DISAGREE)
 }
 
 /// The file of the scenario. A stored plan, as read by `merge`, has no path of the scenario.
@@ -190,9 +192,11 @@ fn sets(plan: &SweepPlan, values: &[f64]) -> String {
     set.map(|(key, value)| format!(" --set {key}={value:?}")).collect()
 }
 
-pub(super) fn told(plan: &SweepPlan, summary: &SweepSummary, goal: Goal, store: &SweepStore) -> Result<()> {
+/// Prints the summary of a sweep. Returns the exit code.
+pub(super) fn told(plan: &SweepPlan, summary: &SweepSummary, goal: Goal, store: &SweepStore) -> Result<u8> {
     let next = summary.best.first().map(|row| sentences::repeat_a_case(&file(plan), &sets(plan, &row.values)));
-    output::print(&report::text(plan, summary, goal, &store.table(), &next.unwrap_or_default(), output::width()))
+    output::print(&report::text(plan, summary, goal, &store.table(), &next.unwrap_or_default(), output::width()))?;
+    verdict(plan, summary.disagreement)
 }
 
 /// Title of the scenario, and the drawings of the best cases.

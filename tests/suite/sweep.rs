@@ -290,6 +290,12 @@ fn proofs_are_taken_as_asked_and_stop_the_sweep_if_they_disagree() {
     // The stored case still disagrees when the sweep is continued.
     let again = place.run(&format!("sweep wrong.toml {sweep} -o wrong"));
     assert_eq!((again.code, again.stdout), (1, outcome.stdout));
+    // So does the joined table.
+    for command in ["merge wrong".into(), format!("sweep wrong.toml {sweep} -o wrong")] {
+        let joined = place.run(&command);
+        assert_eq!(joined.code, 1, "{command}: {}", joined.stderr);
+        assert!(joined.stdout.contains("--set crank_mm=30"), "{}", joined.stdout);
+    }
 }
 
 #[test]

@@ -33,8 +33,8 @@ pub(crate) fn broken(path: &Path, error: &dyn std::fmt::Display) -> Error {
         .help(sentences::CHOOSE_ANOTHER_DIRECTORY)
 }
 
-/// Where a table is written: at `at`, in place of an earlier table of this program. A file without content, or with zeros
-/// alone, is replaced too: it remains if the computer lost power while the file was written.
+/// Where a table is written: at `at`, in place of an earlier table of this program.
+/// A file that is empty or holds only zeros is replaced too: it remains if the computer lost power during the writing.
 fn target(at: &Path) -> OutputTarget<'_> {
     OutputTarget::Made(at, &|bytes| bytes.starts_with(b"PAR1") || bytes.iter().all(|byte| *byte == 0))
 }

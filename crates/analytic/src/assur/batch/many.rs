@@ -162,8 +162,8 @@ struct AllTiles<'a> {
 }
 
 impl CaseBatch {
-    /// Solves the tile number `crank` of the grid (`None`: the start pose). Returns NaN where a dead point may be near, or
-    /// the direction of a resistance is uncertain; 0 elsewhere.
+    /// Solves the tile number `crank` of the grid (`None`: the start pose).
+    /// Returns NaN where a dead point may be near, or the direction of a resistance is uncertain; 0 elsewhere.
     #[inline(always)]
     fn solve_tile<S: Simd>(&mut self, on: S, deepest: Stage, crank: Option<usize>) -> Lanes<S> {
         let CaseBatch { groups, cranks, start, pace, tile, work, layout, .. } = self;
