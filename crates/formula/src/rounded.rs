@@ -222,14 +222,17 @@ fn power(a: Rounded, b: Rounded) -> Rounded {
     if is_whole && b.value.abs() <= FACTORS {
         let power = b.value as i32;
         let rounding = WHOLE * (1.0 + b.value.abs());
-        // The error uses the steepest slope. The slope is steepest where the base is largest, or, for a negative
-        // exponent, where the base is smallest.
-        let end = if power >= 0 { a.value.abs() + a.error } else { a.value.abs() - a.error };
-        let slope = if power < 0 && !(end > 0.0) { f64::INFINITY } else { b.value.abs() * end.powi(power - 1) };
         let found = match power {
             2 => Rounded::of(a.value * a.value, a.error * (2.0 * a.value.abs() + a.error), HALF),
             _ if a.error == 0.0 || power == 0 => Rounded::of(a.value.powi(power), 0.0, rounding),
-            _ => Rounded::of(a.value.powi(power), slope * a.error, rounding),
+            _ => {
+                // The error uses the steepest slope. The slope is steepest where the base is largest, or, for a
+                // negative exponent, where the base is smallest.
+                let end = if power >= 0 { a.value.abs() + a.error } else { a.value.abs() - a.error };
+                let is_open = power < 0 && !(end > 0.0);
+                let slope = if is_open { f64::INFINITY } else { b.value.abs() * end.powi(power - 1) };
+                Rounded::of(a.value.powi(power), slope * a.error, rounding)
+            }
         };
         return found.or_tiny(a.value == 0.0);
     }

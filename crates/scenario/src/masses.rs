@@ -55,8 +55,8 @@ pub fn check(mechanism: &Mechanism, drives: &Drives) -> Result<()> {
     }
     let moving = || mechanism.links()[1..].iter().filter(|link| link.mass > 0.0 || link.inertia > 0.0);
     for link in moving().filter(|link| link.mass > 0.0) {
-        let far = link.points.iter().map(|point| (point.local - link.mass_centre).norm());
-        let far = far.fold(f64::INFINITY, f64::smaller);
+        let far = link.points.iter().map(|point| (point.local - link.mass_centre).norm_squared());
+        let far = far.fold(f64::INFINITY, f64::smaller).sqrt();
         if !(far <= FARTHEST * size) {
             let message = sentences::the_mass_centre_of_link_is_away(
                 &link.name,

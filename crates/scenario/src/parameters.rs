@@ -17,7 +17,7 @@ pub struct Parameter {
 }
 
 /// A conversion of units: multiplication by a factor, which is the result for the number 1.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Conversion {
     /// Unit of the given number; `None` if the number is not converted.
     from: Option<&'static NamedUnit>,
@@ -111,6 +111,11 @@ impl Parameters {
         self.places.get(name).map(|&place| &self.list[place])
     }
 
+    /// The index of the parameter that a name denotes.
+    pub(super) fn place(&self, name: &str) -> Option<usize> {
+        self.places.get(name).copied()
+    }
+
     /// Adds a parameter. The names of the parameter must not be in use.
     pub(super) fn push(&mut self, parameter: Parameter) {
         for (name, _) in parameter.names() {
@@ -140,7 +145,7 @@ impl<'t> ParameterGraph<'t> {
         let words: BTreeSet<&str> =
             tree.names().into_iter().map(|(name, _)| name).filter(|name| *name != "pi").collect();
         let words: Vec<&str> = words.into_iter().collect();
-        let named = |word: &&'t str| Some((*parameters.places.get(*word)?, *word));
+        let named = |word: &&'t str| Some((parameters.place(word)?, *word));
         let names = words.iter().map(named).collect::<Option<_>>()?;
         let mut graph = FormulaGraph::new(&words, 0);
         let node = graph.add(tree).ok()?;

@@ -10,55 +10,80 @@ use toml::de::{DeTable, DeValue};
 use super::family::ScenarioFamily;
 use super::keys::key::{Sign, ValueKind};
 use super::numbers::{self, is_path, plain_number};
-use super::parameters::{Conversion, Parameter, ParameterGraph, Parameters};
+use super::parameters::{Conversion, Parameter, Parameters, arithmetic};
 use super::reader::SMALLEST;
 use super::unit::{self, ANGLE, INERTIA, LENGTH, MASS, NamedUnit, UnitFamily};
 use super::{keys, masses};
-use formula::{FormulaTree, NodeShape, Program, Rounded};
+use formula::{FormulaGraph, FormulaTree, Program, Rounded};
 use linkage::case::Case;
 use linkage::math::{Vec2, unit as direction};
 use linkage::mechanism::{Joint, Link, Mechanism};
 
-/// An expression of parameters, for a key with a unit.
-struct Expression {
-    /// For each name in the expression: the index of the parameter, and the conversion to the unit of the key.
+/// Expressions of parameters, for keys with units. The expressions are evaluated together, and common parts only once.
+struct Expressions {
+    /// For each input of the program: the index of the parameter, and the conversion to the unit of the key.
     names: Vec<(usize, Conversion)>,
     inputs: Vec<Rounded>,
-    /// `None` for an expression that is a single name.
-    program: Option<Program>,
+    program: Program,
 }
 
-impl Expression {
-    fn read(text: &str, key: &str, parameters: &Parameters) -> Option<Expression> {
-        let tree = FormulaTree::parse(text).ok()?;
-        let wanted = unit::ending(key).map(|(_, unit)| unit);
-        let ParameterGraph { names, graph, node } = ParameterGraph::of(&tree, parameters)?;
-        let conversion = |(place, name): (usize, &str)| (place, parameters.list()[place].conversion(name, wanted));
-        let names: Vec<_> = names.into_iter().map(conversion).collect();
+impl Expressions {
+    /// Reads texts, each with its key.
+    fn read(texts: &[(String, String)], parameters: &Parameters) -> Option<Expressions> {
+        let trees: Vec<_> = texts.iter().map(|(_, text)| FormulaTree::parse(text).ok()).collect::<Option<_>>()?;
+        let mut names = Vec::new();
+        let mut meanings = Vec::new();
+        for ((key, _), tree) in texts.iter().zip(&trees) {
+            let wanted = unit::ending(key).map(|(_, unit)| unit);
+            let mut meaning = |name| {
+                let place = parameters.place(name)?;
+                let input = (place, parameters.list()[place].conversion(name, wanted));
+                let known = names.iter().position(|own| *own == input);
+                Some((
+                    name,
+                    known.unwrap_or_else(|| {
+                        names.push(input);
+                        names.len() - 1
+                    }),
+                ))
+            };
+            let words = tree.names().into_iter().map(|(name, _)| name).filter(|name| *name != "pi");
+            meanings.push(words.map(&mut meaning).collect::<Option<Vec<_>>>()?);
+        }
+        let mut graph = FormulaGraph::new(&[], names.len());
+        let mut nodes = Vec::new();
+        for (tree, meanings) in trees.iter().zip(meanings) {
+            meanings.into_iter().for_each(|(name, input)| graph.name(name, graph.input(input)));
+            nodes.push(graph.add(tree).ok()?);
+        }
         let inputs = vec![Rounded::exact(0.0); names.len()];
-        let is_name = names.len() == 1 && matches!(tree.shape, NodeShape::Name(_));
-        let program = (!is_name).then(|| Program::of(&graph, &[node]));
-        Some(Expression { names, inputs, program })
+        Some(Expressions { names, inputs, program: Program::of(&graph, &nodes) })
     }
 
-    /// The value; `None` if its rounding error is not finite. The reader refuses such a value.
-    fn value(&mut self, parameters: &[Parameter]) -> Option<f64> {
+    /// The values; `None` if a rounding error is not finite. The reader refuses such a value.
+    fn values(&mut self, parameters: &[Parameter]) -> Option<&[Rounded]> {
         for (input, (place, conversion)) in self.inputs.iter_mut().zip(&self.names) {
             *input = Rounded::exact(conversion.of(parameters[*place].given));
         }
-        let found = match &mut self.program {
-            None => self.inputs[0],
-            Some(program) => program.run(&self.inputs)[0],
-        };
-        found.error.is_finite().then_some(found.value)
+        let found = self.program.run(&self.inputs);
+        found.iter().all(|own| own.error.is_finite()).then_some(found)
     }
 }
 
 /// Where a number comes from, in the unit of its key.
+#[derive(Clone, Copy)]
 enum Origin {
     /// The varied number with this index.
     Varied(usize),
-    Expression(Expression),
+    /// The expression with this index.
+    Expression(usize),
+}
+
+/// The numbers of a case.
+#[derive(Clone, Copy)]
+struct CaseNumbers<'a> {
+    varied: &'a [f64],
+    expressions: &'a [Rounded],
 }
 
 /// A number of a link.
@@ -87,7 +112,10 @@ impl LinkQuantity {
 
 /// A position: coordinates, or the distance and the direction from an earlier point.
 enum PlaceNumbers {
+    Fixed(Vec2),
     Coordinates([LinkNumber; 2]),
+    /// The same distance and direction from the point with this index in all cases.
+    FixedFrom(usize, Vec2),
     From(usize, [LinkNumber; 2]),
 }
 
@@ -114,7 +142,9 @@ pub struct Renumbering {
     /// The varied parameters: index of the parameter, and index of the varied number.
     set: Vec<(usize, usize)>,
     /// Parameters whose expressions depend on varied parameters, with these expressions, in the order of the file.
-    derived: Vec<(usize, Expression)>,
+    derived: Vec<(usize, Expressions)>,
+    /// The expressions of the links.
+    expressions: Expressions,
     links: Vec<LinkNumbers>,
 }
 
@@ -129,6 +159,8 @@ struct Reading<'a> {
     found: usize,
     /// Keys whose texts are not expressions.
     texts: BTreeSet<&'static str>,
+    /// The expressions of the links, each with its key.
+    expressions: Vec<(String, String)>,
 }
 
 /// Keys whose texts may contain names of parameters.
@@ -160,7 +192,8 @@ impl Renumbering {
         member.formulas.parameters.iter().for_each(|own| parameters.push(own.clone()));
         let paths =
             keys.iter().enumerate().filter(|(_, key)| is_path(key)).map(|(at, key)| (key.as_str(), at)).collect();
-        let mut reading = Reading { parameters, moved: BTreeSet::new(), paths, found: 0, texts: texts() };
+        let mut reading =
+            Reading { parameters, moved: BTreeSet::new(), paths, found: 0, texts: texts(), expressions: Vec::new() };
         let mut set = Vec::new();
         for (at, key) in keys.iter().enumerate().filter(|(_, key)| !is_path(key)) {
             set.push((reading.parameters.list().iter().position(|own| own.key == *key)?, at));
@@ -180,7 +213,8 @@ impl Renumbering {
         if is_used || reading.found < reading.paths.len() {
             return None;
         }
-        Some(Renumbering { parameters: reading.parameters.list().to_vec(), set, derived, links })
+        let expressions = Expressions::read(&reading.expressions, &reading.parameters)?;
+        Some(Renumbering { parameters: reading.parameters.list().to_vec(), set, derived, expressions, links })
     }
 
     /// Writes the numbers of links and joints for the varied numbers `values`.
@@ -211,24 +245,24 @@ impl Renumbering {
             self.parameters[*parameter].given = values[*at];
         }
         for (parameter, expression) in &mut self.derived {
-            self.parameters[*parameter].given = expression.value(&self.parameters)?;
+            self.parameters[*parameter].given = expression.values(&self.parameters)?[0].value;
         }
-        let parameters = &self.parameters;
+        let of = CaseNumbers { varied: values, expressions: self.expressions.values(&self.parameters)? };
         for own in &mut self.links {
             let link = &mut links[own.link];
             own.places.clear();
-            for (point, place) in link.points.iter_mut().zip(&mut own.points) {
-                point.local = place.value(&own.places, values, parameters)?;
+            for (point, place) in link.points.iter_mut().zip(&own.points) {
+                point.local = place.value(&own.places, of)?;
                 own.places.push(point.local);
             }
-            if let Some(centre) = &mut own.centre {
-                link.mass_centre = centre.value(&own.places, values, parameters)?;
+            if let Some(centre) = &own.centre {
+                link.mass_centre = centre.value(&own.places, of)?;
             }
-            if let Some(mass) = &mut own.mass {
-                link.mass = mass.value(values, parameters)?;
+            if let Some(mass) = &own.mass {
+                link.mass = mass.value(of)?;
             }
-            if let Some(inertia) = &mut own.inertia {
-                link.inertia = inertia.value(values, parameters)?;
+            if let Some(inertia) = &own.inertia {
+                link.inertia = inertia.value(of)?;
             }
             for &(joint, is_second, point) in &own.joints {
                 let joint = &mut joints[joint];
@@ -241,26 +275,26 @@ impl Renumbering {
 }
 
 impl LinkNumber {
-    fn value(&mut self, values: &[f64], parameters: &[Parameter]) -> Option<f64> {
+    fn value(&self, of: CaseNumbers) -> Option<f64> {
         match self {
             LinkNumber::Fixed(si) => Some(*si),
-            LinkNumber::Changing(Origin::Varied(at), quantity) => quantity.checked(values[*at]),
-            LinkNumber::Changing(Origin::Expression(own), quantity) => quantity.checked(own.value(parameters)?),
+            LinkNumber::Changing(Origin::Varied(at), quantity) => quantity.checked(of.varied[*at]),
+            LinkNumber::Changing(Origin::Expression(at), quantity) => quantity.checked(of.expressions[*at].value),
         }
     }
 }
 
 impl PlaceNumbers {
-    fn value(&mut self, before: &[Vec2], values: &[f64], parameters: &[Parameter]) -> Option<Vec2> {
-        match self {
-            PlaceNumbers::Coordinates([x, y]) => {
-                Some(Vec2::new(x.value(values, parameters)?, y.value(values, parameters)?))
-            }
+    fn value(&self, before: &[Vec2], of: CaseNumbers) -> Option<Vec2> {
+        Some(match self {
+            PlaceNumbers::Fixed(place) => *place,
+            PlaceNumbers::Coordinates([x, y]) => Vec2::new(x.value(of)?, y.value(of)?),
+            PlaceNumbers::FixedFrom(origin, offset) => before[*origin] + offset,
             PlaceNumbers::From(origin, [length, angle]) => {
-                let (length, angle) = (length.value(values, parameters)?, angle.value(values, parameters)?);
-                Some(before[*origin] + direction(angle) * length)
+                let (length, angle) = (length.value(of)?, angle.value(of)?);
+                before[*origin] + direction(angle) * length
             }
-        }
+        })
     }
 }
 
@@ -280,7 +314,7 @@ impl Reading<'_> {
         tree: &DeTable,
         set: &[(usize, usize)],
         fixed: &[(String, f64)],
-    ) -> Option<Vec<(usize, Expression)>> {
+    ) -> Option<Vec<(usize, Expressions)>> {
         let table = tree.get("parameters").and_then(|table| table.get_ref().as_table());
         let mut derived = Vec::new();
         for place in 0..self.parameters.list().len() {
@@ -290,7 +324,7 @@ impl Reading<'_> {
             let text =
                 text.filter(|text| !is_set && self.is_moved(text) && fixed.iter().all(|(key, _)| *key != own.key));
             if let Some(text) = text {
-                derived.push((place, Expression::read(text, &own.key, &self.parameters)?));
+                derived.push((place, Expressions::read(&[(own.key.clone(), text.into())], &self.parameters)?));
             }
             if is_set || text.is_some() {
                 self.moved.extend(own.names().map(|(name, _)| name.to_string()));
@@ -335,10 +369,12 @@ impl Reading<'_> {
                 LinkNumber::Changing(Origin::Varied(*at), quantity)
             }
             (None, DeValue::String(text)) => {
-                let mut expression = Expression::read(text, key.get_ref(), &self.parameters)?;
-                match self.is_moved(text) {
-                    true => LinkNumber::Changing(Origin::Expression(expression), quantity),
-                    false => LinkNumber::Fixed(quantity.checked(expression.value(self.parameters.list())?)?),
+                let key = key.get_ref();
+                if self.is_moved(text) {
+                    self.expressions.push((key.to_string(), text.to_string()));
+                    LinkNumber::Changing(Origin::Expression(self.expressions.len() - 1), quantity)
+                } else {
+                    LinkNumber::Fixed(quantity.checked(arithmetic(text, key, &self.parameters).ok()?)?)
                 }
             }
             (None, value) => LinkNumber::Fixed(quantity.checked(plain_number(value)?)?),
@@ -351,11 +387,19 @@ impl Reading<'_> {
             let origin = before.iter().position(|name| Some(*name) == from.get_ref().as_str())?;
             let length = self.number(table, path, ("length", &LENGTH, Sign::NotNegative))??;
             let angle = self.number(table, path, ("angle", &ANGLE, Sign::Any))??;
-            return Some(PlaceNumbers::From(origin, [length, angle]));
+            return Some(match (length, angle) {
+                (LinkNumber::Fixed(length), LinkNumber::Fixed(angle)) => {
+                    PlaceNumbers::FixedFrom(origin, direction(angle) * length)
+                }
+                (length, angle) => PlaceNumbers::From(origin, [length, angle]),
+            });
         }
         let x = self.number(table, path, ("x", &LENGTH, Sign::Any))??;
         let y = self.number(table, path, ("y", &LENGTH, Sign::Any))??;
-        Some(PlaceNumbers::Coordinates([x, y]))
+        Some(match (x, y) {
+            (LinkNumber::Fixed(x), LinkNumber::Fixed(y)) => PlaceNumbers::Fixed(Vec2::new(x, y)),
+            (x, y) => PlaceNumbers::Coordinates([x, y]),
+        })
     }
 
     /// The numbers of a link. `Some(None)` if the numbers of the link do not depend on varied numbers; `None` if the

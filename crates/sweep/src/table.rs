@@ -136,9 +136,9 @@ fn texts<'r>(
 }
 
 /// Writes the rows of one part as a table of one row group. `first` is the index of the first case.
-pub(crate) fn write(plan: &SweepPlan, first: u64, rows: &RowGroup, to: &File) -> Result<(), ParquetError> {
-    let to = BufWriter::with_capacity(BUFFERED, to);
-    let mut writer = SerializedFileWriter::new(to, schema(plan)?, properties(plan, None))?;
+pub(crate) fn write(plan: &SweepPlan, first: u64, rows: &RowGroup, mut to: &File) -> Result<(), ParquetError> {
+    // The bytes are written to the file at once. Parquet would flush the file after every column.
+    let mut writer = SerializedFileWriter::new(Vec::new(), schema(plan)?, properties(plan, None))?;
     let mut group = writer.next_row_group()?;
     let cases: Vec<i64> = (first..).take(rows.reasons.len()).map(|case| case as i64).collect();
     column::<Int64Type, _>(&mut group, &cases, None)?;
@@ -157,7 +157,7 @@ pub(crate) fn write(plan: &SweepPlan, first: u64, rows: &RowGroup, to: &File) ->
         texts(&mut group, rows.verdicts.iter().map(Option::as_deref))?;
     }
     group.close()?;
-    Ok(writer.into_inner()?.flush()?)
+    Ok(to.write_all(&writer.into_inner()?)?)
 }
 
 /// The joined table while the tables of the parts are appended to it.

@@ -12,6 +12,7 @@ mod elimination;
 mod equations;
 mod groups;
 mod lanes;
+mod loads;
 mod many;
 mod poses;
 mod tally;

@@ -27,7 +27,7 @@ impl Link {
     #[must_use]
     pub fn size(&self) -> f64 {
         let pairs = self.points.iter().enumerate().flat_map(|(i, a)| self.points[i + 1..].iter().map(move |b| (a, b)));
-        pairs.map(|(a, b)| (a.local - b.local).norm()).fold(0.0, f64::larger)
+        pairs.map(|(a, b)| (a.local - b.local).norm_squared()).fold(0.0, f64::larger).sqrt()
     }
 
     /// The lever arm of forces on the link (m): the largest distance between two points, mass centre included.
@@ -38,8 +38,8 @@ impl Link {
         if self.mass <= 0.0 {
             return self.size();
         }
-        let from_centre = self.points.iter().map(|point| (point.local - self.mass_centre).norm());
-        let extent = from_centre.fold(self.size(), f64::larger);
+        let from_centre = self.points.iter().map(|point| (point.local - self.mass_centre).norm_squared());
+        let extent = self.size().larger(from_centre.fold(0.0, f64::larger).sqrt());
         if extent > 0.0 { extent } else { (self.inertia / self.mass).sqrt() }
     }
 }

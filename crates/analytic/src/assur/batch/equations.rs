@@ -5,9 +5,9 @@
 //! The sources of the equations are named in these two modules.
 //! If the motion of the driving links is the same bit for bit, the results equal those of the two modules bit for bit.
 
-use super::bodies::Body;
-use super::groups::{Arm, Driver, Dyad, Groups, OF_DYAD, Part};
+use super::groups::{Arm, Driver, Dyad, Groups, OF_DYAD, POLE, Part};
 use super::lanes::{Columns, Lanes, Plane, TILE, Tile, Window};
+use super::loads::LoadColumns;
 use super::poses::{ACCELERATION, ALPHA, LinkColumns, LinkMotion, OMEGA, ORIGIN, VELOCITY};
 use crate::assur::groups::SINGULAR;
 use linkage::case::STANDSTILL;
@@ -89,26 +89,24 @@ impl Groups {
     pub(super) fn load_joints<S: Simd, const CHAINS: bool>(&self, tile: Tile<S>, work: Tile<S>) {
         for (group, first) in self.parts.iter().rev() {
             match group {
-                Part::Dyad(dyad) => {
-                    dyad.hold(self.gravity, tile, work.columns.adjacent::<OF_DYAD>(*first));
-                }
+                Part::Dyad(dyad) => dyad.hold(self.gravity, tile, work.columns, *first),
                 Part::Chain(chain) if CHAINS => {
+                    chain.load(self.gravity, tile, work.columns);
                     for part in tile.parts() {
-                        chain.hold(self.gravity, tile.window(part), work.window(part), *first);
+                        chain.hold(tile.window(part), work.window(part), *first);
                     }
                 }
                 Part::Chain(_) => unreachable!("{NO_CHAINS}"),
             }
         }
+        let load = LoadColumns::of(work.columns, 0);
         for (index, driver) in self.drivers.iter().enumerate() {
-            let link = tile.columns.link(driver.body.link);
+            driver.body.load_about(driver.reaction.place, self.gravity, tile, load);
             let reaction = tile.columns.adjacent::<2>(driver.reaction.force);
-            let torque = tile.columns.column(self.layout.torque(index));
+            let (torque, sign) = (tile.columns.column(self.layout.torque(index)), -driver.reaction.sign);
             for part in tile.parts() {
-                let link = link.get(part);
-                let pole = link.point(driver.reaction.place);
-                let (force, moment) = driver.body.resultant(self.gravity, pole, &link, tile.window(part));
-                reaction.put_vector(0, part, force.signed(-driver.reaction.sign));
+                let (force, moment) = load.get(part);
+                reaction.put_vector(0, part, force.signed(sign));
                 torque.put(0, part, -moment);
             }
         }
@@ -236,7 +234,7 @@ impl<S: Simd> DyadPose<S> {
         work.put_vector(2, part, self.spans[1]);
         work.put(4, part, self.product);
         work.put(5, part, self.inverse);
-        work.put_vector(6, part, self.pole);
+        work.put_vector(POLE, part, self.pole);
     }
 
     #[inline(always)]
@@ -245,7 +243,7 @@ impl<S: Simd> DyadPose<S> {
             spans: [work.vector(0, part), work.vector(2, part)],
             product: work.get(4, part),
             inverse: work.get(5, part),
-            pole: work.vector(6, part),
+            pole: work.vector(POLE, part),
         }
     }
 }
@@ -379,57 +377,24 @@ impl Dyad {
         }
     }
 
-    /// Computes the reactions in the three joints.
+    /// Computes the reactions in the three joints. `first` is the dyad's first column in the working memory.
     #[inline(always)]
-    fn hold<S: Simd>(&self, gravity: Vec2, tile: Tile<S>, work: Columns<S>) {
-        let [first, second] = &self.arms;
-        let (link1, link2) = (tile.columns.link(first.body.link), tile.columns.link(second.body.link));
-        let reaction = |force: usize| tile.columns.adjacent::<2>(force);
-        let (outer1, outer2) = (reaction(first.reaction.force), reaction(second.reaction.force));
-        let inner = reaction(self.inner.force);
+    fn hold<S: Simd>(&self, gravity: Vec2, tile: Tile<S>, work: Columns<S>, first: usize) {
+        let (dyad, [a, b]) = (work.adjacent::<OF_DYAD>(first), &self.arms);
+        let [load_a, load_b] = [0, 1].map(|index| LoadColumns::of(work, index));
+        a.body.load(gravity, tile, dyad.adjacent::<2>(POLE), load_a);
+        b.body.load(gravity, tile, dyad.adjacent::<2>(POLE), load_b);
+        let joints = [a.reaction.force, b.reaction.force, self.inner.force];
+        let [outer1, outer2, inner] = joints.map(|force| tile.columns.adjacent::<2>(force));
+        let signs = [a.reaction.sign, -b.reaction.sign, -self.inner.sign];
         for part in tile.parts() {
-            let DyadPose { spans: [r1, r2], inverse, pole, .. } = DyadPose::of(work, part);
-            let window = tile.window(part);
-            let (force_a, moment_a) = first.body.resultant(gravity, pole, &link1.get(part), window);
-            let (force_b, moment_b) = second.body.resultant(gravity, pole, &link2.get(part), window);
+            let DyadPose { spans: [r1, r2], inverse, .. } = DyadPose::of(dyad, part);
+            let ((force_a, moment_a), (force_b, moment_b)) = (load_a.get(part), load_b.get(part));
             let total = force_a + force_b;
             let reaction = (r1 * (moment_b + r2.cross(total)) + r2 * moment_a) * inverse;
-            outer1.put_vector(0, part, reaction.signed(first.reaction.sign));
-            outer2.put_vector(0, part, (reaction + total).signed(-second.reaction.sign));
-            inner.put_vector(0, part, (reaction + force_a).signed(-self.inner.sign));
+            outer1.put_vector(0, part, reaction.signed(signs[0]));
+            outer2.put_vector(0, part, (reaction + total).signed(signs[1]));
+            inner.put_vector(0, part, (reaction + force_a).signed(signs[2]));
         }
-    }
-}
-
-impl Body {
-    /// Returns the resultant of all known forces on the link and their moment about the world point `pole`.
-    /// `link` is the motion of the link.
-    /// The operations and their order are the same as in the module `assur::forces`.
-    #[inline(always)]
-    pub(super) fn resultant<S: Simd>(
-        &self,
-        gravity: Vec2,
-        pole: Plane<S>,
-        link: &LinkMotion<S>,
-        tile: Window<S>,
-    ) -> (Plane<S>, Lanes<S>) {
-        let LinkMotion { origin, direction, omega, alpha, .. } = *link;
-        let arm = direction.rotate(self.mass_centre);
-        let [_, _, acceleration] = link.at(arm);
-        let mut force = (Plane::splat(tile.on, gravity) - acceleration) * self.mass;
-        let mut moment = -(alpha * self.inertia);
-        if let Some(size) = self.resistance {
-            let zero = Lanes::splat(tile.on, 0.0);
-            let backwards = zero.exceeds(omega).of(zero + size, zero);
-            force = force + Vec2::zeros();
-            moment = moment + omega.exceeds(zero).of(zero - size, backwards);
-        }
-        moment = moment + (origin + arm - pole).cross(force);
-        for action in &self.hanging {
-            let hung = tile.vector(action.force).signed(action.sign);
-            force = force + hung;
-            moment = moment + (link.point(action.place) - pole).cross(hung);
-        }
-        (force, moment)
     }
 }

@@ -2,6 +2,7 @@
 
 use super::bodies::{Action, Body, Reader};
 use super::chains::Chain;
+use super::loads::OF_LOAD;
 use super::poses::Layout;
 use crate::assur::groups::{SolutionPlan, Step};
 use linkage::case::Case;
@@ -13,6 +14,8 @@ use linkage::mechanism::{AssemblyMode, DrivingLink, GROUND, Group, GroupKind, Me
 /// Number of columns of a dyad in the working memory: two for its span r1, two for r2, one for r1 x r2, one for the
 /// inverse of this product, and two for the position of the inner joint.
 pub(super) const OF_DYAD: usize = 8;
+/// First of the two columns of a dyad for the position of the inner joint.
+pub(super) const POLE: usize = 6;
 
 /// A driving link, which turns about a joint on the ground.
 #[derive(Clone, Debug)]
@@ -65,7 +68,8 @@ pub(super) struct Groups {
     pub(super) layout: Layout,
     pub(super) gravity: Vec2,
     pub(super) drivers: Vec<Driver>,
-    /// Every group and its first column in the working memory.
+    /// Every group and its first column in the working memory. The columns before the first group are for the known
+    /// forces on the links of one group.
     pub(super) parts: Vec<(Part, usize)>,
     /// Number of columns of the working memory.
     pub(super) columns: usize,
@@ -113,7 +117,8 @@ impl Groups {
             });
             group.inner.iter().chain(&group.outer).for_each(|&joint| settled[joint] = true);
         }
-        let mut columns = 0;
+        // The working memory begins with the known forces on the links of one group.
+        let mut columns = OF_LOAD * case.structure.groups.iter().map(|group| group.links.len()).fold(1, usize::max);
         let place = |part: Part| {
             let first = columns;
             columns += match &part {

@@ -7,6 +7,7 @@ use std::cell::Cell;
 use std::ops::{Add, Deref, DerefMut, Div, Mul, Neg, Range, Sub};
 
 use linkage::math::Vec2;
+use linkage::math::tally::LANES;
 use pulp::Simd;
 
 /// Number of poses in a tile, whose values of a column are adjacent in memory.
@@ -272,15 +273,16 @@ impl<'a, S: Simd> Columns<'a, S> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tile<'a, S: Simd> {
     pub(super) columns: Columns<'a, S>,
-    /// Number of parts with poses, at most [`Columns::PARTS`].
+    /// Number of parts that are solved, at most [`Columns::PARTS`].
     parts: usize,
 }
 
 impl<'a, S: Simd> Tile<'a, S> {
-    /// A tile in which the first `rows` poses are wanted.
+    /// A tile in which the first `rows` poses are wanted. The number of poses that are solved is a multiple of
+    /// [`LANES`], for the statistics.
     #[inline(always)]
     pub(super) fn of(on: S, columns: &'a mut [f64], rows: usize) -> Self {
-        Tile { columns: Columns::of(on, columns), parts: rows.div_ceil(S::F64_LANES) }
+        Tile { columns: Columns::of(on, columns), parts: rows.next_multiple_of(LANES) / S::F64_LANES }
     }
 
     /// The parts of the tile. Each part fills a register.

@@ -1,7 +1,7 @@
 //! Storage for the poses of a batch. The columns of the storage are divided into tiles, whose rows are adjacent in
 //! memory.
 
-use super::lanes::{AlignedNumbers, Columns, Lanes, Plane, TILE, Window};
+use super::lanes::{AlignedNumbers, Columns, Lanes, Plane, TILE};
 use linkage::case::Case;
 use linkage::math::{Motion, Vec2};
 use linkage::mechanism::{GROUND, JointId, LinkId};
@@ -282,13 +282,5 @@ impl<'a, S: Simd> Columns<'a, S> {
     #[inline(always)]
     pub(super) fn link(self, first: usize) -> LinkColumns<'a, S> {
         LinkColumns(self.adjacent::<OF_LINK>(first))
-    }
-}
-
-impl<S: Simd> Window<'_, S> {
-    /// The motion of the link with the first column `first`.
-    #[inline(always)]
-    pub(super) fn link(self, first: usize) -> LinkMotion<S> {
-        self.columns.link(first).get(self.part)
     }
 }

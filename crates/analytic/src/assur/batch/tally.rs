@@ -187,7 +187,7 @@ impl PoseTally {
             *values = *angles;
         }
         let (tile, values) = (Tile::of(on, tile, rows.len()), Columns::of(on, &mut values.0));
-        let (unit, parts) = (self.unit, tile.parts().end);
+        let (unit, blocks) = (self.unit, rows.len().div_ceil(LANES).min(TILE / LANES));
         // Writes the values of all rows. A closure would not be vectorised.
         macro_rules! each {
             (|$part:ident| $value:expr) => {
@@ -198,7 +198,7 @@ impl PoseTally {
         }
         match self.reading {
             Reading::Column(column) if unit == 1.0 => {
-                return self.count(on, rows, parts, OneColumn(tile.columns.column(column)));
+                return self.count(on, rows, blocks, OneColumn(tile.columns.column(column)));
             }
             Reading::Column(column) => {
                 let column = tile.columns.column(column);
@@ -212,7 +212,7 @@ impl PoseTally {
                 });
             }
             Reading::Square(column) if unit == 1.0 => {
-                return self.count(on, rows, parts, Squares(tile.columns.adjacent::<2>(column)));
+                return self.count(on, rows, blocks, Squares(tile.columns.adjacent::<2>(column)));
             }
             Reading::Square(column) => {
                 let square = Squares(tile.columns.adjacent::<2>(column));
@@ -249,37 +249,34 @@ impl PoseTally {
         if unit != 1.0 {
             each!(|part| values.get(0, part) / unit);
         }
-        self.count(on, rows, parts, OneColumn(values.column(0)));
+        self.count(on, rows, blocks, OneColumn(values.column(0)));
     }
 
-    /// [`Tally::add`] for the rows of a tile, which take `parts` registers.
+    /// [`Tally::add`] for the rows of a tile. They fill `blocks` blocks of eight poses.
     #[inline(always)]
-    fn count<S: Simd>(&mut self, on: S, rows: Range<usize>, parts: usize, values: impl PoseValues<S>) {
-        let (row, has_rows) = (rows.start, self.has_rows);
+    fn count<S: Simd>(&mut self, on: S, rows: Range<usize>, blocks: usize, values: impl PoseValues<S>) {
+        let (row, has_rows, fault) = (rows.start, self.has_rows, &mut self.fault);
         let number = |row: usize| values.at(row / S::F64_LANES).number(row % S::F64_LANES);
         // Adds an expression of the values to sums, lane by lane.
         macro_rules! sum {
             ($sums:expr, |$part:ident| $summand:expr) => {
-                let lanes = LANES / S::F64_LANES;
-                let sums = Columns::of(on, &mut $sums);
-                for lane in 0..lanes {
-                    let (mut sum, mut $part) = (sums.get(0, lane), lane);
-                    while $part < parts {
-                        sum = sum + $summand;
-                        $part += lanes;
+                let mut sums = Eight::of(on, &$sums);
+                for block in 0..blocks {
+                    for lane in 0..Eight::<S>::REGISTERS {
+                        let $part = block * Eight::<S>::REGISTERS + lane;
+                        sums.0[lane] = sums.0[lane] + $summand;
                     }
-                    sums.put(0, lane, sum);
                 }
+                sums.put(&mut $sums);
             };
         }
-        let fault = Columns::of(on, &mut self.fault);
         match &mut self.tally {
-            Tally::Max(own) => raise::<S, Plain, _>(own, fault, row, has_rows, parts, values),
-            Tally::Min(own) => raise::<S, Negated, _>(own, fault, row, has_rows, parts, values),
-            Tally::MaxAbs(own) => raise::<S, Magnitude, _>(own, fault, row, has_rows, parts, values),
+            Tally::Max(own) => raise::<S, Plain>(on, own, fault, row, has_rows, blocks, values),
+            Tally::Min(own) => raise::<S, Negated>(on, own, fault, row, has_rows, blocks, values),
+            Tally::MaxAbs(own) => raise::<S, Magnitude>(on, own, fault, row, has_rows, blocks, values),
             Tally::Range([most, least]) => {
-                raise::<S, Plain, _>(most, fault, row, has_rows, parts, values);
-                raise::<S, Negated, _>(least, fault, row, has_rows, parts, values);
+                raise::<S, Plain>(on, most, fault, row, has_rows, blocks, values);
+                raise::<S, Negated>(on, least, fault, row, has_rows, blocks, values);
             }
             Tally::Mean(own) => {
                 let weights = own.weights[row / LANES..].as_flattened();
@@ -370,42 +367,72 @@ impl Score for Magnitude {
     }
 }
 
-/// Adds the values of a tile to an extreme, and to the sums `fault`.
+/// Eight numbers, one for each lane of a statistic. They fill the first [`Eight::REGISTERS`] registers.
+#[derive(Clone, Copy)]
+struct Eight<S: Simd>([Lanes<S>; LANES]);
+
+impl<S: Simd> Eight<S> {
+    const REGISTERS: usize = LANES / S::F64_LANES;
+
+    #[inline(always)]
+    fn of(on: S, numbers: &[f64; LANES]) -> Self {
+        let mut all = [Lanes::splat(on, 0.0); LANES];
+        for (lane, own) in all.iter_mut().enumerate().take(Self::REGISTERS) {
+            *own = Lanes::of(on, numbers, lane);
+        }
+        Eight(all)
+    }
+
+    #[inline(always)]
+    fn put(self, numbers: &mut [f64; LANES]) {
+        let columns = Columns::of(self.0[0].on, numbers);
+        for lane in 0..Self::REGISTERS {
+            columns.put(0, lane, self.0[lane]);
+        }
+    }
+}
+
+/// Adds the values of a tile, beginning with the row `row`, to an extreme and to the sums `fault`.
 #[inline(always)]
-fn raise<S: Simd, Of: Score, V: PoseValues<S>>(
+fn raise<S: Simd, Of: Score>(
+    on: S,
     peak: &mut LanePeak,
-    fault: Columns<S>,
+    fault: &mut [f64; LANES],
     row: usize,
     has_rows: bool,
-    parts: usize,
-    values: V,
+    blocks: usize,
+    values: impl PoseValues<S>,
 ) {
-    let on = fault.on;
-    let lanes = LANES / S::F64_LANES;
-    let (scores, rows) = (Columns::of(on, &mut peak.scores), Columns::of(on, &mut peak.rows));
-    for lane in 0..lanes {
-        let (mut best, mut sum, mut part) = (scores.get(0, lane), fault.get(0, lane), lane);
-        if has_rows {
-            let mut first = rows.get(0, lane);
-            let mut now = Lanes::of(on, &COUNT, lane) + row as f64;
-            while part < parts {
-                let value = values.at(part);
-                let score = Of::of(value);
-                let is_better = score.exceeds(best);
-                (best, first) = (is_better.of(score, best), is_better.of(now, first));
-                (sum, now, part) = (sum + value, now + LANES as f64, part + lanes);
+    let (mut best, mut sums) = (Eight::of(on, &peak.scores), Eight::of(on, fault));
+    macro_rules! each {
+        (|$is_better:ident, $lane:ident| $then:expr) => {
+            for block in 0..blocks {
+                for $lane in 0..Eight::<S>::REGISTERS {
+                    let value = values.at(block * Eight::<S>::REGISTERS + $lane);
+                    let score = Of::of(value);
+                    let $is_better = score.exceeds(best.0[$lane]);
+                    best.0[$lane] = $is_better.of(score, best.0[$lane]);
+                    sums.0[$lane] = sums.0[$lane] + value;
+                    $then
+                }
             }
-            rows.put(0, lane, first);
-        } else {
-            while part < parts {
-                let value = values.at(part);
-                let score = Of::of(value);
-                (best, sum, part) = (score.exceeds(best).of(score, best), sum + value, part + lanes);
-            }
-        }
-        scores.put(0, lane, best);
-        fault.put(0, lane, sum);
+        };
     }
+    if has_rows {
+        let (mut first, mut now) = (Eight::of(on, &peak.rows), Eight::of(on, &COUNT));
+        for now in &mut now.0 {
+            *now = *now + row as f64;
+        }
+        each!(|is_better, lane| {
+            first.0[lane] = is_better.of(now.0[lane], first.0[lane]);
+            now.0[lane] = now.0[lane] + LANES as f64;
+        });
+        first.put(&mut peak.rows);
+    } else {
+        each!(|is_better, lane| {});
+    }
+    best.put(&mut peak.scores);
+    sums.put(fault);
 }
 
 /// Direction of a link in a row of a tile.

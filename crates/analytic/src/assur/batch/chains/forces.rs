@@ -2,28 +2,36 @@
 
 use super::Chain;
 use crate::assur::batch::elimination::Factors;
-use crate::assur::batch::lanes::{Lanes, Plane, Window};
+use crate::assur::batch::lanes::{Columns, Lanes, Plane, Tile, Window};
+use crate::assur::batch::loads::LoadColumns;
 use crate::assur::groups::Hangs;
 use linkage::math::Vec2;
 use pulp::Simd;
 
 impl Chain {
-    /// Computes the reactions in all joints.
+    /// Computes the known forces on all links.
     #[inline(always)]
-    pub(in crate::assur::batch) fn hold<S: Simd>(&self, gravity: Vec2, tile: Window<S>, work: Window<S>, first: usize) {
+    pub(in crate::assur::batch) fn load<S: Simd>(&self, gravity: Vec2, tile: Tile<S>, work: Columns<S>) {
+        for (index, node) in self.nodes.iter().enumerate() {
+            node.body.load_about(node.own, gravity, tile, LoadColumns::of(work, index));
+        }
+    }
+
+    /// Computes the reactions in all joints from the known forces.
+    #[inline(always)]
+    pub(in crate::assur::batch) fn hold<S: Simd>(&self, tile: Window<S>, work: Window<S>, first: usize) {
         match self.nodes.len() {
-            4 => self.hold_by::<S, 4>(gravity, tile, work, first),
-            _ => self.hold_by::<S, 6>(gravity, tile, work, first),
+            4 => self.hold_by::<S, 4>(tile, work, first),
+            _ => self.hold_by::<S, 6>(tile, work, first),
         }
     }
 
     #[inline(always)]
-    fn hold_by<S: Simd, const N: usize>(&self, gravity: Vec2, tile: Window<S>, work: Window<S>, first: usize) {
+    fn hold_by<S: Simd, const N: usize>(&self, tile: Window<S>, work: Window<S>, first: usize) {
         let (zero, none) = (Lanes::splat(tile.on, 0.0), Plane::splat(tile.on, Vec2::zeros()));
         let (mut forces, mut moments) = ([none; N], [zero; N]);
-        for (index, node) in self.nodes.iter().enumerate() {
-            let link = tile.link(node.body.link);
-            (forces[index], moments[index]) = node.body.resultant(gravity, link.point(node.own), &link, tile);
+        for index in 0..N {
+            (forces[index], moments[index]) = LoadColumns::of(work.columns, index).get(work.part);
         }
         self.gather(&mut forces);
         // Adds the moments of the forces at the arrows' ends. Each moment is about the pole of the link that carries
